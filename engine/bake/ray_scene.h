@@ -1,0 +1,63 @@
+#pragma once
+/// A Scene made traceable (Embree) for one EffectPlan. Immutable; tracing is safe from any number of threads.
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/scene/effect_plan.h"
+#include "engine/scene/scene.h"
+
+namespace acentric {
+
+struct Ray {
+  glm::vec3 origin;
+  glm::vec3 direction;  ///< unit
+  float nearest = 0;    ///< metres
+  float farthest = std::numeric_limits<float>::infinity();
+};
+
+struct Hit {
+  float distance = std::numeric_limits<float>::infinity();  ///< metres; infinity = none
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;
+  glm::vec2 barycentric{0};    ///< weights of corner 2 and 3
+  glm::vec3 geometricNormal{0};  ///< unit, as wound (front side)
+  bool found() const { return distance < std::numeric_limits<float>::infinity(); }
+};
+
+/// Rays traced, by purpose; a plan that lacks an effect traces none of its rays.
+struct RayCounts {
+  std::uint64_t primary = 0, shadow = 0, ambient = 0, mirror = 0;
+  RayCounts& operator+=(const RayCounts& other);
+};
+
+class RayScene {
+ public:
+  static Result<std::shared_ptr<const RayScene>> build(ScenePtr scene, const EffectPlan& plan);
+  ~RayScene();
+
+  const Scene& scene() const { return *scene_; }
+  ScenePtr sharedScene() const { return scene_; }
+  const EffectPlan& plan() const { return plan_; }
+
+  /// Nearest surface. Alpha-tested surfaces are cut out where the plan has alpha tests. Back sides count.
+  Hit trace(const Ray& ray) const;
+  /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended surfaces.
+  glm::vec3 transmittance(const Ray& ray) const;
+  /// Distance to the nearest occluder, alpha tests respected, transmissive surfaces ignored.
+  float occluderDistance(const Ray& ray) const;
+
+ private:
+  struct Embree;
+  RayScene(ScenePtr scene, const EffectPlan& plan);
+  ScenePtr scene_;
+  EffectPlan plan_;
+  std::unique_ptr<Embree> embree_;
+};
+
+using RayScenePtr = std::shared_ptr<const RayScene>;
+
+}  // namespace acentric

@@ -1,0 +1,27 @@
+#pragma once
+/// The reference picture: every pixel ray-traced at the novel eye, with the same shading as the bake.
+
+#include <stop_token>
+
+#include "engine/bake/bake_settings.h"
+#include "engine/bake/ray_scene.h"
+#include "engine/base/task_runner.h"
+#include "engine/geometry/perspective_view.h"
+#include "engine/image/image.h"
+
+namespace acentric {
+
+struct TruthFrame {
+  ColourImage colour;
+  FloatImage rayDistance;  ///< metres to the first opaque surface; infinity = sky or nothing
+  RayCounts rays;
+};
+
+/// One ray through each pixel centre; `samplesPerPixel` > 1 averages a regular grid of n x n (1, 4, 9, 16).
+TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings, float exposure,
+                       int samplesPerPixel, TaskRunner& runner);
+
+/// Exposure that puts the log-average radiance seen from `eyes` (all around, low resolution) at middle grey 0.18.
+float estimateExposure(const RayScene& scene, const std::vector<glm::dvec3>& eyes, const BakeSettings& settings, TaskRunner& runner);
+
+}  // namespace acentric

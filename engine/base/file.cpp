@@ -1,0 +1,124 @@
+#include "engine/base/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+ErrorKind kindOfErrno(int code) {
+  if (code == ENOENT) return ErrorKind::notFound;
+  if (code == ENOSPC || code == EDQUOT) return ErrorKind::outOfSpace;
+  return ErrorKind::unreadable;
+}
+
+tl::unexpected<Error> failErrno(const char* what, const fs::path& path) {
+  const int code = errno;
+  return fail(kindOfErrno(code), fmt::format("{}: {}", what, std::strerror(code)), path.string());
+}
+
+template <class Container>
+Result<Container> readWhole(const fs::path& path, std::size_t maxBytes) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return fail(ErrorKind::unreadable, "is a folder, not a file", path.string());
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) return failErrno("cannot be opened for reading", path);
+  Container out;
+  char buffer[1 << 16];
+  while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, file.get())) {
+    if (out.size() + got > maxBytes)
+      return fail(ErrorKind::tooLarge, fmt::format("is larger than the limit of {} MiB", maxBytes >> 20), path.string());
+    const std::size_t old = out.size();
+    out.resize(old + got);
+    std::memcpy(out.data() + old, buffer, got);
+  }
+  if (std::ferror(file.get())) return failErrno("reading failed", path);
+  return out;
+}
+
+Status flushToDisk(const fs::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) return failErrno("cannot be opened to flush it to disk", path);
+  const int result = ::fsync(descriptor);
+  ::close(descriptor);
+  if (result != 0 && errno != EINVAL) return failErrno("flushing to disk failed", path);
+  return {};
+}
+
+fs::path temporaryFor(const fs::path& path) {
+  static std::atomic<unsigned> counter{0};
+  return path.parent_path() / fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), counter++, path.extension().string());
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> readFile(const fs::path& path, std::size_t maxBytes) {
+  return readWhole<std::vector<std::byte>>(path, maxBytes);
+}
+
+Result<std::string> readText(const fs::path& path, std::size_t maxBytes) { return readWhole<std::string>(path, maxBytes); }
+
+Status replaceFileAtomically(const fs::path& path, const std::function<Status(const fs::path&)>& write) {
+  std::error_code error;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  fs::create_directories(folder, error);
+  if (error) return fail(ErrorKind::unreadable, "folder cannot be made: " + error.message(), folder.string());
+  const fs::path temporary = temporaryFor(path);
+  const auto attempt = [&]() -> Status {
+    if (auto written = write(temporary); !written) return written;
+    if (auto flushed = flushToDisk(temporary, O_RDONLY); !flushed) return flushed;
+    if (::rename(temporary.c_str(), path.c_str()) != 0) return failErrno("cannot be put in place", path);
+    return flushToDisk(folder, O_RDONLY | O_DIRECTORY);
+  };
+  Status result = attempt();
+  if (!result) fs::remove(temporary, error);
+  return result;
+}
+
+Status writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
+  return replaceFileAtomically(path, [&](const fs::path& temporary) -> Status {
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(temporary.c_str(), "wb"), &std::fclose);
+    if (!file) return failErrno("cannot be opened for writing", path);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fflush(file.get()) != 0)
+      return failErrno("writing failed", path);
+    return {};
+  });
+}
+
+Status writeTextAtomically(const fs::path& path, std::string_view text) {
+  return writeFileAtomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+int removeStaleTemporaries(const fs::path& folder) {
+  int removed = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kTemporaryPrefix)) continue;
+    int process = 0;
+    const char* digits = name.data() + kTemporaryPrefix.size();
+    std::from_chars(digits, name.data() + name.size(), process);
+    const bool alive = process > 0 && (::kill(process, 0) == 0 || errno == EPERM);
+    std::error_code removeError;
+    if (!alive && fs::remove(entry.path(), removeError)) ++removed;
+  }
+  return removed;
+}
+
+fs::path userCacheFolder() {
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/') return fs::path(xdg) / "acentric";
+  if (const char* home = std::getenv("HOME"); home && *home == '/') return fs::path(home) / ".cache" / "acentric";
+  return fs::temp_directory_path() / "acentric-cache";
+}
+
+}  // namespace acentric

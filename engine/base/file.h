@@ -1,0 +1,39 @@
+#pragma once
+/// Files as wholes. Writing goes to a temporary file beside the target, is flushed to disk, and renamed:
+/// a reader sees the old file or the new one, never a part.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace acentric {
+
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
+                                        std::size_t maxBytes = std::size_t(8) << 30);
+Result<std::string> readText(const std::filesystem::path& path, std::size_t maxBytes = std::size_t(256) << 20);
+
+Status writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Status writeTextAtomically(const std::filesystem::path& path, std::string_view text);
+
+/// For libraries that write files themselves: `write(temporary)` makes the file; then it is flushed to disk
+/// and renamed to `path`. On failure the temporary is removed. The temporary keeps `path`'s extension and
+/// its name begins with `kTemporaryPrefix`.
+Status replaceFileAtomically(const std::filesystem::path& path,
+                             const std::function<Status(const std::filesystem::path& temporary)>& write);
+
+inline constexpr std::string_view kTemporaryPrefix = ".acentric-tmp-";
+
+/// Removes temporaries that a killed process left in `folder`: those whose writing process is gone.
+/// Returns how many were removed.
+int removeStaleTemporaries(const std::filesystem::path& folder);
+
+/// $XDG_CACHE_HOME/acentric, else ~/.cache/acentric, else a folder under the system's temporary one.
+std::filesystem::path userCacheFolder();
+
+}  // namespace acentric

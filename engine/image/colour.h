@@ -1,0 +1,27 @@
+#pragma once
+/// Colour: linear radiance (Rec.709) to display and back.
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "engine/image/image.h"
+
+namespace acentric {
+
+float linearFromSrgb(float encoded);   ///< [0,1] -> [0,1]
+float srgbFromLinear(float linear);    ///< [0,1] -> [0,1]
+/// 256 entries: linear value of each 8-bit sRGB code.
+const std::array<float, 256>& linearFromSrgbTable();
+
+/// Neutral tone curve: identity up to 0.76 after exposure, a smooth shoulder to 1 above, hue kept: highlights
+/// lose colour instead of clipping channel by channel. Returns display-linear values in [0,1].
+glm::vec3 toneMap(const glm::vec3& radiance, float exposure);
+
+/// toneMap, then sRGB codes; alpha is rounded as it is.
+Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha = 1);
+
+/// Straight-alpha "source over destination" in display-linear light, both sRGB coded; the result's alpha is 255.
+Rgba8 blendOver(const Rgba8& source, const Rgba8& destination);
+
+}  // namespace acentric

@@ -1,0 +1,86 @@
+#pragma once
+/// The tessellation made explicit: regions, capture cameras, and each region's covers (apv.md sections 1, 3).
+/// Pure geometry; no scene needed. Cameras are identified by integers (lattice corner, direction index), so that
+/// corners computed from different polygons are the same camera.
+
+#include <compare>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/geometry/conventions.h"
+#include "engine/geometry/convex_polygon.h"
+#include "engine/layout/layout_spec.h"
+
+namespace acentric {
+
+enum class Hand : std::uint8_t { counterClockwise, clockwise };
+enum class RegionKind : std::uint8_t { ring, gapTriangle, gapSquare, gapHexagon };
+
+/// Integer identity of a capture camera: a lattice corner and its low border's direction in 15-degree steps
+/// relative to the lattice.
+struct CameraId {
+  int i = 0, j = 0, corner = 0;  ///< corner numbers the distinct corners of a lattice cell
+  int direction = 0;             ///< 0..23
+  auto operator<=>(const CameraId&) const = default;
+};
+
+/// A capture camera: at most 60 degrees; wider lattice cameras are several of these at one corner.
+struct LayoutCamera {
+  CameraId id;
+  glm::dvec2 position{0};   ///< plan, metres
+  double lowAzimuth = 0;    ///< sector [low, low + fov), half-open
+  double fovRadians = 0;
+  /// Plan polygons, each grown by the near band, of all the regions of the full lattice that this camera serves,
+  /// placed or not (so that a camera's pixels do not depend on which neighbours are placed).
+  std::vector<ConvexPolygon> served;
+};
+
+/// One piece of a cover: all of the camera's sector that lies outside the region.
+struct Piece {
+  int camera = 0;  ///< into Layout::cameras
+};
+
+/// Pieces that tile the outside of a region exactly once, as seen from any eye in it.
+/// A ring's pieces are in ring order (counter-clockwise by centre of projection).
+struct Cover {
+  Hand hand = Hand::counterClockwise;  ///< rings; gaps have one cover, hand unused
+  std::vector<Piece> pieces;
+  /// Gap regions: pieces [0, wedges) are corner wedges, the rest edge strips (wedges are farther).
+  int wedges = 0;
+};
+
+struct Region {
+  CellId id;
+  RegionKind kind = RegionKind::ring;
+  ConvexPolygon polygon;       ///< counter-clockwise
+  ConvexPolygon grown;         ///< by the near band
+  std::vector<Cover> covers;   ///< ring: [counterClockwise, clockwise]; gap: [0]
+};
+
+struct Layout {
+  LayoutSpec spec;
+  std::vector<Region> regions;
+  std::vector<LayoutCamera> cameras;  ///< those that some placed region needs, sorted by id
+
+  double eyeZ() const { return spec.floorHeight + spec.eyeHeight; }
+  /// Region that holds a point (exactly one on shared borders); nothing outside all.
+  std::optional<int> regionAt(const glm::dvec2& point) const;
+  /// Nearest placed region and the nearest point in it.
+  struct Nearest { int region = -1; glm::dvec2 point{0}; };
+  Nearest nearestRegion(const glm::dvec2& point) const;
+  std::optional<int> findRegion(const CellId& id) const;
+};
+
+Result<Layout> buildLayout(const LayoutSpec& spec);
+
+/// Address and outline of the lattice region that holds a point, placed or not (for adding and dragging cells).
+struct LatticeCell { CellId id; RegionKind kind; ConvexPolygon polygon; };
+LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point);
+ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id);
+/// Lattice regions whose polygon overlaps a box, placed or not (for drawing the lattice), at most `limit`.
+std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, const glm::dvec2& max, int limit);
+
+}  // namespace acentric

@@ -1,0 +1,48 @@
+#pragma once
+/// What the designer chooses: a plain value, stored in the project. buildLayout(spec) turns it into geometry.
+
+#include <compare>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <set>
+#include <string_view>
+
+#include "engine/base/hash.h"
+#include "engine/base/result.h"
+#include "engine/geometry/outline.h"
+
+namespace acentric {
+
+/// The paper's Fig. 7, apv.md section 3.
+enum class Configuration : std::uint8_t { a, b, c, d, e, f, g };
+const char* nameOf(Configuration configuration);         ///< "a" ... "g"
+const char* describe(Configuration configuration);       ///< "60° cameras, hexagons and triangles (3.6.3.6)"
+Result<Configuration> parseConfiguration(std::string_view name);
+bool isSupported(Configuration configuration);           ///< by buildLayout, today
+
+/// Integer address of a region in the lattice. `slot` numbers the regions of one lattice cell (0 = ring).
+struct CellId {
+  int i = 0, j = 0, slot = 0;
+  auto operator<=>(const CellId&) const = default;
+};
+
+struct LayoutSpec {
+  Configuration configuration = Configuration::b;
+  double cellSize = 2.0;        ///< metres, edge length of the regular polygon
+  glm::dvec2 latticeOrigin{0};  ///< a ring polygon's centre, metres
+  double rotationRadians = 0;
+  double floorHeight = 0;       ///< z of the walk plane, metres
+  double eyeHeight = 1.6;       ///< metres above the floor: height of every centre of projection
+  double nearBand = 1.0;        ///< metres, local geometry beyond the region's border
+  Outline outline;              ///< every region that overlaps it is placed ...
+  std::set<CellId> added;       ///< ... and these ...
+  std::set<CellId> removed;     ///< ... but not these
+
+  Status check() const;  ///< finite, cellSize in [0.05, 1000], no more than kMaxRegions regions
+  void addTo(Hasher& hasher) const;
+  bool operator==(const LayoutSpec&) const = default;
+};
+
+inline constexpr int kMaxRegions = 20000;
+
+}  // namespace acentric

@@ -1,0 +1,130 @@
+#pragma once
+/// Scene: everything imported from a model file, as one immutable value shared by all stages.
+/// Metres, Z up, positions relative to `origin` (project origin, double). Node transforms and instances are applied.
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/image/image.h"
+
+namespace acentric {
+
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+
+struct Texture {
+  std::string name;
+  int image = -1;  ///< index into Scene::images
+  Wrap wrapU = Wrap::repeat;
+  Wrap wrapV = Wrap::repeat;
+  bool nearest = false;  ///< magnification filter: nearest instead of linear
+};
+
+/// Which texture, read at uv' = transform * (u, v, 1).
+struct TextureUse {
+  int texture = -1;        ///< index into Scene::textures; -1 = none
+  std::uint8_t uvSet = 0;  ///< 0 or 1
+  glm::mat3x2 transform{1, 0, 0, 1, 0, 0};
+  bool used() const { return texture >= 0; }
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+/// glTF 2.0 metallic-roughness, with the extensions named. Colours are linear.
+struct Material {
+  std::string name;
+  glm::vec4 baseColour{1};      ///< linear, alpha straight
+  TextureUse baseColourTexture;  ///< sRGB
+  glm::vec3 emissive{0};         ///< linear, strength (KHR_materials_emissive_strength) multiplied in
+  TextureUse emissiveTexture;    ///< sRGB
+  float metallic = 1;
+  float roughness = 1;
+  TextureUse metallicRoughnessTexture;  ///< G roughness, B metallic, linear
+  TextureUse normalTexture;             ///< tangent space, linear
+  float normalScale = 1;
+  float transmission = 0;               ///< KHR_materials_transmission
+  AlphaMode alphaMode = AlphaMode::opaque;
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;
+  bool unlit = false;  ///< KHR_materials_unlit
+};
+
+/// Triangles of one material. Optional arrays are empty or as long as `positions`.
+struct Mesh {
+  std::string name;
+  int material = 0;  ///< index into Scene::materials (always valid)
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;   ///< unit; always filled by import (from the file, else made flat)
+  std::vector<glm::vec4> tangents;  ///< xyz unit, w = handedness; filled only where a normal texture needs it
+  std::vector<glm::vec2> uv[2];
+  std::vector<glm::u8vec4> colours;  ///< linear RGBA8 vertex colours
+  std::vector<glm::uvec3> triangles;  ///< counter-clockwise = front, indices valid, no degenerate ones
+};
+
+enum class LightKind : std::uint8_t { directional, point, spot };
+
+/// KHR_lights_punctual.
+struct Light {
+  std::string name;
+  LightKind kind = LightKind::directional;
+  glm::vec3 colour{1};       ///< linear
+  float intensity = 1;       ///< lux (directional) or candela (point, spot)
+  glm::vec3 position{0};
+  glm::vec3 direction{0, 0, -1};  ///< unit, the way the light travels
+  float range = 0;           ///< metres, 0 = unlimited
+  float innerCone = 0;       ///< radians
+  float outerCone = 0.785398f;
+};
+
+/// Light from all around: sky above, its bounce below. Radiance by direction's z: mix horizon->zenith above,
+/// ground below. All zero = none.
+struct Sky {
+  glm::vec3 zenith{0};
+  glm::vec3 horizon{0};
+  glm::vec3 ground{0};
+  bool present() const { return zenith != glm::vec3(0) || horizon != glm::vec3(0) || ground != glm::vec3(0); }
+  glm::vec3 radiance(const glm::vec3& direction) const;
+};
+
+struct Bounds {
+  glm::vec3 min{std::numeric_limits<float>::max()};
+  glm::vec3 max{std::numeric_limits<float>::lowest()};
+  bool empty() const { return min.x > max.x; }
+  void add(const glm::vec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
+  glm::vec3 size() const { return empty() ? glm::vec3(0) : max - min; }
+  glm::vec3 centre() const { return 0.5f * (min + max); }
+};
+
+/// What import found, dropped, ignored and guessed; each entry is one line for a person.
+struct ImportReport {
+  std::vector<std::string> found;     ///< "27,126 triangles in 16 meshes"
+  std::vector<std::string> dropped;   ///< "12 degenerate triangles", "3 triangles with NaN positions"
+  std::vector<std::string> ignored;   ///< "extension KHR_materials_specular"
+  std::vector<std::string> guessed;   ///< "unit: metres (glTF)", "up axis: Y (glTF)", "no lights: a sun and sky were added"
+};
+
+struct Scene {
+  std::string name;               ///< file stem
+  ContentKey key;                 ///< of everything below that can change a pixel
+  glm::dvec3 origin{0};           ///< project origin in source metres; world = position + origin
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Texture> textures;
+  std::vector<std::shared_ptr<const ColourImage>> images;
+  std::vector<Light> lights;
+  Sky sky;
+  Bounds bounds;
+  ImportReport report;
+
+  std::size_t triangleCount() const;
+  /// Scene-wide triangle numbers: mesh m's triangle t is firstTriangle(m) + t. meshes.size() + 1 entries.
+  std::vector<std::uint32_t> firstTriangles() const;
+};
+
+using ScenePtr = std::shared_ptr<const Scene>;
+
+}  // namespace acentric

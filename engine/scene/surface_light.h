@@ -1,0 +1,36 @@
+#pragma once
+/// Light baked to the surfaces themselves (mesh colours): each triangle carries a regular grid of samples in
+/// barycentric coordinates, so no unwrapping is needed. It lights the local geometry with the same light as the captures.
+///
+/// A triangle of resolution R has (R+1)(R+2)/2 samples at barycentric weights (i/R, j/R) of its 2nd and 3rd corner,
+/// 0 <= i, j and i + j <= R, stored with j fastest within i. R = 0 means "no light baked": black.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/image/capture.h"
+
+namespace acentric {
+
+struct SurfaceLight {
+  std::vector<std::uint32_t> firstSample;  ///< per scene triangle (scene-wide number), + 1 sentinel
+  std::vector<std::uint16_t> resolution;   ///< per scene triangle
+  /// Front-side and back-side light are separate samples: front at [first, first+n), back (double-sided or
+  /// blended materials only, flagged) behind it. `light` is what leaves the surface for base colour 1, i.e.
+  /// radiance = baseColour * rgb + emission; for unlit materials it is 1. Half floats; alpha unused.
+  std::vector<std::uint8_t> hasBack;
+  std::vector<HalfColour> light;
+
+  bool empty() const { return light.empty(); }
+  /// Interpolated light at barycentric weights (b1, b2) of corner 2 and 3.
+  glm::vec3 at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const;
+};
+
+inline std::uint32_t surfaceSampleCount(std::uint32_t resolution) { return (resolution + 1) * (resolution + 2) / 2; }
+/// Index of sample (i, j) within one side of a triangle of resolution R.
+inline std::uint32_t surfaceSampleIndex(std::uint32_t resolution, std::uint32_t i, std::uint32_t j) {
+  return i * (resolution + 1) - i * (i - 1) / 2 + j;  // i = 0 first: R+1 samples, then R, ...
+}
+
+}  // namespace acentric

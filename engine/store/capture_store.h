@@ -1,0 +1,52 @@
+#pragma once
+/// Captures on disk under content keys, format: FORMAT.md. Each capture is an OpenEXR file `<key>.exr` that any OpenEXR
+/// tool reads (flat when no pixel has more than one sample, else deep), with a packed twin `<key>.pack` that loads fast.
+/// All writes are atomic; a file that fails its checks is treated as missing and reported, never used.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/base/result.h"
+#include "engine/image/capture.h"
+#include "engine/scene/surface_light.h"
+
+namespace acentric {
+
+Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path);
+Result<Capture> readCaptureExr(const std::filesystem::path& path);
+
+Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path);
+Result<Capture> readCapturePack(const std::filesystem::path& path);
+
+Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path);
+Result<SurfaceLight> readSurfaceLight(const std::filesystem::path& path);
+
+class CaptureStore {
+ public:
+  /// Makes the folder, removes temporaries of killed processes.
+  static Result<CaptureStore> open(const std::filesystem::path& folder);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  /// Complete on disk (both files present; content is checked on get).
+  bool has(const ContentKey& key) const;
+  Status put(const ContentKey& key, const Capture& capture) const;
+  /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both are set aside
+  /// (renamed *.damaged), so that the next bake replaces them.
+  Result<Capture> get(const ContentKey& key) const;
+
+  bool hasSurfaceLight(const ContentKey& key) const;
+  Status putSurfaceLight(const ContentKey& key, const SurfaceLight& light) const;
+  Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
+
+  std::uint64_t bytesOf(const ContentKey& key) const;
+  /// Deletes captures whose key is not in `keep`; returns bytes freed.
+  std::uint64_t prune(const std::vector<ContentKey>& keep) const;
+
+ private:
+  explicit CaptureStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  std::filesystem::path folder_;
+};
+
+}  // namespace acentric

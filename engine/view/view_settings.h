@@ -1,0 +1,37 @@
+#pragma once
+/// How frames are made. Every field trades accuracy for time.
+
+#include <cstdint>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace acentric {
+
+enum class Renderer : std::uint8_t {
+  list,     ///< list priority, no depth buffer (SIMD where the processor has it)
+  scalar,   ///< list priority, one sample at a time in plain C++: the reference of the fast ones
+  zbuffer,  ///< the same splats with a depth buffer, for comparison
+  gl,       ///< list priority on OpenGL
+};
+const char* nameOf(Renderer renderer);
+Result<Renderer> parseRenderer(std::string_view name);
+
+enum class Reconstruction : std::uint8_t {
+  point,  ///< one pixel per sample
+  splat,  ///< squares as large as the sample's footprint
+};
+
+struct ViewSettings {
+  Renderer renderer = Renderer::list;
+  Reconstruction reconstruction = Reconstruction::splat;
+  int maxSplatPixels = 16;      ///< side of the largest splat, 1..64
+  bool localGeometry = true;
+  bool secondaryCover = true;   ///< in rings: the other hand is painted first, behind
+  bool fillHoles = true;        ///< screen-space fill of what is still open, marked as invented
+
+  Status check() const;
+  bool operator==(const ViewSettings&) const = default;
+};
+
+}  // namespace acentric

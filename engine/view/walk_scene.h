@@ -1,0 +1,43 @@
+#pragma once
+/// All that a renderer reads: layout, captures made ready for display, and local geometry with its light.
+/// Parts that are not loaded yet are null: the picture then has holes there, never a stall.
+
+#include <memory>
+#include <vector>
+
+#include "engine/image/capture.h"
+#include "engine/image/colour.h"
+#include "engine/layout/layout.h"
+#include "engine/scene/effect_plan.h"
+#include "engine/scene/local_geometry.h"
+#include "engine/scene/surface_light.h"
+
+namespace acentric {
+
+/// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.
+struct DisplayCapture {
+  ColumnCamera camera;
+  std::vector<std::uint32_t> columnStart;    ///< columns + 1
+  std::vector<std::uint16_t> row;
+  std::vector<float> inverseDistance;        ///< 1/m, horizontal
+  std::vector<Rgba8> colour;                 ///< sRGB, straight alpha
+  std::vector<glm::vec2> columnDirection;    ///< unit, at column centres
+  std::vector<float> rowTangent;             ///< at row centres
+  std::vector<glm::vec2> columnRange;        ///< per column: smallest and largest inverse distance (for culling)
+  bool layered = false;                      ///< some pixel has more than one sample
+  bool blended = false;                      ///< some sample has alpha < 255
+};
+
+DisplayCapture prepareForDisplay(const Capture& capture, float exposure);
+
+struct WalkScene {
+  ScenePtr scene;
+  std::shared_ptr<const Layout> layout;
+  EffectPlan plan;
+  float exposure = 1;
+  std::vector<std::shared_ptr<const DisplayCapture>> captures;    ///< by camera; null = not loaded
+  std::vector<std::shared_ptr<const LocalGeometry>> local;        ///< by region; null = not loaded
+  std::shared_ptr<const SurfaceLight> surfaceLight;               ///< null = not baked
+};
+
+}  // namespace acentric

@@ -1,0 +1,51 @@
+#pragma once
+/// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident as buffers.
+/// Draws the pieces of the same ViewPlan back to front without depth test, then local geometry with one.
+
+#include <memory>
+
+#include "engine/base/result.h"
+#include "engine/geometry/perspective_view.h"
+#include "engine/view/frame.h"
+#include "engine/view/view_settings.h"
+#include "engine/view/walk_scene.h"
+
+namespace acentric {
+
+class GlRenderer {
+ public:
+  /// With the context current; compiles the shaders.
+  static Result<std::unique_ptr<GlRenderer>> create();
+  ~GlRenderer();
+  GlRenderer(const GlRenderer&) = delete;
+  GlRenderer& operator=(const GlRenderer&) = delete;
+
+  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what is new in `scene`; drops what is gone.
+  Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  /// Colour texture of the last draw, row 0 at the bottom (OpenGL), for showing in a window.
+  unsigned colourTexture() const;
+  /// Reads the last draw back, with sources; slow.
+  Frame readBack() const;
+
+ private:
+  struct Impl;
+  explicit GlRenderer(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A surfaceless EGL context made current on this thread while it lives, for programs without a window.
+class HeadlessContext {
+ public:
+  static Result<std::unique_ptr<HeadlessContext>> create();
+  ~HeadlessContext();
+  HeadlessContext(const HeadlessContext&) = delete;
+  HeadlessContext& operator=(const HeadlessContext&) = delete;
+  std::string description() const;  ///< renderer and version strings
+
+ private:
+  HeadlessContext() = default;
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+};
+
+}  // namespace acentric
