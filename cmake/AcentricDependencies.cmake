@@ -12,11 +12,10 @@ find_package(CLI11 REQUIRED)
 find_package(zstd REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_package(CGAL REQUIRED)
-find_package(OpenImageIO 2.4 REQUIRED)
-# Debian's exported target names an OpenCV include folder that its package does not bring.
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES /usr/include)
+# By pkg-config: Debian's CMake package names tools and an OpenCV folder that other packages bring.
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_package(OpenEXR REQUIRED)
-find_package(OpenMesh REQUIRED)
+find_package(OpenMesh CONFIG REQUIRED)  # CONFIG: CGAL brings a Find module of the same name
 find_package(assimp REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(embree 3.13 REQUIRED)
