@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# Does the README's promise hold on a machine that has nothing? Makes a bare Debian 12 (debootstrap), clones this
+# checkout into it, and runs ./run and ./test there as documented. A green run on a developer's machine hides a
+# missing install step; here a package absent from packages.txt fails. Not part of the automatic tests: it takes a
+# quarter of an hour and needs root. See usage below.
+set -euo pipefail
+
+root=$(cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.." && pwd)
+source "$root/tools/setup.sh"
+
+usage() {
+  cat <<'USAGE'
+usage: sudo tests/chroot_check.sh [--packages-only] [--run-only] [--keep] [--folder DIR]
+
+  --packages-only   stop after installing the packages and configuring: the quick half
+  --run-only        ./run, without ./test
+  --keep            leave the bare system for a look around (its path is printed)
+  --folder DIR      where to make it (default: a new folder under $TMPDIR or /tmp; needs about 8 GB)
+USAGE
+}
+
+packagesOnly=0 runOnly=0 keep=0 folder=""
+while (($# > 0)); do
+  case $1 in
+    --packages-only) packagesOnly=1 ;;
+    --run-only) runOnly=1 ;;
+    --keep) keep=1 ;;
+    --folder) folder=${2:?--folder needs a path}; shift ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; die "unknown option $1" ;;
+  esac
+  shift
+done
+
+((EUID == 0)) || die "making a bare system needs root: sudo tests/chroot_check.sh"
+command -v debootstrap > /dev/null || die "debootstrap is missing: apt-get install debootstrap"
+command -v git > /dev/null || die "git is missing: apt-get install git"
+
+# In mount and process namespaces of its own, every mount and process below ends with this script, however it
+# ends; removing the folder can then never reach into the machine's own /dev.
+if [[ ${ACENTRIC_CHROOT_NAMESPACE-} != yes ]]; then
+  if [[ -z $folder ]]; then folder=$(mktemp -d "${TMPDIR:-/tmp}/acentric-bare.XXXXXX"); else mkdir -p -- "$folder"; fi
+  folder=$(realpath -- "$folder")
+  [[ -z $(ls -A -- "$folder") ]] || die "$folder is not empty"
+  options=(--folder "$folder")
+  ((packagesOnly)) && options+=(--packages-only)
+  ((runOnly)) && options+=(--run-only)
+  ((keep)) && options+=(--keep)
+  status=0
+  ACENTRIC_CHROOT_NAMESPACE=yes unshare --mount --pid --fork --kill-child --propagation private \
+    bash "${BASH_SOURCE[0]}" "${options[@]}" || status=$?
+  if ((keep)); then say "The bare system is kept in $folder"; else rm -rf --one-file-system -- "$folder"; fi
+  exit "$status"
+fi
+
+# The machine's own mirrors for bookworm, with the settings by which it reaches them.
+mapfile -t sources < <(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(CODENAME) $(COMPONENT)' \
+  'Created-By: Packages' | awk '$3 ~ /^bookworm/ { print "deb", $1, $2, $4 }' | sort -u)
+mirror=$(printf '%s\n' "${sources[@]}" | awk '$3 == "bookworm" && $4 == "main" { print $2; exit }')
+[[ -n $mirror ]] || die "this machine's apt knows no mirror for Debian 12 (bookworm)"
+
+system=$folder/system
+began=$SECONDS
+say "== A bare Debian 12"
+debootstrap --variant=minbase --include=ca-certificates bookworm "$system" "$mirror" > "$folder/debootstrap.log" 2>&1 ||
+  { tail -20 "$folder/debootstrap.log" >&2; die "debootstrap failed"; }
+printf '%s\n' "${sources[@]}" > "$system/etc/apt/sources.list"
+apt-config dump | grep -E '^Acquire::(http|https|ftp)::[Pp]roxy' > "$system/etc/apt/apt.conf.d/99proxy" || true
+cp /etc/resolv.conf "$system/etc/resolv.conf"
+mount -t proc proc "$system/proc"
+mount -t sysfs -o ro sysfs "$system/sys"
+mount --rbind /dev "$system/dev"
+mount -t tmpfs tmpfs "$system/dev/shm"
+say "   $((SECONDS - began)) s, $(du -shx "$system" | cut -f1)"
+
+say "== The checkout"
+git -C "$root" diff --quiet HEAD || say "   note: uncommitted changes are not in the clone"
+git clone --quiet --no-hardlinks "$root" "$system/home/acentric"
+
+# inside COMMAND: as a first user would run it, with a clean environment and no display.
+inside() {
+  env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
+    chroot "$system" /bin/bash -c "cd /home/acentric && $1" < /dev/null
+}
+
+# stage NAME COMMAND: one documented step, with its time.
+stage() {
+  local start=$SECONDS
+  say "== $1"
+  inside "$2" || die "$1 failed on a bare Debian 12 (above is why)"
+  say "   $1: $((SECONDS - start)) s"
+}
+
+if ((packagesOnly)); then
+  stage "packages and configuring" \
+    'set -euo pipefail; root=$PWD; source tools/setup.sh; ensurePackages build run; configure release OFF;
+     ensurePackages build run test; configure release ON'
+  exit 0
+fi
+stage "./run" "./run"
+[[ -s $system/home/acentric/out/gallery/walk/contact_sheet.png ]] || die "./run left no contact sheet"
+stage "./run again" "./run"
+((runOnly)) || stage "./test" "./test"
+say "== All of it works on a bare Debian 12."
