@@ -1,5 +1,6 @@
 #pragma once
-/// A walk as data: JSON {"version":1,"frames":[{"eye":[x,y,z],"yaw":deg,"pitch":deg}, ...]} in metres and degrees.
+/// A walk as data: JSON {"version":1,"frames":[{"eye":[x,y,z],"yaw":deg,"pitch":deg}, ...]} in metres and
+/// degrees.
 
 #include <filesystem>
 #include <vector>
@@ -23,7 +24,11 @@ struct CameraPath {
 Result<CameraPath> loadPath(const std::filesystem::path& path);
 Status savePath(const CameraPath& path, const std::filesystem::path& file);
 
-/// A tour through the placed regions: visits region centres nearest first from `start`, looking ahead, `frames` poses.
+/// A tour through the placed regions: visits region centres nearest first from `start`, looking ahead,
+/// `frames` poses.
 CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames);
+
+/// The point itself if a placed region holds it, else the nearest point just inside one.
+glm::dvec2 clampToPlan(const Layout& layout, const glm::dvec2& point);
 
 }  // namespace acentric

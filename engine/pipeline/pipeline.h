@@ -1,5 +1,6 @@
 #pragma once
-/// The only place that wires all stages. Values in, values out; the command line and the editor call the same functions.
+/// The only place that wires all stages. Values in, values out; the command line and the editor call the same
+/// functions.
 
 #include <filesystem>
 #include <memory>
@@ -20,19 +21,20 @@ namespace acentric {
 struct NewProjectOptions {
   ImportOptions import;
   Configuration configuration = Configuration::b;
-  double cellSize = 0;        ///< metres; 0 = from the walkable area (about 12 rings, 0.8..6 m)
-  double eyeHeight = 1.6;     ///< metres
+  double cellSize = 0;           ///< metres; 0 = from the walkable area (about 12 rings, 0.8..6 m)
+  double eyeHeight = 1.6;        ///< metres
   std::string outline = "auto";  ///< "auto" or parseOutline text
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
 };
 
-/// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a spawn.
-/// `projectFile` decides the relative path. Does not write.
+/// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a
+/// spawn. `projectFile` decides the relative path. Does not write.
 Result<Project> makeProject(const std::filesystem::path& sceneFile, const std::filesystem::path& projectFile,
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});
 
-/// A project opened: scene imported and traceable, plan and layout made. Immutable; edits make a new one, sharing what did not change.
+/// A project opened: scene imported and traceable, plan and layout made. Immutable; edits make a new one,
+/// sharing what did not change.
 struct OpenProject {
   std::filesystem::path file;
   Project project;
@@ -44,14 +46,18 @@ struct OpenProject {
   ContentKey surfaceLightKey;
 };
 
-Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host, const Progress& progress = {},
+Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
+                                const Progress& progress = {}, std::stop_token stop = {});
+/// The same for a project that is not (or not as it is) in the file.
+Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project& project,
+                                const ImportHost& host, const Progress& progress = {},
                                 std::stop_token stop = {});
 /// The same after an edit of `project`; reuses scene and rays of `former` where they still fit.
 Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,
                                   const Progress& progress = {}, std::stop_token stop = {});
 
 struct BakeRequest {
-  std::vector<int> cameras;     ///< empty = all; else indices, baked in this order
+  std::vector<int> cameras;  ///< empty = all; else indices, baked in this order
   bool surfaceLight = true;
 };
 struct ProjectBakeReport {
@@ -59,7 +65,7 @@ struct ProjectBakeReport {
   bool surfaceLightBaked = false;
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
-  std::uint64_t bytes = 0;      ///< on disk, of all this project's captures
+  std::uint64_t bytes = 0;  ///< on disk, of all this project's captures
 };
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress = {}, std::stop_token stop = {});
@@ -70,16 +76,19 @@ std::vector<bool> bakedCameras(const OpenProject& open);
 /// Cameras in baking order: nearest to the spawn first.
 std::vector<int> bakingOrder(const OpenProject& open);
 
-/// Everything that is baked, loaded for the walk. `former` gives parts that did not change. Damaged files are reported in `warnings`.
+/// Everything that is baked, loaded for the walk. `former` gives parts that did not change. Damaged files are
+/// reported in `warnings`.
 struct LoadedWalk {
   WalkScene walk;
+  std::vector<ContentKey> keys;  ///< of walk.captures
+  ContentKey surfaceLightKey;
   std::vector<std::string> warnings;
   int missing = 0;  ///< cameras not on disk
 };
-Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner, const Progress& progress = {},
-                            std::stop_token stop = {});
+Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
+                            const Progress& progress = {}, std::stop_token stop = {});
 
-/// Eye moved to the nearest place of the nearest region (with `eyeZ` height kept).
+/// Eye moved into the nearest region; its height is kept.
 glm::dvec3 clampToLayout(const Layout& layout, const glm::dvec3& eye);
 
 }  // namespace acentric

@@ -1,5 +1,6 @@
 #pragma once
-/// Project: all that the designer decides, as a plain value. File: `*.acentric.json`, schema in schemas/project-1.schema.json.
+/// Project: all that the designer decides, as a plain value. File: `*.acentric.json`, schema:
+/// schemas/project-1.schema.json.
 
 #include <filesystem>
 #include <string>
@@ -15,19 +16,19 @@ namespace acentric {
 
 /// Where the walk begins, and how it looks.
 struct Spawn {
-  glm::dvec2 position{0};   ///< plan, metres
+  glm::dvec2 position{0};  ///< plan, metres
   double yawRadians = 0;
   bool operator==(const Spawn&) const = default;
 };
 
 struct Project {
-  std::filesystem::path scene;     ///< relative to the project file's folder
+  std::filesystem::path scene;  ///< relative to the project file's folder
   ImportOptions import;
   EffectOverrides effects;
   LayoutSpec layout;
   BakeSettings bake;
   ViewSettings view;
-  double fovDegrees = 60;          ///< of the walk
+  double fovDegrees = 60;  ///< of the walk
   float exposure = 1;
   Spawn spawn;
 
@@ -37,7 +38,8 @@ struct Project {
 
 /// Stable key order and formatting, so that projects diff well.
 std::string formatProject(const Project& project);
-/// `where` names the file in messages. Unknown keys, wrong types, bad values, paths that leave the folder: refused with a JSON pointer.
+/// `where` names the file in messages. Unknown keys, wrong types, bad values, absolute paths: refused with a
+/// JSON pointer.
 Result<Project> parseProject(const std::string& text, const std::string& where);
 
 Result<Project> loadProject(const std::filesystem::path& path);

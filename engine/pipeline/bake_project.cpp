@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "engine/bake/surface_light_bake.h"
+#include "engine/pipeline/pipeline.h"
+#include "engine/scene/local_geometry.h"
+
+namespace acentric {
+namespace {
+
+class StoreSink final : public CaptureSink {
+ public:
+  explicit StoreSink(const CaptureStore& store) : store_(store) {}
+  bool has(const ContentKey& key) const override { return store_.has(key); }
+  Status put(const ContentKey& key, const Capture& capture) override { return store_.put(key, capture); }
+
+ private:
+  const CaptureStore& store_;
+};
+
+/// Which triangles are local geometry of some region, and an eye that sees each.
+struct LocalTriangles {
+  std::vector<std::uint8_t> wanted;
+  std::vector<glm::vec3> viewer;
+};
+
+LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout) {
+  const auto first = scene.firstTriangles();
+  LocalTriangles out{std::vector<std::uint8_t>(first.back(), 0),
+                     std::vector<glm::vec3>(first.back(), glm::vec3(0))};
+  for (const Region& region : layout.regions) {
+    const glm::vec3 eye(glm::dvec3(region.polygon.centroid(), layout.eyeZ()));
+    for (const LocalTriangle& triangle : clipToPolygon(scene, region.grown).triangles) {
+      const std::size_t index = first[triangle.mesh] + triangle.triangle;
+      if (!out.wanted[index]) out.wanted[index] = 1, out.viewer[index] = eye;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<int> bakingOrder(const OpenProject& open) {
+  std::vector<int> order(open.layout->cameras.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto distance = [&](int camera) {
+    return glm::distance(open.layout->cameras[std::size_t(camera)].position, open.project.spawn.position);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return distance(a) < distance(b); });
+  return order;
+}
+
+std::vector<bool> bakedCameras(const OpenProject& open) {
+  std::vector<bool> baked(open.keys.size(), false);
+  std::error_code error;
+  if (!std::filesystem::is_directory(captureFolderFor(open.file), error)) return baked;
+  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  if (store)
+    for (std::size_t i = 0; i < open.keys.size(); ++i) baked[i] = store->has(open.keys[i]);
+  return baked;
+}
+
+Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
+                                      const Progress& progress, std::stop_token stop) {
+  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  if (!store) return tl::unexpected(store.error());
+  for (int camera : request.cameras)
+    if (camera < 0 || camera >= int(open.keys.size()))
+      return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
+                                                  "; the layout has " + std::to_string(open.keys.size()));
+
+  StoreSink sink(*store);
+  auto captures =
+      bake(*open.rays, *open.layout, request.cameras.empty() ? bakingOrder(open) : request.cameras,
+           open.project.bake, sink, runner, progress, stop);
+  if (!captures) return tl::unexpected(captures.error());
+  ProjectBakeReport report;
+  report.captures = std::move(*captures);
+
+  if (request.surfaceLight && store->hasSurfaceLight(open.surfaceLightKey)) {
+    report.surfaceLightReused = true;
+  } else if (request.surfaceLight) {
+    const auto begin = std::chrono::steady_clock::now();
+    const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
+    const auto light =
+        bakeSurfaceLight(*open.rays, local.wanted, local.viewer, open.project.bake, runner, progress, stop);
+    if (!light) return tl::unexpected(light.error());
+    if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light); !put)
+      return tl::unexpected(put.error());
+    report.surfaceLightBaked = true;
+    report.surfaceLightSeconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
+  return report;
+}
+
+}  // namespace acentric

@@ -1,0 +1,126 @@
+#include "engine/pipeline/camera_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::size_t kMaxPoses = 1'000'000;
+
+Result<PathPose> poseFrom(const nlohmann::json& json, const std::string& pointer, const std::string& where) {
+  const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, pointer + ": " + what, where); };
+  if (!json.is_object() || !json.contains("eye")) return bad("needs \"eye\": [x, y, z]");
+  const auto& eye = json["eye"];
+  if (!eye.is_array() || eye.size() != 3) return bad("\"eye\" must be three numbers in metres");
+  PathPose pose;
+  for (int k = 0; k < 3; ++k) {
+    if (!eye[std::size_t(k)].is_number()) return bad("\"eye\" must be three numbers in metres");
+    pose.eye[k] = eye[std::size_t(k)].get<double>();
+    if (!(std::abs(pose.eye[k]) <= 1e9)) return bad("\"eye\" is out of range");
+  }
+  for (const auto& [key, target] :
+       {std::pair{"yaw", &pose.yawRadians}, std::pair{"pitch", &pose.pitchRadians}}) {
+    if (!json.contains(key)) continue;
+    if (!json[key].is_number()) return bad("\"yaw\" and \"pitch\" must be numbers in degrees");
+    *target = radians(json[key].get<double>());
+  }
+  if (std::abs(pose.pitchRadians) > kPi / 2 + 1e-9 || !(std::abs(pose.yawRadians) < 1e6))
+    return bad("\"pitch\" must lie in -90..90 degrees");
+  return pose;
+}
+
+}  // namespace
+
+Result<CameraPath> loadPath(const std::filesystem::path& path) {
+  const auto text = readText(path);
+  if (!text) return tl::unexpected(text.error());
+  const std::string where = path.string();
+  try {
+    const auto json = nlohmann::json::parse(*text);
+    if (!json.is_object() || json.value("version", 0) != 1 || !json.contains("frames") ||
+        !json["frames"].is_array())
+      return fail(ErrorKind::malformed,
+                  "a camera path is {\"version\": 1, \"frames\": [{\"eye\": [x, y, z], \"yaw\": degrees, "
+                  "\"pitch\": degrees}, ...]}",
+                  where);
+    if (json["frames"].empty()) return fail(ErrorKind::malformed, "/frames: holds no frame", where);
+    if (json["frames"].size() > kMaxPoses)
+      return fail(ErrorKind::tooLarge, fmt::format("/frames: more than {} frames", kMaxPoses), where);
+    CameraPath out;
+    for (std::size_t i = 0; i < json["frames"].size(); ++i) {
+      auto pose = poseFrom(json["frames"][i], fmt::format("/frames/{}", i), where);
+      if (!pose) return tl::unexpected(pose.error());
+      out.poses.push_back(*pose);
+    }
+    return out;
+  } catch (const nlohmann::json::exception& problem) {
+    return fail(ErrorKind::malformed, fmt::format("is not JSON that can be read: {}", problem.what()), where);
+  }
+}
+
+Status savePath(const CameraPath& path, const std::filesystem::path& file) {
+  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  const auto tidy = [](double value) { return std::round(value * 1e6) / 1e6; };
+  for (const PathPose& pose : path.poses)
+    frames.push_back({{"eye", {tidy(pose.eye.x), tidy(pose.eye.y), tidy(pose.eye.z)}},
+                      {"yaw", tidy(degrees(pose.yawRadians))},
+                      {"pitch", tidy(degrees(pose.pitchRadians))}});
+  const nlohmann::ordered_json json = {{"version", 1}, {"frames", std::move(frames)}};
+  return writeTextAtomically(file, json.dump(1) + "\n");
+}
+
+CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames) {
+  CameraPath path;
+  if (layout.regions.empty() || frames < 1) return path;
+  // Nearest-neighbour order through the region centres: neighbours mostly touch, so the tour stays in the
+  // layout.
+  std::vector<glm::dvec2> stops{clampToPlan(layout, start)};
+  std::vector<char> visited(layout.regions.size(), 0);
+  for (std::size_t n = 0; n < layout.regions.size(); ++n) {
+    std::size_t best = layout.regions.size();
+    double bestDistance = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < layout.regions.size(); ++r) {
+      const double d = glm::distance(layout.regions[r].polygon.centroid(), stops.back());
+      if (!visited[r] && d < bestDistance) best = r, bestDistance = d;
+    }
+    visited[best] = 1;
+    stops.push_back(layout.regions[best].polygon.centroid());
+  }
+  std::vector<double> travelled{0};
+  for (std::size_t i = 1; i < stops.size(); ++i)
+    travelled.push_back(travelled.back() + glm::distance(stops[i - 1], stops[i]));
+  const auto at = [&](double s) {
+    const auto after = std::upper_bound(travelled.begin() + 1, travelled.end() - 1, s);
+    const std::size_t i = std::size_t(after - travelled.begin());
+    const double length = travelled[i] - travelled[i - 1];
+    return length > 0
+               ? glm::mix(stops[i - 1], stops[i], std::clamp((s - travelled[i - 1]) / length, 0.0, 1.0))
+               : stops[i];
+  };
+  double yaw = 0;
+  for (int f = 0; f < frames; ++f) {
+    const double s = travelled.back() * f / std::max(frames - 1, 1);
+    const glm::dvec2 here = clampToPlan(layout, at(s));
+    const glm::dvec2 ahead = at(std::min(s + 2 * layout.spec.cellSize, travelled.back()));
+    if (glm::distance(here, ahead) > 1e-6) yaw = std::atan2(ahead.y - here.y, ahead.x - here.x);
+    path.poses.push_back({{here, layout.eyeZ()}, yaw, 0});
+  }
+  return path;
+}
+
+glm::dvec2 clampToPlan(const Layout& layout, const glm::dvec2& point) {
+  if (layout.regionAt(point)) return point;
+  const Layout::Nearest nearest = layout.nearestRegion(point);
+  if (nearest.region < 0) return point;
+  // A little way in from the border, so that rounding cannot put the point outside again.
+  const glm::dvec2 centre = layout.regions[std::size_t(nearest.region)].polygon.centroid();
+  return glm::mix(nearest.point, centre, 1e-6);
+}
+
+}  // namespace acentric

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/inspect/walkable_outline.h"
+#include "engine/pipeline/camera_path.h"
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+/// Rings that a first layout aims at: enough to walk, few enough to bake in minutes.
+constexpr double kFirstRings = 12;
+constexpr double kSmallestFirstCell = 0.8, kLargestFirstCell = 6.0;
+
+double roundTo(double value, double step) { return std::round(value / step) * step; }
+
+/// Three significant decimals: a value that a person can read and change.
+float tidy(float value) { return std::stof(fmt::format("{:.3g}", value)); }
+
+DistanceProbe probeFor(const RayScene& rays) {
+  return [&rays](const glm::dvec3& origin, const glm::dvec3& direction) -> double {
+    return rays.trace({glm::vec3(origin), glm::vec3(direction)}).distance;
+  };
+}
+
+glm::dvec2 middleOf(const Outline& outline) {
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (const auto& loop : outline.loops)
+    for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
+  return 0.5 * (low + high);
+}
+
+/// Area of lattice per ring, in units of the squared edge length.
+double areaPerRing(Configuration configuration) {
+  return configuration == Configuration::b ? 2 * std::sqrt(3.0) : 1.0;
+}
+
+Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
+                                  const NewProjectOptions& options) {
+  WalkableOptions walkable;
+  walkable.eyeHeight = options.eyeHeight;
+  auto area = findWalkableArea(scene.bounds, walkable, probeFor(rays));
+  if (options.outline == "auto") return area;
+  const auto outline = parseOutline(options.outline);
+  if (!outline) return tl::unexpected(outline.error());
+  // A drawn outline needs only the floor; a scene without a walkable floor then stands on its lowest point.
+  return WalkableArea{area ? area->floorHeight : double(scene.bounds.min.z), *outline};
+}
+
+/// Direction with the longest free view at eye height.
+double longestView(const RayScene& rays, const glm::dvec3& eye) {
+  double best = -1, yaw = 0;
+  for (int k = 0; k < 72; ++k) {
+    const glm::dvec2 d = directionOf(kTwoPi * k / 72);
+    const double distance =
+        std::min(50.0, double(rays.trace({glm::vec3(eye), glm::vec3(d.x, d.y, 0)}).distance));
+    if (distance > best) best = distance, yaw = kTwoPi * k / 72;
+  }
+  return yaw;
+}
+
+Spawn chooseSpawn(const Layout& layout, const RayScene& rays) {
+  const glm::dvec2 position = clampToPlan(layout, middleOf(layout.spec.outline));
+  return {glm::dvec2(roundTo(position.x, 0.01), roundTo(position.y, 0.01)),
+          longestView(rays, {position, layout.eyeZ()})};
+}
+
+std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
+  std::vector<glm::dvec3> eyes;
+  const std::size_t step = std::max<std::size_t>(1, layout.regions.size() / most);
+  for (std::size_t i = 0; i < layout.regions.size() && eyes.size() < most; i += step) {
+    const glm::dvec2 centre = layout.regions[i].polygon.centroid();
+    if (layout.spec.outline.contains(centre)) eyes.emplace_back(centre, layout.eyeZ());
+  }
+  if (eyes.empty()) eyes.emplace_back(layout.regions.front().polygon.centroid(), layout.eyeZ());
+  return eyes;
+}
+
+}  // namespace
+
+Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
+                            const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
+                            const Progress& progress, std::stop_token stop) {
+  if (!isSupported(options.configuration))
+    return fail(ErrorKind::unsupported,
+                fmt::format("configuration {} is not built by this version; choose b or e",
+                            nameOf(options.configuration)));
+  if (!(options.eyeHeight > 0 && options.eyeHeight <= 1000))
+    return fail(ErrorKind::invalidArgument, "eye height must lie in (0, 1000] metres");
+  std::error_code error;
+  if (!fs::exists(sceneFile, error))
+    return fail(ErrorKind::notFound, "no such model file", sceneFile.string());
+
+  Project project;
+  project.import = options.import;
+  project.scene = fs::relative(fs::weakly_canonical(sceneFile, error),
+                               fs::weakly_canonical(fs::absolute(projectFile).parent_path(), error), error);
+  if (error || project.scene.empty() || project.scene.is_absolute())
+    return fail(ErrorKind::invalidArgument,
+                "no relative path leads from the project to the model; keep both on one file system",
+                sceneFile.string());
+
+  const auto scene = importScene(sceneFile, options.import, host, progress, stop);
+  if (!scene) return tl::unexpected(scene.error());
+  const auto rays = RayScene::build(*scene, planEffects(**scene));
+  if (!rays) return tl::unexpected(rays.error());
+
+  if (progress) progress({0, 0, "finding the walkable area"});
+  auto area = walkableArea(**scene, **rays, options);
+  if (!area) return tl::unexpected(area.error());
+
+  LayoutSpec& spec = project.layout;
+  spec.configuration = options.configuration;
+  spec.outline = area->outline;
+  spec.floorHeight = roundTo(area->floorHeight, 1e-4);
+  spec.eyeHeight = options.eyeHeight;
+  const double middling = std::sqrt(area->outline.area() / (kFirstRings * areaPerRing(spec.configuration)));
+  spec.cellSize = options.cellSize > 0
+                      ? options.cellSize
+                      : std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
+  const glm::dvec2 middle = middleOf(spec.outline);
+  spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
+  if (options.samplesPerDegree > 0) project.bake.samplesPerDegree = options.samplesPerDegree;
+  if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
+  const auto layout = buildLayout(spec);
+  if (!layout) return tl::unexpected(layout.error());
+  if (layout->regions.empty())
+    return fail(ErrorKind::invalidArgument,
+                "no region fits the outline; draw a larger one or choose smaller cells", sceneFile.string());
+
+  if (progress) progress({0, 0, "estimating the exposure"});
+  project.exposure = tidy(estimateExposure(**rays, sampleEyes(*layout, 8), project.bake, runner));
+  project.spawn = chooseSpawn(*layout, **rays);
+  if (Status sound = project.check(); !sound) return tl::unexpected(sound.error());
+  return project;
+}
+
+}  // namespace acentric

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include "engine/pipeline/pipeline.h"
+#include "engine/scene/local_geometry.h"
+
+namespace acentric {
+namespace {
+
+/// Surface light depends on which triangles some region draws as local geometry, and from where mirrors are
+/// seen.
+ContentKey keyOfSurfaceLight(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
+                             const Layout& layout) {
+  Hasher hasher;
+  hasher.text("surface light 1").value(scene.key.high).value(scene.key.low);
+  plan.addTo(hasher);
+  hasher.value(settings.ambientRays)
+      .value(settings.ambientRadius)
+      .value(settings.surfaceTexel)
+      .value(layout.eyeZ());
+  for (const Region& region : layout.regions) hasher.array(std::span<const glm::dvec2>(region.grown.corners));
+  return hasher.finish();
+}
+
+std::filesystem::path sceneFileOf(const std::filesystem::path& projectFile, const Project& project) {
+  return (projectFile.parent_path() / project.scene).lexically_normal();
+}
+
+Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::path& file,
+                             const Project& project, const ImportHost& host, const Progress& progress,
+                             std::stop_token stop) {
+  if (Status sound = project.check(); !sound) return tl::unexpected(sound.error());
+  OpenProject open;
+  open.file = file;
+  open.project = project;
+
+  if (former && former->project.scene == project.scene && former->project.import == project.import) {
+    open.scene = former->scene;
+  } else {
+    auto scene = importScene(sceneFileOf(file, project), project.import, host, progress, stop);
+    if (!scene) return tl::unexpected(scene.error());
+    open.scene = *scene;
+  }
+  const bool sameRays = former && former->scene == open.scene && former->project.effects == project.effects;
+  open.plan = sameRays ? former->plan : planEffects(*open.scene, project.effects);
+  if (sameRays) {
+    open.rays = former->rays;
+  } else {
+    if (progress) progress({0, 0, "preparing rays"});
+    auto rays = RayScene::build(open.scene, open.plan);
+    if (!rays) return tl::unexpected(rays.error());
+    open.rays = *rays;
+  }
+  if (former && former->project.layout == project.layout) {
+    open.layout = former->layout;
+  } else {
+    auto layout = buildLayout(project.layout);
+    if (!layout) return tl::unexpected(layout.error());
+    open.layout = std::make_shared<const Layout>(std::move(*layout));
+  }
+  open.keys = captureKeys(*open.scene, open.plan, project.bake, *open.layout);
+  open.surfaceLightKey = keyOfSurfaceLight(*open.scene, open.plan, project.bake, *open.layout);
+  return open;
+}
+
+}  // namespace
+
+Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
+                                const Progress& progress, std::stop_token stop) {
+  const auto project = loadProject(file);
+  if (!project) return tl::unexpected(project.error());
+  return openWith(nullptr, file, *project, host, progress, stop);
+}
+
+Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project& project,
+                                const ImportHost& host, const Progress& progress, std::stop_token stop) {
+  return openWith(nullptr, file, project, host, progress, stop);
+}
+
+Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,
+                                  const Progress& progress, std::stop_token stop) {
+  return openWith(&former, former.file, project, host, progress, stop);
+}
+
+}  // namespace acentric

@@ -1,0 +1,276 @@
+/// Project <-> JSON. The schema is checked first (valijson), so that reading can rely on types and ranges.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "engine/base/file.h"
+#include "engine/geometry/conventions.h"
+#include "engine/pipeline/project.h"
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxProjectBytes = std::size_t(64) << 20;
+
+/// Degrees to nine decimals: angles then survive saving and reading unchanged.
+double tidyDegrees(double angleRadians) { return std::round(degrees(angleRadians) * 1e9) / 1e9; }
+
+const char* nameOf(UpAxis up) {
+  switch (up) {
+    case UpAxis::guess:
+      return "guess";
+    case UpAxis::y:
+      return "y";
+    case UpAxis::z:
+      return "z";
+  }
+  return "guess";
+}
+
+const char* nameOf(Reconstruction reconstruction) {
+  return reconstruction == Reconstruction::point ? "point" : "splat";
+}
+
+Json toJson(const glm::dvec2& point) { return Json::array({point.x, point.y}); }
+glm::dvec2 pointFrom(const Json& json) { return {json[0].get<double>(), json[1].get<double>()}; }
+
+Json toJson(const std::set<CellId>& cells) {
+  Json out = Json::array();
+  for (const CellId& cell : cells) out.push_back({cell.i, cell.j, cell.slot});
+  return out;
+}
+
+std::set<CellId> cellsFrom(const Json& json) {
+  std::set<CellId> out;
+  for (const Json& cell : json) out.insert({cell[0].get<int>(), cell[1].get<int>(), cell[2].get<int>()});
+  return out;
+}
+
+Json toJson(const Outline& outline) {
+  Json loops = Json::array();
+  for (const auto& loop : outline.loops) {
+    Json corners = Json::array();
+    for (const auto& corner : loop) corners.push_back(toJson(corner));
+    loops.push_back(std::move(corners));
+  }
+  return loops;
+}
+
+Json toJson(const LayoutSpec& spec) {
+  return {{"configuration", nameOf(spec.configuration)},
+          {"cellSize", spec.cellSize},
+          {"latticeOrigin", toJson(spec.latticeOrigin)},
+          {"rotationDegrees", tidyDegrees(spec.rotationRadians)},
+          {"floorHeight", spec.floorHeight},
+          {"eyeHeight", spec.eyeHeight},
+          {"nearBand", spec.nearBand},
+          {"outline", toJson(spec.outline)},
+          {"added", toJson(spec.added)},
+          {"removed", toJson(spec.removed)}};
+}
+
+template <class T>
+void read(const Json& json, const char* key, T& value) {
+  if (const auto found = json.find(key); found != json.end()) value = found->get<T>();
+}
+
+LayoutSpec layoutFrom(const Json& json) {
+  LayoutSpec spec;
+  spec.configuration = *parseConfiguration(json.at("configuration").get<std::string>());
+  read(json, "cellSize", spec.cellSize);
+  if (json.contains("latticeOrigin")) spec.latticeOrigin = pointFrom(json["latticeOrigin"]);
+  double rotationDegrees = 0;
+  read(json, "rotationDegrees", rotationDegrees);
+  spec.rotationRadians = radians(rotationDegrees);
+  read(json, "floorHeight", spec.floorHeight);
+  read(json, "eyeHeight", spec.eyeHeight);
+  read(json, "nearBand", spec.nearBand);
+  if (json.contains("outline"))
+    for (const Json& loop : json["outline"]) {
+      spec.outline.loops.emplace_back();
+      for (const Json& corner : loop) spec.outline.loops.back().push_back(pointFrom(corner));
+    }
+  if (json.contains("added")) spec.added = cellsFrom(json["added"]);
+  if (json.contains("removed")) spec.removed = cellsFrom(json["removed"]);
+  return spec;
+}
+
+void readImport(const Json& json, ImportOptions& options) {
+  read(json, "metresPerUnit", options.metresPerUnit);
+  read(json, "defaultLight", options.defaultLight);
+  const std::string up = json.value("up", "guess");
+  options.up = up == "y" ? UpAxis::y : up == "z" ? UpAxis::z : UpAxis::guess;
+}
+
+void readView(const Json& json, Project& project) {
+  project.view.renderer = *parseRenderer(json.value("renderer", "list"));
+  project.view.reconstruction =
+      json.value("reconstruction", "splat") == "point" ? Reconstruction::point : Reconstruction::splat;
+  read(json, "maxSplatPixels", project.view.maxSplatPixels);
+  read(json, "localGeometry", project.view.localGeometry);
+  read(json, "secondaryCover", project.view.secondaryCover);
+  read(json, "fillHoles", project.view.fillHoles);
+  read(json, "fovDegrees", project.fovDegrees);
+  read(json, "exposure", project.exposure);
+}
+
+Project projectFrom(const Json& json) {
+  Project project;
+  project.scene = json.at("scene").get<std::string>();
+  if (json.contains("import")) readImport(json["import"], project.import);
+  if (json.contains("effects"))
+    for (int i = 0; i < kEffectCount; ++i)
+      if (const auto found = json["effects"].find(nameOf(Effect(i))); found != json["effects"].end())
+        project.effects[Effect(i)] = found->get<bool>();
+  project.layout = layoutFrom(json.at("layout"));
+  if (json.contains("bake")) {
+    read(json["bake"], "samplesPerDegree", project.bake.samplesPerDegree);
+    read(json["bake"], "ambientRays", project.bake.ambientRays);
+    read(json["bake"], "ambientRadius", project.bake.ambientRadius);
+    read(json["bake"], "surfaceTexel", project.bake.surfaceTexel);
+    read(json["bake"], "maxLayers", project.bake.maxLayers);
+  }
+  if (json.contains("view")) readView(json["view"], project);
+  if (json.contains("spawn")) {
+    project.spawn.position = pointFrom(json["spawn"].at("position"));
+    project.spawn.yawRadians = radians(json["spawn"].value("yawDegrees", 0.0));
+  }
+  return project;
+}
+
+/// The first thing that the schema refuses, as "/layout/cellSize: reason".
+Status checkSchema(const Json& json, const std::string& where) {
+  const nlohmann::json plain = json;  // the adapter reads nlohmann::json
+  const nlohmann::json schemaText = nlohmann::json::parse(projectSchema());
+  valijson::Schema schema;
+  valijson::SchemaParser parser;
+  parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schemaText), schema);
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return {};
+  // The deepest pointer names the culprit; the errors above it only repeat that something below is wrong.
+  std::string pointer = "/", reason = "is not a project of version 1";
+  std::size_t depth = 0;
+  for (valijson::ValidationResults::Error error; results.popError(error);)
+    if (error.context.size() >= depth) {
+      depth = error.context.size();
+      pointer.clear();
+      for (std::size_t i = 1; i < error.context.size(); ++i) {  // [0] is "<root>"; entries look like "[name]"
+        const std::string& part = error.context[i];
+        pointer += "/" + (part.size() > 2 && part.front() == '[' ? part.substr(1, part.size() - 2) : part);
+      }
+      if (pointer.empty()) pointer = "/";
+      reason = error.description;
+    }
+  return fail(ErrorKind::malformed, fmt::format("{}: {}", pointer, reason), where);
+}
+
+}  // namespace
+
+Status Project::check() const {
+  if (scene.empty()) return fail(ErrorKind::malformed, "/scene: names no model file");
+  if (scene.is_absolute())
+    return fail(ErrorKind::malformed,
+                "/scene: must be relative to the project file's folder, not " + scene.string());
+  for (const Status& part : {import.check(), layout.check(), bake.check(), view.check()})
+    if (!part) return part;
+  if (!(fovDegrees >= 1 && fovDegrees <= 179))
+    return fail(ErrorKind::malformed, "/view/fovDegrees: must lie in 1..179");
+  if (!(exposure > 0 && std::isfinite(exposure)))
+    return fail(ErrorKind::malformed, "/view/exposure: must be a positive number");
+  if (!std::isfinite(spawn.position.x) || !std::isfinite(spawn.position.y) ||
+      !std::isfinite(spawn.yawRadians))
+    return fail(ErrorKind::malformed, "/spawn: must hold finite numbers");
+  return {};
+}
+
+std::string formatProject(const Project& project) {
+  Json effects = Json::object();
+  for (const auto& [effect, on] : project.effects) effects[nameOf(effect)] = on;
+  const Json json = {
+      {"format", "acentric-project"},
+      {"version", 1},
+      {"scene", project.scene.generic_string()},
+      {"import",
+       {{"metresPerUnit", project.import.metresPerUnit},
+        {"up", nameOf(project.import.up)},
+        {"defaultLight", project.import.defaultLight}}},
+      {"effects", std::move(effects)},
+      {"layout", toJson(project.layout)},
+      {"bake",
+       {{"samplesPerDegree", project.bake.samplesPerDegree},
+        {"ambientRays", project.bake.ambientRays},
+        {"ambientRadius", project.bake.ambientRadius},
+        {"surfaceTexel", project.bake.surfaceTexel},
+        {"maxLayers", project.bake.maxLayers}}},
+      {"view",
+       {{"renderer", nameOf(project.view.renderer)},
+        {"reconstruction", nameOf(project.view.reconstruction)},
+        {"maxSplatPixels", project.view.maxSplatPixels},
+        {"localGeometry", project.view.localGeometry},
+        {"secondaryCover", project.view.secondaryCover},
+        {"fillHoles", project.view.fillHoles},
+        {"fovDegrees", project.fovDegrees},
+        {"exposure", std::stod(fmt::format("{}", project.exposure))}}},  // the shortest decimal of the float
+      {"spawn",
+       {{"position", toJson(project.spawn.position)},
+        {"yawDegrees", tidyDegrees(project.spawn.yawRadians)}}}};
+  return json.dump(2) + "\n";
+}
+
+Result<Project> parseProject(const std::string& text, const std::string& where) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.is_object() && json.value("format", Json()) == "acentric-project" && json.contains("version") &&
+        json["version"].is_number_integer() && json["version"].get<std::int64_t>() > 1)
+      return fail(ErrorKind::unsupported,
+                  fmt::format("/version: {} was written by a newer Acentric; this one reads version 1",
+                              json["version"].get<std::int64_t>()),
+                  where);
+    if (const Status valid = checkSchema(json, where); !valid) return tl::unexpected(valid.error());
+    Project project = projectFrom(json);
+    if (Status sound = project.check(); !sound) {
+      Error error = sound.error();
+      error.message = error.describe();
+      error.where = where;
+      return tl::unexpected(std::move(error));
+    }
+    return project;
+  } catch (const nlohmann::json::exception& problem) {
+    return fail(ErrorKind::malformed, fmt::format("is not JSON that can be read: {}", problem.what()), where);
+  } catch (const std::exception& problem) {
+    return fail(ErrorKind::malformed, problem.what(), where);
+  }
+}
+
+Result<Project> loadProject(const fs::path& path) {
+  const auto text = readText(path, kMaxProjectBytes);
+  if (!text) return tl::unexpected(text.error());
+  return parseProject(*text, path.string());
+}
+
+Status saveProject(const Project& project, const fs::path& path) {
+  if (Status sound = project.check(); !sound) return sound;
+  return writeTextAtomically(path, formatProject(project));
+}
+
+fs::path captureFolderFor(const fs::path& projectPath) {
+  std::string name = projectPath.filename().string();
+  for (const std::string_view ending : {".acentric.json", ".json"})
+    if (name.size() > ending.size() && name.ends_with(ending)) {
+      name.resize(name.size() - ending.size());
+      break;
+    }
+  return projectPath.parent_path() / (name + ".captures");
+}
+
+}  // namespace acentric
