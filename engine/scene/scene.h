@@ -1,10 +1,12 @@
 #pragma once
 /// Scene: everything imported from a model file, as one immutable value shared by all stages.
-/// Metres, Z up, positions relative to `origin` (project origin, double). Node transforms and instances are applied.
+/// Metres, Z up, positions relative to `origin` (project origin, double). Node transforms and instances are
+/// applied.
 
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,7 +39,7 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 /// glTF 2.0 metallic-roughness, with the extensions named. Colours are linear.
 struct Material {
   std::string name;
-  glm::vec4 baseColour{1};      ///< linear, alpha straight
+  glm::vec4 baseColour{1};       ///< linear, alpha straight
   TextureUse baseColourTexture;  ///< sRGB
   glm::vec3 emissive{0};         ///< linear, strength (KHR_materials_emissive_strength) multiplied in
   TextureUse emissiveTexture;    ///< sRGB
@@ -46,7 +48,7 @@ struct Material {
   TextureUse metallicRoughnessTexture;  ///< G roughness, B metallic, linear
   TextureUse normalTexture;             ///< tangent space, linear
   float normalScale = 1;
-  float transmission = 0;               ///< KHR_materials_transmission
+  float transmission = 0;  ///< KHR_materials_transmission
   AlphaMode alphaMode = AlphaMode::opaque;
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
@@ -61,7 +63,7 @@ struct Mesh {
   std::vector<glm::vec3> normals;   ///< unit; always filled by import (from the file, else made flat)
   std::vector<glm::vec4> tangents;  ///< xyz unit, w = handedness; filled only where a normal texture needs it
   std::vector<glm::vec2> uv[2];
-  std::vector<glm::u8vec4> colours;  ///< linear RGBA8 vertex colours
+  std::vector<glm::u8vec4> colours;   ///< linear RGBA8 vertex colours
   std::vector<glm::uvec3> triangles;  ///< counter-clockwise = front, indices valid, no degenerate ones
 };
 
@@ -71,12 +73,12 @@ enum class LightKind : std::uint8_t { directional, point, spot };
 struct Light {
   std::string name;
   LightKind kind = LightKind::directional;
-  glm::vec3 colour{1};       ///< linear
-  float intensity = 1;       ///< lux (directional) or candela (point, spot)
+  glm::vec3 colour{1};  ///< linear
+  float intensity = 1;  ///< lux (directional) or candela (point, spot)
   glm::vec3 position{0};
   glm::vec3 direction{0, 0, -1};  ///< unit, the way the light travels
-  float range = 0;           ///< metres, 0 = unlimited
-  float innerCone = 0;       ///< radians
+  float range = 0;                ///< metres, 0 = unlimited
+  float innerCone = 0;            ///< radians
   float outerCone = 0.785398f;
 };
 
@@ -101,16 +103,17 @@ struct Bounds {
 
 /// What import found, dropped, ignored and guessed; each entry is one line for a person.
 struct ImportReport {
-  std::vector<std::string> found;     ///< "27,126 triangles in 16 meshes"
-  std::vector<std::string> dropped;   ///< "12 degenerate triangles", "3 triangles with NaN positions"
-  std::vector<std::string> ignored;   ///< "extension KHR_materials_specular"
-  std::vector<std::string> guessed;   ///< "unit: metres (glTF)", "up axis: Y (glTF)", "no lights: a sun and sky were added"
+  std::vector<std::string> found;    ///< "27,126 triangles in 16 meshes"
+  std::vector<std::string> dropped;  ///< "12 degenerate triangles", "3 triangles with NaN positions"
+  std::vector<std::string> ignored;  ///< "extension KHR_materials_specular"
+  std::vector<std::string>
+      guessed;  ///< "unit: metres (glTF)", "up axis: Y (glTF)", "no lights: a sun and sky were added"
 };
 
 struct Scene {
-  std::string name;               ///< file stem
-  ContentKey key;                 ///< of everything below that can change a pixel
-  glm::dvec3 origin{0};           ///< project origin in source metres; world = position + origin
+  std::string name;      ///< file stem
+  ContentKey key;        ///< of everything below that can change a pixel
+  glm::dvec3 origin{0};  ///< project origin in source metres; world = position + origin
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Texture> textures;
@@ -126,5 +129,11 @@ struct Scene {
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;
+
+/// Hash of everything in `scene` that can change a pixel: geometry, colours, images, lights, sky, origin.
+/// Names and the report do not count. Import fills Scene::key with it; whoever makes a Scene by hand does the
+/// same.
+ContentKey keyOf(const Scene& scene);
+Bounds boundsOf(const Scene& scene);
 
 }  // namespace acentric

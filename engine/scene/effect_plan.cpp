@@ -1,0 +1,209 @@
+#include "engine/scene/effect_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace acentric {
+namespace {
+
+struct EffectNames {
+  const char* name;
+  const char* label;
+};
+
+constexpr std::array<EffectNames, kEffectCount> kNames{{
+    {"textures", "Textures"},
+    {"vertexColours", "Vertex colours"},
+    {"alphaTest", "Alpha test"},
+    {"alphaBlend", "Alpha blend"},
+    {"emission", "Emission"},
+    {"directionalLights", "Directional lights"},
+    {"pointLights", "Point lights"},
+    {"spotLights", "Spot lights"},
+    {"sky", "Sky light"},
+    {"hardShadows", "Hard shadows"},
+    {"softShadows", "Soft shadows"},
+    {"ambientOcclusion", "Ambient occlusion"},
+    {"diffuseInterreflection", "Diffuse interreflection"},
+    {"mirrorReflection", "Mirror reflection"},
+    {"transmission", "Transmission"},
+    {"normalMaps", "Normal maps"},
+    {"unlit", "Unlit materials"},
+}};
+
+constexpr const char* kNoBounces = "approximated by ambient light; bounces are not simulated by this version";
+constexpr const char* kNoSize = "lights have no size";
+
+/// "3 materials with textures: Floor, Wall, frame" (the first three by name).
+std::string listed(const std::vector<std::string>& names, const char* one, const char* many,
+                   const char* what) {
+  std::string text =
+      fmt::format("{} {}{}{}", names.size(), names.size() == 1 ? one : many, *what ? " " : "", what);
+  for (std::size_t i = 0; i < names.size() && i < 3; ++i) text += (i ? ", " : ": ") + names[i];
+  if (names.size() > 3) text += ", ...";
+  return text;
+}
+
+class Planner {
+ public:
+  explicit Planner(const Scene& scene) : scene_(scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Mesh& mesh : scene.meshes)
+      if (!mesh.triangles.empty()) used[std::size_t(mesh.material)] = true;
+    for (std::size_t m = 0; m < used.size(); ++m)
+      if (used[m]) materials_.push_back(int(m));
+    allUnlit_ = !materials_.empty();
+    for (const int m : materials_) allUnlit_ = allUnlit_ && material(m).unlit;
+  }
+
+  EffectPlan plan() {
+    planMaterials();
+    planLights();
+    planLightTransport();
+    return std::move(plan_);
+  }
+
+ private:
+  const Material& material(int index) const { return scene_.materials[std::size_t(index)]; }
+
+  static std::string nameOr(const std::string& name, const char* kind, std::size_t number) {
+    return name.empty() ? fmt::format("{} {}", kind, number + 1) : name;
+  }
+
+  void set(Effect effect, bool calledFor, std::string reason) {
+    plan_[effect].calledFor = plan_[effect].on = calledFor;
+    plan_[effect].reason = std::move(reason);
+  }
+
+  void byMaterials(Effect effect, const char* what, const char* none,
+                   const std::function<bool(const Material&)>& has) {
+    std::vector<std::string> names;
+    for (const int m : materials_)
+      if (has(material(m))) names.push_back(nameOr(material(m).name, "material", std::size_t(m)));
+    set(effect, !names.empty(), names.empty() ? none : listed(names, "material", "materials", what));
+  }
+
+  void planMaterials() {
+    byMaterials(Effect::textures, "with textures", "no used material has a texture", [](const Material& m) {
+      return m.baseColourTexture.used() ||
+             (!m.unlit && (m.emissiveTexture.used() || m.metallicRoughnessTexture.used()));
+    });
+    byMaterials(Effect::alphaTest, "with an alpha mask", "no used material has an alpha mask",
+                [](const Material& m) { return m.alphaMode == AlphaMode::mask; });
+    byMaterials(Effect::alphaBlend, "with alpha blending", "no used material blends by alpha",
+                [](const Material& m) { return m.alphaMode == AlphaMode::blend; });
+    byMaterials(Effect::emission, "that emit light", "no used material emits light",
+                [](const Material& m) { return !m.unlit && m.emissive != glm::vec3(0); });
+    byMaterials(Effect::mirrorReflection, "that are smooth metal", "no used material is smooth metal",
+                [](const Material& m) {
+                  return !m.unlit && m.metallic >= 0.9f && m.roughness <= 0.1f &&
+                         !m.metallicRoughnessTexture.used();
+                });
+    byMaterials(Effect::transmission, "that let light through", "no used material lets light through",
+                [](const Material& m) { return !m.unlit && m.transmission > 0; });
+    byMaterials(Effect::normalMaps, "with normal maps", "no used material has a normal map",
+                [](const Material& m) { return !m.unlit && m.normalTexture.used() && m.normalScale != 0; });
+    byMaterials(Effect::unlit, "without lighting", "every used material is lit",
+                [](const Material& m) { return m.unlit; });
+
+    std::vector<std::string> coloured;
+    for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
+      const Mesh& mesh = scene_.meshes[i];
+      const auto tinted = [](const glm::u8vec4& c) { return c != glm::u8vec4(255); };
+      if (!mesh.triangles.empty() && std::any_of(mesh.colours.begin(), mesh.colours.end(), tinted))
+        coloured.push_back(nameOr(mesh.name, "mesh", i));
+    }
+    set(Effect::vertexColours, !coloured.empty(),
+        coloured.empty() ? "no mesh has vertex colours other than white"
+                         : listed(coloured, "mesh", "meshes", "with vertex colours"));
+  }
+
+  std::vector<std::string> lightsOf(LightKind kind) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      const Light& light = scene_.lights[i];
+      if (light.kind == kind && light.intensity > 0 && light.colour != glm::vec3(0))
+        names.push_back(nameOr(light.name, "light", i));
+    }
+    return names;
+  }
+
+  void planLights() {
+    struct Kind {
+      Effect effect;
+      LightKind kind;
+      const char *one, *many;
+    };
+    for (const Kind& k :
+         {Kind{Effect::directionalLights, LightKind::directional, "directional light", "directional lights"},
+          Kind{Effect::pointLights, LightKind::point, "point light", "point lights"},
+          Kind{Effect::spotLights, LightKind::spot, "spot light", "spot lights"}}) {
+      const std::vector<std::string> names = lightsOf(k.kind);
+      if (allUnlit_)
+        set(k.effect, false, "every used material is unlit");
+      else
+        set(k.effect, !names.empty(),
+            names.empty() ? fmt::format("no {}", k.one) : listed(names, k.one, k.many, ""));
+    }
+    if (allUnlit_)
+      set(Effect::sky, false, "every used material is unlit");
+    else
+      set(Effect::sky, scene_.sky.present(),
+          scene_.sky.present() ? "the scene has a sky" : "the scene has no sky");
+  }
+
+  void planLightTransport() {
+    const bool sun = plan_[Effect::directionalLights].calledFor;
+    const bool local = plan_[Effect::pointLights].calledFor || plan_[Effect::spotLights].calledFor;
+    const bool sky = plan_[Effect::sky].calledFor;
+    const char* const noLight = allUnlit_ ? "every used material is unlit" : "the scene has no light";
+    if (sun || local)
+      set(Effect::hardShadows, true, "lights without size cast hard shadows");
+    else
+      set(Effect::hardShadows, false, allUnlit_ ? noLight : "no light casts shadows");
+    set(Effect::softShadows, false, allUnlit_ ? noLight : kNoSize);
+    if (sky)
+      set(Effect::ambientOcclusion, true, "light from the sky reaches corners less");
+    else if (local && !sun)
+      set(Effect::ambientOcclusion, true, "stands in for bounced light: the scene has only local lights");
+    else
+      set(Effect::ambientOcclusion, false, sun ? "no light from the sky" : noLight);
+    const bool lit = sun || local || sky;
+    set(Effect::diffuseInterreflection, lit, lit ? kNoBounces : noLight);
+    plan_[Effect::diffuseInterreflection].on = false;
+  }
+
+  const Scene& scene_;
+  std::vector<int> materials_;  ///< those with triangles
+  bool allUnlit_ = false;
+  EffectPlan plan_;
+};
+
+}  // namespace
+
+const char* nameOf(Effect effect) { return kNames[std::size_t(effect)].name; }
+const char* labelOf(Effect effect) { return kNames[std::size_t(effect)].label; }
+
+void EffectPlan::addTo(Hasher& hasher) const {
+  for (const EffectState& state : effects) hasher.value(state.on);
+}
+
+EffectPlan planEffects(const Scene& scene, const EffectOverrides& overrides) {
+  EffectPlan plan = Planner(scene).plan();
+  for (const auto& [effect, on] : overrides) {
+    EffectState& state = plan[effect];
+    const bool impossible = effect == Effect::diffuseInterreflection || effect == Effect::softShadows;
+    if (on && impossible) {
+      state.reason =
+          fmt::format("cannot be switched on: {}", effect == Effect::softShadows ? kNoSize : kNoBounces);
+      continue;
+    }
+    state.on = on;
+    state.overridden = true;
+  }
+  return plan;
+}
+
+}  // namespace acentric

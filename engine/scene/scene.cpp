@@ -1,0 +1,111 @@
+#include "engine/scene/scene.h"
+
+#include "engine/base/contract.h"
+
+namespace acentric {
+namespace {
+
+void addVector(Hasher& hasher, const float* values, int count) {
+  for (int i = 0; i < count; ++i) hasher.value(values[i]);
+}
+
+void add(Hasher& hasher, const TextureUse& use) {
+  hasher.value(use.texture).value(use.uvSet);
+  for (int column = 0; column < 3; ++column) addVector(hasher, &use.transform[column].x, 2);
+}
+
+void add(Hasher& hasher, const Material& m) {
+  addVector(hasher, &m.baseColour.x, 4);
+  add(hasher, m.baseColourTexture);
+  addVector(hasher, &m.emissive.x, 3);
+  add(hasher, m.emissiveTexture);
+  hasher.value(m.metallic).value(m.roughness);
+  add(hasher, m.metallicRoughnessTexture);
+  add(hasher, m.normalTexture);
+  hasher.value(m.normalScale).value(m.transmission).value(m.alphaMode).value(m.alphaCutoff);
+  hasher.value(m.doubleSided).value(m.unlit);
+}
+
+template <class T>
+void addArray(Hasher& hasher, const std::vector<T>& values) {
+  hasher.array(std::span<const T>(values));
+}
+
+void add(Hasher& hasher, const Mesh& mesh) {
+  hasher.value(mesh.material);
+  addArray(hasher, mesh.positions);
+  addArray(hasher, mesh.normals);
+  addArray(hasher, mesh.tangents);
+  addArray(hasher, mesh.uv[0]);
+  addArray(hasher, mesh.uv[1]);
+  addArray(hasher, mesh.colours);
+  addArray(hasher, mesh.triangles);
+}
+
+void add(Hasher& hasher, const Light& light) {
+  hasher.value(light.kind).value(light.intensity);
+  addVector(hasher, &light.colour.x, 3);
+  addVector(hasher, &light.position.x, 3);
+  addVector(hasher, &light.direction.x, 3);
+  hasher.value(light.range).value(light.innerCone).value(light.outerCone);
+}
+
+}  // namespace
+
+glm::vec3 Sky::radiance(const glm::vec3& direction) const {
+  if (direction.z < 0) return ground;
+  return glm::mix(horizon, zenith, glm::min(direction.z, 1.0f));
+}
+
+std::size_t Scene::triangleCount() const {
+  std::size_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.triangles.size();
+  return count;
+}
+
+std::vector<std::uint32_t> Scene::firstTriangles() const {
+  std::vector<std::uint32_t> first;
+  first.reserve(meshes.size() + 1);
+  std::size_t next = 0;
+  for (const Mesh& mesh : meshes) {
+    first.push_back(std::uint32_t(next));
+    next += mesh.triangles.size();
+  }
+  require(next <= std::numeric_limits<std::uint32_t>::max(), "a scene has less than 2^32 triangles");
+  first.push_back(std::uint32_t(next));
+  return first;
+}
+
+ContentKey keyOf(const Scene& scene) {
+  Hasher hasher;
+  hasher.text("acentric scene 1");
+  hasher.value(scene.origin.x).value(scene.origin.y).value(scene.origin.z);
+  hasher.value(std::uint64_t(scene.materials.size()));
+  for (const Material& material : scene.materials) add(hasher, material);
+  hasher.value(std::uint64_t(scene.meshes.size()));
+  for (const Mesh& mesh : scene.meshes) add(hasher, mesh);
+  hasher.value(std::uint64_t(scene.textures.size()));
+  for (const Texture& texture : scene.textures)
+    hasher.value(texture.image).value(texture.wrapU).value(texture.wrapV).value(texture.nearest);
+  hasher.value(std::uint64_t(scene.images.size()));
+  for (const auto& image : scene.images) {
+    hasher.value(image ? image->width : 0).value(image ? image->height : 0);
+    if (image) addArray(hasher, image->pixels);
+  }
+  hasher.value(std::uint64_t(scene.lights.size()));
+  for (const Light& light : scene.lights) add(hasher, light);
+  addVector(hasher, &scene.sky.zenith.x, 3);
+  addVector(hasher, &scene.sky.horizon.x, 3);
+  addVector(hasher, &scene.sky.ground.x, 3);
+  return hasher.finish();
+}
+
+Bounds boundsOf(const Scene& scene) {
+  Bounds bounds;
+  for (const Mesh& mesh : scene.meshes)
+    for (const glm::uvec3& triangle : mesh.triangles)
+      for (int corner = 0; corner < 3; ++corner) bounds.add(mesh.positions[triangle[corner]]);
+  return bounds;
+}
+
+}  // namespace acentric

@@ -1,0 +1,35 @@
+#include "engine/scene/surface_light.h"
+
+namespace acentric {
+
+glm::vec3 SurfaceLight::at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const {
+  const std::uint32_t r = resolution[sceneTriangle];
+  if (r == 0) return glm::vec3(0);
+  std::uint32_t first = firstSample[sceneTriangle];
+  if (back) {
+    if (!hasBack[sceneTriangle]) return glm::vec3(0);
+    first += surfaceSampleCount(r);
+  }
+  const auto sampleAt = [&](std::uint32_t i, std::uint32_t j) {
+    return glm::vec3(unpackColour(light[first + surfaceSampleIndex(r, i, j)]));
+  };
+
+  // Weights slightly outside the triangle (rounding of clipped corners) read its border.
+  float x = glm::clamp(barycentric.x, 0.0f, 1.0f) * float(r);
+  float y = glm::clamp(barycentric.y, 0.0f, 1.0f) * float(r);
+  if (const float excess = x + y - float(r); excess > 0) {
+    x = glm::max(0.0f, x - 0.5f * excess);
+    y = glm::min(glm::max(0.0f, y - 0.5f * excess), float(r) - x);
+  }
+  std::uint32_t i = glm::min(std::uint32_t(x), r - 1);
+  std::uint32_t j = glm::min(std::uint32_t(y), r - 1);
+  if (i + j > r - 1) (i > j ? i : j) = r - 1 - (i > j ? j : i);  // on the slanted side: its last whole cell
+  const float fx = x - float(i);
+  const float fy = y - float(j);
+  if (fx + fy <= 1 || i + j + 2 > r)
+    return (1 - fx - fy) * sampleAt(i, j) + fx * sampleAt(i + 1, j) + fy * sampleAt(i, j + 1);
+  return (fx + fy - 1) * sampleAt(i + 1, j + 1) + (1 - fy) * sampleAt(i + 1, j) +
+         (1 - fx) * sampleAt(i, j + 1);
+}
+
+}  // namespace acentric
