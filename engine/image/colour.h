@@ -9,19 +9,23 @@
 
 namespace acentric {
 
-float linearFromSrgb(float encoded);   ///< [0,1] -> [0,1]
-float srgbFromLinear(float linear);    ///< [0,1] -> [0,1]
+float linearFromSrgb(float encoded);  ///< [0,1] -> [0,1]
+float srgbFromLinear(float linear);   ///< [0,1] -> [0,1]
 /// 256 entries: linear value of each 8-bit sRGB code.
 const std::array<float, 256>& linearFromSrgbTable();
+/// The nearest 8-bit sRGB code, by tables (exact, no powers). Values outside [0,1] are clamped, NaN is 0.
+std::uint8_t srgbCodeFromLinear(float linear);
 
 /// Neutral tone curve: identity up to 0.76 after exposure, a smooth shoulder to 1 above, hue kept: highlights
-/// lose colour instead of clipping channel by channel. Returns display-linear values in [0,1].
+/// lose colour instead of clipping channel by channel. Returns display-linear values in [0,1]. `exposure` is
+/// a factor. NaN and negative radiance count as 0, infinity as very bright.
 glm::vec3 toneMap(const glm::vec3& radiance, float exposure);
 
 /// toneMap, then sRGB codes; alpha is rounded as it is.
 Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha = 1);
 
-/// Straight-alpha "source over destination" in display-linear light, both sRGB coded; the result's alpha is 255.
+/// Straight-alpha "source over destination" in display-linear light, both sRGB coded; the result's alpha is
+/// 255.
 Rgba8 blendOver(const Rgba8& source, const Rgba8& destination);
 
 }  // namespace acentric

@@ -25,13 +25,14 @@ struct Image {
   bool empty() const { return pixels.empty(); }
 };
 
-using Rgba8 = glm::u8vec4;           ///< sRGB-encoded colour, straight alpha
+using Rgba8 = glm::u8vec4;  ///< sRGB-encoded colour, straight alpha
 using ColourImage = Image<Rgba8>;
 using FloatImage = Image<float>;
 using LinearImage = Image<glm::vec3>;  ///< linear radiance, Rec.709 primaries
 
 /// PNG, JPEG, ... as 8-bit RGBA. Refuses pictures above `maxPixels`.
-Result<ColourImage> readColourImage(const std::filesystem::path& path, std::size_t maxPixels = std::size_t(1) << 28);
+Result<ColourImage> readColourImage(const std::filesystem::path& path, std::size_t maxPixels = std::size_t(1)
+                                                                                               << 28);
 /// The same from the bytes of a file already in memory; `name` is for messages.
 Result<ColourImage> decodeColourImage(std::span<const std::byte> bytes, const std::string& name,
                                       std::size_t maxPixels = std::size_t(1) << 28);
