@@ -1,0 +1,63 @@
+# cmake -DSOURCE_FOLDER=DIR -DCLANG_FORMAT=PROGRAM [-DSELF_TEST_FOLDER=DIR] -P check_format.cmake
+# Fails naming every source that clang-format would lay out differently. With SELF_TEST_FOLDER: plants one such file
+# there instead, and fails if it goes unseen.
+cmake_minimum_required(VERSION 3.25)
+
+execute_process(COMMAND ${CLANG_FORMAT} --version OUTPUT_VARIABLE version RESULT_VARIABLE failed ERROR_QUIET)
+if(failed OR NOT version MATCHES "version 14\\.")
+  message("skipped: clang-format 14 is not here; formatting is judged by that version only")
+  return()
+endif()
+
+# badlyLaidOut(OUT FILE...): those of the files that would change.
+function(badlyLaidOut out)
+  set(bad)
+  # In groups, so that one process does many files; only a group that fails is looked at file by file.
+  list(LENGTH ARGN count)
+  set(start 0)
+  while(start LESS count)
+    list(SUBLIST ARGN ${start} 40 group)
+    math(EXPR start "${start} + 40")
+    execute_process(COMMAND ${CLANG_FORMAT} --style=file:${SOURCE_FOLDER}/.clang-format --dry-run --Werror ${group}
+                    RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+    if(failed)
+      foreach(file ${group})
+        execute_process(COMMAND ${CLANG_FORMAT} --style=file:${SOURCE_FOLDER}/.clang-format --dry-run --Werror ${file}
+                        RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+        if(failed)
+          list(APPEND bad ${file})
+        endif()
+      endforeach()
+    endif()
+  endwhile()
+  set(${out} "${bad}" PARENT_SCOPE)
+endfunction()
+
+if(SELF_TEST_FOLDER)
+  file(WRITE ${SELF_TEST_FOLDER}/good.cpp "int answer() { return 42; }\n")
+  file(WRITE ${SELF_TEST_FOLDER}/bad.cpp "int   answer( ){return 42 ;}\n")
+  badlyLaidOut(bad ${SELF_TEST_FOLDER}/good.cpp ${SELF_TEST_FOLDER}/bad.cpp)
+  if(NOT bad STREQUAL "${SELF_TEST_FOLDER}/bad.cpp")
+    message(FATAL_ERROR "the check should name bad.cpp and nothing else, not: ${bad}")
+  endif()
+  return()
+endif()
+
+set(patterns)
+foreach(folder engine ui editor projects tests)
+  foreach(extension h cpp)
+    list(APPEND patterns ${SOURCE_FOLDER}/${folder}/*.${extension})
+  endforeach()
+endforeach()
+file(GLOB_RECURSE files ${patterns})
+list(LENGTH files count)
+if(count LESS 10)
+  message(FATAL_ERROR "only ${count} sources found below ${SOURCE_FOLDER}: the check does not see them")
+endif()
+badlyLaidOut(bad ${files})
+if(bad)
+  list(TRANSFORM bad REPLACE "^${SOURCE_FOLDER}/" "")
+  list(JOIN bad " " bad)
+  message(FATAL_ERROR "badly laid out; put right by: clang-format-14 -i ${bad}")
+endif()
+message("${count} sources are laid out well")
