@@ -10,7 +10,9 @@
 namespace acentric {
 
 Status PerspectiveView::check() const {
-  const auto bad = [](std::string message) { return fail(ErrorKind::invalidArgument, std::move(message), "view"); };
+  const auto bad = [](std::string message) {
+    return fail(ErrorKind::invalidArgument, std::move(message), "view");
+  };
   for (double value : {eye.x, eye.y, eye.z, yawRadians, pitchRadians, fovRadians})
     if (!std::isfinite(value)) return bad("eye, yaw, pitch and field of view must be finite numbers");
   if (std::abs(pitchRadians) > kPi / 2 + 1e-9) return bad("pitch must lie in -90..90 degrees");
