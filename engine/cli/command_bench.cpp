@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/path_frames.h"
+#include "engine/measure/statistics.h"
+
+namespace acentric::cli {
+namespace {
+
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+Result<Report> runBench(const BenchOptions& options, const Common& common) {
+  const auto size = parseSize(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  const auto views =
+      viewsAlong(tourOf(*open->layout, open->project.spawn.position, options.frames), *open, *size, 0);
+  if (!views) return tl::unexpected(views.error());
+  const auto runner = common.runner();
+
+  std::vector<std::unique_ptr<FrameMaker>> makers;
+  double loadSeconds = 0;
+  for (const std::string& name : options.renderers) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto maker = FrameMaker::create(*open, name, common, *runner);
+    if (!maker) return tl::unexpected(maker.error());
+    if (makers.empty())
+      loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    makers.push_back(std::move(*maker));
+  }
+  // Renderers take turns frame by frame, so that a change of the machine's speed meets them all.
+  std::vector<std::vector<double>> totals(makers.size()), warps(makers.size());
+  std::vector<std::uint64_t> samples(makers.size(), 0);
+  for (int repeat = 0; repeat < options.repeats + 1; ++repeat)
+    for (std::size_t v = 0; v < views->size(); ++v)
+      for (std::size_t m = 0; m < makers.size(); ++m) {
+        if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
+        if (common.progress)
+          common.progress({double(repeat) * double(views->size()) + double(v),
+                           double(options.repeats + 1) * double(views->size()), "timing"});
+        const auto frame = makers[m]->render((*views)[v]);
+        if (!frame) return tl::unexpected(frame.error());
+        if (repeat == 0) continue;  // warms caches and uploads
+        totals[m].push_back(frame->stats.totalSeconds * 1e3);
+        warps[m].push_back(frame->stats.warpSeconds * 1e3);
+        samples[m] += frame->stats.samplesRead;
+      }
+  Report report;
+  report.json = {{"version", ACENTRIC_VERSION},  {"processor", processorName()},
+                 {"threads", runner->threads()}, {"project", options.project.string()},
+                 {"width", size->width},         {"height", size->height},
+                 {"frames", views->size()},      {"repeats", options.repeats},
+                 {"loadSeconds", loadSeconds},   {"renderers", Json::array()}};
+  report.text =
+      fmt::format("{}, {} threads, {}x{}, {} frames x {}; captures loaded in {:.2f} s\n", processorName(),
+                  runner->threads(), size->width, size->height, views->size(), options.repeats, loadSeconds);
+  for (std::size_t m = 0; m < makers.size(); ++m) {
+    const Spread total = spreadOf(totals[m]), warp = spreadOf(warps[m]);
+    double warpMs = 0;
+    for (double value : warps[m]) warpMs += value;
+    const double rate = warpMs > 0 ? double(samples[m]) / warpMs / 1e3 : 0;
+    report.json["renderers"].push_back({{"renderer", options.renderers[m]},
+                                        {"frameMsMedian", total.median},
+                                        {"frameMsP99", total.p99},
+                                        {"warpMsMedian", warp.median},
+                                        {"megasamplesPerSecond", rate}});
+    report.text +=
+        fmt::format("  {:<8} frame {:7.2f} ms median, {:7.2f} ms p99; warp {:7.2f} ms; {:6.0f} M samples/s\n",
+                    options.renderers[m], total.median, total.p99, warp.median, rate);
+  }
+  return report;
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/cli/commands.h"
+#include "engine/inspect/budgets.h"
+#include "engine/measure/statistics.h"
+
+namespace acentric::cli {
+namespace {
+
+const char* nameOfKind(RegionKind kind) {
+  switch (kind) {
+    case RegionKind::ring:
+      return "ring";
+    case RegionKind::gapTriangle:
+      return "gapTriangle";
+    case RegionKind::gapSquare:
+      return "gapSquare";
+    case RegionKind::gapHexagon:
+      return "gapHexagon";
+  }
+  return "ring";
+}
+
+Json effectsJson(const EffectPlan& plan) {
+  Json out = Json::array();
+  for (int i = 0; i < kEffectCount; ++i) {
+    const EffectState& state = plan[Effect(i)];
+    out.push_back({{"effect", nameOf(Effect(i))},
+                   {"on", state.on},
+                   {"calledFor", state.calledFor},
+                   {"overridden", state.overridden},
+                   {"reason", state.reason}});
+  }
+  return out;
+}
+
+std::string effectsText(const EffectPlan& plan) {
+  std::string text = "effects\n";
+  for (int i = 0; i < kEffectCount; ++i) {
+    const EffectState& state = plan[Effect(i)];
+    text += fmt::format("  {:<3} {:<24} {}{}\n", state.on ? "on" : "off", labelOf(Effect(i)), state.reason,
+                        state.overridden ? " (overridden)" : "");
+  }
+  return text;
+}
+
+double megapixelsOf(const OpenProject& open) {
+  double pixels = 0;
+  for (const LayoutCamera& camera : open.layout->cameras) {
+    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout.nearBand,
+                                           open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
+    pixels += double(c.columns) * c.rows;
+  }
+  return pixels / 1e6;
+}
+
+}  // namespace
+
+Result<Report> runInfo(const InfoOptions& options, const Common& common) {
+  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  const Scene& scene = *open->scene;
+  const Layout& layout = *open->layout;
+  const auto baked = bakedCameras(*open);
+  const auto bakedCount = std::count(baked.begin(), baked.end(), true);
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  if (std::filesystem::is_directory(captureFolderFor(open->file), error))
+    if (const auto store = CaptureStore::open(captureFolderFor(open->file)))
+      for (const ContentKey& key : open->keys) bytes += store->bytesOf(key);
+  const auto triangles = countLocalTriangles(scene, layout);
+  const Spread budget = spreadOf(std::vector<double>(triangles.begin(), triangles.end()));
+  const double megapixels = megapixelsOf(*open);
+  const glm::vec3 size = scene.bounds.size();
+
+  Report report;
+  report.json = {
+      {"project", options.project.string()},
+      {"scene",
+       {{"file", open->project.scene.generic_string()},
+        {"triangles", scene.triangleCount()},
+        {"meshes", scene.meshes.size()},
+        {"materials", scene.materials.size()},
+        {"textures", scene.textures.size()},
+        {"lights", scene.lights.size()},
+        {"boundsMin", toJson(glm::dvec3(scene.bounds.min))},
+        {"boundsMax", toJson(glm::dvec3(scene.bounds.max))},
+        {"origin", toJson(scene.origin)},
+        {"found", scene.report.found},
+        {"dropped", scene.report.dropped},
+        {"ignored", scene.report.ignored},
+        {"guessed", scene.report.guessed}}},
+      {"effects", effectsJson(open->plan)},
+      {"layout",
+       {{"configuration", nameOf(layout.spec.configuration)},
+        {"description", describe(layout.spec.configuration)},
+        {"cellSize", layout.spec.cellSize},
+        {"eyeHeight", layout.spec.eyeHeight},
+        {"nearBand", layout.spec.nearBand},
+        {"regions", layout.regions.size()},
+        {"cameras", layout.cameras.size()},
+        {"megapixels", megapixels},
+        {"localTriangles", {{"min", budget.min}, {"median", budget.median}, {"max", budget.max}}}}},
+      {"bake", {{"baked", bakedCount}, {"of", baked.size()}, {"bytes", bytes}}}};
+  report.text = fmt::format(
+      "scene    {}: {} triangles, {} meshes, {} materials, {} textures, {} lights; {:.2f} x {:.2f} x {:.2f} "
+      "m\n"
+      "layout   {} ({}), cells of {:g} m, eye at {:g} m: {} regions, {} cameras, {:.1f} Mpixel\n"
+      "local    {} / {} / {} triangles per region (least / median / most)\n"
+      "baked    {} of {} cameras, {}\n",
+      open->project.scene.generic_string(), countText(scene.triangleCount()), scene.meshes.size(),
+      scene.materials.size(), scene.textures.size(), scene.lights.size(), size.x, size.y, size.z,
+      nameOf(layout.spec.configuration), describe(layout.spec.configuration), layout.spec.cellSize,
+      layout.spec.eyeHeight, layout.regions.size(), layout.cameras.size(), megapixels,
+      countText(std::uint64_t(budget.min)), countText(std::uint64_t(budget.median)),
+      countText(std::uint64_t(budget.max)), bakedCount, baked.size(), bytesText(bytes));
+  for (const auto& [label, lines] :
+       {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
+        std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})
+    for (const std::string& line : *lines) report.text += fmt::format("{:<8} {}\n", label, line);
+  report.text += effectsText(open->plan);
+
+  if (options.regions) {
+    Json regions = Json::array();
+    for (std::size_t r = 0; r < layout.regions.size(); ++r) {
+      const Region& region = layout.regions[r];
+      const glm::dvec2 centre = region.polygon.centroid();
+      regions.push_back({{"cell", {region.id.i, region.id.j, region.id.slot}},
+                         {"kind", nameOfKind(region.kind)},
+                         {"centre", {centre.x, centre.y}},
+                         {"localTriangles", triangles[r]}});
+      report.text += fmt::format("region   [{}, {}, {}] {:<11} at ({:.2f}, {:.2f}) m: {} local triangles\n",
+                                 region.id.i, region.id.j, region.id.slot, nameOfKind(region.kind), centre.x,
+                                 centre.y, countText(triangles[r]));
+    }
+    report.json["regions"] = std::move(regions);
+  }
+  return report;
+}
+
+}  // namespace acentric::cli

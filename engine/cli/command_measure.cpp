@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/path_frames.h"
+#include "engine/measure/compare.h"
+#include "engine/measure/statistics.h"
+
+namespace acentric::cli {
+namespace {
+
+/// `count` entries, evenly chosen, first and last included.
+template <class T>
+std::vector<T> evenly(const std::vector<T>& all, int count) {
+  if (count <= 0 || std::size_t(count) >= all.size()) return all;
+  std::vector<T> chosen;
+  for (int i = 0; i < count; ++i)
+    chosen.push_back(all[std::size_t(i) * (all.size() - 1) / std::size_t(std::max(count - 1, 1))]);
+  return chosen;
+}
+
+Json toJson(const Spread& spread) {
+  return {{"min", spread.min}, {"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
+}
+
+Status writeTriple(const std::filesystem::path& folder, std::size_t index, const Frame& frame,
+                   const TruthFrame& truth) {
+  const ColourImage sheet = contactSheet(
+      {frame.colour, truth.colour, differenceImage(frame.colour, truth.colour), frame.holeMask()}, 2);
+  return writeColourImage(sheet, folder / fmt::format("compare_{:05}.png", index));
+}
+
+}  // namespace
+
+Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
+  if (options.renderer == "truth")
+    return fail(ErrorKind::invalidArgument, "--renderer truth would compare the truth with itself");
+  const auto size = parseSize(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto path = loadPath(options.path);
+  if (!path) return tl::unexpected(path.error());
+  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  const auto all = viewsAlong(*path, *open, *size, options.fovDegrees);
+  if (!all) return tl::unexpected(all.error());
+  const auto views = evenly(*all, options.frames);
+  const auto runner = common.runner();
+  auto maker = FrameMaker::create(*open, options.renderer, common, *runner);
+  if (!maker) return tl::unexpected(maker.error());
+
+  std::vector<double> psnr, ssim, holes, milliseconds;
+  Json frames = Json::array();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
+    if (common.progress) common.progress({double(i), double(views.size()), "measuring"});
+    const auto frame = (*maker)->render(views[i]);
+    if (!frame) return tl::unexpected(frame.error());
+    const TruthFrame truth = renderTruth(*open->rays, views[i], open->project.bake, open->project.exposure,
+                                         options.truthSamples, *runner);
+    const auto comparison = compare(*frame, truth.colour, truth.rayDistance);
+    if (!comparison) return tl::unexpected(comparison.error());
+    if (!options.images.empty())
+      if (Status written = writeTriple(options.images, i, *frame, truth); !written)
+        return tl::unexpected(written.error());
+    psnr.push_back(comparison->psnr);
+    ssim.push_back(comparison->ssim);
+    holes.push_back(comparison->holeShare);
+    milliseconds.push_back(frame->stats.totalSeconds * 1e3);
+    frames.push_back({{"eye", cli::toJson(views[i].eye)},
+                      {"psnr", psnr.back()},
+                      {"ssim", ssim.back()},
+                      {"holeShare", holes.back()},
+                      {"frameMs", milliseconds.back()}});
+  }
+  const Spread p = spreadOf(psnr), s = spreadOf(ssim), h = spreadOf(holes), m = spreadOf(milliseconds);
+  Report report;
+  report.json = {{"project", options.project.string()},
+                 {"renderer", options.renderer},
+                 {"width", size->width},
+                 {"height", size->height},
+                 {"threads", runner->threads()},
+                 {"psnr", toJson(p)},
+                 {"ssim", toJson(s)},
+                 {"holeShare", toJson(h)},
+                 {"frameMs", toJson(m)},
+                 {"frames", std::move(frames)},
+                 {"warnings", (*maker)->loaded().warnings}};
+  report.text = fmt::format(
+      "{} frames of {}x{}, renderer {}, {} threads\n"
+      "  PSNR       median {:6.2f} dB   worst {:6.2f} dB\n"
+      "  SSIM       median {:6.4f}      worst {:6.4f}\n"
+      "  hole share median {:6.3f} %    worst {:6.3f} %\n"
+      "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
+      views.size(), size->width, size->height, options.renderer, runner->threads(), p.median, p.min, s.median,
+      s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
+  return report;
+}
+
+}  // namespace acentric::cli

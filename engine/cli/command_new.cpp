@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include "engine/cli/commands.h"
+
+namespace acentric::cli {
+
+Result<Report> runNew(const NewOptions& options, const Common& common) {
+  std::error_code error;
+  if (std::filesystem::exists(options.output, error) && !options.force)
+    return fail(ErrorKind::invalidArgument,
+                "exists already; give --force to replace it, or another name with -o",
+                options.output.string());
+  const auto configuration = parseConfiguration(options.configuration);
+  if (!configuration) return tl::unexpected(configuration.error());
+
+  NewProjectOptions choices;
+  choices.configuration = *configuration;
+  choices.cellSize = options.cellSize;
+  choices.eyeHeight = options.eyeHeight;
+  choices.outline = options.outline;
+  choices.samplesPerDegree = options.samplesPerDegree;
+  choices.import.metresPerUnit = options.metresPerUnit;
+  choices.import.up = options.up == "y" ? UpAxis::y : options.up == "z" ? UpAxis::z : UpAxis::guess;
+  const auto runner = common.runner();
+  const auto project =
+      makeProject(options.scene, options.output, choices, common.host, *runner, common.progress, common.stop);
+  if (!project) return tl::unexpected(project.error());
+  if (Status saved = saveProject(*project, options.output); !saved) return tl::unexpected(saved.error());
+  if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
+
+  const auto open = openProject(options.output, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  Report report;
+  const Layout& layout = *open->layout;
+  report.json = {{"project", options.output.string()},
+                 {"triangles", open->scene->triangleCount()},
+                 {"configuration", nameOf(project->layout.configuration)},
+                 {"cellSize", project->layout.cellSize},
+                 {"floorHeight", project->layout.floorHeight},
+                 {"walkableSquareMetres", project->layout.outline.area()},
+                 {"regions", layout.regions.size()},
+                 {"cameras", layout.cameras.size()},
+                 {"guessed", open->scene->report.guessed},
+                 {"dropped", open->scene->report.dropped},
+                 {"ignored", open->scene->report.ignored}};
+  report.text = fmt::format(
+      "{}: {} triangles; {:.1f} m2 walkable at z = {:.2f} m; configuration {} with {:g} m cells: {} regions, "
+      "{} cameras\n",
+      options.output.string(), countText(open->scene->triangleCount()), project->layout.outline.area(),
+      project->layout.floorHeight, nameOf(project->layout.configuration), project->layout.cellSize,
+      layout.regions.size(), layout.cameras.size());
+  for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
+                                     std::pair{"dropped", &open->scene->report.dropped},
+                                     std::pair{"ignored", &open->scene->report.ignored}})
+    for (const std::string& line : *lines) report.text += fmt::format("  {}: {}\n", label, line);
+  report.text += fmt::format("next: acentric bake {}\n", options.output.string());
+  return report;
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "engine/cli/commands.h"
+#include "engine/geometry/conventions.h"
+
+namespace acentric::cli {
+namespace {
+
+/// "x,y" or "x,y,z"; z defaults to the layout's eye height.
+Result<glm::dvec3> parseEye(const std::string& text, const Layout& layout) {
+  glm::dvec3 eye(0, 0, layout.eyeZ());
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  int count = 0;
+  while (at < end && count < 3) {
+    const auto [next, error] = std::from_chars(at, end, eye[count]);
+    if (error != std::errc{} || !std::isfinite(eye[count])) break;
+    ++count;
+    at = next;
+    if (at < end && *at == ',')
+      ++at;
+    else
+      break;
+  }
+  if (at != end || count < 2 || text.ends_with(','))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("--eye '{}': give x,y or x,y,z in metres, such as 1.5,-2,1.6", text));
+  return eye;
+}
+
+}  // namespace
+
+Result<PictureSize> parseSize(const std::string& text) {
+  PictureSize size;
+  const auto cross = text.find('x');
+  const auto number = [](std::string_view part, int& out) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), out);
+    return error == std::errc{} && end == part.data() + part.size() && out >= 1 && out <= 16384;
+  };
+  if (cross == std::string::npos || !number(std::string_view(text).substr(0, cross), size.width) ||
+      !number(std::string_view(text).substr(cross + 1), size.height))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("--size '{}': give WIDTHxHEIGHT in pixels, such as 960x540", text));
+  return size;
+}
+
+Result<Report> runRender(const RenderOptions& options, const Common& common) {
+  const auto size = parseSize(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+
+  PerspectiveView view;
+  if (options.eye.empty()) {
+    view.eye = {open->project.spawn.position, open->layout->eyeZ()};
+  } else {
+    const auto eye = parseEye(options.eye, *open->layout);
+    if (!eye) return tl::unexpected(eye.error());
+    view.eye = *eye;
+  }
+  view.yawRadians = radians(options.yawDegrees);
+  view.pitchRadians = radians(options.pitchDegrees);
+  view.fovRadians = radians(options.fovDegrees);
+  view.width = size->width;
+  view.height = size->height;
+
+  const auto runner = common.runner();
+  auto maker = FrameMaker::create(*open, options.renderer, common, *runner);
+  if (!maker) return tl::unexpected(maker.error());
+  (*maker)->truthSamples = options.truthSamples;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto frame = (*maker)->render(view);
+  if (!frame) return tl::unexpected(frame.error());
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  if (Status written = writeColourImage(frame->colour, options.output); !written)
+    return tl::unexpected(written.error());
+  if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
+  if (!options.holes.empty())
+    if (Status written = writeColourImage(frame->holeMask(), options.holes); !written)
+      return tl::unexpected(written.error());
+
+  const double holeShare = double(frame->holeCount()) / (double(view.width) * view.height);
+  Report report;
+  report.json = {{"picture", options.output.string()},
+                 {"renderer", options.renderer},
+                 {"eye", toJson(view.eye)},
+                 {"width", view.width},
+                 {"height", view.height},
+                 {"openShare", holeShare},
+                 {"renderMs", seconds * 1e3},
+                 {"stats", toJson(frame->stats)},
+                 {"warnings", (*maker)->loaded().warnings}};
+  report.text = fmt::format("{}\n", options.output.string());
+  for (const std::string& warning : (*maker)->loaded().warnings) report.text += "warning: " + warning + "\n";
+  if (options.stats && (*maker)->isTruth())
+    report.text += fmt::format("  {:.0f} ms, ray-traced\n", seconds * 1e3);
+  if (options.stats && !(*maker)->isTruth())
+    report.text += fmt::format(
+        "  {:.1f} ms (warp {:.1f}, local geometry {:.1f}, fill {:.1f}); {} images ({} missing), {} samples "
+        "read, {} drawn, {} local "
+        "triangles; {:.3f} % of the pixels without a sample\n",
+        seconds * 1e3, frame->stats.warpSeconds * 1e3, frame->stats.localSeconds * 1e3,
+        frame->stats.fillSeconds * 1e3, frame->stats.images, frame->stats.missingImages,
+        countText(frame->stats.samplesRead), countText(frame->stats.samplesDrawn),
+        countText(frame->stats.localTriangles), 100 * holeShare);
+  return report;
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,83 @@
+#pragma once
+/// The commands: options in, report out.
+
+#include <string>
+#include <vector>
+
+#include "engine/cli/command.h"
+
+namespace acentric::cli {
+
+struct NewOptions {
+  std::filesystem::path scene, output;
+  std::string configuration = "b", outline = "auto", up = "guess";
+  double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
+  bool force = false;
+};
+Result<Report> runNew(const NewOptions& options, const Common& common);
+
+struct InfoOptions {
+  std::filesystem::path project;
+  bool regions = false;
+};
+Result<Report> runInfo(const InfoOptions& options, const Common& common);
+
+struct BakeOptions {
+  std::filesystem::path project;
+  std::vector<int> only;
+  bool dryRun = false;
+  bool prune = false;
+};
+Result<Report> runBake(const BakeOptions& options, const Common& common);
+
+/// "960x540".
+struct PictureSize {
+  int width = 960, height = 540;
+};
+Result<PictureSize> parseSize(const std::string& text);
+
+struct RenderOptions {
+  std::filesystem::path project, output, holes;
+  std::string eye, size = "960x540", renderer = "list";
+  double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
+  int truthSamples = 4;
+  bool stats = false;
+};
+Result<Report> runRender(const RenderOptions& options, const Common& common);
+
+struct WalkOptions {
+  std::filesystem::path project, path, output;
+  std::string size = "960x540", renderer = "list";
+  double fovDegrees = 0;  ///< 0 = the project's
+};
+Result<Report> runWalk(const WalkOptions& options, const Common& common);
+
+struct TourOptions {
+  std::filesystem::path project, output;
+  int frames = 60;
+};
+Result<Report> runTour(const TourOptions& options, const Common& common);
+
+struct MeasureOptions {
+  std::filesystem::path project, path, images;
+  std::string size = "640x360", renderer = "list";
+  double fovDegrees = 0;
+  int frames = 0;  ///< 0 = all; else so many, evenly chosen
+  int truthSamples = 1;
+};
+Result<Report> runMeasure(const MeasureOptions& options, const Common& common);
+
+struct ValidateOptions {
+  std::filesystem::path project;
+};
+Result<Report> runValidate(const ValidateOptions& options, const Common& common);
+
+struct BenchOptions {
+  std::filesystem::path project;
+  std::string size = "960x540";
+  std::vector<std::string> renderers{"list", "scalar", "zbuffer", "gl"};
+  int frames = 30, repeats = 3;
+};
+Result<Report> runBench(const BenchOptions& options, const Common& common);
+
+}  // namespace acentric::cli

@@ -1,0 +1,235 @@
+/// acentric: every action of the editor has a twin here. Parses, runs one command, prints its report.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/terminal.h"
+
+namespace {
+
+using namespace acentric;
+using namespace acentric::cli;
+
+constexpr int kFailed = 1, kUsage = 2;
+
+struct Chosen {
+  std::function<Result<Report>(const Common&)> run;
+};
+
+/// Adds a subcommand whose options are `options` and whose action is `run`.
+template <class Options, class Run>
+CLI::App* add(CLI::App& app, Chosen& chosen, const char* name, const char* description, const char* examples,
+              Options& options, Run run) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->footer(std::string("Examples:\n") + examples);
+  command->callback([&chosen, &options, run] {
+    chosen.run = [&options, run](const Common& common) { return run(options, common); };
+  });
+  return command;
+}
+
+void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
+  CLI::App* c = add(app, chosen, "new", "Import a scene and lay a first tessellation over its walkable floor",
+                    "  acentric new kitchen.glb -o kitchen.acentric.json\n"
+                    "  acentric new street.gltf -o street.acentric.json --config e --cell 3 --outline "
+                    "\"0,0;12,0;12,8;0,8\"",
+                    o, runNew);
+  c->add_option("scene", o.scene, "Model file: glTF, GLB, OBJ, PLY, STL, FBX, DAE, ...")->required();
+  c->add_option("-o,--output", o.output, "Project file to write (*.acentric.json)")->required();
+  c->add_option("--config", o.configuration,
+                "Configuration: b (60 degree hexagons and triangles) or e (90 degree squares)")
+      ->capture_default_str();
+  c->add_option("--cell", o.cellSize,
+                "Edge length of the polygons in metres (default: from the walkable area)")
+      ->check(CLI::Range(0.05, 1000.0));
+  c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
+  c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
+      ->capture_default_str();
+  c->add_option("--samples-per-degree", o.samplesPerDegree, "Resolution of the captures (default 8)")
+      ->check(CLI::Range(0.5, 64.0));
+  c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of the model (default: guessed, and said)");
+  c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
+      ->check(CLI::IsMember({"guess", "y", "z"}))
+      ->capture_default_str();
+  c->add_flag("--force", o.force, "Replace an existing project file");
+}
+
+void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
+  CLI::App* c =
+      add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
+          "  acentric info kitchen.acentric.json\n  acentric info kitchen.acentric.json --regions --json", o,
+          runInfo);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_flag("--regions", o.regions, "List every region with its local triangles");
+}
+
+void addBake(CLI::App& app, Chosen& chosen, BakeOptions& o) {
+  CLI::App* c = add(
+      app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
+      "  acentric bake kitchen.acentric.json --threads 2\n  acentric bake kitchen.acentric.json --dry-run", o,
+      runBake);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
+  c->add_flag("--dry-run", o.dryRun, "List what would be baked");
+  c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
+}
+
+void addRender(CLI::App& app, Chosen& chosen, RenderOptions& o) {
+  CLI::App* c = add(
+      app, chosen, "render", "Render one picture",
+      "  acentric render kitchen.acentric.json --eye 1,2,1.6 --yaw 90 -o view.png --holes holes.png --stats\n"
+      "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
+      o, runRender);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
+  c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
+  c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
+  c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
+      ->capture_default_str();
+  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of --renderer truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+  c->add_option("-o,--output", o.output, "PNG to write")->required();
+  c->add_option("--holes", o.holes, "PNG to write: white where no sample fell");
+  c->add_flag("--stats", o.stats, "Print times and counts");
+}
+
+void addWalk(CLI::App& app, Chosen& chosen, WalkOptions& o) {
+  CLI::App* c = add(app, chosen, "walk", "Render a camera path to PNG frames and a contact sheet",
+                    "  acentric walk kitchen.acentric.json --path tour.json -o frames", o, runWalk);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--path", o.path, "Camera path (JSON), such as `acentric tour` writes")->required();
+  c->add_option("-o,--output", o.output, "Folder for the frames")->required();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
+  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
+      ->capture_default_str();
+}
+
+void addTour(CLI::App& app, Chosen& chosen, TourOptions& o) {
+  CLI::App* c = add(app, chosen, "tour", "Write a camera path through all regions",
+                    "  acentric tour kitchen.acentric.json -o tour.json --frames 120", o, runTour);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("-o,--output", o.output, "Path file to write")->required();
+  c->add_option("--frames", o.frames, "Number of frames")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+}
+
+void addMeasure(CLI::App& app, Chosen& chosen, MeasureOptions& o) {
+  CLI::App* c = add(app, chosen, "measure",
+                    "Compare frames along a path with ray-traced truth: PSNR, SSIM, hole share, time",
+                    "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare",
+                    o, runMeasure);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--path", o.path, "Camera path (JSON)")->required();
+  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer or gl")
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
+  c->add_option("--frames", o.frames, "Only so many frames, evenly chosen (0 = all)")->capture_default_str();
+  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+  c->add_option("--images", o.images, "Folder for pictures: frame, truth, difference, holes");
+}
+
+void addValidate(CLI::App& app, Chosen& chosen, ValidateOptions& o) {
+  CLI::App* c = add(app, chosen, "validate", "Check a project, its scene and every capture on disk",
+                    "  acentric validate kitchen.acentric.json --json", o, runValidate);
+  c->add_option("project", o.project, "Project file")->required();
+}
+
+void addBench(CLI::App& app, Chosen& chosen, BenchOptions& o) {
+  CLI::App* c = add(app, chosen, "bench", "Time the renderers against each other on a tour of the project",
+                    "  acentric bench kitchen.acentric.json --renderers list,zbuffer --json", o, runBench);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--renderers", o.renderers, "Which, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--frames", o.frames, "Frames of the tour")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  c->add_option("--repeats", o.repeats, "Times each frame is rendered, after one warm-up")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+int finish(const Result<Report>& result, bool json) {
+  finishProgress();
+  if (!result) {
+    const Error& error = result.error();
+    if (json)
+      fmt::print(
+          "{}\n",
+          Json{{"error",
+                {{"kind", acentric::nameOf(error.kind)}, {"message", error.message}, {"where", error.where}}}}
+              .dump(2));
+    fmt::print(stderr, "acentric: {}\n", error.describe());
+    return kFailed;
+  }
+  if (json)
+    fmt::print("{}\n", result->json.dump(2, ' ', false, Json::error_handler_t::replace));
+  else
+    fmt::print("{}", result->text);
+  return result->success ? 0 : kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Acentric: walkthroughs made of acentric panorama views (APV)\nimport a scene, lay cameras over its "
+      "floor, bake, walk"};
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", ACENTRIC_VERSION);
+  app.footer(
+      "Examples:\n  acentric new room.glb -o room.acentric.json\n  acentric bake room.acentric.json\n"
+      "  acentric render room.acentric.json -o view.png --stats\nEach command has its own --help.");
+  Common common;
+  bool json = false;
+  app.add_flag("--json", json, "Print the report as JSON");
+  app.add_option("--threads", common.threads, "Threads to use (default: all processors)")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--import-seconds", common.host.timeLimitSeconds, "Time limit of an import")
+      ->capture_default_str();
+
+  Chosen chosen;
+  NewOptions newOptions;
+  InfoOptions info;
+  BakeOptions bakeOptions;
+  RenderOptions render;
+  WalkOptions walk;
+  TourOptions tour;
+  MeasureOptions measure;
+  ValidateOptions validate;
+  BenchOptions bench;
+  addNew(app, chosen, newOptions);
+  addInfo(app, chosen, info);
+  addBake(app, chosen, bakeOptions);
+  addRender(app, chosen, render);
+  addWalk(app, chosen, walk);
+  addTour(app, chosen, tour);
+  addMeasure(app, chosen, measure);
+  addValidate(app, chosen, validate);
+  addBench(app, chosen, bench);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : kUsage;
+  }
+  common.stop = stopOnInterrupt();
+  if (!json) common.progress = terminalProgress();
+  return finish(chosen.run(common), json);
+}
