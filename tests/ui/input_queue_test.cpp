@@ -1,0 +1,55 @@
+#include "ui/input_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace acentric::ui {
+namespace {
+
+using Kind = InputEvent::Kind;
+
+TEST(InputQueue, KeepsAPressAndItsReleaseFromWithinOneFrame) {
+  InputQueue queue;
+  queue.push({Kind::keyPress, 65, 0, {}, {}, 1.00});
+  queue.push({Kind::keyRelease, 65, 0, {}, {}, 1.01});
+  EXPECT_FALSE(queue.keyHeld(65));
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, Kind::keyPress);
+  EXPECT_EQ(events[1].kind, Kind::keyRelease);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(InputQueue, RemembersWhereAButtonWentDownThoughThePointerMovedOn) {
+  InputQueue queue;
+  queue.push({Kind::move, 0, 0, {10, 20}, {}, 0});
+  queue.push({Kind::buttonPress, 0, 0, queue.pointer(), {}, 0});
+  queue.push({Kind::move, 0, 0, {90, 80}, {}, 0});
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_EQ(events[1].position, glm::dvec2(10, 20));
+  EXPECT_EQ(queue.pointer(), glm::dvec2(90, 80));
+}
+
+TEST(InputQueue, MergesMovesThatFollowOneAnother) {
+  InputQueue queue;
+  for (int i = 0; i < 50; ++i) queue.push({Kind::move, 0, 0, {double(i), 0}, {}, 0});
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].position.x, 49);
+}
+
+TEST(InputQueue, LosingTheFocusReleasesWhatIsHeld) {
+  InputQueue queue;
+  queue.push({Kind::keyPress, 87, 0, {}, {}, 0});
+  queue.push({Kind::buttonPress, 1, 0, {}, {}, 0});
+  queue.take();
+  queue.releaseAll(2);
+  EXPECT_FALSE(queue.keyHeld(87));
+  const auto events = queue.take();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, Kind::keyRelease);
+  EXPECT_EQ(events[1].kind, Kind::buttonRelease);
+}
+
+}  // namespace
+}  // namespace acentric::ui

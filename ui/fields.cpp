@@ -1,0 +1,88 @@
+#include "ui/fields.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/colour.h"
+#include "ui/widgets.h"
+
+namespace acentric::ui {
+namespace {
+
+/// Label at the left, the widget fills the rest of the line.
+void beginField(const char* label, float labelWidth, const char* help) {
+  ImGui::PushID(label);
+  ImGui::AlignTextToFramePadding();
+  mutedText(label);
+  tooltip(help);
+  ImGui::SameLine(labelWidth);
+  ImGui::SetNextItemWidth(-1);
+}
+
+FieldEdit endField(bool changed, const char* help) {
+  const FieldEdit edit{changed, ImGui::IsItemDeactivatedAfterEdit()};
+  if (!ImGui::IsItemActive()) tooltip(help);
+  ImGui::PopID();
+  return edit;
+}
+
+}  // namespace
+
+FieldEdit numberField(const NumberField& field, double& value, float labelWidth) {
+  beginField(field.label, labelWidth, field.help);
+  double edited = value;
+  const bool touched =
+      ImGui::DragScalar("##value", ImGuiDataType_Double, &edited, float(field.speed), &field.least,
+                        &field.most, field.format, ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = touched && std::isfinite(edited) && edited != value;
+  if (changed) value = std::clamp(edited, field.least, field.most);
+  return endField(changed, field.help);
+}
+
+FieldEdit numberField(const NumberField& field, int& value, float labelWidth) {
+  beginField(field.label, labelWidth, field.help);
+  int edited = value;
+  const int least = int(field.least);
+  const int most = int(field.most);
+  const bool touched = ImGui::DragInt("##value", &edited, float(field.speed), least, most, field.format,
+                                      ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = touched && edited != value;
+  if (changed) value = std::clamp(edited, least, most);
+  return endField(changed, field.help);
+}
+
+FieldEdit checkField(const char* label, bool& value, float labelWidth, const char* help) {
+  beginField(label, labelWidth, help);
+  const bool changed = ImGui::Checkbox("##value", &value);
+  FieldEdit edit = endField(changed, help);
+  edit.finished = changed;
+  return edit;
+}
+
+FieldEdit choiceField(const char* label, std::span<const Choice> choices, int& index, float labelWidth,
+                      const char* help) {
+  beginField(label, labelWidth, help);
+  const bool valid = index >= 0 && index < int(choices.size());
+  FieldEdit edit;
+  if (ImGui::BeginCombo("##value", valid ? choices[std::size_t(index)].label.c_str() : "")) {
+    for (int i = 0; i < int(choices.size()); ++i) {
+      const Choice& choice = choices[std::size_t(i)];
+      const auto flags = choice.enabled ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+      if (ImGui::Selectable(choice.label.c_str(), i == index, flags) && i != index) {
+        index = i;
+        edit = {true, true};
+      }
+      tooltip(choice.help);
+      if (i == index) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+  } else {
+    tooltip(help);
+  }
+  ImGui::PopID();
+  return edit;
+}
+
+}  // namespace acentric::ui

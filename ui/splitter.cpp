@@ -1,0 +1,32 @@
+#include "ui/splitter.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "ui/colour.h"
+
+namespace acentric::ui {
+
+bool splitter(const char* id, SplitDirection direction, float length, float& size, float least, float most,
+              bool sizesNext) {
+  const bool horizontal = direction == SplitDirection::horizontal;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 extent = horizontal ? ImVec2(kSplitterPixels, length) : ImVec2(length, kSplitterPixels);
+  ImGui::InvisibleButton(id, extent);
+  const bool active = ImGui::IsItemActive();
+  const bool hovered = ImGui::IsItemHovered();
+  if (active) {
+    const ImVec2 delta = ImGui::GetIO().MouseDelta;
+    const float change = horizontal ? delta.x : delta.y;
+    size += sizesNext ? -change : change;
+  }
+  size = std::clamp(size, least, std::max(least, most));
+  if (hovered || active)
+    ImGui::SetMouseCursor(horizontal ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  const Colour colour = active ? palette::accent : hovered ? palette::faint : palette::backdrop;
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + extent.x, at.y + extent.y}, colour.packed());
+  return active;
+}
+
+}  // namespace acentric::ui

@@ -1,0 +1,128 @@
+#include "ui/theme.h"
+
+#include <array>
+#include <filesystem>
+
+#include "ui/colour.h"
+
+namespace acentric::ui {
+namespace {
+
+constexpr const char* kRegularFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+
+// Latin, dashes and ellipsis, arrows, mathematical signs, geometric shapes, check marks.
+constexpr std::array<ImWchar, 13> kGlyphs = {0x0020, 0x00ff, 0x2010, 0x2027, 0x2190, 0x21ff, 0x2212,
+                                             0x2265, 0x25a0, 0x25ff, 0x2713, 0x2718, 0};
+
+ImFont* loadFont(const char* file, float size) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return nullptr;
+  ImFontConfig config;
+  config.OversampleH = 2;
+  config.OversampleV = 1;
+  config.PixelSnapH = true;
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, kGlyphs.data());
+}
+
+void setSizes(ImGuiStyle& style) {
+  style.WindowPadding = {12, 10};
+  style.FramePadding = {8, 4};
+  style.ItemSpacing = {8, 6};
+  style.ItemInnerSpacing = {6, 4};
+  style.CellPadding = {6, 3};
+  style.IndentSpacing = 16;
+  style.ScrollbarSize = 11;
+  style.GrabMinSize = 10;
+  style.WindowRounding = 6;
+  style.ChildRounding = 0;
+  style.FrameRounding = 4;
+  style.PopupRounding = 5;
+  style.ScrollbarRounding = 6;
+  style.GrabRounding = 3;
+  style.TabRounding = 4;
+  style.WindowBorderSize = 1;
+  style.ChildBorderSize = 0;
+  style.PopupBorderSize = 1;
+  style.FrameBorderSize = 0;
+  style.WindowTitleAlign = {0.0F, 0.5F};
+  style.WindowMenuButtonPosition = ImGuiDir_None;
+  style.DisabledAlpha = 0.45F;
+}
+
+void setColours(ImGuiStyle& style) {
+  using namespace palette;
+  const auto set = [&style](ImGuiCol_ id, const Colour& colour) { style.Colors[id] = colour.vec(); };
+  set(ImGuiCol_Text, text);
+  set(ImGuiCol_TextDisabled, muted);
+  set(ImGuiCol_WindowBg, panel);
+  set(ImGuiCol_ChildBg, panel.withOpacity(0));
+  set(ImGuiCol_PopupBg, Colour::hex(0x22262c, 0.985F));
+  set(ImGuiCol_Border, border);
+  set(ImGuiCol_BorderShadow, panel.withOpacity(0));
+  set(ImGuiCol_FrameBg, raised);
+  set(ImGuiCol_FrameBgHovered, hovered);
+  set(ImGuiCol_FrameBgActive, pressed);
+  set(ImGuiCol_TitleBg, panel);
+  set(ImGuiCol_TitleBgActive, raised);
+  set(ImGuiCol_TitleBgCollapsed, panel);
+  set(ImGuiCol_MenuBarBg, backdrop);
+  set(ImGuiCol_ScrollbarBg, panel.withOpacity(0));
+  set(ImGuiCol_ScrollbarGrab, border);
+  set(ImGuiCol_ScrollbarGrabHovered, faint);
+  set(ImGuiCol_ScrollbarGrabActive, muted);
+  set(ImGuiCol_CheckMark, accent);
+  set(ImGuiCol_SliderGrab, accent);
+  set(ImGuiCol_SliderGrabActive, accent);
+  set(ImGuiCol_Button, raised);
+  set(ImGuiCol_ButtonHovered, hovered);
+  set(ImGuiCol_ButtonActive, pressed);
+  set(ImGuiCol_Header, accentDeep.withOpacity(0.45F));
+  set(ImGuiCol_HeaderHovered, hovered);
+  set(ImGuiCol_HeaderActive, pressed);
+  set(ImGuiCol_Separator, border);
+  set(ImGuiCol_SeparatorHovered, accent);
+  set(ImGuiCol_SeparatorActive, accent);
+  set(ImGuiCol_ResizeGrip, border);
+  set(ImGuiCol_ResizeGripHovered, accent);
+  set(ImGuiCol_ResizeGripActive, accent);
+  set(ImGuiCol_Tab, panel);
+  set(ImGuiCol_TabHovered, hovered);
+  set(ImGuiCol_TabActive, raised);
+  set(ImGuiCol_TabUnfocused, panel);
+  set(ImGuiCol_TabUnfocusedActive, raised);
+  set(ImGuiCol_PlotHistogram, accent);
+  set(ImGuiCol_TableHeaderBg, raised);
+  set(ImGuiCol_TableBorderStrong, border);
+  set(ImGuiCol_TableBorderLight, border.withOpacity(0.5F));
+  set(ImGuiCol_TableRowBgAlt, Colour::hex(0xffffff, 0.02F));
+  set(ImGuiCol_TextSelectedBg, accentDeep.withOpacity(0.6F));
+  set(ImGuiCol_DragDropTarget, accent);
+  set(ImGuiCol_NavHighlight, accent);
+  set(ImGuiCol_ModalWindowDimBg, Colour::hex(0x000000, 0.55F));
+}
+
+}  // namespace
+
+Fonts applyTheme(float scale, std::string& missingFont) {
+  ImGuiStyle& style = ImGui::GetStyle();
+  setSizes(style);
+  setColours(style);
+  style.ScaleAllSizes(scale);
+
+  Fonts fonts;
+  fonts.regular = loadFont(kRegularFont, 14.0F * scale);
+  fonts.bold = loadFont(kBoldFont, 14.0F * scale);
+  fonts.small = loadFont(kRegularFont, 11.5F * scale);
+  fonts.title = loadFont(kRegularFont, 24.0F * scale);
+  if (fonts.regular == nullptr) {
+    missingFont = kRegularFont;
+    fonts.regular = ImGui::GetIO().Fonts->AddFontDefault();
+  }
+  if (fonts.bold == nullptr) fonts.bold = fonts.regular;
+  if (fonts.small == nullptr) fonts.small = fonts.regular;
+  if (fonts.title == nullptr) fonts.title = fonts.regular;
+  return fonts;
+}
+
+}  // namespace acentric::ui

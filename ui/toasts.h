@@ -1,0 +1,40 @@
+#pragma once
+/// Short messages in a corner that go away by themselves; errors stay until clicked.
+
+#include <imgui.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/colour.h"
+
+namespace acentric::ui {
+
+enum class Tone { info, good, warning, danger };
+Colour colourOf(Tone tone);
+
+class Toasts {
+ public:
+  static constexpr std::size_t kMost = 5;
+  static constexpr double kSeconds = 5;
+
+  /// The same text again renews the toast that shows it.
+  void post(Tone tone, const std::string& text, double now);
+  void expire(double now);
+  /// When something will change by itself: the next expiry.
+  std::optional<double> nextChange() const;
+  std::size_t count() const { return toasts_.size(); }
+  /// Stacked upwards from a corner (window pixels).
+  void draw(const ImVec2& lowerRight);
+
+ private:
+  struct Toast {
+    Tone tone = Tone::info;
+    std::string text;
+    double until = 0;  ///< infinity: until clicked
+  };
+  std::vector<Toast> toasts_;
+};
+
+}  // namespace acentric::ui

@@ -1,0 +1,118 @@
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace acentric::ui {
+namespace {
+
+bool colouredButton(const char* label, const ImVec2& size, bool enabled, const Colour& fill,
+                    const Colour& hover, const Colour& press) {
+  ImGui::BeginDisabled(!enabled);
+  ImGui::PushStyleColor(ImGuiCol_Button, fill.vec());
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, hover.vec());
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, press.vec());
+  const bool clicked = ImGui::Button(label, size);
+  ImGui::PopStyleColor(3);
+  ImGui::EndDisabled();
+  return clicked && enabled;
+}
+
+}  // namespace
+
+bool primaryButton(const char* label, const ImVec2& size, bool enabled) {
+  return colouredButton(label, size, enabled, palette::accentDeep,
+                        palette::accentDeep.mixed(palette::accent, 0.4F), palette::accent);
+}
+
+bool button(const char* label, const ImVec2& size, bool enabled) {
+  return colouredButton(label, size, enabled, palette::raised, palette::hovered, palette::pressed);
+}
+
+bool toggleButton(const char* label, bool on, const ImVec2& size) {
+  return on ? primaryButton(label, size) : button(label, size);
+}
+
+void panelTitle(ImFont* bold, const char* text) {
+  ImGui::PushFont(bold);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddLine({at.x, at.y - 2}, {at.x + ImGui::GetContentRegionAvail().x, at.y - 2},
+                                      palette::border.packed());
+  ImGui::Dummy({0, 2});
+}
+
+bool section(const char* label, bool openAtFirst) {
+  ImGui::Dummy({0, 1});
+  ImGui::PushStyleColor(ImGuiCol_Header, palette::raised.withOpacity(0.55F).vec());
+  const bool open =
+      ImGui::CollapsingHeader(label, openAtFirst ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+  ImGui::PopStyleColor();
+  return open;
+}
+
+void mutedText(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::muted.vec());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void wrappedText(const Colour& colour, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour.vec());
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void keyValue(const char* label, const std::string& value, float valueX) {
+  mutedText(label);
+  ImGui::SameLine(valueX);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+void progressBar(double fraction, const std::string& text, double seconds, const Colour& colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size(std::max(20.0F, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
+  ImGui::Dummy(size);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(at.x + size.x, at.y + size.y);
+  list.AddRectFilled(at, end, palette::raised.packed(), 4);
+  float from = 0;
+  float to = float(std::clamp(fraction, 0.0, 1.0));
+  if (fraction < 0) {
+    const double phase = std::fmod(seconds * 0.6, 1.0);
+    from = float(std::max(0.0, phase * 1.3 - 0.3));
+    to = float(std::min(1.0, phase * 1.3));
+  }
+  if (to > from && (to - from) * size.x >= 2)
+    list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + to * size.x, end.y},
+                       colour.withOpacity(0.55F).packed(), 4);
+  const ImVec2 textSize = ImGui::CalcTextSize(text.c_str());
+  list.PushClipRect(at, end, true);
+  list.AddText({at.x + std::max(8.0F, (size.x - textSize.x) / 2), at.y + (size.y - textSize.y) / 2},
+               palette::text.packed(), text.c_str());
+  list.PopClipRect();
+}
+
+void badge(const Colour& colour, const std::string& text) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5, at.y + line / 2 + 0.5F}, 4, colour.packed());
+  ImGui::SetCursorScreenPos({at.x + 15, at.y});
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void tooltip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10, 8});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace acentric::ui

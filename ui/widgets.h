@@ -1,0 +1,34 @@
+#pragma once
+/// Small widgets that give every panel the same look.
+
+#include <imgui.h>
+
+#include <string>
+
+#include "ui/colour.h"
+
+namespace acentric::ui {
+
+/// A filled button for the one thing that a panel is for.
+bool primaryButton(const char* label, const ImVec2& size = {0, 0}, bool enabled = true);
+bool button(const char* label, const ImVec2& size = {0, 0}, bool enabled = true);
+/// A button that stays down while `on`.
+bool toggleButton(const char* label, bool on, const ImVec2& size = {0, 0});
+
+/// Panel title in bold over a thin line.
+void panelTitle(ImFont* bold, const char* text);
+/// Collapsible section, open at first.
+bool section(const char* label, bool openAtFirst = true);
+void mutedText(const std::string& text);
+void wrappedText(const Colour& colour, const std::string& text);
+/// Label left in muted ink, value from `valueX` on.
+void keyValue(const char* label, const std::string& value, float valueX);
+/// Bar of the available width with text in it. fraction < 0: unknown, a moving bar (`seconds` moves it).
+void progressBar(double fraction, const std::string& text, double seconds,
+                 const Colour& colour = palette::accent);
+/// A filled dot and text.
+void badge(const Colour& colour, const std::string& text);
+/// Help for the widget before it, wrapped, after a short rest of the pointer.
+void tooltip(const std::string& text);
+
+}  // namespace acentric::ui

@@ -1,0 +1,197 @@
+#include "ui/window.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+// After epoxy, which brings its own OpenGL declarations.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <utility>
+
+#include "ui/colour.h"
+
+namespace acentric::ui {
+namespace {
+
+Window& windowOf(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
+
+GLFWwindow* createWithVersion(const WindowOptions& options, int major, int minor) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_MAXIMIZED, options.maximised ? GLFW_TRUE : GLFW_FALSE);
+  return glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+}
+
+std::string lastGlfwError(const char* otherwise) {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : otherwise;
+}
+
+}  // namespace
+
+tl::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowOptions& options) {
+  if (glfwInit() != GLFW_TRUE)
+    return tl::unexpected(
+        fmt::format("no display to open a window on ({})", lastGlfwError("unknown reason")));
+
+  std::unique_ptr<Window> window(new Window);
+  constexpr std::array<std::pair<int, int>, 3> kVersions = {{{4, 5}, {4, 3}, {3, 3}}};
+  for (const auto& [major, minor] : kVersions) {
+    window->window_ = createWithVersion(options, major, minor);
+    if (window->window_ != nullptr) break;
+  }
+  if (window->window_ == nullptr)
+    return tl::unexpected(fmt::format("OpenGL 3.3 core is needed and not offered by this display ({})",
+                                      lastGlfwError("no reason given")));
+
+  window->title_ = options.title;
+  glfwMakeContextCurrent(window->window_);
+  glfwSwapInterval(1);
+  window->installCallbacks();
+
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // the layout is the program's own affair
+  ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+  float scaleX = 1;
+  float scaleY = 1;
+  glfwGetWindowContentScale(window->window_, &scaleX, &scaleY);
+  window->fonts_ = applyTheme(scaleX, window->missingFont_);
+  // Chains to our callbacks, which therefore must be installed already.
+  if (!ImGui_ImplGlfw_InitForOpenGL(window->window_, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
+    return tl::unexpected(std::string("the interface could not be set up on this OpenGL context"));
+  window->imguiReady_ = true;
+  return window;
+}
+
+Window::~Window() {
+  if (imguiReady_) {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+  }
+  if (ImGui::GetCurrentContext() != nullptr) ImGui::DestroyContext();
+  if (window_ != nullptr) glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void Window::installCallbacks() {
+  glfwSetWindowUserPointer(window_, this);
+  using Kind = InputEvent::Kind;
+  glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
+    Window& self = windowOf(handle);
+    const Kind kind = action == GLFW_PRESS    ? Kind::keyPress
+                      : action == GLFW_REPEAT ? Kind::keyRepeat
+                                              : Kind::keyRelease;
+    self.input_.push({kind, key, modifiers, self.input_.pointer(), {}, seconds()});
+    self.pacer_.request();
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int button, int action, int modifiers) {
+    Window& self = windowOf(handle);
+    const Kind kind = action == GLFW_PRESS ? Kind::buttonPress : Kind::buttonRelease;
+    self.input_.push({kind, button, modifiers, self.input_.pointer(), {}, seconds()});
+    self.pacer_.request();
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double x, double y) {
+    Window& self = windowOf(handle);
+    self.input_.push({Kind::move, 0, self.input_.modifiers(), {x, y}, {}, seconds()});
+    self.pacer_.request();
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* handle, double x, double y) {
+    Window& self = windowOf(handle);
+    self.input_.push({Kind::scroll, 0, self.input_.modifiers(), self.input_.pointer(), {x, y}, seconds()});
+    self.pacer_.request();
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** paths) {
+    Window& self = windowOf(handle);
+    for (int i = 0; i < count; ++i) self.dropped_.emplace_back(paths[i]);
+    self.pacer_.request();
+  });
+  glfwSetWindowCloseCallback(window_, [](GLFWwindow* handle) {
+    Window& self = windowOf(handle);
+    glfwSetWindowShouldClose(handle, GLFW_FALSE);  // the program asks about unsaved work first
+    self.closeRequested_ = true;
+    self.pacer_.request();
+  });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* handle, int focused) {
+    Window& self = windowOf(handle);
+    if (focused == GLFW_FALSE) self.input_.releaseAll(seconds());
+    self.pacer_.request();
+  });
+  glfwSetFramebufferSizeCallback(window_,
+                                 [](GLFWwindow* handle, int, int) { windowOf(handle).pacer_.request(); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { windowOf(handle).pacer_.request(); });
+}
+
+void Window::run(const std::function<void()>& update, const std::function<void()>& draw) {
+  while (!closing_) {
+    const double sleep = pacer_.sleepSeconds(seconds());
+    const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+    if (hidden)
+      glfwWaitEventsTimeout(FramePacer::kIdleSleep);
+    else if (sleep > 0)
+      glfwWaitEventsTimeout(sleep);
+    else
+      glfwPollEvents();
+    update();
+    if (!hidden && !closing_ && pacer_.shouldDraw(seconds())) drawFrame(draw);
+  }
+}
+
+void Window::drawFrame(const std::function<void()>& draw) {
+  pacer_.drawn(seconds());
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  draw();
+  ImGui::Render();
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearColor(palette::backdrop.r, palette::backdrop.g, palette::backdrop.b, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window_);
+  ++frames_;
+}
+
+bool Window::takeCloseRequest() { return std::exchange(closeRequested_, false); }
+
+void Window::wake() { glfwPostEmptyEvent(); }
+double Window::seconds() { return glfwGetTime(); }
+
+std::vector<std::filesystem::path> Window::takeDropped() { return std::exchange(dropped_, {}); }
+
+void Window::setTitle(const std::string& title) {
+  if (title == title_) return;
+  title_ = title;
+  glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::capturePointer(bool captured) {
+  if (captured == captured_) return;
+  captured_ = captured;
+  glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+std::string Window::graphicsDescription() const {
+  return fmt::format("OpenGL {}.{}, {}", epoxy_gl_version() / 10, epoxy_gl_version() % 10,
+                     static_cast<const char*>(static_cast<const void*>(glGetString(GL_RENDERER))));
+}
+
+glm::ivec2 Window::size() const {
+  glm::ivec2 result{0};
+  glfwGetWindowSize(window_, &result.x, &result.y);
+  return result;
+}
+
+}  // namespace acentric::ui
