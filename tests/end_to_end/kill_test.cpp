@@ -1,0 +1,82 @@
+/// A bake killed at any moment loses nothing that was finished and leaves nothing half-written.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <map>
+#include <random>
+
+#include "tests/end_to_end/sample_project.h"
+
+namespace acentric::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Identity = std::pair<ino_t, std::int64_t>;  // inode and time of change: a file written anew differs
+
+Identity identityOf(const fs::path& path) {
+  struct stat info {};
+  ::stat(path.c_str(), &info);
+  return {info.st_ino, std::int64_t(info.st_mtim.tv_sec) * 1'000'000'000 + info.st_mtim.tv_nsec};
+}
+
+/// Captures with both of their files in place.
+std::map<fs::path, Identity> finishedCaptures(const fs::path& folder) {
+  std::map<fs::path, Identity> finished;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto pack = fs::path(entry.path()).replace_extension(".pack");
+    if (entry.path().extension() == ".exr" && entry.path().filename().string().front() != '.' && fs::exists(pack)) {
+      finished[entry.path()] = identityOf(entry.path());
+      finished[pack] = identityOf(pack);
+    }
+  }
+  return finished;
+}
+
+TEST(KilledBake, FinishesNextTimeWithoutBakingAnythingTwice) {
+  SampleProject project("kill");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto whole = acentric({"bake", project.file(), "--json"});
+  ASSERT_EQ(whole.exitCode, 0) << whole.errors;
+  const int cameras = Json::parse(whole.output)["baked"].get<int>();
+
+  std::mt19937 random(20030117);
+  int interrupted = 0, halfway = 0;
+  for (int round = 0; round < 10; ++round) {
+    fs::remove_all(project.captures());
+    const double share = std::uniform_real_distribution<double>(0.05, 0.95)(random);
+    const auto killed = acentric({"bake", project.file()}, std::chrono::milliseconds(int(whole.seconds * share * 1000)));
+    interrupted += killed.signal == 9;
+    const auto before = finishedCaptures(project.captures());
+    halfway += !before.empty() && int(before.size()) < 2 * cameras;
+
+    const auto next = acentric({"bake", project.file(), "--json"});
+    ASSERT_EQ(next.exitCode, 0) << next.errors;
+    const Json report = Json::parse(next.output);
+    EXPECT_EQ(report["reused"].get<int>(), int(before.size()) / 2);
+    EXPECT_EQ(report["baked"].get<int>(), cameras - int(before.size()) / 2);
+    for (const auto& [path, identity] : before) EXPECT_EQ(identityOf(path), identity) << path << " was written again";
+    for (const auto& entry : fs::directory_iterator(project.captures()))
+      EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
+    const auto validated = acentric({"validate", project.file()});
+    EXPECT_EQ(validated.exitCode, 0) << validated.output;
+  }
+  EXPECT_GE(interrupted, 8) << "most rounds must really be interrupted";
+  EXPECT_GE(halfway, 3) << "some rounds must be interrupted between the first and the last capture";
+}
+
+TEST(InterruptedBake, WithCtrlCLeavesCompleteCapturesAndSaysSo) {
+  SampleProject project("interrupt");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto stopped = runProcess({"timeout", "--signal=INT", "1.5", ACENTRIC_PROGRAM, "bake", project.file()});
+  if (stopped.exitCode == 124) {  // it was still baking when the signal came
+    EXPECT_NE(stopped.errors.find("cancel"), std::string::npos) << stopped.errors;
+  }
+  EXPECT_EQ(acentric({"bake", project.file()}).exitCode, 0);
+  EXPECT_EQ(acentric({"validate", project.file()}).exitCode, 0);
+}
+
+}  // namespace
+}  // namespace acentric::test

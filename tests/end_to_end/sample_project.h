@@ -1,0 +1,43 @@
+#pragma once
+/// A small project of the generated gallery, at a resolution that bakes in seconds.
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/process.h"
+
+namespace acentric::test {
+
+using Json = nlohmann::json;
+
+inline ProcessResult acentric(std::vector<std::string> arguments, std::chrono::milliseconds limit = std::chrono::minutes(5)) {
+  arguments.insert(arguments.begin(), ACENTRIC_PROGRAM);
+  return runProcess(arguments, limit);
+}
+
+/// Generates the gallery and makes a coarse project of it.
+class SampleProject {
+ public:
+  explicit SampleProject(const std::string& name) : folder_(name) {
+    generated_ = runProcess({ACENTRIC_SAMPLE_GENERATOR, (folder_.path() / "gallery.glb").string()});
+    made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree", "1", "--cell", "2.5"});
+    Json project = read();
+    project["bake"]["ambientRays"] = 4;
+    project["bake"]["surfaceTexel"] = 0.5;
+    write(project);
+  }
+  std::string file() const { return (folder_.path() / "gallery.acentric.json").string(); }
+  std::filesystem::path captures() const { return folder_.path() / "gallery.captures"; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  const ProcessResult& generated() const { return generated_; }
+  const ProcessResult& made() const { return made_; }
+  Json read() const { return Json::parse(std::ifstream(file()), nullptr, false); }
+  void write(const Json& project) const { std::ofstream(file()) << project.dump(2); }
+
+ private:
+  TemporaryFolder folder_;
+  ProcessResult generated_, made_;
+};
+
+}  // namespace acentric::test

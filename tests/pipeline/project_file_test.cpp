@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "engine/base/file.h"
+#include "engine/geometry/conventions.h"
+#include "engine/pipeline/project.h"
+
+namespace acentric {
+namespace {
+
+using testing::HasSubstr;
+
+Project everythingSet() {
+  Project project;
+  project.scene = "models/house with spaces.glb";
+  project.import = {0.01, UpAxis::z, false};
+  project.effects = {{Effect::ambientOcclusion, false}, {Effect::normalMaps, true}};
+  project.layout.configuration = Configuration::e;
+  project.layout.cellSize = 1.7000000000000002;
+  project.layout.latticeOrigin = {0.1, -1e6 / 3};
+  project.layout.rotationRadians = radians(12.5);
+  project.layout.floorHeight = -0.25;
+  project.layout.eyeHeight = 1.55;
+  project.layout.nearBand = 0.75;
+  project.layout.outline.loops = {{{0, 0}, {8, 0}, {8, 6}, {0, 6}}, {{2, 2}, {3, 2}, {3, 3}}};
+  project.layout.added = {{1, -2, 0}, {4, 5, 0}};
+  project.layout.removed = {{0, 0, 0}};
+  project.bake = {12.5, 24, 1.5, 0.02, 4};
+  project.view.renderer = Renderer::zbuffer;
+  project.view.reconstruction = Reconstruction::point;
+  project.view.maxSplatPixels = 7;
+  project.view.localGeometry = false;
+  project.view.secondaryCover = false;
+  project.view.fillHoles = false;
+  project.fovDegrees = 72.5;
+  project.exposure = 0.123f;
+  project.spawn = {{1.25, 2.5}, radians(-90.0)};
+  return project;
+}
+
+std::string refusalOf(const std::string& text) {
+  const auto project = parseProject(text, "p.acentric.json");
+  if (project) return "accepted";
+  EXPECT_EQ(project.error().where, "p.acentric.json");
+  return project.error().message;
+}
+
+std::string minimal(const std::string& layout, const std::string& more = "") {
+  return R"({"format":"acentric-project","version":1,"scene":"a.glb","layout":)" + layout + more + "}";
+}
+
+TEST(ProjectFile, RoundTripsEveryField) {
+  const Project project = everythingSet();
+  const auto back = parseProject(formatProject(project), "p");
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, project);
+}
+
+TEST(ProjectFile, WritingIsStable) {
+  const std::string once = formatProject(everythingSet());
+  EXPECT_EQ(formatProject(*parseProject(once, "p")), once);
+  EXPECT_EQ(once.back(), '\n');
+}
+
+TEST(ProjectFile, FillsInDefaultsForWhatIsNotNamed) {
+  const auto project = parseProject(minimal(R"({"configuration":"b","cellSize":2})"), "p");
+  ASSERT_TRUE(project) << project.error().describe();
+  Project expected;
+  expected.scene = "a.glb";
+  expected.layout.configuration = Configuration::b;
+  expected.layout.cellSize = 2;
+  EXPECT_EQ(*project, expected);
+}
+
+TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":-1})")), HasSubstr("/layout/cellSize"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"z","cellSize":1})")), HasSubstr("/layout/configuration"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":"2"})")), HasSubstr("/layout/cellSize"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2,"outline":[[[0,0],[1,0]]]})")), HasSubstr("/layout/outline/0"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"bake":{"ambientRays":1e9})")), HasSubstr("/bake/ambientRays"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")), HasSubstr("/view/exposure"));
+}
+
+TEST(ProjectFile, RefusesUnknownKeys) {
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2,"colour":1})")), HasSubstr("colour"));
+}
+
+TEST(ProjectFile, RefusesWhatIsNoProject) {
+  for (const char* text : {"", "{", "[]", "null", "42", "{}", "\xff\xfe", R"({"format":"other","version":1})"})
+    EXPECT_NE(refusalOf(text), "accepted") << text;
+  EXPECT_THAT(refusalOf(std::string(100000, '[')), testing::Not(testing::IsEmpty()));
+}
+
+TEST(ProjectFile, SaysThatANewerVersionIsNewer) {
+  EXPECT_THAT(refusalOf(R"({"format":"acentric-project","version":2})"), HasSubstr("newer"));
+}
+
+TEST(ProjectFile, RefusesAbsoluteScenePaths) {
+  EXPECT_THAT(refusalOf(R"({"format":"acentric-project","version":1,"scene":"/etc/passwd","layout":{"configuration":"b","cellSize":2}})"),
+              HasSubstr("/scene"));
+}
+
+TEST(ProjectFile, SavesAndLoads) {
+  const auto file = std::filesystem::temp_directory_path() / ("acentric-project-test-" + std::to_string(::getpid()) + ".acentric.json");
+  ASSERT_TRUE(saveProject(everythingSet(), file));
+  const auto back = loadProject(file);
+  std::filesystem::remove(file);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(*back, everythingSet());
+}
+
+TEST(ProjectFile, NeverSavesWhatItWouldNotLoad) {
+  Project broken = everythingSet();
+  broken.exposure = std::numeric_limits<float>::quiet_NaN();
+  const auto file = std::filesystem::temp_directory_path() / "acentric-never-written.acentric.json";
+  EXPECT_FALSE(saveProject(broken, file));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(ProjectFile, CapturesLieBesideTheProject) {
+  EXPECT_EQ(captureFolderFor("/a/b/gallery.acentric.json"), "/a/b/gallery.captures");
+  EXPECT_EQ(captureFolderFor("gallery.json"), "gallery.captures");
+}
+
+}  // namespace
+}  // namespace acentric
