@@ -38,10 +38,10 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
     return fail(ErrorKind::invalidArgument, "--renderer truth would compare the truth with itself");
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto path = loadPath(options.path);
-  if (!path) return tl::unexpected(path.error());
   const auto open = openProject(options.project, common.host, common.progress, common.stop);
   if (!open) return tl::unexpected(open.error());
+  const auto path = pathOrTour(options.path, *open, kTourFrames);
+  if (!path) return tl::unexpected(path.error());
   const auto all = viewsAlong(*path, *open, *size, options.fovDegrees);
   if (!all) return tl::unexpected(all.error());
   const auto views = evenly(*all, options.frames);

@@ -30,10 +30,10 @@ Result<Report> runTour(const TourOptions& options, const Common& common) {
 Result<Report> runWalk(const WalkOptions& options, const Common& common) {
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto path = loadPath(options.path);
-  if (!path) return tl::unexpected(path.error());
   const auto open = openProject(options.project, common.host, common.progress, common.stop);
   if (!open) return tl::unexpected(open.error());
+  const auto path = pathOrTour(options.path, *open, kTourFrames);
+  if (!path) return tl::unexpected(path.error());
   const auto views = viewsAlong(*path, *open, *size, options.fovDegrees);
   if (!views) return tl::unexpected(views.error());
   const auto runner = common.runner();

@@ -30,6 +30,9 @@ struct BakeOptions {
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);
 
+/// Frames of the tour that commands make where no path is given.
+inline constexpr int kTourFrames = 60;
+
 /// "960x540".
 struct PictureSize {
   int width = 960, height = 540;
@@ -54,7 +57,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common);
 
 struct TourOptions {
   std::filesystem::path project, output;
-  int frames = 60;
+  int frames = kTourFrames;
 };
 Result<Report> runTour(const TourOptions& options, const Common& common);
 

@@ -104,7 +104,8 @@ void addWalk(CLI::App& app, Chosen& chosen, WalkOptions& o) {
   CLI::App* c = add(app, chosen, "walk", "Render a camera path to PNG frames and a contact sheet",
                     "  acentric walk kitchen.acentric.json --path tour.json -o frames", o, runWalk);
   c->add_option("project", o.project, "Project file")->required();
-  c->add_option("--path", o.path, "Camera path (JSON), such as `acentric tour` writes")->required();
+  c->add_option("--path", o.path,
+                "Camera path (JSON), such as `acentric tour` writes (default: a tour of 60 frames)");
   c->add_option("-o,--output", o.output, "Folder for the frames")->required();
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
@@ -129,7 +130,7 @@ void addMeasure(CLI::App& app, Chosen& chosen, MeasureOptions& o) {
                     "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare",
                     o, runMeasure);
   c->add_option("project", o.project, "Project file")->required();
-  c->add_option("--path", o.path, "Camera path (JSON)")->required();
+  c->add_option("--path", o.path, "Camera path (JSON; default: a tour of 60 frames)");
   c->add_option("--renderer", o.renderer, "list, scalar, zbuffer or gl")
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
       ->capture_default_str();

@@ -31,4 +31,9 @@ Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const Op
   return views;
 }
 
+Result<CameraPath> pathOrTour(const std::filesystem::path& file, const OpenProject& open, int tourFrames) {
+  if (!file.empty()) return loadPath(file);
+  return tourOf(*open.layout, open.project.spawn.position, tourFrames);
+}
+
 }  // namespace acentric::cli

@@ -15,4 +15,7 @@ namespace acentric::cli {
 Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const OpenProject& open,
                                                 PictureSize size, double fovDegrees);
 
+/// The path in a file, or a tour of so many frames through all regions where no file is named.
+Result<CameraPath> pathOrTour(const std::filesystem::path& file, const OpenProject& open, int tourFrames);
+
 }  // namespace acentric::cli
