@@ -1,0 +1,73 @@
+#include "engine/bake/capture_writer.h"
+
+#include <exception>
+
+namespace acentric {
+namespace {
+
+/// A sink is handed in from outside: what it throws must not end the program from a thread of ours.
+Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& capture) {
+  try {
+    return sink.put(key, capture);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory to write a capture", key.toHex());
+  } catch (const std::exception& e) {
+    return fail(ErrorKind::internal, std::string("writing a capture failed: ") + e.what(), key.toHex());
+  }
+}
+
+}  // namespace
+
+CaptureWriter::CaptureWriter(CaptureSink& sink) : sink_(sink), thread_([this] { loop(); }) {}
+
+CaptureWriter::~CaptureWriter() {
+  const std::lock_guard lock(mutex_);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+Status CaptureWriter::status() const {
+  if (error_) return tl::unexpected(*error_);
+  return {};
+}
+
+Status CaptureWriter::put(const ContentKey& key, Capture capture) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kBound || error_; });
+  if (error_) return status();
+  waiting_.push_back({key, std::move(capture)});
+  changed_.notify_all();
+  return {};
+}
+
+Status CaptureWriter::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+  const std::lock_guard lock(mutex_);
+  return status();
+}
+
+void CaptureWriter::loop() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || closed_; });
+    if (waiting_.empty() || error_) return;
+    const Job job = std::move(waiting_.front());
+    waiting_.pop_front();
+    changed_.notify_all();
+    lock.unlock();
+    Status done = putSafely(sink_, job.key, job.capture);
+    lock.lock();
+    if (!done) {
+      error_ = done.error();
+      waiting_.clear();
+      changed_.notify_all();
+    }
+  }
+}
+
+}  // namespace acentric

@@ -1,0 +1,47 @@
+#pragma once
+/// Hands finished captures to the sink on a thread of its own, so that the next camera is traced while the
+/// last is compressed and written. At most two wait: beyond that the bake waits, and memory stays bounded.
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "engine/bake/bake.h"
+
+namespace acentric {
+
+class CaptureWriter {
+ public:
+  explicit CaptureWriter(CaptureSink& sink);
+  ~CaptureWriter();  ///< writes what waits
+  CaptureWriter(const CaptureWriter&) = delete;
+  CaptureWriter& operator=(const CaptureWriter&) = delete;
+
+  /// Waits while the queue is full. The first error of the sink comes back here, and nothing is written after
+  /// it.
+  Status put(const ContentKey& key, Capture capture);
+  /// Waits until all is written.
+  Status finish();
+
+ private:
+  struct Job {
+    ContentKey key;
+    Capture capture;
+  };
+  static constexpr std::size_t kBound = 2;
+
+  void loop();
+  Status status() const;  ///< with mutex_ held
+
+  CaptureSink& sink_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> waiting_;
+  bool closed_ = false;
+  std::optional<Error> error_;
+  std::jthread thread_;
+};
+
+}  // namespace acentric

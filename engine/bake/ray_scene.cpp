@@ -1,0 +1,271 @@
+#include "engine/bake/ray_scene.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <new>
+
+#include "engine/bake/embree_handles.h"
+#include "engine/bake/flush_denormals.h"
+#include "engine/bake/material_rules.h"
+#include "engine/bake/surface.h"
+
+namespace acentric {
+namespace {
+
+/// Geometry masks: rays that look for occluders do not see what light passes through, without asking a
+/// filter.
+constexpr unsigned kSolidMask = 1;
+constexpr unsigned kClearMask = 2;
+
+/// What a filter needs to know about its mesh.
+struct FilteredMesh {
+  const Scene* scene = nullptr;
+  const Mesh* mesh = nullptr;
+  MaterialRules rules;
+  DetailRules detail;
+};
+
+struct TransmittanceContext {
+  RTCIntersectContext base;
+  glm::vec3 passed{1};
+};
+
+struct FirstError {
+  std::mutex mutex;
+  RTCError code = RTC_ERROR_NONE;
+  std::string message;
+};
+
+void rememberError(void* where, RTCError code, const char* message) {
+  auto& first = *static_cast<FirstError*>(where);
+  const std::lock_guard lock(first.mutex);
+  if (first.code != RTC_ERROR_NONE) return;
+  first.code = code;
+  first.message = message == nullptr ? "no details" : message;
+}
+
+tl::unexpected<Error> embreeFailure(RTCError code, const std::string& message, const std::string& where) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    return fail(ErrorKind::outOfSpace,
+                "not enough memory to make the scene traceable; simplify it or close other programs", where);
+  return fail(ErrorKind::internal,
+              fmt::format("Embree refused the scene: {} (error {})", message, static_cast<int>(code)), where);
+}
+
+glm::vec2 hitBarycentric(const RTCFilterFunctionNArguments& args, unsigned i) {
+  return {RTCHitN_u(args.hit, args.N, i), RTCHitN_v(args.hit, args.N, i)};
+}
+
+bool isCutOut(const FilteredMesh& filtered, const glm::vec4& baseColour) {
+  return filtered.rules.masked &&
+         baseColour.a < filtered.scene->materials[std::size_t(filtered.mesh->material)].alphaCutoff;
+}
+
+/// Share of light that passes a clear surface. Blending passes 1 - alpha of every channel, as when pictures
+/// are composed; glass passes its tint less what it reflects at the mean angle.
+glm::vec3 passedBy(const FilteredMesh& filtered, const glm::vec4& baseColour) {
+  if (!filtered.rules.clear()) return glm::vec3(0);
+  glm::vec3 passed(1);
+  if (filtered.rules.blended) passed *= 1 - glm::clamp(baseColour.a, 0.0f, 1.0f);
+  if (filtered.rules.transmissive) {
+    constexpr float kUnreflected = 0.92f;
+    const float transmission = filtered.scene->materials[std::size_t(filtered.mesh->material)].transmission;
+    passed *= glm::clamp(transmission * kUnreflected * glm::vec3(baseColour), 0.0f, 1.0f);
+  }
+  return passed;
+}
+
+void cutOutFilter(const RTCFilterFunctionNArguments* args) {
+  const auto& filtered = *static_cast<const FilteredMesh*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+    if (isCutOut(filtered, baseColourAt(*filtered.scene, *filtered.mesh, triangle, hitBarycentric(*args, i),
+                                        filtered.detail)))
+      args->valid[i] = 0;
+  }
+}
+
+/// Occlusion asks for transmittance alone, one ray at a time: see RayScene::transmittance.
+void passFilter(const RTCFilterFunctionNArguments* args) {
+  constexpr float kBlack = 1.0f / 4096;
+  const auto& filtered = *static_cast<const FilteredMesh*>(args->geometryUserPtr);
+  auto& context = *reinterpret_cast<TransmittanceContext*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+    const glm::vec4 colour =
+        baseColourAt(*filtered.scene, *filtered.mesh, triangle, hitBarycentric(*args, i), filtered.detail);
+    if (isCutOut(filtered, colour)) {
+      args->valid[i] = 0;
+      continue;
+    }
+    context.passed *= passedBy(filtered, colour);
+    const bool dark = glm::all(glm::lessThan(context.passed, glm::vec3(kBlack)));
+    if (!dark) args->valid[i] = 0;  // go on through it
+  }
+}
+
+RTCRay embreeRay(const Ray& ray, unsigned mask) {
+  RTCRay r{};
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = ray.nearest;
+  r.tfar = ray.farthest;
+  r.mask = mask;
+  return r;
+}
+
+Status checkMesh(const Scene& scene, const Mesh& mesh) {
+  const auto bad = [&](const char* message) {
+    return fail(ErrorKind::malformed, message, fmt::format("{}, mesh {}", scene.name, mesh.name));
+  };
+  if (mesh.material < 0 || std::size_t(mesh.material) >= scene.materials.size())
+    return bad("its material does not exist");
+  for (const auto& t : mesh.triangles)
+    if (std::max(t.x, std::max(t.y, t.z)) >= mesh.positions.size())
+      return bad("a triangle names a corner that does not exist");
+  const auto fits = [&](std::size_t size) { return size == 0 || size == mesh.positions.size(); };
+  if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.colours.size()) ||
+      !fits(mesh.uv[0].size()) || !fits(mesh.uv[1].size()))
+    return bad("its attributes differ in number from its positions");
+  return {};
+}
+
+}  // namespace
+
+RayCounts& RayCounts::operator+=(const RayCounts& other) {
+  primary += other.primary;
+  shadow += other.shadow;
+  ambient += other.ambient;
+  mirror += other.mirror;
+  return *this;
+}
+
+struct RayScene::Embree {
+  FirstError error;
+  EmbreeDevice device;
+  EmbreeScene scene;
+  std::vector<std::unique_ptr<FilteredMesh>> filtered;  ///< address handed to Embree
+
+  Status open(const std::string& name);
+  Status add(const Scene& source, std::uint32_t meshIndex, const MaterialRules& rules,
+             const DetailRules& detail);
+  Status commit(const std::string& name);
+};
+
+Status RayScene::Embree::open(const std::string& name) {
+  device = EmbreeDevice(rtcNewDevice("verbose=0"));
+  if (!device) return embreeFailure(rtcGetDeviceError(nullptr), "no device on this machine", name);
+  rtcSetDeviceErrorFunction(device.get(), rememberError, &error);
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0 ||
+      rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0)
+    return fail(ErrorKind::unsupported,
+                "this Embree was built without ray masks or filter functions; install Debian's", name);
+  scene = EmbreeScene(rtcNewScene(device.get()));
+  if (!scene) return embreeFailure(error.code, error.message, name);
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  // Not "high": its spatial splits may report one triangle twice, and a tint would count twice.
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
+  return {};
+}
+
+Status RayScene::Embree::add(const Scene& source, std::uint32_t meshIndex, const MaterialRules& rules,
+                             const DetailRules& detail) {
+  const Mesh& mesh = source.meshes[meshIndex];
+  EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  if (!geometry) return embreeFailure(error.code, error.message, source.name);
+  // Embree's own buffers: it reads 16 bytes at a time, beyond the end of a shared vector.
+  void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                            sizeof(glm::vec3), mesh.positions.size());
+  void* triangles = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(glm::uvec3), mesh.triangles.size());
+  if (positions == nullptr || triangles == nullptr)
+    return embreeFailure(error.code, error.message, source.name);
+  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(positions));
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<glm::uvec3*>(triangles));
+
+  rtcSetGeometryMask(geometry.get(), rules.clear() ? kClearMask : kSolidMask);
+  if (rules.masked || rules.clear()) {
+    filtered.push_back(std::make_unique<FilteredMesh>(FilteredMesh{&source, &mesh, rules, detail}));
+    rtcSetGeometryUserData(geometry.get(), filtered.back().get());
+    if (rules.masked) rtcSetGeometryIntersectFilterFunction(geometry.get(), cutOutFilter);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), passFilter);
+  }
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene.get(), geometry.get(), meshIndex);
+  return {};
+}
+
+Status RayScene::Embree::commit(const std::string& name) {
+  rtcCommitScene(scene.get());
+  if (error.code != RTC_ERROR_NONE) return embreeFailure(error.code, error.message, name);
+  return {};
+}
+
+RayScene::RayScene(ScenePtr scene, const EffectPlan& plan)
+    : scene_(std::move(scene)), plan_(plan), embree_(std::make_unique<Embree>()) {}
+
+RayScene::~RayScene() = default;
+
+Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const EffectPlan& plan) {
+  const FlushDenormals flush;
+  try {
+    std::shared_ptr<RayScene> made(new RayScene(std::move(scene), plan));
+    const Scene& source = *made->scene_;
+    if (auto opened = made->embree_->open(source.name); !opened) return tl::unexpected(opened.error());
+    const auto rules = materialRules(source, plan);
+    const auto detail = detailRules(plan);
+    for (std::uint32_t m = 0; m < source.meshes.size(); ++m) {
+      const Mesh& mesh = source.meshes[m];
+      if (auto sound = checkMesh(source, mesh); !sound) return tl::unexpected(sound.error());
+      if (mesh.triangles.empty()) continue;
+      if (auto added = made->embree_->add(source, m, rules[std::size_t(mesh.material)], detail); !added)
+        return tl::unexpected(added.error());
+    }
+    if (auto committed = made->embree_->commit(source.name); !committed)
+      return tl::unexpected(committed.error());
+    return made;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory to make the scene traceable");
+  }
+}
+
+Hit RayScene::trace(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  query.ray = embreeRay(ray, kSolidMask | kClearMask);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene.get(), &context, &query);
+  Hit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.distance = query.ray.tfar;
+  hit.mesh = query.hit.geomID;
+  hit.triangle = query.hit.primID;
+  hit.barycentric = {query.hit.u, query.hit.v};
+  hit.geometricNormal = triangleNormal(scene_->meshes[hit.mesh], hit.triangle);
+  return hit;
+}
+
+glm::vec3 RayScene::transmittance(const Ray& ray) const {
+  TransmittanceContext context;
+  rtcInitIntersectContext(&context.base);
+  RTCRay query = embreeRay(ray, kSolidMask | kClearMask);
+  rtcOccluded1(embree_->scene.get(), &context.base, &query);
+  return query.tfar < 0 ? glm::vec3(0) : context.passed;  // Embree marks an occluded ray by tfar = -infinity
+}
+
+float RayScene::occluderDistance(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  query.ray = embreeRay(ray, kSolidMask);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene.get(), &context, &query);
+  return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
+                                                     : query.ray.tfar;
+}
+
+}  // namespace acentric

@@ -1,0 +1,190 @@
+#include "engine/bake/shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/bake/surface.h"
+
+namespace acentric {
+namespace {
+
+/// Layers of glass and blending that a composed ray goes through at most.
+constexpr int kMaxBlendedLayers = 32;
+
+float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+template <bool kShadows>
+glm::vec3 arriving(const RayScene& scene, const Surface& surface, const glm::vec3& irradiance,
+                   const glm::vec3& towards, float distance, RayCounts& rays) {
+  const float cosine = glm::dot(surface.normal, towards);
+  if (cosine <= 0 || glm::dot(surface.geometricNormal, towards) <= 0 || irradiance == glm::vec3(0))
+    return glm::vec3(0);
+  glm::vec3 light = irradiance * cosine;
+  if constexpr (kShadows) {
+    ++rays.shadow;
+    light *= scene.transmittance({surface.rayOrigin, towards, 0, distance});
+  }
+  return light;
+}
+
+/// Irradiance of all punctual lights.
+template <bool kShadows>
+glm::vec3 directLight(const RayScene& scene, const LightSet& lights, const Surface& surface,
+                      RayCounts& rays) {
+  glm::vec3 sum(0);
+  for (const auto& source : lights.directional)
+    sum += arriving<kShadows>(scene, surface, source.irradiance, source.towards,
+                              std::numeric_limits<float>::infinity(), rays);
+  for (const auto* sources : {&lights.point, &lights.spot})
+    for (const auto& source : *sources) {
+      glm::vec3 towards;
+      float distance = 0;
+      const glm::vec3 irradiance = irradianceFrom(source, surface.rayOrigin, towards, distance);
+      sum += arriving<kShadows>(scene, surface, irradiance, towards, distance * (1 - 1e-5f), rays);
+    }
+  return sum;
+}
+
+struct GlassLook {
+  float alpha;
+  float reflecting;  ///< share of the visible colour that is reflection; the rest is the glass's own body
+};
+
+/// Glass seen at an angle: a faint film that grows by Schlick's Fresnel term. What the glass keeps back of
+/// the light behind it (tint, partial transmission) shows as its own diffuse colour, since one alpha cannot
+/// tint per channel.
+GlassLook glassLook(const Surface& surface, float transmission, const glm::vec3& toViewer) {
+  const float cosine = std::clamp(glm::dot(surface.normal, toViewer), 0.0f, 1.0f);
+  const float fresnel = 0.04f + 0.96f * std::pow(1 - cosine, 5.0f);
+  const float film = std::min(1.0f, 0.08f + fresnel);
+  const float passing = std::clamp(transmission * luminance(glm::vec3(surface.baseColour)), 0.0f, 1.0f);
+  const float body = (1 - film) * (1 - passing);
+  return {film + body, film / (film + body)};
+}
+
+}  // namespace
+
+float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
+
+/// The instantiations, and the table that finds one.
+struct ShadingKernels {
+  using DirectLight = Shader::DirectLight;
+
+  template <DirectLight kDirect, bool kOcclusion, bool kDetail, bool kSpecial>
+  static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
+                      RayCounts& rays) {
+    const RayScene& scene = *shader.scene_;
+    const auto material = std::size_t(scene.scene().meshes[hit.mesh].material);
+    const MaterialRules& rules = shader.rules_[material];
+    const Surface surface =
+        surfaceAt<kDetail>(scene.scene(), hit, toViewer, shader.detail_, shader.emission_ && !rules.unlit);
+
+    Shaded out;
+    out.baseColour = glm::vec3(surface.baseColour);
+    out.emission = surface.emission;
+    if constexpr (kSpecial)
+      if (rules.blended) out.alpha = std::clamp(surface.baseColour.a, 0.0f, 1.0f);
+    if (rules.unlit) {
+      out.light = glm::vec3(1);
+      return out;
+    }
+    const glm::vec3 mirrored = glm::reflect(-toViewer, surface.normal);
+    if constexpr (kSpecial) {
+      if (out.alpha < kInvisibleAlpha) return out;
+      if (rules.mirror && !seenInMirror && glm::dot(mirrored, surface.geometricNormal) > 0) {
+        out.light = shader.seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true).radiance;
+        return out;
+      }
+    }
+
+    const auto ambient = shader.ambient_.template gather<kOcclusion>(scene, surface, rays);
+    out.light = ambient.radiance;
+    if constexpr (kDirect != DirectLight::none)
+      out.light += directLight<kDirect == DirectLight::shadowed>(scene, shader.lights_, surface, rays) *
+                   std::numbers::inv_pi_v<float>;
+    // Metals have no diffuse colour of their own; without traced reflections half stays, and the rest is what
+    // lies in the mirrored direction, the blurrier the rougher.
+    const float metal = std::clamp(surface.metallic, 0.0f, 1.0f);
+    if (metal > 0) {
+      const float rough = std::clamp(surface.roughness, 0.0f, 1.0f);
+      const glm::vec3 around =
+          glm::mix(shader.ambient_.radianceFrom(mirrored) * ambient.open, ambient.radiance, rough);
+      out.light = out.light * (1 - 0.5f * metal) + around * (0.5f * metal);
+    }
+    if constexpr (kSpecial) {
+      if (rules.transmissive) {
+        const GlassLook look = glassLook(surface, scene.scene().materials[material].transmission, toViewer);
+        out.light =
+            glm::mix(out.light, shader.ambient_.radianceFrom(mirrored) * ambient.open, look.reflecting);
+        out.alpha *= look.alpha;
+      }
+    }
+    return out;
+  }
+
+  template <std::size_t kIndex>
+  static constexpr Shader::Kernel at() {
+    return &shade<static_cast<DirectLight>(kIndex / 8), (kIndex & 4) != 0, (kIndex & 2) != 0,
+                  (kIndex & 1) != 0>;
+  }
+  template <std::size_t... kIndices>
+  static constexpr auto table(std::index_sequence<kIndices...>) {
+    return std::array<Shader::Kernel, sizeof...(kIndices)>{at<kIndices>()...};
+  }
+  static Shader::Kernel find(const Shader::Switches& s) {
+    static constexpr auto kTable = table(std::make_index_sequence<24>{});
+    return kTable[std::size_t(s.direct) * 8 + (s.occlusion ? 4u : 0u) + (s.detail ? 2u : 0u) +
+                  (s.special ? 1u : 0u)];
+  }
+};
+
+Shader::Shader(const RayScene& scene, const BakeSettings& settings)
+    : scene_(&scene),
+      rules_(materialRules(scene.scene(), scene.plan())),
+      detail_(detailRules(scene.plan())),
+      emission_(scene.plan().on(Effect::emission)),
+      lights_(lightSet(scene.scene(), scene.plan())),
+      ambient_(scene, lights_, settings) {
+  const EffectPlan& plan = scene.plan();
+  const bool shadows = plan.on(Effect::hardShadows) || plan.on(Effect::softShadows);
+  if (!lights_.empty()) switches_.direct = shadows ? DirectLight::shadowed : DirectLight::unshadowed;
+  switches_.occlusion = tracesOcclusion(plan, settings);
+  switches_.detail = detail_.any();
+  switches_.special =
+      std::any_of(rules_.begin(), rules_.end(), [](const MaterialRules& r) { return r.mirror || r.clear(); });
+  kernel_ = ShadingKernels::find(switches_);
+}
+
+glm::vec3 Shader::background(const glm::vec3& direction) const {
+  return scene_->plan().on(Effect::sky) ? scene_->scene().sky.radiance(direction) : glm::vec3(0);
+}
+
+Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
+                               bool seenInMirror) const {
+  Seen seen;
+  float passing = 1;
+  Ray rest = ray;
+  for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
+    ++(rays.*counter);
+    const Hit hit = scene_->trace(rest);
+    if (!hit.found()) {
+      seen.radiance += passing * background(ray.direction);
+      return seen;
+    }
+    const Shaded shaded = shade(hit, -ray.direction, rays, seenInMirror);
+    const float alpha = shaded.alpha >= kOpaqueAlpha ? 1 : shaded.alpha < kInvisibleAlpha ? 0 : shaded.alpha;
+    if (alpha > 0) seen.radiance += (passing * alpha) * shaded.radiance();
+    passing *= 1 - alpha;
+    if (alpha >= 1) {
+      seen.opaqueDistance = hit.distance;
+      return seen;
+    }
+    rest.nearest = justBehind(hit.distance);
+  }
+  return seen;
+}
+
+}  // namespace acentric

@@ -1,0 +1,84 @@
+#pragma once
+/// The one shading routine, used by captures, surface light and the reference picture alike. It is composed
+/// at compile time from the effect plan: `Shader` picks the instantiation once, and what is off is not in it.
+///
+/// Switches of an instantiation (24 in all): direct light {none, unshadowed, shadowed} x ambient occlusion x
+/// surface detail (textures, vertex colours, normal maps together: each is one test of a flag beside a
+/// texture read) x special materials (mirrors, glass, blending: a flag per material, since even where they
+/// exist few hits are on them).
+///
+/// Radiance leaving a surface = baseColour * light + emission. `light` does not depend on the viewer except
+/// on metals, mirrors and glass.
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/bake/ambient.h"
+#include "engine/bake/light_set.h"
+#include "engine/bake/material_rules.h"
+#include "engine/bake/ray_scene.h"
+
+namespace acentric {
+
+struct Shaded {
+  glm::vec3 baseColour{1};
+  glm::vec3 light{0};
+  glm::vec3 emission{0};
+  float alpha = 1;  ///< 1 = opaque; else what lies behind shows by 1 - alpha
+  glm::vec3 radiance() const { return baseColour * light + emission; }
+};
+
+/// A hit this opaque hides what is behind it; one this clear is not there at all.
+inline constexpr float kOpaqueAlpha = 0.999f;
+inline constexpr float kInvisibleAlpha = 1.0f / 512;
+
+/// Where to go on behind a hit: far enough not to meet it again, and coinciding surfaces count once.
+float justBehind(float distance);
+
+class Shader {
+ public:
+  Shader(const RayScene& scene, const BakeSettings& settings);
+
+  /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
+  /// only.
+  Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false) const {
+    return kernel_(*this, hit, toViewer, seenInMirror, rays);
+  }
+  /// Where a ray hits nothing: the sky, or black without one.
+  glm::vec3 background(const glm::vec3& direction) const;
+
+  struct Seen {
+    glm::vec3 radiance{0};
+    float opaqueDistance = std::numeric_limits<float>::infinity();  ///< metres along the ray
+  };
+  /// What a ray sees: blended layers composed front to back in linear light. Each ray is counted in
+  /// `counter`.
+  Seen seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
+                 bool seenInMirror = false) const;
+
+  const RayScene& scene() const { return *scene_; }
+
+  enum class DirectLight : std::uint8_t { none, unshadowed, shadowed };
+  struct Switches {
+    DirectLight direct = DirectLight::none;
+    bool occlusion = false;
+    bool detail = false;
+    bool special = false;
+  };
+  const Switches& switches() const { return switches_; }
+
+ private:
+  using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, RayCounts&);
+  friend struct ShadingKernels;
+
+  const RayScene* scene_;
+  std::vector<MaterialRules> rules_;
+  DetailRules detail_;
+  bool emission_ = false;
+  LightSet lights_;
+  Ambient ambient_;
+  Switches switches_;
+  Kernel kernel_;
+};
+
+}  // namespace acentric

@@ -1,0 +1,129 @@
+#include "engine/bake/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/texture_lookup.h"
+
+namespace acentric {
+namespace {
+
+template <class Attribute>
+Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
+  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
+}
+
+/// Texture coordinates for a use; nothing where the mesh lacks them.
+bool coordinatesFor(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& b,
+                    glm::vec2& uv) {
+  if (!use.used()) return false;
+  const auto& values = mesh.uv[use.uvSet == 1 ? 1 : 0];
+  if (values.empty()) return false;
+  uv = interpolate(values, corners, b);
+  return true;
+}
+
+/// How far the interpolated point may lie off its triangle's plane, generously: rounding is relative to the
+/// corners' coordinates axis by axis (so an axis-aligned wall has next to none across itself, however long it
+/// is), and never nothing, since a ray that starts on the plane itself would hit it.
+float leaveDistance(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& normal) {
+  constexpr float kRounding = 16.0f / (1 << 24);
+  const glm::vec3 largest = glm::max(glm::max(glm::abs(a), glm::abs(b)), glm::abs(c));
+  const glm::vec3 extent = glm::max(glm::max(glm::abs(b - a), glm::abs(c - a)), glm::abs(c - b));
+  const float longest = std::max(extent.x, std::max(extent.y, extent.z));
+  return kRounding * glm::dot(glm::abs(normal), largest) + 1e-8f * longest;
+}
+
+glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float square = glm::dot(v, v);
+  return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
+}
+
+glm::vec3 mappedNormal(const Scene& scene, const Mesh& mesh, const Material& material,
+                       const glm::uvec3& corners, const glm::vec2& b, const glm::vec3& normal) {
+  glm::vec2 uv;
+  if (mesh.tangents.empty() || !coordinatesFor(mesh, material.normalTexture, corners, b, uv)) return normal;
+  const glm::vec4 tangent = interpolate(mesh.tangents, corners, b);
+  const glm::vec3 flat = glm::vec3(tangent) - normal * glm::dot(normal, glm::vec3(tangent));
+  const glm::vec3 t = unitOr(flat, glm::vec3(0));
+  if (t == glm::vec3(0)) return normal;
+  const glm::vec3 bitangent = glm::cross(normal, t) * (tangent.w < 0 ? -1.0f : 1.0f);
+  const glm::vec3 stored = 2.0f * glm::vec3(sampleLinear(scene, material.normalTexture, uv)) - 1.0f;
+  const glm::vec2 slope = material.normalScale * glm::vec2(stored);
+  return unitOr(t * slope.x + bitangent * slope.y + normal * stored.z, normal);
+}
+
+}  // namespace
+
+glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t triangle,
+                       const glm::vec2& barycentric, const DetailRules& detail) {
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  const glm::uvec3& corners = mesh.triangles[triangle];
+  glm::vec4 colour = material.baseColour;
+  glm::vec2 uv;
+  if (detail.textures && coordinatesFor(mesh, material.baseColourTexture, corners, barycentric, uv))
+    colour *= sampleColour(scene, material.baseColourTexture, uv);
+  if (detail.vertexColours && !mesh.colours.empty()) {
+    const auto& c = mesh.colours;
+    const float first = 1 - barycentric.x - barycentric.y;
+    colour *= (glm::vec4(c[corners.x]) * first + glm::vec4(c[corners.y]) * barycentric.x +
+               glm::vec4(c[corners.z]) * barycentric.y) /
+              255.0f;
+  }
+  return colour;
+}
+
+glm::vec3 triangleNormal(const Mesh& mesh, std::uint32_t triangle) {
+  const glm::uvec3& t = mesh.triangles[triangle];
+  // In double: the cross product of a millimetre triangle's edges underflows in float once it is squared.
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const double length = glm::length(n);
+  return length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
+}
+
+template <bool kDetail>
+Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer, const DetailRules& detail,
+                  bool emission) {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  const glm::uvec3& corners = mesh.triangles[hit.triangle];
+  const glm::vec2& b = hit.barycentric;
+
+  Surface surface;
+  surface.position = interpolate(mesh.positions, corners, b);
+  const bool front = glm::dot(hit.geometricNormal, toViewer) >= 0;
+  surface.geometricNormal = front ? hit.geometricNormal : -hit.geometricNormal;
+  surface.rayOrigin = surface.position + surface.geometricNormal * leaveDistance(mesh.positions[corners.x],
+                                                                                 mesh.positions[corners.y],
+                                                                                 mesh.positions[corners.z],
+                                                                                 hit.geometricNormal);
+  glm::vec3 normal = hit.geometricNormal;
+  if (!mesh.normals.empty()) normal = unitOr(interpolate(mesh.normals, corners, b), normal);
+  surface.metallic = material.metallic;
+  surface.roughness = material.roughness;
+  if (emission) surface.emission = material.emissive;
+
+  if constexpr (kDetail) {
+    if (detail.normalMaps) normal = mappedNormal(scene, mesh, material, corners, b, normal);
+    surface.baseColour = baseColourAt(scene, mesh, hit.triangle, b, detail);
+    glm::vec2 uv;
+    if (detail.textures && coordinatesFor(mesh, material.metallicRoughnessTexture, corners, b, uv)) {
+      const glm::vec4 stored = sampleLinear(scene, material.metallicRoughnessTexture, uv);
+      surface.roughness *= stored.g;
+      surface.metallic *= stored.b;
+    }
+    if (emission && detail.textures && coordinatesFor(mesh, material.emissiveTexture, corners, b, uv))
+      surface.emission *= glm::vec3(sampleColour(scene, material.emissiveTexture, uv));
+  } else {
+    surface.baseColour = material.baseColour;
+  }
+  // Back sides, and normals that a file stores against its winding: shade the side that is seen.
+  surface.normal = glm::dot(normal, surface.geometricNormal) >= 0 ? normal : -normal;
+  return surface;
+}
+
+template Surface surfaceAt<true>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool);
+template Surface surfaceAt<false>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool);
+
+}  // namespace acentric

@@ -1,0 +1,217 @@
+#include "engine/bake/surface_light_bake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <new>
+
+#include "engine/bake/flush_denormals.h"
+#include "engine/bake/shading.h"
+#include "engine/bake/surface.h"
+#include "engine/base/contract.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::uint64_t kMaxSamples = 60'000'000;
+constexpr std::size_t kSamplesPerChunk = 2048;
+constexpr std::uint32_t kMaxResolution = 256;
+/// Samples move this share of their spacing towards the triangle's middle, so that those on an edge that
+/// touches a wall do not lie in the wall.
+constexpr float kNudge = 0.1f;
+
+struct TriangleRef {
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t sceneTriangle = 0;
+};
+
+/// Samples per edge: the longest edge by the texel, but not more samples than a few per texel of area
+/// (needles).
+std::uint32_t resolutionFor(const Mesh& mesh, std::uint32_t triangle, double texel) {
+  const glm::uvec3& t = mesh.triangles[triangle];
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+  const double wanted = std::min(longest / texel, 4 * std::sqrt(area) / texel);
+  return std::uint32_t(std::clamp(std::ceil(wanted), 1.0, double(kMaxResolution)));
+}
+
+struct Plan {
+  std::vector<TriangleRef> triangles;  ///< wanted ones, in scene order
+  double texel = 0;
+};
+
+class SurfaceLightBaker {
+ public:
+  SurfaceLightBaker(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+                    const std::vector<glm::vec3>& viewer, const BakeSettings& settings)
+      : scene_(scene),
+        shader_(scene, settings),
+        viewer_(viewer),
+        rules_(materialRules(scene.scene(), scene.plan())) {
+    plan_.texel = settings.surfaceTexel;
+    std::uint32_t number = 0;
+    for (std::uint32_t m = 0; m < scene.scene().meshes.size(); ++m)
+      for (std::uint32_t t = 0; t < scene.scene().meshes[m].triangles.size(); ++t, ++number)
+        if (wanted[number] != 0) plan_.triangles.push_back({m, t, number});
+  }
+
+  /// Chooses resolutions; a texel that asks for more than the limit grows until it fits.
+  Status layOut() {
+    const std::size_t count = scene_.scene().triangleCount();
+    light_.resolution.assign(count, 0);
+    light_.hasBack.assign(count, 0);
+    constexpr double kGrowth = 1.2, kCoarsest = 100;
+    while (samplesAt(plan_.texel) > kMaxSamples) {
+      plan_.texel *= kGrowth;
+      if (plan_.texel > kCoarsest)
+        return fail(
+            ErrorKind::tooLarge,
+            fmt::format("{} triangles need surface light; even one sample a corner is above the limit of {}. "
+                        "Remove regions or simplify the scene",
+                        plan_.triangles.size(), kMaxSamples),
+            scene_.scene().name);
+    }
+    for (const TriangleRef& ref : plan_.triangles) {
+      light_.resolution[ref.sceneTriangle] = std::uint16_t(resolution(ref, plan_.texel));
+      light_.hasBack[ref.sceneTriangle] = hasBack(ref) ? 1 : 0;
+    }
+    light_.firstSample.assign(count + 1, 0);
+    std::uint32_t next = 0;
+    for (std::size_t t = 0; t < count; ++t) {
+      light_.firstSample[t] = next;
+      if (light_.resolution[t] > 0)
+        next += surfaceSampleCount(light_.resolution[t]) * (light_.hasBack[t] ? 2 : 1);
+    }
+    light_.firstSample[count] = next;
+    light_.light.resize(next);
+    return {};
+  }
+
+  /// Runs of triangles of about equal work: [starts[i], starts[i + 1]).
+  std::vector<std::size_t> chunkStarts() const {
+    std::vector<std::size_t> starts{0};
+    std::size_t samples = 0;
+    for (std::size_t i = 0; i < plan_.triangles.size(); ++i) {
+      const std::uint32_t t = plan_.triangles[i].sceneTriangle;
+      samples += light_.firstSample[t + 1] - light_.firstSample[t];
+      if (samples < kSamplesPerChunk) continue;
+      starts.push_back(i + 1);
+      samples = 0;
+    }
+    if (starts.back() != plan_.triangles.size()) starts.push_back(plan_.triangles.size());
+    return starts;
+  }
+
+  void bakeTriangles(std::size_t first, std::size_t last, const std::stop_token& stop) {
+    for (std::size_t i = first; i < last; ++i) bakeTriangle(plan_.triangles[i], stop);
+  }
+
+  double texel() const { return plan_.texel; }
+  SurfaceLight take() { return std::move(light_); }
+
+ private:
+  const Mesh& meshOf(const TriangleRef& ref) const { return scene_.scene().meshes[ref.mesh]; }
+  std::uint32_t resolution(const TriangleRef& ref, double texel) const {
+    // Unlit surfaces have the light 1 everywhere.
+    if (rules_[std::size_t(meshOf(ref).material)].unlit) return 1;
+    return resolutionFor(meshOf(ref), ref.triangle, texel);
+  }
+  bool hasBack(const TriangleRef& ref) const {
+    const auto material = std::size_t(meshOf(ref).material);
+    return scene_.scene().materials[material].doubleSided || rules_[material].clear();
+  }
+  std::uint64_t samplesAt(double texel) const {
+    std::uint64_t sum = 0;
+    for (const TriangleRef& ref : plan_.triangles)
+      sum += std::uint64_t(surfaceSampleCount(resolution(ref, texel))) * (hasBack(ref) ? 2 : 1);
+    return sum;
+  }
+
+  void bakeTriangle(const TriangleRef& ref, const std::stop_token& stop) {
+    const Mesh& mesh = meshOf(ref);
+    const glm::uvec3& corners = mesh.triangles[ref.triangle];
+    const glm::vec3 normal = triangleNormal(mesh, ref.triangle);
+    const std::uint32_t r = light_.resolution[ref.sceneTriangle];
+    const int sides = light_.hasBack[ref.sceneTriangle] ? 2 : 1;
+    const float inward = kNudge / float(r);
+    RayCounts rays;
+    for (int side = 0; side < sides; ++side) {
+      const glm::vec3 facing = side == 0 ? normal : -normal;
+      const std::uint32_t first =
+          light_.firstSample[ref.sceneTriangle] + std::uint32_t(side) * surfaceSampleCount(r);
+      for (std::uint32_t i = 0; i <= r; ++i) {
+        if (stop.stop_requested()) return;
+        for (std::uint32_t j = 0; i + j <= r; ++j) {
+          const glm::vec2 exact(float(i) / float(r), float(j) / float(r));
+          Hit hit{0, ref.mesh, ref.triangle, glm::mix(exact, glm::vec2(1.0f / 3), inward), normal};
+          const glm::vec3 position = mesh.positions[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
+                                     mesh.positions[corners.y] * hit.barycentric.x +
+                                     mesh.positions[corners.z] * hit.barycentric.y;
+          const Shaded shaded = shader_.shade(hit, toViewer(ref.sceneTriangle, position, facing), rays);
+          light_.light[first + surfaceSampleIndex(r, i, j)] = packColour({shaded.light, 1});
+        }
+      }
+    }
+  }
+
+  /// Towards the eye, mirrored to this side if the eye stands behind the surface.
+  glm::vec3 toViewer(std::uint32_t sceneTriangle, const glm::vec3& position, const glm::vec3& facing) const {
+    const glm::vec3 way = viewer_[sceneTriangle] - position;
+    const float square = glm::dot(way, way);
+    if (!(square > 0) || !std::isfinite(square)) return facing;
+    const glm::vec3 unit = way / std::sqrt(square);
+    const float height = glm::dot(unit, facing);
+    return height > 0 ? unit : height < 0 ? unit - 2 * height * facing : facing;
+  }
+
+  const RayScene& scene_;
+  Shader shader_;
+  const std::vector<glm::vec3>& viewer_;
+  std::vector<MaterialRules> rules_;
+  Plan plan_;
+  SurfaceLight light_;
+};
+
+}  // namespace
+
+Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+                                      const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
+                                      TaskRunner& runner, const Progress& progress, std::stop_token stop) {
+  const std::size_t triangles = scene.scene().triangleCount();
+  require(wanted.size() == triangles && viewer.size() == triangles,
+          "surface light is asked for triangle by triangle");
+  if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
+  try {
+    SurfaceLightBaker baker(scene, wanted, viewer, settings);
+    if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
+    const auto starts = baker.chunkStarts();
+    const std::size_t chunks = starts.size() - 1;
+    const std::string stage =
+        baker.texel() > settings.surfaceTexel
+            ? fmt::format("baking surface light (texel raised to {:.3g} m to stay within {} million samples)",
+                          baker.texel(), kMaxSamples / 1'000'000)
+            : std::string("baking surface light");
+    std::mutex progressMutex;
+    std::size_t done = 0;
+    runner.parallelFor(chunks, [&](std::size_t chunk) {
+      if (stop.stop_requested()) return;
+      const FlushDenormals flush;
+      baker.bakeTriangles(starts[chunk], starts[chunk + 1], stop);
+      if (!progress) return;
+      const std::lock_guard lock(progressMutex);
+      progress({double(++done), double(chunks), stage});
+    });
+    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+    return baker.take();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for surface light; raise the surface texel",
+                scene.scene().name);
+  }
+}
+
+}  // namespace acentric
