@@ -1,8 +1,11 @@
 #pragma once
-/// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident as buffers.
-/// Draws the pieces of the same ViewPlan back to front without depth test, then local geometry with one.
+/// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
+/// as buffers. Draws the pieces of the same ViewPlan back to front without depth test, then local geometry
+/// with one.
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/geometry/perspective_view.h"
@@ -20,12 +23,15 @@ class GlRenderer {
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;
 
-  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what is new in `scene`; drops what is gone.
+  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what is new in `scene`;
+  /// drops what is gone.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
   /// Colour texture of the last draw, row 0 at the bottom (OpenGL), for showing in a window.
   unsigned colourTexture() const;
   /// Reads the last draw back, with sources; slow.
   Frame readBack() const;
+  /// Shader variants compiled so far, one line each: files, then the effects compiled in.
+  std::vector<std::string> variants() const;
 
  private:
   struct Impl;

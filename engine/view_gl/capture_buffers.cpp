@@ -1,0 +1,140 @@
+#include "engine/view_gl/capture_buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "engine/view_gl/gl_check.h"
+
+namespace acentric {
+namespace {
+
+struct PackedSample {
+  float inverseDistance;
+  std::uint32_t rowAndColumn;
+  std::uint32_t colour;
+};
+static_assert(sizeof(PackedSample) == 12, "the shader reads a stride of 12 bytes");
+
+/// The shader indexes without checks of its own, so the arrays must agree with each other.
+Status checkArrays(const DisplayCapture& capture, const char* name) {
+  const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, what, name); };
+  if (Status camera = capture.camera.check(); !camera) return camera;
+  const std::size_t columns = std::size_t(capture.camera.columns), rows = std::size_t(capture.camera.rows);
+  const std::size_t samples = capture.row.size();
+  if (capture.columnStart.size() != columns + 1 || capture.columnDirection.size() != columns ||
+      capture.columnRange.size() != columns || capture.rowTangent.size() != rows)
+    return bad("the capture's column and row tables do not fit its camera");
+  if (capture.inverseDistance.size() != samples || capture.colour.size() != samples)
+    return bad("the capture's sample arrays differ in length");
+  if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
+      !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
+    return bad("the capture's columns do not partition its samples");
+  const auto outside = [&](std::uint16_t row) { return row >= rows; };
+  if (std::any_of(capture.row.begin(), capture.row.end(), outside))
+    return bad("a sample's row is outside the picture");
+  return {};
+}
+
+std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, int lastColumn) {
+  std::vector<PackedSample> packed;
+  packed.reserve(capture.columnStart[std::size_t(lastColumn)] -
+                 capture.columnStart[std::size_t(firstColumn)]);
+  for (int column = firstColumn; column < lastColumn; ++column)
+    for (std::size_t s = capture.columnStart[std::size_t(column)];
+         s < capture.columnStart[std::size_t(column) + 1]; ++s)
+      packed.push_back({capture.inverseDistance[s], capture.row[s] | std::uint32_t(column) << 16,
+                        std::bit_cast<std::uint32_t>(capture.colour[s])});
+  return packed;
+}
+
+template <class Value>
+GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
+  GlBuffer buffer = GlBuffer::make();
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(values.size() * sizeof(Value)), values.data(),
+               GL_STATIC_DRAW);
+  bytes += values.size() * sizeof(Value);
+  return buffer;
+}
+
+}  // namespace
+
+Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name) {
+  if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
+  GLint64 largest = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+  const std::size_t mostSamples = std::min<std::size_t>(
+      std::size_t(std::max<GLint64>(largest, 0)) / sizeof(PackedSample), std::size_t(1) << 30);
+
+  CaptureBuffers buffers;
+  buffers.owner = capture;
+  const auto start = [&](int column) { return std::size_t(capture->columnStart[std::size_t(column)]); };
+  for (int first = 0; first < capture->camera.columns;) {
+    int last = first;
+    while (last < capture->camera.columns && start(last + 1) - start(first) <= mostSamples) ++last;
+    if (last == first)
+      return fail(
+          ErrorKind::tooLarge,
+          fmt::format(
+              "column {} has {} samples, more than this driver's storage buffers hold ({}): bake with "
+              "fewer rows or use a CPU renderer",
+              first, start(first + 1) - start(first), mostSamples),
+          name);
+    if (start(last) > start(first)) {
+      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}};
+      chunk.samples = makeBuffer(pack(*capture, first, last), buffers.bytes);
+      buffers.chunks.push_back(std::move(chunk));
+    }
+    first = last;
+  }
+  buffers.rowTangents = makeBuffer(capture->rowTangent, buffers.bytes);
+  const std::string doing = fmt::format("uploading {}", name);
+  if (Status uploaded = checkGl(doing.c_str()); !uploaded) return tl::unexpected(uploaded.error());
+  return buffers;
+}
+
+Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
+                                                    const char* name) {
+  auto found = resident_.find(capture.get());
+  // Another capture may have been made at the address of one that died.
+  if (found != resident_.end() && found->second.owner.lock() != capture) {
+    bytes_ -= found->second.bytes;
+    resident_.erase(found);
+    found = resident_.end();
+  }
+  if (found == resident_.end()) {
+    Result<CaptureBuffers> buffers = uploadCapture(capture, name);
+    if (!buffers) return tl::unexpected(buffers.error());
+    bytes_ += buffers->bytes;
+    found = resident_.emplace(capture.get(), std::move(*buffers)).first;
+  }
+  found->second.lastUse = frame_;
+  return &found->second;
+}
+
+void CaptureResidency::dropGone(const WalkScene& scene) {
+  std::set<const DisplayCapture*> wanted;
+  for (const auto& capture : scene.captures) wanted.insert(capture.get());
+  std::erase_if(resident_, [&](const auto& entry) {
+    if (wanted.contains(entry.first) && !entry.second.owner.expired()) return false;
+    bytes_ -= entry.second.bytes;
+    return true;
+  });
+}
+
+void CaptureResidency::trim(std::size_t bytes) {
+  while (bytes_ > bytes) {
+    const auto oldest =
+        std::min_element(resident_.begin(), resident_.end(),
+                         [](const auto& a, const auto& b) { return a.second.lastUse < b.second.lastUse; });
+    if (oldest == resident_.end() || oldest->second.lastUse == frame_) break;
+    bytes_ -= oldest->second.bytes;
+    resident_.erase(oldest);
+  }
+  ++frame_;
+}
+
+}  // namespace acentric

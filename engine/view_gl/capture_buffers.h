@@ -1,0 +1,53 @@
+#pragma once
+/// Captures as OpenGL buffers. A capture larger than the driver's storage buffer limit is cut between
+/// columns.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/view/walk_scene.h"
+#include "engine/view_gl/gl_object.h"
+
+namespace acentric {
+
+struct CaptureChunk {
+  int firstColumn = 0;
+  int lastColumn = 0;             ///< one behind
+  std::uint32_t firstSample = 0;  ///< in the capture
+  GlBuffer samples;               ///< 12 bytes each: inverse distance, row | column << 16, colour
+};
+
+struct CaptureBuffers {
+  std::weak_ptr<const DisplayCapture> owner;
+  std::vector<CaptureChunk> chunks;
+  GlBuffer rowTangents;  ///< float per row
+  std::size_t bytes = 0;
+  std::uint64_t lastUse = 0;
+};
+
+/// Uploads a capture. Fails on one whose arrays contradict each other, or whose single column is beyond the
+/// limit.
+Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name);
+
+/// What is resident, by the identity of the shared capture.
+class CaptureResidency {
+ public:
+  /// The buffers of `capture`, uploaded now if need be. Valid until the next call of dropGone or trim.
+  Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name);
+  /// Drops the captures that are no longer anywhere in memory or no longer in `scene`.
+  void dropGone(const WalkScene& scene);
+  /// Drops those unused for longest until at most `bytes` remain; keeps what was used since the last trim.
+  void trim(std::size_t bytes);
+  std::size_t bytes() const { return bytes_; }
+  std::size_t count() const { return resident_.size(); }
+
+ private:
+  std::map<const DisplayCapture*, CaptureBuffers> resident_;
+  std::size_t bytes_ = 0;
+  std::uint64_t frame_ = 1;
+};
+
+}  // namespace acentric

@@ -1,0 +1,117 @@
+#include "engine/view_gl/frame_target.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/view_gl/gl_check.h"
+
+namespace acentric {
+namespace {
+
+GlTexture storage(GLenum format, int width, int height) {
+  GlTexture texture = GlTexture::make();
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+  // One level without mipmaps: the default filter would make the texture incomplete.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+Status complete() {
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status == GL_FRAMEBUFFER_COMPLETE) return {};
+  return fail(
+      ErrorKind::unsupported,
+      fmt::format(
+          "this driver does not draw into RGBA8 + R16UI + DEPTH32F (status {:#x}): use a CPU renderer",
+          status),
+      "OpenGL");
+}
+
+/// Rows from bottom-up to top-down.
+template <class Pixel>
+void flipRows(Image<Pixel>& image) {
+  for (int y = 0; y < image.height / 2; ++y) {
+    Pixel* top = &image.at(0, y);
+    std::swap_ranges(top, top + image.width, &image.at(0, image.height - 1 - y));
+  }
+}
+
+}  // namespace
+
+Status FrameTarget::resize(int width, int height) {
+  if (width == width_ && height == height_) return {};
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (width > largest || height > largest)
+    return fail(ErrorKind::tooLarge,
+                fmt::format("{}x{} pixels: this driver draws at most {} on a side", width, height, largest),
+                "OpenGL");
+
+  width_ = height_ = 0;  // nothing usable until all is made
+  glActiveTexture(GL_TEXTURE0);
+  colour_ = storage(GL_RGBA8, width, height);
+  colourSrgb_ = GlTexture::make();
+  glTextureView(colourSrgb_.name(), GL_TEXTURE_2D, colour_.name(), GL_SRGB8_ALPHA8, 0, 1, 0, 1);
+  source_ = storage(GL_R16UI, width, height);
+  depth_ = storage(GL_DEPTH_COMPONENT32F, width, height);
+  if (Status made = checkGl("making the frame's textures"); !made) return made;
+
+  draw_ = GlFramebuffer::make();
+  glBindFramebuffer(GL_FRAMEBUFFER, draw_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colourSrgb_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, source_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+  constexpr std::array<GLenum, 2> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
+  if (Status drawable = complete(); !drawable) return drawable;
+
+  read_ = GlFramebuffer::make();
+  glBindFramebuffer(GL_FRAMEBUFFER, read_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, source_.name(), 0);
+  if (Status readable = complete(); !readable) return readable;
+  if (Status made = checkGl("making the framebuffer"); !made) return made;
+  width_ = width;
+  height_ = height;
+  return {};
+}
+
+void FrameTarget::bindForDrawing() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, draw_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+void FrameTarget::begin() const {
+  bindForDrawing();
+  constexpr std::array<GLfloat, 4> kNoColour = {0, 0, 0, 0};
+  constexpr std::array<GLuint, 4> kNoSource = {kSourceHole, 0, 0, 0};
+  constexpr GLfloat kFar = 1;
+  glClearBufferfv(GL_COLOR, 0, kNoColour.data());
+  glClearBufferuiv(GL_COLOR, 1, kNoSource.data());
+  glClearBufferfv(GL_DEPTH, 0, &kFar);
+}
+
+Frame FrameTarget::read() const {
+  Frame frame;
+  if (width_ == 0) return frame;
+  frame.colour = ColourImage(width_, height_);
+  frame.source = Image<PixelSource>(width_, height_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, read_.name());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, frame.colour.pixels.data());
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_SHORT, frame.source.pixels.data());
+  flipRows(frame.colour);
+  flipRows(frame.source);
+  for (std::size_t i = 0; i < frame.source.pixels.size(); ++i)
+    frame.colour.pixels[i].a = frame.source.pixels[i] == kSourceHole ? 0 : 255;
+  return frame;
+}
+
+}  // namespace acentric

@@ -1,0 +1,39 @@
+#pragma once
+/// The framebuffer that a frame is drawn into: colour, source (camera + 1 and the special values of
+/// view/frame.h) and depth. The colour texture has two views of one storage: RGBA8, which shows the codes as
+/// they are (windows, reading back, opaque samples), and SRGB8_ALPHA8, attached, through which
+/// GL_FRAMEBUFFER_SRGB makes blending linear.
+
+#include "engine/base/result.h"
+#include "engine/view/frame.h"
+#include "engine/view_gl/gl_object.h"
+
+namespace acentric {
+
+class FrameTarget {
+ public:
+  /// Keeps what it has when the size is the same.
+  Status resize(int width, int height);
+  /// Binds for drawing into colour and source, and clears both (holes) and the depth.
+  void begin() const;
+  void bindForDrawing() const;
+  /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.
+  Frame read() const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  GLuint colourCodes() const { return colour_.name(); }  ///< RGBA8 view
+  GLuint sources() const { return source_.name(); }      ///< R16UI
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  GlTexture colour_;
+  GlTexture colourSrgb_;
+  GlTexture source_;
+  GlTexture depth_;
+  GlFramebuffer draw_;
+  GlFramebuffer read_;
+};
+
+}  // namespace acentric

@@ -1,0 +1,205 @@
+#include "engine/view_gl/local_buffers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <unordered_map>
+
+#include "engine/view_gl/gl_check.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::uint32_t kHasBack = 1u << 16;
+
+/// Everything that the shader and we index by must exist; local geometry comes from our own clipping, but of
+/// a scene that may have been exchanged since.
+bool fits(const Scene& scene, const LocalGeometry& geometry) {
+  return std::all_of(geometry.triangles.begin(), geometry.triangles.end(), [&](const LocalTriangle& t) {
+    return t.mesh < scene.meshes.size() && t.triangle < scene.meshes[t.mesh].triangles.size() &&
+           std::max({t.vertices.x, t.vertices.y, t.vertices.z}) < geometry.vertices.size();
+  });
+}
+
+bool isBlended(const Material& material) {
+  return material.alphaMode == AlphaMode::blend || material.transmission > 0;
+}
+
+template <class Value>
+Value interpolated(const std::vector<Value>& values, const glm::uvec3& corners, const glm::vec2& weights) {
+  const glm::vec4 a(glm::vec4(0) + glm::vec4(values[corners.x])), b(values[corners.y]), c(values[corners.z]);
+  return Value((1 - weights.x - weights.y) * a + weights.x * b + weights.y * c);
+}
+
+glm::vec2 uvAt(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& weights) {
+  const std::vector<glm::vec2>& uv = mesh.uv[use.uvSet];
+  if (!use.used() || uv.empty()) return glm::vec2(0);
+  const glm::vec2 at =
+      (1 - weights.x - weights.y) * uv[corners.x] + weights.x * uv[corners.y] + weights.y * uv[corners.z];
+  return use.transform * glm::vec3(at, 1);
+}
+
+glm::u16vec4 colourAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
+  if (mesh.colours.empty()) return glm::u16vec4(65535);
+  const glm::vec4 colour = (1 - weights.x - weights.y) * glm::vec4(mesh.colours[corners.x]) +
+                           weights.x * glm::vec4(mesh.colours[corners.y]) +
+                           weights.y * glm::vec4(mesh.colours[corners.z]);
+  return glm::u16vec4(glm::round(glm::clamp(colour / 255.0f, 0.0f, 1.0f) * 65535.0f));
+}
+
+/// Copies the light of source triangles into one compact array, each triangle once.
+class LightGatherer {
+ public:
+  LightGatherer(const Scene& scene, const SurfaceLight* light)
+      : light_(light), firstTriangles_(scene.firstTriangles()) {}
+
+  struct Place {
+    std::uint32_t first = 0, resolution = 0;
+  };
+  Place place(const LocalTriangle& triangle) {
+    const std::uint32_t source = firstTriangles_[triangle.mesh] + triangle.triangle;
+    if (light_ == nullptr || source >= light_->resolution.size() || light_->resolution[source] == 0)
+      return {};
+    const auto [found, isNew] = places_.try_emplace(source);
+    if (isNew) {
+      const std::uint32_t resolution = light_->resolution[source];
+      const bool back = light_->hasBack[source] != 0;
+      const std::size_t first = light_->firstSample[source];
+      const std::size_t count = std::size_t(surfaceSampleCount(resolution)) * (back ? 2 : 1);
+      if (first + count > light_->light.size()) return {};
+      found->second = {std::uint32_t(samples.size()), resolution | (back ? kHasBack : 0)};
+      samples.insert(samples.end(), light_->light.begin() + std::ptrdiff_t(first),
+                     light_->light.begin() + std::ptrdiff_t(first + count));
+    }
+    return found->second;
+  }
+
+  std::vector<HalfColour> samples;
+
+ private:
+  const SurfaceLight* light_;
+  std::vector<std::uint32_t> firstTriangles_;
+  std::unordered_map<std::uint32_t, Place> places_;
+};
+
+void describeVertices(const LocalBuffers& buffers) {
+  const auto attribute = [](GLuint index, GLint size, GLenum type, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_SHORT ? GL_TRUE : GL_FALSE,
+                          sizeof(LocalGpuVertex), reinterpret_cast<const void*>(offset));
+  };
+  glBindVertexArray(buffers.vertexArray.name());
+  glBindBuffer(GL_ARRAY_BUFFER, buffers.vertices.name());
+  attribute(0, 3, GL_FLOAT, offsetof(LocalGpuVertex, position));
+  attribute(1, 2, GL_FLOAT, offsetof(LocalGpuVertex, barycentric));
+  attribute(2, 2, GL_FLOAT, offsetof(LocalGpuVertex, baseUv));
+  attribute(3, 2, GL_FLOAT, offsetof(LocalGpuVertex, emissiveUv));
+  attribute(4, 4, GL_UNSIGNED_SHORT, offsetof(LocalGpuVertex, colour));
+  glEnableVertexAttribArray(5);
+  glVertexAttribIPointer(5, 2, GL_UNSIGNED_INT, sizeof(LocalGpuVertex),
+                         reinterpret_cast<const void*>(offsetof(LocalGpuVertex, lightFirst)));
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers.indices.name());
+}
+
+template <class Value>
+GlBuffer makeBuffer(GLenum target, const std::vector<Value>& values) {
+  GlBuffer buffer = GlBuffer::make();
+  glBindBuffer(target, buffer.name());
+  glBufferData(target, GLsizeiptr(values.size() * sizeof(Value)), values.data(), GL_STATIC_DRAW);
+  return buffer;
+}
+
+}  // namespace
+
+Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const LocalGeometry>& geometry,
+                                 const std::shared_ptr<const SurfaceLight>& light) {
+  if (!fits(scene, *geometry))
+    return fail(ErrorKind::malformed, "the local geometry was not made from this scene: clip it again",
+                "local geometry");
+  LocalBuffers buffers;
+  buffers.owner = geometry;
+  buffers.lightOwner = light;
+  buffers.lit = light != nullptr && !light->empty();
+
+  const auto materialOf = [&](const LocalTriangle& t) { return scene.meshes[t.mesh].material; };
+  std::vector<LocalTriangle> triangles = geometry->triangles;
+  const auto key = [&](const LocalTriangle& t) {
+    const int material = materialOf(t);
+    return std::make_tuple(isBlended(scene.materials[std::size_t(material)]), material,
+                           scene.meshes[t.mesh].colours.empty());
+  };
+  std::stable_sort(triangles.begin(), triangles.end(),
+                   [&](const LocalTriangle& a, const LocalTriangle& b) { return key(a) < key(b); });
+
+  LightGatherer gatherer(scene, buffers.lit ? light.get() : nullptr);
+  std::vector<LocalGpuVertex> vertices;
+  vertices.reserve(3 * triangles.size());
+  for (std::size_t n = 0; n < triangles.size(); ++n) {
+    const LocalTriangle& triangle = triangles[n];
+    const Mesh& mesh = scene.meshes[triangle.mesh];
+    const Material& material = scene.materials[std::size_t(mesh.material)];
+    const glm::uvec3 source = mesh.triangles[triangle.triangle];
+    const LightGatherer::Place place = gatherer.place(triangle);
+    const bool blended = isBlended(material);
+    for (int corner = 0; corner < 3; ++corner) {
+      const LocalVertex& v = geometry->vertices[triangle.vertices[corner]];
+      vertices.push_back({v.position, v.barycentric,
+                          uvAt(mesh, material.baseColourTexture, source, v.barycentric),
+                          uvAt(mesh, material.emissiveTexture, source, v.barycentric),
+                          colourAt(mesh, source, v.barycentric), place.first, place.resolution});
+      if (blended) buffers.blendedCorners.push_back(v.position);
+    }
+    std::vector<LocalBatch>& batches = blended ? buffers.blended : buffers.opaque;
+    if (batches.empty() || key(triangles[n - 1]) != key(triangle))
+      batches.push_back({mesh.material, std::uint32_t(n), 0, !mesh.colours.empty()});
+    ++batches.back().triangles;
+    if (!blended) buffers.firstBlended = std::uint32_t(n) + 1;
+  }
+  buffers.triangles = std::uint32_t(triangles.size());
+
+  GLint64 largest = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+  if (gatherer.samples.size() * sizeof(HalfColour) > std::size_t(std::max<GLint64>(largest, 0)))
+    return fail(
+        ErrorKind::tooLarge,
+        fmt::format(
+            "{} light samples in one region are more than this driver's storage buffers hold ({} MiB): "
+            "bake coarser surface light, smaller cells, or use a CPU renderer",
+            gatherer.samples.size(), largest >> 20),
+        "local geometry");
+  if (gatherer.samples.empty()) gatherer.samples.emplace_back(0);  // no buffer of size 0
+  buffers.vertexArray = GlVertexArray::make();
+  glBindVertexArray(buffers.vertexArray.name());
+  buffers.vertices = makeBuffer(GL_ARRAY_BUFFER, vertices);
+  buffers.indices = GlBuffer::make();
+  buffers.light = makeBuffer(GL_SHADER_STORAGE_BUFFER, gatherer.samples);
+  describeVertices(buffers);
+  if (Status uploaded = checkGl("uploading local geometry"); !uploaded)
+    return tl::unexpected(uploaded.error());
+  return buffers;
+}
+
+Result<LocalBuffers*> LocalResidency::get(const WalkScene& scene, std::size_t region) {
+  const std::shared_ptr<const LocalGeometry>& geometry = scene.local[region];
+  auto found = resident_.find(geometry.get());
+  if (found == resident_.end()) {
+    Result<LocalBuffers> buffers = uploadLocal(*scene.scene, geometry, scene.surfaceLight);
+    if (!buffers) return tl::unexpected(buffers.error());
+    found = resident_.emplace(geometry.get(), std::move(*buffers)).first;
+  }
+  return &found->second;
+}
+
+void LocalResidency::dropGone(const WalkScene& scene) {
+  std::map<const LocalGeometry*, std::shared_ptr<const LocalGeometry>> wanted;
+  for (const auto& local : scene.local) wanted.emplace(local.get(), local);
+  std::erase_if(resident_, [&](const auto& entry) {
+    const auto found = wanted.find(entry.first);
+    const bool same = found != wanted.end() && found->second && entry.second.owner.lock() == found->second;
+    return !same || entry.second.lightOwner.lock() != scene.surfaceLight;
+  });
+}
+
+}  // namespace acentric

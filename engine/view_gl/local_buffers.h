@@ -1,0 +1,65 @@
+#pragma once
+/// One region's local geometry as OpenGL buffers, with the surface light of just its triangles.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/view/walk_scene.h"
+#include "engine/view_gl/gl_object.h"
+
+namespace acentric {
+
+/// One corner as the shader reads it. All attributes of the source triangle are evaluated here, once.
+struct LocalGpuVertex {
+  glm::vec3 position;
+  glm::vec2 barycentric;
+  glm::vec2 baseUv;               ///< transformed
+  glm::vec2 emissiveUv;           ///< transformed
+  glm::u16vec4 colour;            ///< vertex colour, 0..65535
+  std::uint32_t lightFirst;       ///< into the light buffer
+  std::uint32_t lightResolution;  ///< resolution, bit 16: has a back side
+};
+static_assert(sizeof(LocalGpuVertex) == 52, "the vertex layout has no padding");
+
+/// Consecutive triangles of one material.
+struct LocalBatch {
+  int material = 0;
+  std::uint32_t firstTriangle = 0;
+  std::uint32_t triangles = 0;
+  bool vertexColours = false;
+};
+
+struct LocalBuffers {
+  std::weak_ptr<const LocalGeometry> owner;
+  std::weak_ptr<const SurfaceLight> lightOwner;
+  bool lit = false;  ///< a surface light was there
+  GlVertexArray vertexArray;
+  GlBuffer vertices;                      ///< LocalGpuVertex, three per triangle
+  GlBuffer indices;                       ///< of the blended triangles, rewritten in each frame's order
+  GlBuffer light;                         ///< uvec2 (four halves) per sample
+  std::vector<LocalBatch> opaque;         ///< opaque and masked triangles, first in the buffer
+  std::vector<LocalBatch> blended;        ///< blended triangles, behind them
+  std::vector<glm::vec3> blendedCorners;  ///< three per blended triangle, for sorting
+  std::uint32_t firstBlended = 0;         ///< triangle number
+  std::uint32_t triangles = 0;
+};
+
+Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const LocalGeometry>& geometry,
+                                 const std::shared_ptr<const SurfaceLight>& light);
+
+class LocalResidency {
+ public:
+  /// Valid until the next call of dropGone.
+  Result<LocalBuffers*> get(const WalkScene& scene, std::size_t region);
+  /// Drops what `scene` no longer holds, or holds with another light.
+  void dropGone(const WalkScene& scene);
+  std::size_t count() const { return resident_.size(); }
+
+ private:
+  std::map<const LocalGeometry*, LocalBuffers> resident_;
+};
+
+}  // namespace acentric

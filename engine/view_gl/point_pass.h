@@ -1,0 +1,45 @@
+#pragma once
+/// Draws the pieces of a view plan as points, back to front by submission, without a depth test (list
+/// priority).
+
+#include "engine/geometry/perspective_view.h"
+#include "engine/view/frame.h"
+#include "engine/view/view_plan.h"
+#include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/frame_target.h"
+#include "engine/view_gl/gl_program.h"
+
+namespace acentric {
+
+/// How a piece reads one column; the layout of `Column` in shaders/points.vert.
+struct ColumnPlan {
+  glm::vec4 inPicture;  ///< direction in picture coordinates, largest inverse distance drawn
+  glm::uvec4
+      parts;  ///< samples above the pivot row [x, y), below [y, z), within the chunk; w: towards the pivot
+  glm::vec2 inPlan;  ///< c
+  float footInverse;
+  float unused;
+};
+static_assert(sizeof(ColumnPlan) == 48, "the shader reads a stride of 48 bytes");
+
+class PointPass {
+ public:
+  PointPass(ProgramCache& programs, CaptureResidency& captures);
+  /// Into the bound framebuffer of `target`. Counts images and samples in `stats`.
+  Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+              const ViewSettings& settings, const FrameTarget& target, FrameStats& stats);
+
+ private:
+  Status drawPiece(const WalkScene& scene, const PieceDraw& piece, const PerspectiveView& view,
+                   const ViewSettings& settings, const FrameTarget& target, FrameStats& stats);
+
+  ProgramCache& programs_;
+  CaptureResidency& captures_;
+  GlVertexArray noAttributes_;  ///< points pull their data from buffers
+  GlBuffer columnPlans_;
+  std::vector<ColumnPlan> plans_;  // kept between pieces for their memory
+  std::vector<GLint> firsts_;
+  std::vector<GLsizei> counts_;
+};
+
+}  // namespace acentric

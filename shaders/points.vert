@@ -1,0 +1,112 @@
+// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, LAYERED, LINEAR.
+//
+// A sample of column direction c, row tangent t and inverse horizontal distance w lies, seen from the eye, along
+// q = K M (c + t z + w b), where M turns the world into view axes and K multiplies focal length and picture centre in:
+// its image position is (q.x, q.y) / q.z. Per column K M c is constant, per capture K M z and K M b.
+//
+// List priority: the draw calls go through the columns in order; this shader puts the rows of a column, and the
+// samples of a pixel, in theirs by exchanging which sample a vertex number stands for.
+
+struct Sample {
+  float inverseDistance;
+  uint rowAndColumn;  // row in the low half, column in the high half: the column costs no byte and no search
+  uint colour;        // sRGB codes, straight alpha
+};
+
+struct Column {
+  vec4 inPicture;      // K M c, largest inverse distance drawn
+  uvec4 parts;         // samples [x, y) lie above the pivot row, [y, z) below; w: 1 = draw towards the pivot, 0 = away
+  vec2 inPlan;         // c
+  float footInverse;   // samples of a larger inverse distance lie before the foot of the perpendicular from the eye
+  float unused;
+};
+
+layout(std430, binding = 0) readonly buffer Samples { Sample samples[]; };
+layout(std430, binding = 1) readonly buffer RowTangents { float rowTangent[]; };
+layout(std430, binding = 2) readonly buffer Columns { Column columns[]; };
+
+uniform vec3 upInPicture;        // K M z
+uniform vec3 baselineInPicture;  // K M b
+uniform vec2 pictureSize;        // pixels
+uniform float clipMargin;        // pixels that the viewport reaches beyond the picture on each side
+#ifdef SPLAT
+uniform float footprint;     // pixels: side of the splat at q.z = 1, straight ahead, row tangent 0
+uniform float maxSide;       // pixels
+uniform float inverseFocal;  // 1/pixels
+#endif
+#ifdef CLIP_TO_PART
+uniform vec2 baselineInPlan;  // b, horizontal
+uniform vec2 partLow;         // unit directions of the part's borders, half-open [low, high)
+uniform vec2 partHigh;
+uniform bool partIsWide;      // more than half a turn
+#endif
+
+flat out vec4 pointColour;
+
+const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
+
+#ifdef LINEAR
+vec3 linearFromSrgb(vec3 code) {
+  return mix(code / 12.92, pow((code + 0.055) / 1.055, vec3(2.4)), greaterThan(code, vec3(0.04045)));
+}
+#endif
+
+// The sample that this vertex stands for.
+uint orderedSample(uint vertex, Column column) {
+  bool above = vertex < column.parts.y;
+  bool descending = above != (column.parts.w != 0u);
+  uint first = above ? column.parts.x : column.parts.y;
+  uint last = above ? column.parts.y : column.parts.z;
+  uint index = descending ? first + last - 1u - vertex : vertex;
+#ifdef LAYERED
+  uint row = samples[index].rowAndColumn;
+  uint begin = index, end = index + 1u;
+  while (begin > first && samples[begin - 1u].rowAndColumn == row) --begin;
+  while (end < last && samples[end].rowAndColumn == row) ++end;
+  if (end - begin > 1u) {
+    uint beforeFoot = begin;  // these as stored, the others reversed
+    while (beforeFoot < end && samples[beforeFoot].inverseDistance > column.footInverse) ++beforeFoot;
+    uint position = begin + (descending ? end - 1u - index : index - begin);
+    index = position < beforeFoot ? position : end - 1u - (position - beforeFoot);
+  }
+#endif
+  return index;
+}
+
+void main() {
+  uint own = samples[gl_VertexID].rowAndColumn >> 16;
+  Column column = columns[own];
+  Sample s = samples[orderedSample(uint(gl_VertexID), column)];
+  float w = s.inverseDistance;
+  float t = rowTangent[s.rowAndColumn & 0xffffu];
+  vec3 q = column.inPicture.xyz + t * upInPicture + w * baselineInPicture;
+  vec4 colour = unpackUnorm4x8(s.colour);
+#ifdef LINEAR
+  colour.rgb = linearFromSrgb(colour.rgb);
+#endif
+  pointColour = colour;
+  gl_PointSize = 1.0;
+  gl_Position = kOutside;
+  if (w > column.inPicture.w || !(q.z > 0.0)) return;
+#ifdef CLIP_TO_PART
+  vec2 inPlan = column.inPlan + w * baselineInPlan;
+  float fromLow = partLow.x * inPlan.y - partLow.y * inPlan.x;
+  float toHigh = inPlan.x * partHigh.y - inPlan.y * partHigh.x;
+  bool inPart = partIsWide ? (fromLow >= 0.0 || toHigh > 0.0) : (fromLow >= 0.0 && toHigh > 0.0);
+  if (!inPart) return;
+#endif
+  vec2 position = q.xy / q.z;
+  float side = 1.0;
+#ifdef SPLAT
+  // A sample stands for pitch * distance across; seen under an angle off the view axis the picture stretches it.
+  vec2 off = (position - 0.5 * pictureSize) * inverseFocal;
+  float stretch = sqrt((1.0 + t * t) * (1.0 + dot(off, off)));
+  side = ceil(clamp(stretch / q.z * footprint, 1.0, maxSide));
+  gl_PointSize = side;
+#endif
+  // The square of whole pixels whose centres lie within side/2 of the position: said exactly, so that the rasteriser's
+  // sub-pixel rounding has no say.
+  vec2 centre = floor(position + 0.5 - 0.5 * side) + 0.5 * side;
+  vec2 clip = 2.0 * (centre + clipMargin) / (pictureSize + 2.0 * clipMargin) - 1.0;
+  gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
+}
