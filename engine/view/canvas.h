@@ -1,0 +1,55 @@
+#pragma once
+/// The picture while it is being painted: column by column, because a capture's columns fall on nearly
+/// vertical lines, so that successive samples write to neighbouring memory. One 64-bit word a pixel: a
+/// splat's pixel is one store.
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "engine/image/image.h"
+#include "engine/view/column_culling.h"
+
+namespace acentric {
+
+/// High half: inverse depth along the view axis (float bits, 1/m; -1 = nothing yet, 0 = sky). Low half: slot
+/// of the piece in the alpha byte (0 = hole), then blue, green, red.
+using CanvasPixel = std::uint64_t;
+
+inline constexpr int kMaxSlots = 255;
+
+constexpr CanvasPixel canvasPixel(std::uint32_t colourAndSlot, float inverseZDepth) {
+  return (CanvasPixel(std::bit_cast<std::uint32_t>(inverseZDepth)) << 32) | colourAndSlot;
+}
+constexpr float inverseZDepthOf(CanvasPixel pixel) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(pixel >> 32));
+}
+constexpr std::uint32_t slotOf(CanvasPixel pixel) { return static_cast<std::uint32_t>(pixel) >> 24; }
+
+inline constexpr CanvasPixel kEmptyPixel = canvasPixel(0, -1.0f);
+
+inline std::uint32_t wordOf(const Rgba8& colour) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, &colour, sizeof word);
+  return word;
+}
+inline Rgba8 colourOf(std::uint32_t word) {
+  Rgba8 colour;
+  std::memcpy(&colour, &word, sizeof word);
+  return colour;
+}
+
+struct Canvas {
+  int width = 0;
+  int height = 0;
+  std::vector<CanvasPixel> pixels;  ///< [x * height + y]
+  std::vector<std::uint64_t>
+      stamps;  ///< the sample last blended into each pixel; empty if nothing is blended
+
+  CanvasPixel* column(int x) { return pixels.data() + std::size_t(x) * std::size_t(height); }
+  const CanvasPixel* column(int x) const { return pixels.data() + std::size_t(x) * std::size_t(height); }
+  std::uint64_t* stampColumn(int x) { return stamps.data() + std::size_t(x) * std::size_t(height); }
+};
+
+}  // namespace acentric

@@ -1,0 +1,48 @@
+#include <algorithm>
+
+#include "engine/base/contract.h"
+#include "engine/view/walk_scene.h"
+
+namespace acentric {
+
+DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
+  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+  require(capture.columnStart.size() == columns + 1, "a capture needs one offset per column and one more");
+
+  DisplayCapture display;
+  display.camera = capture.camera;
+  display.columnStart = capture.columnStart;
+  display.row = capture.row;
+  display.inverseDistance = capture.inverseDistance;
+
+  display.colour.resize(capture.sampleCount());
+  for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
+    const glm::vec4 linear = unpackColour(capture.colour[i]);
+    display.colour[i] = encodeForDisplay(glm::vec3(linear), exposure, linear.a);
+    display.blended = display.blended || display.colour[i].a < 255;
+  }
+
+  display.columnDirection.resize(columns);
+  display.columnRange.resize(columns);
+  for (std::size_t k = 0; k < columns; ++k) {
+    display.columnDirection[k] = glm::vec2(capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    glm::vec2 range(1, 0);  // an empty column: smallest above largest
+    const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
+    if (begin < end) {
+      const auto [low, high] =
+          std::minmax_element(capture.inverseDistance.begin() + begin, capture.inverseDistance.begin() + end);
+      range = {*low, *high};
+    }
+    display.columnRange[k] = range;
+    for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
+      display.layered = capture.row[i] == capture.row[i - 1];
+  }
+
+  display.rowTangent.resize(rows);
+  for (std::size_t r = 0; r < rows; ++r)
+    display.rowTangent[r] = static_cast<float>(capture.camera.tangentAt(static_cast<double>(r) + 0.5));
+  return display;
+}
+
+}  // namespace acentric

@@ -1,0 +1,206 @@
+#include "engine/view/local_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/image/colour.h"
+
+namespace acentric {
+namespace {
+
+/// Nearer surfaces are not drawn, metres along the view axis.
+constexpr double kNearest = 1e-3;
+constexpr std::size_t kTrianglesPerTask = 4096;
+constexpr int kBandRows = 32;
+constexpr std::uint32_t kNothing = 0xffffffff;
+
+/// Pixels whose centres the triangle can cover: the box of its part in front of the near plane.
+PixelRect boundsOf(const std::array<glm::dvec3, 3>& corners, const PerspectiveView& view) {
+  const double focal = view.focalPixels();
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  const auto add = [&](const glm::dvec3& q) {
+    const glm::dvec2 at(0.5 * view.width + focal * q.x / q.z, 0.5 * view.height + focal * q.y / q.z);
+    low = glm::min(low, at), high = glm::max(high, at);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 &p = corners[i], &q = corners[(i + 1) % 3];
+    if (p.z >= kNearest) add(p);
+    if ((p.z < kNearest) != (q.z < kNearest)) {
+      const glm::dvec3 crossing = p + (kNearest - p.z) / (q.z - p.z) * (q - p);
+      add({crossing.x, crossing.y, kNearest});
+    }
+  }
+  const auto clampTo = [](double value, int limit) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(limit)));
+  };
+  if (!(low.x <= high.x)) return {};
+  return {clampTo(std::floor(low.x - 0.5), view.width), clampTo(std::floor(low.y - 0.5), view.height),
+          clampTo(std::ceil(high.x + 0.5), view.width), clampTo(std::ceil(high.y + 0.5), view.height)};
+}
+
+/// A pixel centre exactly on an edge belongs to one of the two triangles that share it: their edge functions
+/// are each other's negative.
+bool ownsBorder(const glm::dvec3& edge) {
+  if (edge.x != 0) return edge.x > 0;
+  if (edge.y != 0) return edge.y > 0;
+  return edge.z > 0;
+}
+
+bool covers(double value, const glm::dvec3& edge) { return value > 0 || (value == 0 && ownsBorder(edge)); }
+
+void forBands(int height, TaskRunner& runner, const std::function<void(int, int)>& body) {
+  const std::size_t bands = static_cast<std::size_t>((height + kBandRows - 1) / kBandRows);
+  runner.parallelFor(bands, [&](std::size_t band) {
+    const int y0 = static_cast<int>(band) * kBandRows;
+    body(y0, std::min(y0 + kBandRows, height));
+  });
+}
+
+}  // namespace
+
+LocalRaster::LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
+                         TaskRunner& runner)
+    : local_(local), shading_(shading), view_(view), inView_(local.vertices.size()) {
+  const auto tasks = [](std::size_t count) { return (count + kTrianglesPerTask - 1) / kTrianglesPerTask; };
+  const glm::dmat3 viewFromWorld = view.viewFromWorld();
+  runner.parallelFor(tasks(inView_.size()), [&](std::size_t task) {
+    const std::size_t end = std::min(inView_.size(), (task + 1) * kTrianglesPerTask);
+    for (std::size_t v = task * kTrianglesPerTask; v < end; ++v)
+      inView_[v] = viewFromWorld * (glm::dvec3(local_.vertices[v].position) - view_.eye);
+  });
+  std::vector<std::vector<Triangle>> parts(tasks(local_.triangles.size()));
+  runner.parallelFor(parts.size(), [&](std::size_t task) {
+    const std::size_t end = std::min(local_.triangles.size(), (task + 1) * kTrianglesPerTask);
+    Triangle triangle;
+    for (std::size_t t = task * kTrianglesPerTask; t < end; ++t)
+      if (setUp(static_cast<std::uint32_t>(t), triangle)) parts[task].push_back(triangle);
+  });
+  for (const auto& part : parts)
+    for (const Triangle& triangle : part)
+      (shading_.materialOf(local_.triangles[triangle.index].mesh).clear() ? clear_ : opaque_)
+          .push_back(triangle);
+  std::stable_sort(clear_.begin(), clear_.end(),
+                   [](const Triangle& a, const Triangle& b) { return a.farthest > b.farthest; });
+}
+
+bool LocalRaster::setUp(std::uint32_t index, Triangle& out) const {
+  const LocalTriangle& source = local_.triangles[index];
+  const std::array<glm::dvec3, 3> q{inView_[source.vertices.x], inView_[source.vertices.y],
+                                    inView_[source.vertices.z]};
+  const double focal = view_.focalPixels();
+  out.box = boundsOf(q, view_);
+  if (out.box.width() <= 0 || out.box.height() <= 0) return false;
+  const glm::dvec3 normals[3]{glm::cross(q[1], q[2]), glm::cross(q[2], q[0]), glm::cross(q[0], q[1])};
+  const double determinant = glm::dot(q[0], normals[0]);
+  if (determinant == 0 || !std::isfinite(determinant)) return false;  // seen edge on
+  const double sign = determinant < 0 ? -1 : 1;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 n = sign * normals[i];
+    // At pixel centre (x + 0.5, y + 0.5), in terms of the whole numbers x and y.
+    out.edge[i] = {
+        n.x / focal, n.y / focal,
+        n.z + n.x * ((0.5 - 0.5 * view_.width) / focal) + n.y * ((0.5 - 0.5 * view_.height) / focal)};
+  }
+  out.perDepth = 1 / std::abs(determinant);
+  out.farthest = std::sqrt(std::max({glm::dot(q[0], q[0]), glm::dot(q[1], q[1]), glm::dot(q[2], q[2])}));
+  out.index = index;
+  out.back = determinant > 0;  // the eye is behind the plane of q0, q1, q2
+  out.masked = shading_.materialOf(source.mesh).masked;
+  return true;
+}
+
+/// visit(x, y, edge values, inverse depth) for each covered pixel of the rectangle.
+template <class Visit>
+void LocalRaster::forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const {
+  const int y0 = std::max(triangle.box.y0, rect.y0), y1 = std::min(triangle.box.y1, rect.y1);
+  const auto& edge = triangle.edge;
+  for (int y = y0; y < y1; ++y) {
+    double start[3];
+    double low = std::max(triangle.box.x0, rect.x0), high = std::min(triangle.box.x1, rect.x1) - 1;
+    for (int i = 0; i < 3; ++i) {
+      start[i] = edge[i].y * y + edge[i].z;
+      // Where this edge can be crossed, a pixel of slack left and right; the test of each pixel is exact.
+      if (edge[i].x > 0) low = std::max(low, -start[i] / edge[i].x - 1);
+      if (edge[i].x < 0) high = std::min(high, -start[i] / edge[i].x + 1);
+    }
+    if (!(low <= high)) continue;
+    for (int x = static_cast<int>(low); x <= static_cast<int>(high); ++x) {
+      const glm::dvec3 values(edge[0].x * x + start[0], edge[1].x * x + start[1], edge[2].x * x + start[2]);
+      if (!covers(values.x, edge[0]) || !covers(values.y, edge[1]) || !covers(values.z, edge[2])) continue;
+      const double inverseZDepth = (values.x + values.y + values.z) * triangle.perDepth;
+      if (inverseZDepth > 1 / kNearest || !(inverseZDepth > 0)) continue;
+      visit(x, y, values, static_cast<float>(inverseZDepth));
+    }
+  }
+}
+
+LocalPoint LocalRaster::pointAt(const Triangle& triangle, const glm::dvec3& weights) const {
+  const LocalTriangle& source = local_.triangles[triangle.index];
+  const glm::dvec3 b = weights / (weights.x + weights.y + weights.z);
+  const auto corner = [&](std::uint32_t v) { return glm::dvec2(local_.vertices[v].barycentric); };
+  LocalPoint point;
+  point.mesh = source.mesh;
+  point.triangle = source.triangle;
+  point.barycentric = glm::vec2(b.x * corner(source.vertices.x) + b.y * corner(source.vertices.y) +
+                                b.z * corner(source.vertices.z));
+  point.back = triangle.back;
+  return point;
+}
+
+void LocalRaster::drawOpaque(Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner) const {
+  const glm::vec3 eye(view_.eye);
+  forBands(view_.height, runner, [&](int y0, int y1) {
+    const PixelRect band{0, y0, view_.width, y1};
+    const std::size_t width = static_cast<std::size_t>(view_.width);
+    std::vector<std::uint32_t> visible(width * static_cast<std::size_t>(y1 - y0), kNothing);
+    std::vector<float> nearest(visible.size(), 0.0f);
+    const auto pixelOf = [&](int x, int y) {
+      return static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
+    };
+    for (std::size_t t = 0; t < opaque_.size(); ++t) {
+      const Triangle& triangle = opaque_[t];
+      if (triangle.box.y0 >= y1 || triangle.box.y1 <= y0) continue;
+      forEachPixel(triangle, band, [&](int x, int y, const glm::dvec3& values, float depth) {
+        const std::size_t pixel = pixelOf(x, y);
+        if (depth <= nearest[pixel]) return;
+        if (triangle.masked && !shading_.survivesMask(pointAt(triangle, values))) return;
+        nearest[pixel] = depth;
+        visible[pixel] = static_cast<std::uint32_t>(t);
+      });
+    }
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < view_.width; ++x) {
+        const std::uint32_t t = visible[pixelOf(x, y)];
+        if (t == kNothing) continue;
+        const auto& edge = opaque_[t].edge;
+        const glm::dvec3 values(edge[0].x * x + (edge[0].y * y + edge[0].z),
+                                edge[1].x * x + (edge[1].y * y + edge[1].z),
+                                edge[2].x * x + (edge[2].y * y + edge[2].z));
+        frame.colour.at(x, y) = shading_.colourAt(pointAt(opaque_[t], values), eye);
+        frame.source.at(x, y) = kSourceLocal;
+        inverseZDepth.at(x, y) = nearest[pixelOf(x, y)];
+      }
+  });
+}
+
+void LocalRaster::drawClear(Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const {
+  const glm::vec3 eye(view_.eye);
+  forBands(view_.height, runner, [&](int y0, int y1) {
+    const PixelRect band{0, y0, view_.width, y1};
+    for (const Triangle& triangle : clear_) {
+      if (triangle.box.y0 >= y1 || triangle.box.y1 <= y0) continue;
+      forEachPixel(triangle, band, [&](int x, int y, const glm::dvec3& values, float depth) {
+        const PixelSource source = frame.source.at(x, y);
+        if (source == kSourceHole || (source == kSourceLocal && depth <= inverseZDepth.at(x, y))) return;
+        const LocalPoint point = pointAt(triangle, values);
+        if (triangle.masked && !shading_.survivesMask(point)) return;
+        Rgba8& pixel = frame.colour.at(x, y);
+        pixel = blendOver(shading_.colourAt(point, eye), pixel);
+      });
+    }
+  });
+}
+
+}  // namespace acentric

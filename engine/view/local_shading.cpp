@@ -1,0 +1,118 @@
+#include "engine/view/local_shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/surface_alpha.h"
+#include "engine/scene/texture_lookup.h"
+
+namespace acentric {
+namespace {
+
+template <class Attribute>
+Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
+  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
+}
+
+bool hasCoordinates(const Mesh& mesh, const TextureUse& use) {
+  return !mesh.uv[use.uvSet == 1 ? 1 : 0].empty();
+}
+
+glm::vec4 sampleAt(const Scene& scene, const Mesh& mesh, const TextureUse& use, const LocalPoint& point) {
+  return sampleColour(
+      scene, use,
+      interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0], mesh.triangles[point.triangle], point.barycentric));
+}
+
+/// Unit normal on the side of `toEye`.
+glm::vec3 normalTowards(const Mesh& mesh, const LocalPoint& point, const glm::vec3& toEye) {
+  const glm::uvec3& corners = mesh.triangles[point.triangle];
+  glm::vec3 normal(0);
+  if (!mesh.normals.empty()) normal = interpolate(mesh.normals, corners, point.barycentric);
+  if (!(glm::dot(normal, normal) > 0))
+    normal = glm::cross(mesh.positions[corners.y] - mesh.positions[corners.x],
+                        mesh.positions[corners.z] - mesh.positions[corners.x]);
+  const float length = glm::length(normal);
+  if (!(length > 0)) return toEye;
+  normal /= length;
+  return glm::dot(normal, toEye) < 0 ? -normal : normal;
+}
+
+}  // namespace
+
+LocalShading::LocalShading(const WalkScene& scene)
+    : scene_(scene.scene.get()),
+      light_(scene.surfaceLight != nullptr && !scene.surfaceLight->empty() ? scene.surfaceLight.get()
+                                                                           : nullptr),
+      exposure_(scene.exposure),
+      firstTriangles_(scene_->firstTriangles()) {
+  const EffectPlan& plan = scene.plan;
+  for (const Material& m : scene_->materials) {
+    LocalMaterial local;
+    local.material = &m;
+    local.unlit = plan.on(Effect::unlit) && m.unlit;
+    local.textured = plan.on(Effect::textures) && m.baseColourTexture.used();
+    local.vertexColours = plan.on(Effect::vertexColours);
+    local.masked = plan.on(Effect::alphaTest) && m.alphaMode == AlphaMode::mask;
+    local.blended = plan.on(Effect::alphaBlend) && m.alphaMode == AlphaMode::blend;
+    local.transmissive = plan.on(Effect::transmission) && m.transmission > 0 && !local.unlit;
+    local.emits = plan.on(Effect::emission) && m.emissive != glm::vec3(0) && !local.unlit;
+    local.emissionTextured = local.emits && plan.on(Effect::textures) && m.emissiveTexture.used();
+    materials_.push_back(local);
+  }
+}
+
+glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& mesh,
+                                     const LocalPoint& point) const {
+  glm::vec4 colour = material.material->baseColour;
+  if (material.textured && hasCoordinates(mesh, material.material->baseColourTexture))
+    colour *= sampleAt(*scene_, mesh, material.material->baseColourTexture, point);
+  if (material.vertexColours && !mesh.colours.empty()) {
+    const glm::uvec3& corners = mesh.triangles[point.triangle];
+    const glm::vec2 b = point.barycentric;
+    colour *= (glm::vec4(mesh.colours[corners.x]) * (1 - b.x - b.y) +
+               glm::vec4(mesh.colours[corners.y]) * b.x + glm::vec4(mesh.colours[corners.z]) * b.y) /
+              255.0f;
+  }
+  return colour;
+}
+
+bool LocalShading::survivesMask(const LocalPoint& point) const {
+  const LocalMaterial& material = materialOf(point.mesh);
+  return baseColourAt(material, scene_->meshes[point.mesh], point).a >= material.material->alphaCutoff;
+}
+
+Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) const {
+  const Mesh& mesh = scene_->meshes[point.mesh];
+  const LocalMaterial& material = materialOf(point.mesh);
+  const glm::vec4 base = baseColourAt(material, mesh, point);
+
+  glm::vec3 light(1);
+  const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
+  if (light_ != nullptr && !material.unlit) {
+    const bool back = point.back && triangle < light_->hasBack.size() && light_->hasBack[triangle] != 0;
+    light =
+        triangle < light_->resolution.size() ? light_->at(triangle, point.barycentric, back) : glm::vec3(0);
+  }
+  glm::vec3 radiance = glm::vec3(base) * light;
+  if (material.emits) {
+    glm::vec3 emission = material.material->emissive;
+    if (material.emissionTextured && hasCoordinates(mesh, material.material->emissiveTexture))
+      emission *= glm::vec3(sampleAt(*scene_, mesh, material.material->emissiveTexture, point));
+    radiance += emission;
+  }
+
+  float alpha = 1;
+  if (material.blended) alpha = std::clamp(base.a, 0.0f, 1.0f);
+  if (material.transmissive) {
+    const glm::vec3 at = interpolate(mesh.positions, mesh.triangles[point.triangle], point.barycentric);
+    const glm::vec3 offset = eye - at;
+    const float distance = glm::length(offset);
+    const glm::vec3 toEye = distance > 0 ? offset / distance : glm::vec3(0, 0, 1);
+    const float cosine = glm::dot(normalTowards(mesh, point, toEye), toEye);
+    alpha *= glassAlpha(material.material->transmission, glm::vec3(base), cosine).alpha();
+  }
+  return encodeForDisplay(radiance, exposure_, alpha);
+}
+
+}  // namespace acentric

@@ -1,0 +1,57 @@
+#pragma once
+/// What a point of local geometry looks like: base colour times baked light, plus emission. What the effect
+/// plan does not call for is decided once per material, not per pixel.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/view/walk_scene.h"
+
+namespace acentric {
+
+/// A material under one effect plan.
+struct LocalMaterial {
+  const Material* material = nullptr;
+  bool textured = false;
+  bool vertexColours = false;
+  bool masked = false;        ///< cut out where alpha < alphaCutoff
+  bool blended = false;       ///< alpha from the base colour
+  bool transmissive = false;  ///< glass: alpha from the viewing angle
+  bool emits = false;
+  bool emissionTextured = false;
+  bool unlit = false;
+  bool clear() const { return blended || transmissive; }
+};
+
+/// A point of a scene triangle.
+struct LocalPoint {
+  std::uint32_t mesh = 0;
+  std::uint32_t triangle = 0;  ///< within the mesh
+  glm::vec2 barycentric{0};    ///< weights of the 2nd and 3rd corner
+  bool back = false;           ///< seen from the side that winds clockwise
+};
+
+class LocalShading {
+ public:
+  explicit LocalShading(const WalkScene& scene);
+
+  const LocalMaterial& materialOf(std::uint32_t mesh) const {
+    return materials_[static_cast<std::size_t>(scene_->meshes[mesh].material)];
+  }
+  /// Does an alpha-tested surface exist at this point?
+  bool survivesMask(const LocalPoint& point) const;
+  /// Display colour; alpha 255 unless the material is clear. Without baked light: the base colour.
+  Rgba8 colourAt(const LocalPoint& point, const glm::vec3& eye) const;
+
+ private:
+  glm::vec4 baseColourAt(const LocalMaterial& material, const Mesh& mesh, const LocalPoint& point) const;
+
+  const Scene* scene_;
+  const SurfaceLight* light_;
+  float exposure_;
+  std::vector<LocalMaterial> materials_;       ///< by scene material
+  std::vector<std::uint32_t> firstTriangles_;  ///< by mesh
+};
+
+}  // namespace acentric

@@ -1,0 +1,127 @@
+#include "engine/view/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <set>
+
+#include "engine/base/contract.h"
+#include "engine/view/hole_fill.h"
+#include "engine/view/local_raster.h"
+#include "engine/view/view_plan.h"
+#include "engine/view/warp.h"
+
+namespace acentric {
+namespace {
+
+/// How far colours spread into a hole. Where images are not loaded yet the gap must stay visible as one.
+constexpr int kFillRings = 4096;
+constexpr int kFillRingsWhileLoading = 8;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Turns the canvas the right way round: rows of colours and sources, and depth for the passes that follow.
+void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImage& inverseZDepth,
+             TaskRunner& runner) {
+  std::vector<PixelSource> sources(plan.pieces.size() + 1, kSourceHole);
+  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
+    sources[i + 1] = static_cast<PixelSource>(std::min(plan.pieces[i].camera + 1, kSourceInvented - 1));
+  constexpr int kBlock = 16;
+  const std::size_t blocks = static_cast<std::size_t>((canvas.height + kBlock - 1) / kBlock);
+  runner.parallelFor(blocks, [&](std::size_t block) {
+    const int y0 = static_cast<int>(block) * kBlock, y1 = std::min(y0 + kBlock, canvas.height);
+    for (int x = 0; x < canvas.width; ++x) {
+      const CanvasPixel* column = canvas.column(x);
+      for (int y = y0; y < y1; ++y) {
+        const CanvasPixel pixel = column[y];
+        const std::uint32_t slot = slotOf(pixel);
+        if (slot == 0) continue;
+        frame.colour.at(x, y) = colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u);
+        frame.source.at(x, y) = sources[slot];
+        inverseZDepth.at(x, y) = inverseZDepthOf(pixel);
+      }
+    }
+  });
+}
+
+Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+           const ViewPlan& plan, TaskRunner& runner) {
+  Frame frame;
+  frame.colour = ColourImage(view.width, view.height, Rgba8(0));
+  frame.source = Image<PixelSource>(view.width, view.height, kSourceHole);
+  FloatImage inverseZDepth(view.width, view.height, 0.0f);
+  FrameStats& stats = frame.stats;
+
+  const Stopwatch warpTime;
+  std::set<int> images;
+  bool blended = false;
+  for (const PieceDraw& piece : plan.pieces) {
+    images.insert(piece.camera);
+    blended = blended || scene.captures[static_cast<std::size_t>(piece.camera)]->blended;
+  }
+  WarpOptions options;
+  options.project = settings.renderer == Renderer::scalar ? projectSamplesScalar : fastestProjectSamples();
+  options.depthTest = settings.renderer == Renderer::zbuffer;
+  Canvas canvas = makeCanvas(view, blended);
+  const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
+  develop(canvas, plan, frame, inverseZDepth, runner);
+  stats.images = static_cast<int>(images.size());
+  stats.missingImages = plan.missingImages;
+  stats.samplesRead = counts.samplesRead;
+  stats.samplesDrawn = counts.samplesDrawn;
+  stats.warpSeconds = warpTime.seconds();
+
+  const std::size_t region = static_cast<std::size_t>(plan.region);
+  const LocalGeometry* local = region < scene.local.size() ? scene.local[region].get() : nullptr;
+  const bool drawLocal = settings.localGeometry && local != nullptr && scene.scene != nullptr;
+  const auto fill = [&] {
+    if (!settings.fillHoles) return;
+    const Stopwatch fillTime;
+    fillHoles(frame, inverseZDepth, plan.missingImages > 0 ? kFillRingsWhileLoading : kFillRings);
+    stats.fillSeconds = fillTime.seconds();
+  };
+  if (!drawLocal) {
+    fill();
+    return frame;
+  }
+  const Stopwatch localTime;
+  const LocalShading shading(scene);
+  const LocalRaster raster(*local, shading, view, runner);
+  raster.drawOpaque(frame, inverseZDepth, runner);
+  fill();  // after the opaque geometry, which closes most holes, and before glass, which needs something
+           // behind it
+  if (raster.hasClear()) raster.drawClear(frame, inverseZDepth, runner);
+  stats.localTriangles = raster.triangleCount();
+  stats.localSeconds = localTime.seconds() - stats.fillSeconds;
+  return frame;
+}
+
+}  // namespace
+
+Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                          TaskRunner& runner) {
+  const Stopwatch total;
+  if (settings.renderer == Renderer::gl)
+    return fail(ErrorKind::unsupported,
+                "the OpenGL renderer needs a window or a headless context: use GlRenderer", "view settings");
+  try {
+    const auto plan = planView(scene, view, settings);
+    if (!plan) return tl::unexpected(plan.error());
+    Frame frame = draw(scene, view, settings, *plan, runner);
+    frame.stats.totalSeconds = total.seconds();
+    return frame;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for a picture of this size: ask for a smaller one",
+                "view");
+  }
+}
+
+}  // namespace acentric

@@ -1,0 +1,37 @@
+#pragma once
+/// Writes projected samples to the canvas.
+
+#include <cstdint>
+
+#include "engine/view/canvas.h"
+#include "engine/view/warp_kernel.h"
+
+namespace acentric {
+
+enum class PaintMode {
+  over,            ///< opaque: what comes later lies on top
+  overBlended,     ///< the same with blended samples among them
+  nearest,         ///< opaque samples by depth test; blended ones are left out
+  blendOnNearest,  ///< blended samples alone, in front of what `nearest` left
+};
+
+/// Which samples the splats come from, and where they go.
+struct PaintTarget {
+  Canvas* canvas = nullptr;
+  PixelRect rect;                 ///< only these pixels are touched
+  const Rgba8* colour = nullptr;  ///< Splat::index counts from here
+  const std::uint16_t* row = nullptr;
+  const float* inverseDistance = nullptr;
+  std::uint32_t slot = 0;    ///< 1..kMaxSlots
+  std::uint32_t column = 0;  ///< of the capture
+  float footInverse = 0;     ///< RowOrder::footInverse
+};
+
+/// One splat after the other, first to last, or last to first. `pixelByPixel` (layered captures): rows in
+/// that order too, but the samples of each pixel by their distance from the eye (column_order.h). Returns how
+/// many were painted whose first visible pixel lies in the rectangle's rows, so that rectangles stacked on
+/// each other add up.
+std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
+                          bool reversed, bool pixelByPixel);
+
+}  // namespace acentric

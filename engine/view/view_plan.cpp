@@ -1,0 +1,126 @@
+#include "engine/view/view_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "engine/base/contract.h"
+#include "engine/geometry/conventions.h"
+#include "engine/view/column_culling.h"
+#include "engine/view/column_order.h"
+
+namespace acentric {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A sample on the border itself is still drawn, however the bake rounded it.
+constexpr double kBorderSlack = 1e-4;
+
+std::vector<float> largestInverseDistances(const DisplayCapture& capture, const ConvexPolygon& grown) {
+  std::vector<float> limits(static_cast<std::size_t>(capture.camera.columns), kInfinity);
+  const glm::dvec2 centre(capture.camera.centreOfProjection);
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const auto span = grown.raySpan(centre, capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    if (span && span->second > 0) limits[k] = static_cast<float>((1 + kBorderSlack) / span->second);
+  }
+  return limits;
+}
+
+std::vector<char> visibleColumns(const DisplayCapture& capture, const PieceDraw& piece,
+                                 const FrustumPlanes& planes) {
+  const TangentRange rows{capture.camera.tangentAt(capture.camera.rows - 0.5), capture.camera.tangentAt(0.5)};
+  std::vector<char> visible(static_cast<std::size_t>(capture.camera.columns), 0);
+  for (std::size_t k = 0; k < visible.size(); ++k) {
+    const glm::vec2 range = capture.columnRange[k];
+    const glm::dvec2 used(range.x, std::min(range.y, piece.maxInverseDistance[k]));
+    visible[k] = visibleTangents(planes, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
+                                 used, rows)
+                     .has_value();
+  }
+  return visible;
+}
+
+/// Do most drawn columns end before the foot of the perpendicular from the eye? (Renderers that cannot order
+/// the samples of each pixel on their own go by this.)
+bool mostlyBeforeFoot(const DisplayCapture& capture, const PieceDraw& piece) {
+  int before = 0, all = 0;
+  for (const ColumnRun& run : piece.runs)
+    for (int k = run.first; k < run.last; ++k) {
+      const std::size_t column = static_cast<std::size_t>(k);
+      const RowOrder order =
+          rowOrder(glm::dvec2(capture.columnDirection[column]), -glm::dvec3(piece.baseline));
+      const glm::vec2 range = capture.columnRange[column];
+      before += 0.5f * (range.x + std::min(range.y, piece.maxInverseDistance[column])) > order.footInverse;
+      ++all;
+    }
+  return 2 * before > all;
+}
+
+}  // namespace
+
+Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings) {
+  require(scene.layout != nullptr, "a walk scene needs a layout");
+  if (auto status = view.check(); !status) return tl::unexpected(status.error());
+  if (auto status = settings.check(); !status) return tl::unexpected(status.error());
+  const Layout& layout = *scene.layout;
+  const glm::dvec2 eye(view.eye);
+  const auto regionIndex = layout.regionAt(eye);
+  if (!regionIndex) {
+    const Layout::Nearest nearest = layout.nearestRegion(eye);
+    if (nearest.region < 0)
+      return fail(ErrorKind::invalidArgument, "the layout has no region to stand in: place a cell first",
+                  "view");
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("the eye ({:.3f}, {:.3f}) stands outside every region; the nearest point inside "
+                            "is ({:.3f}, {:.3f})",
+                            eye.x, eye.y, nearest.point.x, nearest.point.y),
+                "view");
+  }
+
+  ViewPlan plan;
+  plan.region = *regionIndex;
+  const Region& region = layout.regions[static_cast<std::size_t>(plan.region)];
+  const ViewSector sector = sectorOf(view);
+  const FrustumPlanes planes =
+      frustumPlanes(view, {0, 0, view.width, view.height}, splatMargin(settings.maxSplatPixels));
+  std::set<int> missing;
+
+  const auto addCover = [&](const Cover& cover, bool secondary) {
+    for (const OrderedPiece& ordered : visiblePieces(layout, plan.region, cover, sector)) {
+      const std::size_t camera = static_cast<std::size_t>(ordered.camera);
+      if (camera >= scene.captures.size() || scene.captures[camera] == nullptr) {
+        missing.insert(ordered.camera);
+        continue;
+      }
+      const DisplayCapture& capture = *scene.captures[camera];
+      PieceDraw piece;
+      piece.camera = ordered.camera;
+      piece.part = ordered.part;
+      piece.clipToPart = ordered.part.azimuths.low != sector.azimuths.low ||
+                         ordered.part.azimuths.width != sector.azimuths.width;
+      piece.secondary = secondary;
+      piece.baseline = glm::vec3(capture.camera.centreOfProjection - view.eye);
+      piece.maxInverseDistance = largestInverseDistances(capture, region.grown);
+      const ColumnOrder order =
+          columnOrder(capture.camera, eye - glm::dvec2(capture.camera.centreOfProjection));
+      piece.epipoleColumn = order.epipoleColumn;
+      piece.runs = keepColumns(order.runs, visibleColumns(capture, piece, planes));
+      if (piece.runs.empty()) continue;
+      piece.nearestFirst = capture.layered && mostlyBeforeFoot(capture, piece);
+      plan.pieces.push_back(std::move(piece));
+    }
+  };
+
+  const Cover& chosen = chooseCover(region, sector);
+  if (settings.secondaryCover)
+    for (const Cover& cover : region.covers)
+      if (&cover != &chosen) addCover(cover, true);
+  addCover(chosen, false);
+  plan.missingImages = static_cast<int>(missing.size());
+  return plan;
+}
+
+}  // namespace acentric

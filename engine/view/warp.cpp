@@ -1,0 +1,208 @@
+#include "engine/view/warp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/contract.h"
+#include "engine/geometry/conventions.h"
+#include "engine/view/column_order.h"
+#include "engine/view/splat_painter.h"
+
+namespace acentric {
+namespace {
+
+/// Splats are this much larger than a sample seen face on: surfaces that the capture saw at a slant, and the
+/// eye does not, are sampled farther apart. With what a ceiling then adds, cracks are rare up to about 45
+/// degrees.
+constexpr double kSlantAllowance = 1.25;
+
+/// View axes with the focal length and the picture's centre multiplied in (ProjectColumn).
+struct ScaledAxes {
+  glm::dvec3 u, v, z;
+
+  explicit ScaledAxes(const PerspectiveView& view) {
+    const glm::dmat3 worldFromView = glm::transpose(view.viewFromWorld());
+    const double focal = view.focalPixels();
+    z = worldFromView[2];
+    u = focal * worldFromView[0] + 0.5 * view.width * z;
+    v = focal * worldFromView[1] + 0.5 * view.height * z;
+  }
+  void project(const glm::dvec3& direction, float* out) const {
+    out[0] = static_cast<float>(glm::dot(u, direction));
+    out[1] = static_cast<float>(glm::dot(v, direction));
+    out[2] = static_cast<float>(glm::dot(z, direction));
+  }
+};
+
+/// What is constant over a piece.
+ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view,
+                             const ViewSettings& settings, const PieceDraw& piece,
+                             const DisplayCapture& capture, const PixelRect& rect) {
+  ProjectColumn column{};
+  axes.project(glm::dvec3(0, 0, 1), column.z);
+  axes.project(glm::dvec3(piece.baseline), column.b);
+  const double focal = view.focalPixels();
+  const double pitch = std::max(capture.camera.columnPitch(), capture.camera.rowPitch());
+  column.footprint = settings.reconstruction == Reconstruction::splat
+                         ? static_cast<float>(focal * pitch * kSlantAllowance)
+                         : 0.0f;
+  column.maxSide = static_cast<float>(settings.maxSplatPixels);
+  column.centreX = 0.5f * static_cast<float>(view.width);
+  column.centreY = 0.5f * static_cast<float>(view.height);
+  column.inverseFocal = static_cast<float>(1 / focal);
+  column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
+  column.baseline[0] = piece.baseline.x, column.baseline[1] = piece.baseline.y;
+  if (piece.clipToPart) {
+    const AzimuthRange part = piece.part.azimuths;
+    const glm::dvec2 low = directionOf(part.low), high = directionOf(part.low + part.width);
+    column.low[0] = static_cast<float>(low.x), column.low[1] = static_cast<float>(low.y);
+    column.high[0] = static_cast<float>(high.x), column.high[1] = static_cast<float>(high.y);
+    column.partTest = part.width <= kPi ? PartTest::within : PartTest::without;
+  }
+  return column;
+}
+
+/// One band of the picture: all pieces in order, clipped to its rows.
+class BandWarp {
+ public:
+  BandWarp(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+           const WarpOptions& options, Canvas& canvas, const PixelRect& rect)
+      : scene_(scene),
+        view_(view),
+        settings_(settings),
+        options_(options),
+        canvas_(canvas),
+        rect_(rect),
+        axes_(view),
+        planes_(frustumPlanes(view, rect, splatMargin(settings.maxSplatPixels))) {}
+
+  WarpCounts run(const ViewPlan& plan) {
+    counts_ = {};
+    bool blended = false;
+    for (const PieceDraw& piece : plan.pieces)
+      blended = blended || scene_.captures[static_cast<std::size_t>(piece.camera)]->blended;
+    const auto pass = [&](PaintMode plain, PaintMode withBlended, bool blendedOnly) {
+      for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
+        const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(plan.pieces[i].camera)];
+        if (!blendedOnly || capture.blended)
+          drawPiece(plan.pieces[i], capture, capture.blended ? withBlended : plain,
+                    static_cast<std::uint32_t>(i) + 1);
+      }
+    };
+    if (!options_.depthTest) {
+      pass(PaintMode::over, PaintMode::overBlended, false);
+    } else {
+      pass(PaintMode::nearest, PaintMode::nearest, false);
+      if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
+    }
+    return counts_;
+  }
+
+ private:
+  void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
+    ProjectColumn column = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    for (const ColumnRun& run : piece.runs)
+      for (int n = 0; n < run.last - run.first; ++n)
+        drawColumn(piece, capture, column, mode, slot, run.ascending ? run.first + n : run.last - 1 - n);
+  }
+
+  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, ProjectColumn& column,
+                  PaintMode mode, std::uint32_t slot, int index) {
+    const std::size_t k = static_cast<std::size_t>(index);
+    const glm::dvec2 direction(capture.columnDirection[k]);
+    const glm::vec2 range = capture.columnRange[k];
+    const auto tangents = visibleTangents(
+        planes_, direction, glm::dvec3(piece.baseline),
+        glm::dvec2(range.x, std::min(range.y, piece.maxInverseDistance[k])),
+        {static_cast<double>(capture.rowTangent.back()), static_cast<double>(capture.rowTangent.front())});
+    if (!tangents) return;
+    const auto [begin, end] = samplesBetween(capture, k, *tangents);
+    if (begin == end) return;
+
+    axes_.project(glm::dvec3(direction, 0), column.a);
+    column.maxInverseDistance = piece.maxInverseDistance[k];
+    column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
+    const std::uint16_t* row = capture.row.data() + begin;
+    const float* inverseDistance = capture.inverseDistance.data() + begin;
+    splats_.resize(std::max<std::size_t>(splats_.size(), end - begin + 8));
+    const int count = options_.project(column, capture.rowTangent.data(), row, inverseDistance,
+                                       static_cast<int>(end - begin), splats_.data());
+    counts_.samplesRead += end - begin;
+    if (count == 0) return;
+
+    const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
+    const PaintTarget target{&canvas_,        rect_, capture.colour.data() + begin,     row,
+                             inverseDistance, slot,  static_cast<std::uint32_t>(index), order.footInverse};
+    // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
+    const Splat* splats = splats_.data();
+    const Splat* pivot = std::partition_point(splats, splats + count, [&](const Splat& s) {
+      return capture.rowTangent[row[s.index]] > order.pivotTangent;
+    });
+    const int above = static_cast<int>(pivot - splats);
+    counts_.samplesDrawn += paintSplats(target, mode, splats, above, !order.inwards, capture.layered);
+    counts_.samplesDrawn += paintSplats(target, mode, pivot, count - above, order.inwards, capture.layered);
+  }
+
+  /// Samples of column k whose row tangents lie in the range.
+  static std::pair<std::size_t, std::size_t> samplesBetween(const DisplayCapture& capture, std::size_t k,
+                                                            const TangentRange& tangents) {
+    const std::vector<float>& table = capture.rowTangent;  // falling
+    const auto firstRow = std::partition_point(
+        table.begin(), table.end(), [&](float t) { return static_cast<double>(t) > tangents.high; });
+    const auto endRow = std::partition_point(firstRow, table.end(),
+                                             [&](float t) { return static_cast<double>(t) >= tangents.low; });
+    const auto columnBegin = capture.row.begin() + capture.columnStart[k];
+    const auto columnEnd = capture.row.begin() + capture.columnStart[k + 1];
+    const auto begin = std::lower_bound(columnBegin, columnEnd, firstRow - table.begin());
+    const auto end = std::lower_bound(begin, columnEnd, endRow - table.begin());
+    return {static_cast<std::size_t>(begin - capture.row.begin()),
+            static_cast<std::size_t>(end - capture.row.begin())};
+  }
+
+  const WalkScene& scene_;
+  const PerspectiveView& view_;
+  const ViewSettings& settings_;
+  const WarpOptions& options_;
+  Canvas& canvas_;
+  PixelRect rect_;
+  ScaledAxes axes_;
+  FrustumPlanes planes_;
+  std::vector<Splat> splats_;
+  WarpCounts counts_;
+};
+
+}  // namespace
+
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps) {
+  Canvas canvas;
+  canvas.width = view.width;
+  canvas.height = view.height;
+  const std::size_t size = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+  canvas.pixels.assign(size, kEmptyPixel);
+  if (withStamps) canvas.stamps.assign(size, 0);
+  return canvas;
+}
+
+WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                      const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner) {
+  require(plan.pieces.size() <= static_cast<std::size_t>(kMaxSlots),
+          "more pieces than a canvas pixel can name");
+  const int bands = std::clamp(options.bands, 1, view.height);
+  std::vector<WarpCounts> counts(static_cast<std::size_t>(bands));
+  runner.parallelFor(counts.size(), [&](std::size_t band) {
+    const auto rowAt = [&](std::size_t b) {
+      return static_cast<int>(b * std::size_t(view.height) / counts.size());
+    };
+    const PixelRect rect{0, rowAt(band), view.width, rowAt(band + 1)};
+    counts[band] = BandWarp(scene, view, settings, options, canvas, rect).run(plan);
+  });
+  WarpCounts total;
+  for (const WarpCounts& c : counts) {
+    total.samplesRead += c.samplesRead;
+    total.samplesDrawn += c.samplesDrawn;
+  }
+  return total;
+}
+
+}  // namespace acentric

@@ -1,0 +1,32 @@
+#pragma once
+/// Paints a plan's pieces on a canvas: the background of a frame.
+
+#include "engine/base/task_runner.h"
+#include "engine/view/canvas.h"
+#include "engine/view/view_plan.h"
+#include "engine/view/warp_kernel.h"
+
+namespace acentric {
+
+struct WarpOptions {
+  ProjectSamples project = projectSamplesScalar;
+  bool depthTest = false;  ///< nearest sample wins instead of the last one
+  /// The picture is cut in this many bands of rows, one task each. Rows of a capture move little in
+  /// elevation, so few samples fall on two bands; bands do not depend on the thread count, so neither does
+  /// the picture.
+  int bands = 8;
+};
+
+struct WarpCounts {
+  std::uint64_t samplesRead = 0;  ///< a sample near a band's border may be read for both
+  std::uint64_t samplesDrawn = 0;
+};
+
+/// A cleared canvas for this view; `withStamps` if some piece holds blended samples.
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps);
+
+/// Slot of plan.pieces[i] on the canvas is i + 1; at most kMaxSlots pieces.
+WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                      const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner);
+
+}  // namespace acentric

@@ -1,0 +1,60 @@
+#pragma once
+/// The inner loop of the warp: from samples of one capture column to squares on the picture.
+///
+/// One template (warp_kernel_body.h) is compiled twice: one sample at a time for any processor, and eight at
+/// a time with AVX2. Both do the same operations in the same order without fused multiply-adds, so their
+/// results are the same bits.
+///
+/// This header and everything the AVX2 source includes must stay free of the standard library and of glm: an
+/// inline function compiled there for AVX2 could otherwise be the one copy that the linker keeps for the
+/// whole program.
+
+#include <cstdint>
+
+namespace acentric {
+
+/// A square of `side` pixels with its top left pixel at (x, y).
+struct alignas(16) Splat {
+  std::int16_t x, y;
+  std::int32_t side;
+  std::uint32_t index;  ///< of the sample, counted from the first one handed in
+  float inverseZDepth;  ///< 1/m along the view axis; 0 = sky
+};
+
+enum class PartTest : std::int32_t {
+  none,
+  within,   ///< part at most half a turn wide: left of its low border and right of its high one
+  without,  ///< wider: not within the rest
+};
+
+/// Everything that is constant over a column. Directions are in view axes with focal length and picture
+/// centre multiplied in: sample (t, w) has q = a + t * z + w * b, image position u = q.x / q.z, v = q.y /
+/// q.z, and depth q.z / w along the view axis.
+struct ProjectColumn {
+  float a[3], z[3], b[3];
+  float maxInverseDistance;  ///< nearer samples are dropped
+  float footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
+  float maxSide;
+  float centreX, centreY;       ///< picture centre, pixels
+  float inverseFocal;           ///< 1/pixels
+  std::int32_t x0, y0, x1, y1;  ///< splats that miss this rectangle are dropped
+  PartTest partTest;
+  float direction[2];     ///< column direction in plan
+  float baseline[2];      ///< b in plan, metres
+  float low[2], high[2];  ///< border directions of the part
+};
+
+/// Writes the splats that touch the rectangle to `out` (room for count + 8), in the order of the samples, and
+/// returns how many. `rowTangent` is the capture's table.
+using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                               const float* inverseDistance, int count, Splat* out);
+
+int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                         const float* inverseDistance, int count, Splat* out);
+int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                       const float* inverseDistance, int count, Splat* out);
+
+/// The fastest kernel that this processor runs.
+ProjectSamples fastestProjectSamples();
+
+}  // namespace acentric

@@ -1,0 +1,87 @@
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#include "engine/view/warp_kernel_body.h"
+
+namespace acentric {
+namespace {
+
+struct Floats {
+  __m256 v;
+  friend Floats operator+(Floats a, Floats b) { return {_mm256_add_ps(a.v, b.v)}; }
+  friend Floats operator-(Floats a, Floats b) { return {_mm256_sub_ps(a.v, b.v)}; }
+  friend Floats operator*(Floats a, Floats b) { return {_mm256_mul_ps(a.v, b.v)}; }
+  friend Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; }
+};
+
+struct Ints {
+  __m256i v;
+  friend Ints operator+(Ints a, Ints b) { return {_mm256_add_epi32(a.v, b.v)}; }
+};
+
+struct Mask {
+  __m256 v;
+  friend Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
+  friend Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
+};
+
+struct EightLanes {
+  static constexpr int kWidth = 8;
+  using F = Floats;
+  using I = Ints;
+  using M = Mask;
+  static F set(float value) { return {_mm256_set1_ps(value)}; }
+  static I seti(std::int32_t value) { return {_mm256_set1_epi32(value)}; }
+  static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
+  static F gather(const float* table, const std::uint16_t* index) {
+    const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(index));
+    return {_mm256_i32gather_ps(table, _mm256_cvtepu16_epi32(narrow), 4)};
+  }
+  static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+  static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+  static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
+  static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
+  static F abs(F a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+  static F sqrt(F a) { return {_mm256_sqrt_ps(a.v)}; }
+  static F min(F a, F b) { return {_mm256_min_ps(a.v, b.v)}; }
+  static F max(F a, F b) { return {_mm256_max_ps(a.v, b.v)}; }
+  static F select(M m, F a, F b) { return {_mm256_blendv_ps(b.v, a.v, m.v)}; }
+  static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }
+  static I floor(F a) { return {_mm256_cvttps_epi32(_mm256_floor_ps(a.v))}; }
+  static I ceil(F a) { return {_mm256_cvttps_epi32(_mm256_ceil_ps(a.v))}; }
+
+  /// Writes all eight splats one after the other and steps on only past the accepted ones: no branches.
+  static int append(M accepted, I x, I y, I side, std::uint32_t index, F inverseZDepth, Splat* out) {
+    const unsigned bits = static_cast<unsigned>(_mm256_movemask_ps(accepted.v));
+    if (bits == 0) return 0;
+    const __m256i xy = _mm256_blend_epi16(x.v, _mm256_slli_epi32(y.v, 16), 0xaa);
+    const __m256i indices = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(index)),
+                                             _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    const __m256i depth = _mm256_castps_si256(inverseZDepth.v);
+    const __m256i low01 = _mm256_unpacklo_epi32(xy, side.v), high01 = _mm256_unpackhi_epi32(xy, side.v);
+    const __m256i low23 = _mm256_unpacklo_epi32(indices, depth),
+                  high23 = _mm256_unpackhi_epi32(indices, depth);
+    const __m256i lanes[4] = {_mm256_unpacklo_epi64(low01, low23), _mm256_unpackhi_epi64(low01, low23),
+                              _mm256_unpacklo_epi64(high01, high23), _mm256_unpackhi_epi64(high01, high23)};
+    Splat* next = out;
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      _mm_store_si128(reinterpret_cast<__m128i*>(next), _mm256_castsi256_si128(lanes[lane]));
+      next += (bits >> lane) & 1u;
+    }
+    for (unsigned lane = 0; lane < 4; ++lane) {
+      _mm_store_si128(reinterpret_cast<__m128i*>(next), _mm256_extracti128_si256(lanes[lane], 1));
+      next += (bits >> (lane + 4)) & 1u;
+    }
+    return static_cast<int>(next - out);
+  }
+};
+
+}  // namespace
+
+int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                       const float* inverseDistance, int count, Splat* out) {
+  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, count, out);
+}
+
+}  // namespace acentric
+#endif

@@ -1,0 +1,80 @@
+#pragma once
+/// The kernel itself, over a batch type B that provides float lanes F, integer lanes I and masks M.
+/// Included by the two sources that instantiate it and by nothing else.
+
+#include "engine/view/warp_kernel.h"
+
+namespace acentric::warp_kernel {
+
+/// Beyond this many pixels an image position is no candidate, and converting it to an integer is no longer
+/// safe.
+inline constexpr float kFarPixel = 30000.0f;
+
+template <class B>
+inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
+  const typename B::F x = B::set(c.direction[0]) + w * B::set(c.baseline[0]);
+  const typename B::F y = B::set(c.direction[1]) + w * B::set(c.baseline[1]);
+  const typename B::F fromLow = B::set(c.low[0]) * y - B::set(c.low[1]) * x;
+  const typename B::F toHigh = x * B::set(c.high[1]) - y * B::set(c.high[0]);
+  if (c.partTest == PartTest::within) return B::notLess(fromLow, B::set(0)) & B::less(B::set(0), toHigh);
+  return B::notLess(fromLow, B::set(0)) | B::less(B::set(0), toHigh);
+}
+
+/// Lanes beyond `count` must hold an inverse distance of NaN.
+template <class B>
+inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const std::uint16_t* row,
+                        const float* inverseDistance, std::uint32_t firstIndex, Splat* out) {
+  using F = typename B::F;
+  using I = typename B::I;
+  using M = typename B::M;
+  const F w = B::load(inverseDistance);
+  const F t = B::gather(rowTangent, row);
+  const F qz = B::set(c.a[2]) + t * B::set(c.z[2]) + w * B::set(c.b[2]);
+  M accepted = B::less(B::set(0), qz) & B::notLess(B::set(c.maxInverseDistance), w);
+  if (c.partTest != PartTest::none) accepted = accepted & insidePart<B>(c, w);
+  if (!B::any(accepted)) return 0;
+
+  const F qx = B::set(c.a[0]) + t * B::set(c.z[0]) + w * B::set(c.b[0]);
+  const F qy = B::set(c.a[1]) + t * B::set(c.z[1]) + w * B::set(c.b[1]);
+  const F perDepth = B::set(1) / qz;
+  const F u = qx * perDepth;
+  const F v = qy * perDepth;
+  accepted = accepted & B::less(B::abs(u), B::set(kFarPixel)) & B::less(B::abs(v), B::set(kFarPixel));
+
+  // A sample stands for pitch * distance across; seen under an angle off the view axis the picture stretches
+  // it.
+  const F offX = (u - B::set(c.centreX)) * B::set(c.inverseFocal);
+  const F offY = (v - B::set(c.centreY)) * B::set(c.inverseFocal);
+  const F stretch = B::sqrt((B::set(1) + t * t) * (B::set(1) + offX * offX + offY * offY));
+  const F wanted = B::max(B::min(stretch * perDepth * B::set(c.footprint), B::set(c.maxSide)), B::set(1));
+  const I side = B::ceil(wanted);
+  const F half = B::set(0.5f) - B::set(0.5f) * B::toFloat(side);
+  // The pixels whose centres lie in the square around (u, v).
+  const I x = B::floor(B::select(accepted, u, B::set(0)) + half);
+  const I y = B::floor(B::select(accepted, v, B::set(0)) + half);
+  accepted = accepted & B::greater(B::seti(c.x1), x) & B::greater(B::seti(c.y1), y) &
+             B::greater(x + side, B::seti(c.x0)) & B::greater(y + side, B::seti(c.y0));
+  return B::append(accepted, x, y, side, firstIndex, w * perDepth, out);
+}
+
+template <class B>
+inline int projectColumn(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                         const float* inverseDistance, int count, Splat* out) {
+  int written = 0, i = 0;
+  for (; i + B::kWidth <= count; i += B::kWidth)
+    written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i,
+                               static_cast<std::uint32_t>(i), out + written);
+  if (i < count) {
+    std::uint16_t lastRow[B::kWidth];
+    float lastInverse[B::kWidth];
+    for (int lane = 0; lane < B::kWidth; ++lane) {
+      lastRow[lane] = i + lane < count ? row[i + lane] : row[i];
+      lastInverse[lane] = i + lane < count ? inverseDistance[i + lane] : __builtin_nanf("");
+    }
+    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse, static_cast<std::uint32_t>(i),
+                               out + written);
+  }
+  return written;
+}
+
+}  // namespace acentric::warp_kernel

@@ -1,0 +1,56 @@
+#include "engine/view/warp_kernel_body.h"
+
+namespace acentric {
+namespace {
+
+/// One sample at a time, on any processor. min and max choose as the processor's vector instructions do
+/// (the second operand where either is not a number).
+struct OneLane {
+  static constexpr int kWidth = 1;
+  using F = float;
+  using I = std::int32_t;
+  using M = bool;
+  static F set(float value) { return value; }
+  static I seti(std::int32_t value) { return value; }
+  static F load(const float* p) { return *p; }
+  static F gather(const float* table, const std::uint16_t* index) { return table[*index]; }
+  static M less(F a, F b) { return a < b; }
+  static M notLess(F a, F b) { return a >= b; }
+  static M greater(I a, I b) { return a > b; }
+  static bool any(M m) { return m; }
+  static F abs(F a) { return __builtin_fabsf(a); }
+  static F sqrt(F a) { return __builtin_sqrtf(a); }
+  static F min(F a, F b) { return a < b ? a : b; }
+  static F max(F a, F b) { return a > b ? a : b; }
+  static F select(M m, F a, F b) { return m ? a : b; }
+  static F toFloat(I a) { return static_cast<float>(a); }
+  static I floor(F a) {
+    const I whole = static_cast<I>(a);
+    return whole - (static_cast<float>(whole) > a);
+  }
+  static I ceil(F a) {
+    const I whole = static_cast<I>(a);
+    return whole + (static_cast<float>(whole) < a);
+  }
+  static int append(M accepted, I x, I y, I side, std::uint32_t index, F inverseZDepth, Splat* out) {
+    if (!accepted) return 0;
+    *out = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), side, index, inverseZDepth};
+    return 1;
+  }
+};
+
+}  // namespace
+
+int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                         const float* inverseDistance, int count, Splat* out) {
+  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, count, out);
+}
+
+ProjectSamples fastestProjectSamples() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return projectSamplesAvx2;
+#endif
+  return projectSamplesScalar;
+}
+
+}  // namespace acentric
