@@ -1,7 +1,8 @@
 #pragma once
-/// Captures on disk under content keys, format: FORMAT.md. Each capture is an OpenEXR file `<key>.exr` that any OpenEXR
-/// tool reads (flat when no pixel has more than one sample, else deep), with a packed twin `<key>.pack` that loads fast.
-/// All writes are atomic; a file that fails its checks is treated as missing and reported, never used.
+/// Captures on disk under content keys, format: FORMAT.md. Each capture is an OpenEXR file `<key>.exr` that
+/// any OpenEXR tool reads (flat when no pixel has more than one sample, else deep), with a packed twin
+/// `<key>.pack` that loads fast. All writes are atomic; a file that fails its checks is treated as missing
+/// and reported, never used.
 
 #include <filesystem>
 #include <memory>
@@ -32,8 +33,8 @@ class CaptureStore {
   /// Complete on disk (both files present; content is checked on get).
   bool has(const ContentKey& key) const;
   Status put(const ContentKey& key, const Capture& capture) const;
-  /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both are set aside
-  /// (renamed *.damaged), so that the next bake replaces them.
+  /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both
+  /// are set aside (renamed *.damaged), so that the next bake replaces them.
   Result<Capture> get(const ContentKey& key) const;
 
   bool hasSurfaceLight(const ContentKey& key) const;

@@ -1,0 +1,180 @@
+#include "engine/store/block_file.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "engine/base/file.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kPreambleBytes = 56;
+constexpr std::size_t kChecksumBytes = 16;
+constexpr std::size_t kTableEntryBytes = 8;
+constexpr std::uint32_t kMaxBlockBytes = 16u << 20;
+/// No file unpacks to more than this many times its own size; writers pad with zeros where content compresses
+/// better.
+constexpr std::uint64_t kMaxExpansion = 256;
+/// Level 1 unpacks as fast as higher ones and packs several times faster.
+constexpr int kCompressionLevel = 1;
+
+template <class T>
+void put(std::vector<std::byte>& out, T value) {
+  const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+  out.insert(out.end(), bytes, bytes + sizeof value);
+}
+
+template <class T>
+T take(const std::vector<std::byte>& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+Status BlockFileWriter::addBlock(std::span<const std::byte> raw) {
+  if (raw.size() > kMaxBlockBytes) return fail(ErrorKind::tooLarge, "a block exceeds 16 MiB");
+  const std::size_t old = stored_.size();
+  stored_.resize(old + ZSTD_compressBound(raw.size()));
+  const std::size_t size =
+      ZSTD_compress(stored_.data() + old, stored_.size() - old, raw.data(), raw.size(), kCompressionLevel);
+  if (ZSTD_isError(size))
+    return fail(ErrorKind::internal, std::string("compression failed: ") + ZSTD_getErrorName(size));
+  stored_.resize(old + size);
+  sizes_.push_back({static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(size)});
+  rawBytes_ += raw.size();
+  return {};
+}
+
+Status BlockFileWriter::addRecords(std::span<const ConstLane> lanes, std::size_t count) {
+  const std::size_t width = recordBytes(lanes);
+  std::vector<std::byte> planes(width * std::min(count, kRecordsPerBlock));
+  for (std::size_t begin = 0; begin < count; begin += kRecordsPerBlock) {
+    const std::size_t records = std::min(kRecordsPerBlock, count - begin);
+    encodeLanes(lanes, begin, records, planes.data());
+    if (Status added = addBlock({planes.data(), width * records}); !added) return added;
+  }
+  return {};
+}
+
+Status BlockFileWriter::write(const std::filesystem::path& path) const {
+  const std::uint64_t contentBytes = kPreambleBytes + description_.size() + sizes_.size() * kTableEntryBytes +
+                                     stored_.size() + kChecksumBytes;
+  const std::uint64_t fileBytes = std::max(contentBytes, (rawBytes_ + kMaxExpansion - 1) / kMaxExpansion);
+  std::vector<std::byte> out;
+  out.reserve(fileBytes);
+  for (char letter : kMagic) put(out, letter);
+  put(out, kVersion);
+  put(out, static_cast<std::uint32_t>(kind_));
+  put(out, key_.high);
+  put(out, key_.low);
+  put(out, fileBytes);
+  put(out, rawBytes_);
+  put(out, static_cast<std::uint32_t>(description_.size()));
+  put(out, static_cast<std::uint32_t>(sizes_.size()));
+  out.insert(out.end(), description_.begin(), description_.end());
+  for (const BlockSize& size : sizes_) {
+    put(out, size.raw);
+    put(out, size.stored);
+  }
+  out.insert(out.end(), stored_.begin(), stored_.end());
+  out.resize(fileBytes - kChecksumBytes);
+  const ContentKey checksum = Hasher().bytes(out.data(), out.size()).finish();
+  put(out, checksum.high);
+  put(out, checksum.low);
+  return writeFileAtomically(path, out);
+}
+
+Result<BlockFileReader> BlockFileReader::open(const std::filesystem::path& path, BlockFileKind kind) {
+  auto bytes = readFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  BlockFileReader reader;
+  reader.bytes_ = std::move(*bytes);
+  reader.name_ = path.string();
+  if (Status parsed = reader.parse(kind); !parsed) return tl::unexpected(parsed.error());
+  return reader;
+}
+
+Status BlockFileReader::parse(BlockFileKind kind) {
+  if (bytes_.size() < kPreambleBytes + kChecksumBytes ||
+      std::memcmp(bytes_.data(), kMagic.data(), kMagic.size()) != 0)
+    return malformed("is no packed file of this program, or its beginning is damaged");
+  const std::size_t checked = bytes_.size() - kChecksumBytes;
+  if (take<std::uint64_t>(bytes_, 32) != bytes_.size())
+    return malformed(fmt::format("has {} bytes instead of {}: it was cut or appended to", bytes_.size(),
+                                 take<std::uint64_t>(bytes_, 32)));
+  const ContentKey stored{take<std::uint64_t>(bytes_, checked), take<std::uint64_t>(bytes_, checked + 8)};
+  if (Hasher().bytes(bytes_.data(), checked).finish() != stored)
+    return malformed("is damaged: its checksum differs");
+  if (const auto version = take<std::uint32_t>(bytes_, 8); version != kVersion)
+    return fail(ErrorKind::unsupported,
+                fmt::format("has format version {}, this program reads {}; bake it anew", version, kVersion),
+                name_);
+  if (take<std::uint32_t>(bytes_, 12) != static_cast<std::uint32_t>(kind))
+    return malformed("holds another kind of data than its name says");
+  key_ = {take<std::uint64_t>(bytes_, 16), take<std::uint64_t>(bytes_, 24)};
+  rawBytes_ = take<std::uint64_t>(bytes_, 40);
+  const std::uint64_t descriptionBytes = take<std::uint32_t>(bytes_, 48);
+  const std::uint64_t blocks = take<std::uint32_t>(bytes_, 52);
+  const std::uint64_t tableEnd = kPreambleBytes + descriptionBytes + blocks * kTableEntryBytes;
+  if (tableEnd > checked) return malformed("claims more blocks than fit into it");
+  if (rawBytes_ > kMaxExpansion * bytes_.size())
+    return malformed("claims more content than a file of its size holds");
+
+  descriptionAt_ = kPreambleBytes;
+  descriptionEnd_ = kPreambleBytes + static_cast<std::size_t>(descriptionBytes);
+  table_ = descriptionEnd_;
+  blockCount_ = static_cast<std::size_t>(blocks);
+  blockAt_ = static_cast<std::size_t>(tableEnd);
+  std::uint64_t raw = 0, end = tableEnd;
+  for (std::size_t i = 0; i < blockCount_; ++i) {
+    const auto rawBytes = take<std::uint32_t>(bytes_, table_ + i * kTableEntryBytes);
+    if (rawBytes > kMaxBlockBytes) return malformed(fmt::format("block {} is larger than 16 MiB", i));
+    raw += rawBytes;
+    end += take<std::uint32_t>(bytes_, table_ + i * kTableEntryBytes + 4);
+  }
+  if (raw != rawBytes_ || end > checked) return malformed("its table of blocks contradicts its size");
+  return {};
+}
+
+void BlockFileReader::takeDescription(void* out, std::size_t size) {
+  descriptionSound_ = descriptionSound_ && size <= descriptionEnd_ - descriptionAt_;
+  if (!descriptionSound_) return;
+  std::memcpy(out, bytes_.data() + descriptionAt_, size);
+  descriptionAt_ += size;
+}
+
+Status BlockFileReader::nextBlock(std::span<std::byte> raw) {
+  if (atEnd()) return malformed("has fewer blocks than its description needs");
+  const std::size_t entry = table_ + block_ * kTableEntryBytes;
+  if (take<std::uint32_t>(bytes_, entry) != raw.size())
+    return malformed(fmt::format("block {} unpacks to another size than its description needs", block_));
+  const auto stored = take<std::uint32_t>(bytes_, entry + 4);
+  const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), bytes_.data() + blockAt_, stored);
+  if (ZSTD_isError(size) || size != raw.size())
+    return malformed(fmt::format("block {} cannot be unpacked: {}", block_,
+                                 ZSTD_isError(size) ? ZSTD_getErrorName(size) : "it is too short"));
+  blockAt_ += stored;
+  ++block_;
+  return {};
+}
+
+Status BlockFileReader::nextRecords(std::span<const Lane> lanes, std::size_t count) {
+  const std::size_t width = recordBytes(lanes);
+  std::vector<std::byte> planes(width * std::min(count, kRecordsPerBlock));
+  for (std::size_t begin = 0; begin < count; begin += kRecordsPerBlock) {
+    const std::size_t records = std::min(kRecordsPerBlock, count - begin);
+    if (Status unpacked = nextBlock({planes.data(), width * records}); !unpacked) return unpacked;
+    decodeLanes(lanes, begin, records, planes.data());
+  }
+  return {};
+}
+
+}  // namespace acentric

@@ -1,0 +1,102 @@
+#pragma once
+/// The frame that packed captures and surface light share (FORMAT.md, "Block files"): a preamble with kind,
+/// version and content key, a description, a table of blocks, zstd-compressed blocks, and an XXH3 checksum
+/// over all of it.
+///
+/// Reading verifies the checksum before anything is believed, and every size against the size of the file
+/// before anything is allocated: a file of n bytes never makes a reader allocate more than 256 n for its
+/// contents.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/base/result.h"
+#include "engine/store/lanes.h"
+
+namespace acentric {
+
+enum class BlockFileKind : std::uint32_t { capture = 1, surfaceLight = 2 };
+
+/// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
+inline constexpr std::size_t kRecordsPerBlock = 65536;
+
+class BlockFileWriter {
+ public:
+  BlockFileWriter(BlockFileKind kind, const ContentKey& key) : kind_(kind), key_(key) {}
+
+  template <class T>
+  void describe(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+    description_.insert(description_.end(), bytes, bytes + sizeof value);
+  }
+  Status addBlock(std::span<const std::byte> raw);
+  /// `count` records in blocks of kRecordsPerBlock.
+  Status addRecords(std::span<const ConstLane> lanes, std::size_t count);
+  Status write(const std::filesystem::path& path) const;
+
+ private:
+  struct BlockSize {
+    std::uint32_t raw = 0;
+    std::uint32_t stored = 0;
+  };
+  BlockFileKind kind_;
+  ContentKey key_;
+  std::vector<std::byte> description_;
+  std::vector<BlockSize> sizes_;
+  std::vector<std::byte> stored_;
+  std::uint64_t rawBytes_ = 0;
+};
+
+class BlockFileReader {
+ public:
+  /// Reads and verifies everything but the blocks' contents.
+  static Result<BlockFileReader> open(const std::filesystem::path& path, BlockFileKind kind);
+
+  const ContentKey& key() const { return key_; }
+  const std::string& name() const { return name_; }
+  std::uint64_t rawBytes() const { return rawBytes_; }
+
+  /// Takes the next value of the description. A description that is too short gives zeros and fails
+  /// `describedAll`.
+  template <class T>
+  T described() {
+    static_assert(std::is_arithmetic_v<T>);
+    T value{};
+    takeDescription(&value, sizeof value);
+    return value;
+  }
+  bool describedAll() const { return descriptionSound_ && descriptionAt_ == descriptionEnd_; }
+
+  /// Unpacks the next block into `raw`, whose size must be the block's.
+  Status nextBlock(std::span<std::byte> raw);
+  Status nextRecords(std::span<const Lane> lanes, std::size_t count);
+  bool atEnd() const { return block_ == blockCount_; }
+
+  tl::unexpected<Error> malformed(std::string message) const {
+    return fail(ErrorKind::malformed, std::move(message), name_);
+  }
+
+ private:
+  void takeDescription(void* out, std::size_t size);
+  Status parse(BlockFileKind kind);
+
+  std::vector<std::byte> bytes_;
+  std::string name_;
+  ContentKey key_;
+  std::uint64_t rawBytes_ = 0;
+  std::size_t descriptionAt_ = 0;
+  std::size_t descriptionEnd_ = 0;
+  bool descriptionSound_ = true;
+  std::size_t table_ = 0;
+  std::size_t blockCount_ = 0;
+  std::size_t block_ = 0;
+  std::size_t blockAt_ = 0;  ///< file offset of the next block's contents
+};
+
+}  // namespace acentric

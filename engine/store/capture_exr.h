@@ -1,0 +1,35 @@
+#pragma once
+/// What the reading and the writing of capture files as OpenEXR agree on (FORMAT.md, "Captures as OpenEXR").
+
+#include <OpenEXR/ImfHeader.h>
+
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/image/capture.h"
+
+namespace acentric {
+
+inline constexpr int kCaptureExrVersion = 1;
+/// Value of channel W where a flat file's pixel has no sample.
+inline constexpr float kNoSample = -1.0f;
+
+inline constexpr char kAttributeVersion[] = "acentricVersion";
+inline constexpr char kAttributeKey[] = "acentricKey";
+inline constexpr char kAttributeChecksum[] = "acentricChecksum";
+inline constexpr char kAttributeCentre[] = "acentricCentreOfProjection";
+inline constexpr char kAttributeLowAzimuth[] = "acentricLowAzimuth";
+inline constexpr char kAttributeFov[] = "acentricFov";
+inline constexpr char kAttributeTop[] = "acentricTopElevation";
+inline constexpr char kAttributeBottom[] = "acentricBottomElevation";
+
+/// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else each direction
+/// rounds to the nearest half, and the colour under alpha 0 is lost.
+HalfColour premultiplied(const HalfColour& straight);
+HalfColour straightened(const HalfColour& premultiplied);
+
+/// Guards what the compression's own check does not: attributes, sample counts, the order of samples.
+ContentKey checksumOf(const ContentKey& key, const Capture& capture,
+                      const std::vector<HalfColour>& premultipliedColours);
+
+}  // namespace acentric

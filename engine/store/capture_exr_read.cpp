@@ -1,0 +1,246 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDeepFrameBuffer.h>
+#include <OpenEXR/ImfDeepScanLineInputPart.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVecAttribute.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <new>
+#include <stdexcept>
+
+#include "engine/base/file.h"
+#include "engine/store/capture_exr.h"
+#include "engine/store/capture_store.h"
+#include "engine/store/exr_memory.h"
+#include "engine/store/keyed.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::array kColourChannels = {"R", "G", "B", "A"};
+/// Deflate packs no more than this into a byte: a picture of more cannot be in the file.
+constexpr std::uint64_t kMaxDeflateRatio = 1032;
+
+/// Carries an error out through OpenEXR's exceptions.
+struct Refusal {
+  ErrorKind kind;
+  std::string message;
+};
+
+[[noreturn]] void refuse(std::string message, ErrorKind kind = ErrorKind::malformed) {
+  throw Refusal{kind, std::move(message)};
+}
+
+template <class Attribute>
+auto attribute(const Imf::Header& header, const char* name) {
+  const auto* found = header.findTypedAttribute<Attribute>(name);
+  if (found == nullptr) refuse(fmt::format("has no attribute '{}': it is no capture of this program", name));
+  return found->value();
+}
+
+ContentKey keyAttribute(const Imf::Header& header, const char* name) {
+  const auto key = ContentKey::fromHex(attribute<Imf::StringAttribute>(header, name));
+  if (!key) refuse(fmt::format("attribute '{}': {}", name, key.error().message));
+  return *key;
+}
+
+void checkChannel(const Imf::Header& header, const char* name, Imf::PixelType type) {
+  const Imf::Channel* channel = header.channels().findChannel(name);
+  if (channel == nullptr || channel->type != type || channel->xSampling != 1 || channel->ySampling != 1)
+    refuse(fmt::format("channel {} is missing or of another type than a capture's", name));
+}
+
+ColumnCamera cameraOf(const Imf::Header& header, std::uint64_t fileBytes) {
+  const Imath::Box2i& window = header.dataWindow();
+  if (window.min.x != 0 || window.min.y != 0 || window.max.x < 0 || window.max.y < 0 ||
+      window.max.x > 65534 || window.max.y > 65534)
+    refuse("its data window is not that of a capture");
+  ColumnCamera camera;
+  camera.columns = window.max.x + 1;
+  camera.rows = window.max.y + 1;
+  // Four bytes for a pixel's sample count at least.
+  if (4 * static_cast<std::uint64_t>(camera.columns) * static_cast<std::uint64_t>(camera.rows) >
+      kMaxDeflateRatio * fileBytes)
+    refuse("claims more pixels than a file of its size holds");
+  const Imath::V3d centre = attribute<Imf::V3dAttribute>(header, kAttributeCentre);
+  camera.centreOfProjection = {centre.x, centre.y, centre.z};
+  camera.lowAzimuth = attribute<Imf::DoubleAttribute>(header, kAttributeLowAzimuth);
+  camera.fovRadians = attribute<Imf::DoubleAttribute>(header, kAttributeFov);
+  camera.topElevation = attribute<Imf::DoubleAttribute>(header, kAttributeTop);
+  camera.bottomElevation = attribute<Imf::DoubleAttribute>(header, kAttributeBottom);
+  if (const Status sound = camera.check(); !sound) refuse(sound.error().message);
+  return camera;
+}
+
+template <class T>
+char* slicePointer(T& value) {
+  return reinterpret_cast<char*>(&value);
+}
+
+/// Colours stay premultiplied, as they are in the file.
+void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
+  struct Pixel {
+    HalfColour colour;
+    float w;
+  };
+  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+  std::vector<Pixel> pixels(columns * rows);  // column after column
+  const std::size_t columnStride = rows * sizeof(Pixel);
+  Imf::FrameBuffer buffer;
+  for (int channel = 0; channel < 4; ++channel)
+    buffer.insert(
+        kColourChannels[static_cast<std::size_t>(channel)],
+        Imf::Slice(Imf::HALF, slicePointer(pixels[0].colour[channel]), columnStride, sizeof(Pixel)));
+  buffer.insert("W", Imf::Slice(Imf::FLOAT, slicePointer(pixels[0].w), columnStride, sizeof(Pixel)));
+  Imf::InputPart part(file, 0);
+  part.setFrameBuffer(buffer);
+  part.readPixels(0, capture.camera.rows - 1);
+
+  std::size_t samples = 0;
+  for (const Pixel& pixel : pixels) samples += pixel.w == kNoSample ? 0 : 1;
+  capture.row.reserve(samples);
+  capture.inverseDistance.reserve(samples);
+  capture.colour.reserve(samples);
+  for (std::size_t column = 0; column < columns; ++column) {
+    const Pixel* pixel = &pixels[(columns - 1 - column) * rows];
+    for (std::size_t row = 0; row < rows; ++row, ++pixel) {
+      if (pixel->w == kNoSample) continue;
+      capture.row.push_back(static_cast<std::uint16_t>(row));
+      capture.inverseDistance.push_back(pixel->w);
+      capture.colour.push_back(pixel->colour);
+    }
+    capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+  }
+}
+
+/// Turns the counts of a file's pixels (column after column) into the capture's rows and column starts, and
+/// each count into the number of the pixel's first sample.
+void placeSamples(std::vector<unsigned int>& counts, Capture& capture, std::uint64_t fileBytes) {
+  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+  std::uint64_t total = 0;
+  for (unsigned int count : counts) total += count;
+  constexpr std::uint64_t bytesPerSample = 12;  // R, G, B, A as half and W as float, before compression
+  if (total > kMaxCaptureSamples || bytesPerSample * total > kMaxDeflateRatio * fileBytes)
+    refuse("claims more samples than a file of its size holds");
+  capture.row.reserve(total);
+  for (std::size_t column = 0; column < columns; ++column) {
+    unsigned int* count = &counts[(columns - 1 - column) * rows];
+    for (std::size_t row = 0; row < rows; ++row, ++count) {
+      const unsigned int first = static_cast<unsigned int>(capture.row.size());
+      capture.row.insert(capture.row.end(), *count, static_cast<std::uint16_t>(row));
+      *count = first;
+    }
+    capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+  }
+  capture.inverseDistance.resize(total);
+  capture.colour.resize(total);
+}
+
+void readDeep(Imf::MultiPartInputFile& file, Capture& capture, std::uint64_t fileBytes) {
+  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+  std::vector<unsigned int> counts(columns * rows);  // column after column
+  std::array<std::vector<char*>, 5> pointers;        // of one line: to the first sample of each pixel
+  for (auto& channel : pointers) channel.resize(columns);
+  Imf::DeepFrameBuffer buffer;
+  buffer.insertSampleCountSlice(
+      Imf::Slice(Imf::UINT, slicePointer(counts[0]), rows * sizeof(unsigned int), sizeof(unsigned int)));
+  for (std::size_t channel = 0; channel < 4; ++channel)
+    buffer.insert(kColourChannels[channel], Imf::DeepSlice(Imf::HALF, slicePointer(pointers[channel][0]),
+                                                           sizeof(char*), 0, sizeof(HalfColour)));
+  buffer.insert("W",
+                Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[4][0]), sizeof(char*), 0, sizeof(float)));
+  Imf::DeepScanLineInputPart part(file, 0);
+  part.setFrameBuffer(buffer);
+  part.readPixelSampleCounts(0, capture.camera.rows - 1);
+
+  std::vector<unsigned int> firstSample = counts;  // the part goes on reading `counts` itself
+  placeSamples(firstSample, capture, fileBytes);
+  HalfColour nothing;
+  float nowhere = 0;
+  const bool empty = capture.row.empty();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      // A pixel without samples gets a pointer too: to the next sample, or past the end, where nothing is
+      // written.
+      const std::size_t first = firstSample[x * rows + row];
+      HalfColour* colour = empty ? &nothing : capture.colour.data() + first;
+      float* w = empty ? &nowhere : capture.inverseDistance.data() + first;
+      for (std::size_t channel = 0; channel < 4; ++channel)
+        pointers[channel][x] = reinterpret_cast<char*>(colour) + 2 * channel;
+      pointers[4][x] = reinterpret_cast<char*>(w);
+    }
+    part.readPixels(static_cast<int>(row), static_cast<int>(row));
+  }
+}
+
+Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
+  ExrMemoryInput memory(name, bytes);
+  Imf::MultiPartInputFile file(memory, 0, false);
+  if (file.parts() != 1) refuse("has several parts; a capture has one");
+  const Imf::Header& header = file.header(0);
+  if (const int version = attribute<Imf::IntAttribute>(header, kAttributeVersion);
+      version != kCaptureExrVersion)
+    refuse(fmt::format("has format version {}, this program reads {}; bake it anew", version,
+                       kCaptureExrVersion),
+           ErrorKind::unsupported);
+  const Imf::Compression compression = header.compression();
+  if (compression != Imf::NO_COMPRESSION && compression != Imf::RLE_COMPRESSION &&
+      compression != Imf::ZIPS_COMPRESSION && compression != Imf::ZIP_COMPRESSION)
+    refuse("is compressed in a way that captures are not; save it with ZIP or ZIPS", ErrorKind::unsupported);
+  for (const char* channel : kColourChannels) checkChannel(header, channel, Imf::HALF);
+  checkChannel(header, "W", Imf::FLOAT);
+
+  Keyed<Capture> result{keyAttribute(header, kAttributeKey), {}};
+  Capture& capture = result.value;
+  capture.camera = cameraOf(header, bytes.size());
+  capture.columnStart.reserve(static_cast<std::size_t>(capture.camera.columns) + 1);
+  capture.columnStart.push_back(0);
+  const std::string type = header.hasType() ? header.type() : Imf::SCANLINEIMAGE;
+  if (type == Imf::SCANLINEIMAGE)
+    readFlat(file, capture);
+  else if (type == Imf::DEEPSCANLINE)
+    readDeep(file, capture, bytes.size());
+  else
+    refuse("is tiled; captures are stored by scanlines");
+
+  if (checksumOf(result.key, capture, capture.colour) != keyAttribute(header, kAttributeChecksum))
+    refuse("is damaged or was edited: its checksum differs");
+  for (HalfColour& colour : capture.colour) colour = straightened(colour);
+  if (const Status sound = capture.check(); !sound) refuse(sound.error().describe());
+  return result;
+}
+
+}  // namespace
+
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path) {
+  return withinMemory(path, [&]() -> Result<Keyed<Capture>> {
+    const auto bytes = readFile(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    try {
+      return readExr(path.string(), *bytes);
+    } catch (const Refusal& refusal) {
+      return fail(refusal.kind, refusal.message, path.string());
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      return fail(ErrorKind::malformed, std::string("cannot be read as OpenEXR: ") + error.what(),
+                  path.string());
+    }
+  });
+}
+
+Result<Capture> readCaptureExr(const std::filesystem::path& path) {
+  return withoutKey(readKeyedCaptureExr(path));
+}
+
+}  // namespace acentric

@@ -1,0 +1,150 @@
+#include "engine/store/capture_store.h"
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include "engine/base/file.h"
+#include "engine/store/keyed.h"
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kExrExtension = ".exr";
+constexpr const char* kPackExtension = ".pack";
+constexpr const char* kDamagedExtension = ".damaged";
+
+fs::path exrOf(const fs::path& folder, const ContentKey& key) {
+  return folder / (key.toHex() + kExrExtension);
+}
+fs::path packOf(const fs::path& folder, const ContentKey& key) {
+  return folder / (key.toHex() + kPackExtension);
+}
+fs::path lightOf(const fs::path& folder, const ContentKey& key) {
+  return folder / ("surface-" + key.toHex() + ".light");
+}
+
+bool isFile(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+std::uint64_t sizeOf(const fs::path& path) {
+  std::error_code error;
+  const auto size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
+void setAside(const fs::path& path) {
+  std::error_code ignored;  // if it cannot be renamed, reading it fails the same way next time
+  fs::rename(path, path.string() + kDamagedExtension, ignored);
+}
+
+/// A file made for another key is as useless as a damaged one.
+template <class Value>
+Result<Keyed<Value>> expectKey(Result<Keyed<Value>>&& read, const ContentKey& key, const fs::path& path) {
+  if (read && read->key != key)
+    return fail(ErrorKind::malformed,
+                "was made for key " + read->key.toHex() + ", not for the one in its name", path.string());
+  return std::move(read);
+}
+
+/// The key in the name of a capture's file (also of one set aside).
+std::optional<ContentKey> keyInName(const fs::path& path) {
+  fs::path name = path.filename();
+  if (name.extension() == kDamagedExtension) name = name.stem();
+  if (name.extension() != kExrExtension && name.extension() != kPackExtension) return std::nullopt;
+  const auto key = ContentKey::fromHex(name.stem().string());
+  return key ? std::optional(*key) : std::nullopt;
+}
+
+}  // namespace
+
+Result<CaptureStore> CaptureStore::open(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
+    return fail(ErrorKind::unreadable, "cannot be used as the folder of captures: " + error.message(),
+                folder.string());
+  removeStaleTemporaries(folder);
+  return CaptureStore(folder);
+}
+
+bool CaptureStore::has(const ContentKey& key) const {
+  return isFile(exrOf(folder_, key)) && isFile(packOf(folder_, key));
+}
+
+Status CaptureStore::put(const ContentKey& key, const Capture& capture) const {
+  if (Status written = writeCaptureExr(capture, key, exrOf(folder_, key)); !written) return written;
+  return writeCapturePack(capture, key, packOf(folder_, key));
+}
+
+Result<Capture> CaptureStore::get(const ContentKey& key) const {
+  const fs::path exr = exrOf(folder_, key), pack = packOf(folder_, key);
+  if (!has(key)) return fail(ErrorKind::notFound, "is not baked", pack.string());
+  auto packed = expectKey(readKeyedCapturePack(pack), key, pack);
+  if (packed) return withoutKey(std::move(packed));
+  // Only contents that are wrong count as damage: a disk or memory in trouble says nothing about the file.
+  if (packed.error().kind != ErrorKind::malformed && packed.error().kind != ErrorKind::unsupported)
+    return tl::unexpected(packed.error());
+  auto original = expectKey(readKeyedCaptureExr(exr), key, exr);
+  if (original) {
+    // Should the pack not be writable now, the capture is still sound; the next get tries again.
+    (void)writeCapturePack(original->value, key, pack);
+    return withoutKey(std::move(original));
+  }
+  if (original.error().kind != ErrorKind::malformed && original.error().kind != ErrorKind::unsupported)
+    return tl::unexpected(original.error());
+  setAside(exr);
+  setAside(pack);
+  return fail(ErrorKind::malformed,
+              "both files of this capture are damaged and were set aside as *.damaged; bake again (" +
+                  packed.error().message + "; " + original.error().message + ")",
+              pack.string());
+}
+
+bool CaptureStore::hasSurfaceLight(const ContentKey& key) const { return isFile(lightOf(folder_, key)); }
+
+Status CaptureStore::putSurfaceLight(const ContentKey& key, const SurfaceLight& light) const {
+  return writeSurfaceLight(light, key, lightOf(folder_, key));
+}
+
+Result<SurfaceLight> CaptureStore::getSurfaceLight(const ContentKey& key) const {
+  const fs::path path = lightOf(folder_, key);
+  if (!isFile(path)) return fail(ErrorKind::notFound, "is not baked", path.string());
+  auto light = expectKey(readKeyedSurfaceLight(path), key, path);
+  if (!light &&
+      (light.error().kind == ErrorKind::malformed || light.error().kind == ErrorKind::unsupported)) {
+    setAside(path);
+    return fail(ErrorKind::malformed,
+                "is damaged and was set aside as *.damaged; bake again (" + light.error().message + ")",
+                path.string());
+  }
+  return withoutKey(std::move(light));
+}
+
+std::uint64_t CaptureStore::bytesOf(const ContentKey& key) const {
+  return sizeOf(exrOf(folder_, key)) + sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key));
+}
+
+std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {
+  std::uint64_t freed = 0;
+  std::error_code error;
+  std::vector<fs::path> doomed;
+  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
+    const auto key = keyInName(entry->path());
+    const bool setAsideBefore = entry->path().extension() == kDamagedExtension;
+    if (key && (setAsideBefore || std::find(keep.begin(), keep.end(), *key) == keep.end()))
+      doomed.push_back(entry->path());
+  }
+  for (const fs::path& path : doomed) {
+    const std::uint64_t size = sizeOf(path);
+    if (fs::remove(path, error)) freed += size;
+  }
+  return freed;
+}
+
+}  // namespace acentric

@@ -1,0 +1,41 @@
+#pragma once
+/// OpenEXR files in memory: what is written reaches the disk in one atomic step, with its errors seen; what
+/// is read was read whole, so that the size is known before any count in it is believed.
+
+#include <OpenEXR/ImfIO.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace acentric {
+
+class ExrMemoryOutput : public Imf::OStream {
+ public:
+  explicit ExrMemoryOutput(const std::string& name) : Imf::OStream(name.c_str()) {}
+  void write(const char bytes[], int count) override;
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::uint64_t position_ = 0;
+};
+
+/// The bytes outlive the stream. Reading beyond the end throws, as OpenEXR expects.
+class ExrMemoryInput : public Imf::IStream {
+ public:
+  ExrMemoryInput(const std::string& name, std::span<const std::byte> bytes)
+      : Imf::IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char out[], int count) override;
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace acentric

@@ -1,0 +1,39 @@
+#pragma once
+/// What a file holds together with the content key that it says it was made for.
+
+#include "engine/base/hash.h"
+#include "engine/image/capture.h"
+#include "engine/scene/surface_light.h"
+
+namespace acentric {
+
+template <class Value>
+struct Keyed {
+  ContentKey key;
+  Value value;
+};
+
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path);
+Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
+Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
+
+/// The value alone.
+template <class Value>
+Result<Value> withoutKey(Result<Keyed<Value>>&& keyed) {
+  if (!keyed) return tl::unexpected(std::move(keyed.error()));
+  return std::move(keyed->value);
+}
+
+/// Runs `body`; memory that runs out becomes an error of the file.
+template <class Body>
+auto withinMemory(const std::filesystem::path& path, const Body& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory", path.string());
+  } catch (const std::length_error&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory", path.string());
+  }
+}
+
+}  // namespace acentric
