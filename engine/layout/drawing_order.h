@@ -16,16 +16,19 @@ struct ViewSector {
 ViewSector sectorOf(const PerspectiveView& view);
 
 struct OrderedPiece {
-  int camera = 0;           ///< into Layout::cameras
-  ViewSector part;          ///< the part of the view in which this place in the order holds (all of it, unless the view was split)
+  int camera = 0;   ///< into Layout::cameras
+  ViewSector part;  ///< the part of the view in which this place in the order holds (all of it, unless the
+                    ///< view was split)
 };
 
-/// Hand to use in a ring: counter-clockwise when the polygon's centre lies left of the viewing ray (paper Fig. 8).
+/// Hand to use in a ring: counter-clockwise when the polygon's centre lies left of the viewing ray (paper
+/// Fig. 8).
 Hand preferredHand(const Region& region, const glm::dvec2& eye, double viewAzimuth);
 
-/// Visible pieces back to front. For an eye inside the region and any width; views wider than one linear order serves
-/// are split, and each part's pieces follow in order (parts do not overlap on the picture).
-std::vector<OrderedPiece> visiblePieces(const Layout& layout, int region, const Cover& cover, const ViewSector& sector);
+/// Visible pieces back to front. For an eye inside the region and any width; views wider than one linear
+/// order serves are split, and each part's pieces follow in order (parts do not overlap on the picture).
+std::vector<OrderedPiece> visiblePieces(const Layout& layout, int region, const Cover& cover,
+                                        const ViewSector& sector);
 
 /// The cover that the paper chooses for this view (hand rule in rings).
 const Cover& chooseCover(const Region& region, const ViewSector& sector);

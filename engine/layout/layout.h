@@ -1,7 +1,7 @@
 #pragma once
 /// The tessellation made explicit: regions, capture cameras, and each region's covers (apv.md sections 1, 3).
-/// Pure geometry; no scene needed. Cameras are identified by integers (lattice corner, direction index), so that
-/// corners computed from different polygons are the same camera.
+/// Pure geometry; no scene needed. Cameras are identified by integers (lattice corner, direction index), so
+/// that corners computed from different polygons are the same camera.
 
 #include <compare>
 #include <cstdint>
@@ -30,17 +30,31 @@ struct CameraId {
 /// A capture camera: at most 60 degrees; wider lattice cameras are several of these at one corner.
 struct LayoutCamera {
   CameraId id;
-  glm::dvec2 position{0};   ///< plan, metres
-  double lowAzimuth = 0;    ///< sector [low, low + fov), half-open
+  glm::dvec2 position{0};  ///< plan, metres
+  double lowAzimuth = 0;   ///< sector [low, low + fov), half-open
   double fovRadians = 0;
-  /// Plan polygons, each grown by the near band, of all the regions of the full lattice that this camera serves,
-  /// placed or not (so that a camera's pixels do not depend on which neighbours are placed).
+  /// Plan polygons, each grown by the near band, of all the regions of the full lattice that this camera
+  /// serves, placed or not (so that a camera's pixels do not depend on which neighbours are placed).
   std::vector<ConvexPolygon> served;
+};
+
+/// A border of a sector as the line through two points, directed away from the sector's apex. Neighbouring
+/// pieces share the very same points, so that an exact predicate puts each point on one side for both of
+/// them.
+struct BorderLine {
+  glm::dvec2 from{0}, to{0};  ///< plan, metres
+  glm::dvec2 direction() const { return to - from; }
 };
 
 /// One piece of a cover: all of the camera's sector that lies outside the region.
 struct Piece {
-  int camera = 0;  ///< into Layout::cameras
+  int camera = 0;        ///< into Layout::cameras
+  glm::dvec2 apex{0};    ///< the camera's position
+  BorderLine low, high;  ///< half-open: points on `low` belong to the piece. An edge strip's lines end at the
+                         ///< edge's ends.
+
+  /// Does the piece's sector hold the point? (exact; only meaningful outside the region)
+  bool holds(const glm::dvec2& point) const;
 };
 
 /// Pieces that tile the outside of a region exactly once, as seen from any eye in it.
@@ -55,9 +69,9 @@ struct Cover {
 struct Region {
   CellId id;
   RegionKind kind = RegionKind::ring;
-  ConvexPolygon polygon;       ///< counter-clockwise
-  ConvexPolygon grown;         ///< by the near band
-  std::vector<Cover> covers;   ///< ring: [counterClockwise, clockwise]; gap: [0]
+  ConvexPolygon polygon;      ///< counter-clockwise
+  ConvexPolygon grown;        ///< by the near band
+  std::vector<Cover> covers;  ///< ring: [counterClockwise, clockwise]; gap: [0]
 };
 
 struct Layout {
@@ -69,18 +83,27 @@ struct Layout {
   /// Region that holds a point (exactly one on shared borders); nothing outside all.
   std::optional<int> regionAt(const glm::dvec2& point) const;
   /// Nearest placed region and the nearest point in it.
-  struct Nearest { int region = -1; glm::dvec2 point{0}; };
+  struct Nearest {
+    int region = -1;
+    glm::dvec2 point{0};
+  };
   Nearest nearestRegion(const glm::dvec2& point) const;
   std::optional<int> findRegion(const CellId& id) const;
 };
 
 Result<Layout> buildLayout(const LayoutSpec& spec);
 
-/// Address and outline of the lattice region that holds a point, placed or not (for adding and dragging cells).
-struct LatticeCell { CellId id; RegionKind kind; ConvexPolygon polygon; };
+/// Address and outline of the lattice region that holds a point, placed or not (for adding and dragging
+/// cells).
+struct LatticeCell {
+  CellId id;
+  RegionKind kind;
+  ConvexPolygon polygon;
+};
 LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point);
 ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id);
 /// Lattice regions whose polygon overlaps a box, placed or not (for drawing the lattice), at most `limit`.
-std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, const glm::dvec2& max, int limit);
+std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, const glm::dvec2& max,
+                                 int limit);
 
 }  // namespace acentric

@@ -15,10 +15,10 @@ namespace acentric {
 
 /// The paper's Fig. 7, apv.md section 3.
 enum class Configuration : std::uint8_t { a, b, c, d, e, f, g };
-const char* nameOf(Configuration configuration);         ///< "a" ... "g"
-const char* describe(Configuration configuration);       ///< "60° cameras, hexagons and triangles (3.6.3.6)"
+const char* nameOf(Configuration configuration);    ///< "a" ... "g"
+const char* describe(Configuration configuration);  ///< "60° cameras, hexagons and triangles (3.6.3.6)"
 Result<Configuration> parseConfiguration(std::string_view name);
-bool isSupported(Configuration configuration);           ///< by buildLayout, today
+bool isSupported(Configuration configuration);  ///< by buildLayout, today
 
 /// Integer address of a region in the lattice. `slot` numbers the regions of one lattice cell (0 = ring).
 struct CellId {
@@ -31,12 +31,12 @@ struct LayoutSpec {
   double cellSize = 2.0;        ///< metres, edge length of the regular polygon
   glm::dvec2 latticeOrigin{0};  ///< a ring polygon's centre, metres
   double rotationRadians = 0;
-  double floorHeight = 0;       ///< z of the walk plane, metres
-  double eyeHeight = 1.6;       ///< metres above the floor: height of every centre of projection
-  double nearBand = 1.0;        ///< metres, local geometry beyond the region's border
-  Outline outline;              ///< every region that overlaps it is placed ...
-  std::set<CellId> added;       ///< ... and these ...
-  std::set<CellId> removed;     ///< ... but not these
+  double floorHeight = 0;    ///< z of the walk plane, metres
+  double eyeHeight = 1.6;    ///< metres above the floor: height of every centre of projection
+  double nearBand = 1.0;     ///< metres, local geometry beyond the region's border
+  Outline outline;           ///< every region that overlaps it is placed ...
+  std::set<CellId> added;    ///< ... and these ...
+  std::set<CellId> removed;  ///< ... but not these
 
   Status check() const;  ///< finite, cellSize in [0.05, 1000], no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;

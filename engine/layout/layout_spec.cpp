@@ -1,0 +1,143 @@
+#include "engine/layout/layout_spec.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/geometry/conventions.h"
+#include "engine/layout/lattice.h"
+#include "engine/layout/region_limit.h"
+
+namespace acentric {
+namespace {
+
+constexpr double kMaxCoordinate = 1e7;  // metres: map coordinates, with room for a micrometre in a double
+constexpr std::size_t kMaxOutlinePoints = 4096;
+
+struct Entry {
+  Configuration configuration;
+  const char* name;
+  const char* description;
+};
+constexpr Entry kEntries[] = {
+    {Configuration::a, "a", "45° cameras, octagons and squares (4.8.8)"},
+    {Configuration::b, "b", "60° cameras, hexagons and triangles (3.6.3.6)"},
+    {Configuration::c, "c", "60° cameras, hexagons (6.6.6)"},
+    {Configuration::d, "d", "90° cameras, squares in a checkerboard"},
+    {Configuration::e, "e", "90° cameras, squares (a full panorama at each corner)"},
+    {Configuration::f, "f", "120° cameras, triangles and hexagons (3.6.3.6)"},
+    {Configuration::g, "g", "120° cameras, triangles (a full panorama at each corner)"},
+};
+
+tl::unexpected<Error> refuse(std::string message) {
+  return fail(ErrorKind::invalidArgument, std::move(message), "layout");
+}
+
+Status checkRange(const char* what, double value, double low, double high) {
+  if (std::isfinite(value) && value >= low && value <= high) return {};
+  return refuse(fmt::format("{} is {}; it must lie in {}..{}", what, value, low, high));
+}
+
+Status checkOutline(const Outline& outline) {
+  std::size_t points = 0;
+  for (std::size_t l = 0; l < outline.loops.size(); ++l) {
+    const auto& loop = outline.loops[l];
+    if (loop.size() < 3)
+      return refuse(fmt::format("outline loop {} has {} points; it needs at least 3", l + 1, loop.size()));
+    for (const glm::dvec2& point : loop)
+      if (!(std::abs(point.x) <= kMaxCoordinate && std::abs(point.y) <= kMaxCoordinate))
+        return refuse(fmt::format("outline loop {} has the point ({}, {}); coordinates must lie within {} m",
+                                  l + 1, point.x, point.y, kMaxCoordinate));
+    points += loop.size();
+  }
+  if (points > kMaxOutlinePoints)
+    return refuse(
+        fmt::format("the outline has {} points, more than {}; simplify it", points, kMaxOutlinePoints));
+  return {};
+}
+
+Status checkCells(const char* what, const std::set<CellId>& cells, const std::optional<Lattice>& lattice) {
+  for (const CellId& id : cells) {
+    const bool far =
+        std::abs(std::int64_t(id.i)) > kMaxCellIndex || std::abs(std::int64_t(id.j)) > kMaxCellIndex;
+    if (far || id.slot < 0 || (lattice && id.slot >= lattice->slots()))
+      return refuse(
+          fmt::format("the {} region ({}, {}, {}) does not exist in this configuration; take it off the list",
+                      what, id.i, id.j, id.slot));
+    if (!lattice) continue;
+    for (const glm::dvec2& corner : lattice->polygonOf(id).corners)
+      if (!(std::abs(corner.x) <= 2 * kMaxCoordinate && std::abs(corner.y) <= 2 * kMaxCoordinate))
+        return refuse(
+            fmt::format("the {} region ({}, {}, {}) lies farther than {} m out; take it off the list", what,
+                        id.i, id.j, id.slot, 2 * kMaxCoordinate));
+  }
+  return {};
+}
+
+}  // namespace
+
+const char* nameOf(Configuration configuration) {
+  for (const Entry& entry : kEntries)
+    if (entry.configuration == configuration) return entry.name;
+  return "?";
+}
+
+const char* describe(Configuration configuration) {
+  for (const Entry& entry : kEntries)
+    if (entry.configuration == configuration) return entry.description;
+  return "unknown";
+}
+
+Result<Configuration> parseConfiguration(std::string_view name) {
+  for (const Entry& entry : kEntries)
+    if (name == entry.name) return entry.configuration;
+  return refuse(
+      fmt::format("there is no configuration '{}'; choose one of a, b, c, d, e, f, g", name.substr(0, 40)));
+}
+
+bool isSupported(Configuration configuration) { return latticeTable(configuration) != nullptr; }
+
+Status LayoutSpec::check() const {
+  if (std::string_view(nameOf(configuration)) == "?") return refuse("the configuration is not one of a to g");
+  for (const Status& status :
+       {checkRange("the cell size in metres", cellSize, 0.05, 1000),
+        checkRange("the lattice origin's x in metres", latticeOrigin.x, -kMaxCoordinate, kMaxCoordinate),
+        checkRange("the lattice origin's y in metres", latticeOrigin.y, -kMaxCoordinate, kMaxCoordinate),
+        checkRange("the rotation in radians", rotationRadians, -1000, 1000),
+        checkRange("the floor height in metres", floorHeight, -kMaxCoordinate, kMaxCoordinate),
+        checkRange("the eye height in metres", eyeHeight, 0.01, 1000),
+        checkRange("the near band in metres", nearBand, 0, 1000), checkOutline(outline)})
+    if (!status) return status;
+  const std::optional<Lattice> lattice = Lattice::of(*this);
+  if (Status status = checkCells("added", added, lattice); !status) return status;
+  if (Status status = checkCells("removed", removed, lattice); !status) return status;
+  if (added.size() > std::size_t(kMaxRegions) || removed.size() > std::size_t(kMaxRegions))
+    return refuse(fmt::format(
+        "{} regions are added and {} removed one by one; at most {} of each can be. Edit the outline instead",
+        added.size(), removed.size(), kMaxRegions));
+  if (!lattice) return {};
+  // By area, without counting: buildLayout counts exactly, and refuses what this just lets through.
+  const double byArea = outline.area() / lattice->meanRegionArea() - double(removed.size());
+  if (byArea > 1.1 * kMaxRegions) return tooManyRegions(byArea, cellSize);
+  return {};
+}
+
+void LayoutSpec::addTo(Hasher& hasher) const {
+  hasher.value(configuration)
+      .value(cellSize)
+      .value(latticeOrigin.x)
+      .value(latticeOrigin.y)
+      .value(rotationRadians);
+  hasher.value(floorHeight).value(eyeHeight).value(nearBand);
+  hasher.value(std::uint64_t(outline.loops.size()));
+  for (const auto& loop : outline.loops) {
+    hasher.value(std::uint64_t(loop.size()));
+    for (const glm::dvec2& point : loop) hasher.value(point.x).value(point.y);
+  }
+  for (const auto* cells : {&added, &removed}) {
+    hasher.value(std::uint64_t(cells->size()));
+    for (const CellId& id : *cells) hasher.value(id.i).value(id.j).value(id.slot);
+  }
+}
+
+}  // namespace acentric

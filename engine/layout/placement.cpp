@@ -1,0 +1,82 @@
+#include "engine/layout/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/layout/region_limit.h"
+
+namespace acentric {
+namespace {
+
+/// Cells [iLow, iHigh] x [jLow, jHigh].
+struct CellRange {
+  std::int64_t iLow, jLow, iHigh, jHigh;
+  bool single() const { return iLow == iHigh && jLow == jHigh; }
+};
+
+/// Halves the range until single cells are left; whole ranges clear of the outline are dropped at once, so
+/// the work follows the number of regions found, not the size of the plane between them.
+void search(const Outline& outline, const Lattice& lattice, const CellRange& range, std::size_t limit,
+            std::vector<CellId>& found) {
+  if (found.size() > limit) return;
+  if (!outline.overlaps(lattice.hullOf(range.iLow, range.jLow, range.iHigh, range.jHigh))) return;
+  if (range.single()) {
+    for (int slot = 0; slot < lattice.slots(); ++slot) {
+      const CellId id{static_cast<int>(range.iLow), static_cast<int>(range.jLow), slot};
+      if (outline.overlaps(lattice.polygonOf(id))) found.push_back(id);
+    }
+    return;
+  }
+  CellRange first = range, second = range;
+  if (range.iHigh - range.iLow >= range.jHigh - range.jLow) {
+    first.iHigh = range.iLow + (range.iHigh - range.iLow) / 2;
+    second.iLow = first.iHigh + 1;
+  } else {
+    first.jHigh = range.jLow + (range.jHigh - range.jLow) / 2;
+    second.jLow = first.jHigh + 1;
+  }
+  search(outline, lattice, first, limit, found);
+  search(outline, lattice, second, limit, found);
+}
+
+}  // namespace
+
+std::vector<CellId> cellsOverlapping(const Outline& outline, const Lattice& lattice, std::size_t limit) {
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+  for (const auto& loop : outline.loops)
+    for (const glm::dvec2& point : loop) {
+      const glm::dvec2 at = lattice.cellCoordinates(point);
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+  std::vector<CellId> found;
+  if (!(low.x <= high.x)) return found;
+  const auto index = [](double value) {
+    return static_cast<std::int64_t>(std::clamp(value, -double(kMaxCellIndex), double(kMaxCellIndex)));
+  };
+  search(outline, lattice,
+         {index(std::floor(low.x) - 1), index(std::floor(low.y) - 1), index(std::ceil(high.x) + 1),
+          index(std::ceil(high.y) + 1)},
+         limit, found);
+  std::ranges::sort(found);
+  return found;
+}
+
+Result<std::vector<CellId>> placedCells(const LayoutSpec& spec, const Lattice& lattice) {
+  const std::size_t limit = std::size_t(kMaxRegions) + spec.removed.size();
+  std::vector<CellId> cells = cellsOverlapping(spec.outline, lattice, limit);
+  if (cells.size() > limit) {
+    double perimeter = 0;
+    for (const auto& loop : spec.outline.loops)
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        perimeter += glm::distance(loop[k], loop[(k + 1) % loop.size()]);
+    const double estimate = spec.outline.area() / lattice.meanRegionArea() + perimeter / spec.cellSize;
+    return tooManyRegions(std::max(estimate, double(cells.size())), spec.cellSize);
+  }
+  std::vector<CellId> placed;
+  std::ranges::set_union(cells, spec.added, std::back_inserter(placed));
+  std::erase_if(placed, [&](const CellId& id) { return spec.removed.contains(id); });
+  if (placed.size() > std::size_t(kMaxRegions)) return tooManyRegions(double(placed.size()), spec.cellSize);
+  return placed;
+}
+
+}  // namespace acentric
