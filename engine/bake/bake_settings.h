@@ -7,11 +7,11 @@
 namespace acentric {
 
 struct BakeSettings {
-  double samplesPerDegree = 8;      ///< columns and rows per degree, 0.5..64
-  int ambientRays = 12;             ///< per sample, 0..1024; used where the plan has ambient occlusion
-  double ambientRadius = 2.0;       ///< metres; occluders beyond fade out
-  double surfaceTexel = 0.04;       ///< metres between light samples on local geometry, 0.002..10
-  int maxLayers = 8;                ///< samples kept per pixel at most, 1..64
+  double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
+  int ambientRays = 12;         ///< per sample, 0..1024; used where the plan has ambient occlusion
+  double ambientRadius = 2.0;   ///< metres; occluders beyond fade out
+  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, 0.002..10
+  int maxLayers = 8;            ///< samples kept per pixel at most, 1..64
 
   Status check() const;
   void addTo(Hasher& hasher) const;

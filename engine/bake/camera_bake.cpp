@@ -1,6 +1,4 @@
 // One capture: per pixel a march along the camera's ray through the exits of the regions it serves.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -78,7 +76,8 @@ class PixelMarch {
       }
       ray.nearest = justBehind(hit.distance);
       if (!opaque) continue;
-      while (next < exits.size() && exits[next] < horizontal) ++next;
+      // A surface on the border itself settles its region too, whichever way the distance was rounded.
+      while (next < exits.size() && exits[next] < horizontal * (1 + 1e-6)) ++next;
       if (next == exits.size()) return;
       ray.nearest = std::max(ray.nearest, float(exits[next] / flat));
     }

@@ -23,7 +23,7 @@ struct Hit {
   float distance = std::numeric_limits<float>::infinity();  ///< metres; infinity = none
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
-  glm::vec2 barycentric{0};    ///< weights of corner 2 and 3
+  glm::vec2 barycentric{0};      ///< weights of corner 2 and 3
   glm::vec3 geometricNormal{0};  ///< unit, as wound (front side)
   bool found() const { return distance < std::numeric_limits<float>::infinity(); }
 };
@@ -45,7 +45,8 @@ class RayScene {
 
   /// Nearest surface. Alpha-tested surfaces are cut out where the plan has alpha tests. Back sides count.
   Hit trace(const Ray& ray) const;
-  /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended surfaces.
+  /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended
+  /// surfaces.
   glm::vec3 transmittance(const Ray& ray) const;
   /// Distance to the nearest occluder, alpha tests respected, transmissive surfaces ignored.
   float occluderDistance(const Ray& ray) const;

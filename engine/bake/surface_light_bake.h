@@ -12,10 +12,11 @@
 
 namespace acentric {
 
-/// `wanted[sceneTriangle]` != 0: bake that triangle. `viewer[sceneTriangle]` is an eye position for view-dependent light
-/// (mirrors), frozen there. Fails only when cancelled or too large.
+/// `wanted[sceneTriangle]` != 0: bake that triangle. `viewer[sceneTriangle]` is an eye position for
+/// view-dependent light (mirrors), frozen there. Fails only when cancelled or too large.
 Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
-                                      const std::vector<glm::vec3>& viewer, const BakeSettings& settings, TaskRunner& runner,
-                                      const Progress& progress = {}, std::stop_token stop = {});
+                                      const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
+                                      TaskRunner& runner, const Progress& progress = {},
+                                      std::stop_token stop = {});
 
 }  // namespace acentric

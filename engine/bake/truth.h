@@ -18,10 +18,12 @@ struct TruthFrame {
 };
 
 /// One ray through each pixel centre; `samplesPerPixel` > 1 averages a regular grid of n x n (1, 4, 9, 16).
-TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings, float exposure,
-                       int samplesPerPixel, TaskRunner& runner);
+TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,
+                       float exposure, int samplesPerPixel, TaskRunner& runner);
 
-/// Exposure that puts the log-average radiance seen from `eyes` (all around, low resolution) at middle grey 0.18.
-float estimateExposure(const RayScene& scene, const std::vector<glm::dvec3>& eyes, const BakeSettings& settings, TaskRunner& runner);
+/// Exposure that puts the log-average radiance seen from `eyes` (all around, low resolution) at middle grey
+/// 0.18.
+float estimateExposure(const RayScene& scene, const std::vector<glm::dvec3>& eyes,
+                       const BakeSettings& settings, TaskRunner& runner);
 
 }  // namespace acentric

@@ -1,0 +1,250 @@
+#include "engine/bake/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "layout_builder.h"
+#include "scene_builder.h"
+
+namespace acentric {
+namespace {
+
+using test::cameraAt;
+using test::layoutOf;
+using test::matte;
+using test::SceneBuilder;
+using test::square;
+
+class MemorySink : public CaptureSink {
+ public:
+  bool has(const ContentKey& key) const override {
+    const std::lock_guard lock(mutex_);
+    return captures_.contains(key);
+  }
+  Status put(const ContentKey& key, const Capture& capture) override {
+    if (onPut) onPut();
+    const std::lock_guard lock(mutex_);
+    if (captures_.size() >= room) return fail(ErrorKind::outOfSpace, "the disk is full", "sink");
+    captures_[key] = capture;
+    return {};
+  }
+  std::size_t size() const {
+    const std::lock_guard lock(mutex_);
+    return captures_.size();
+  }
+  std::function<void()> onPut;
+  std::size_t room = 1000;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<ContentKey, Capture> captures_;
+};
+
+SceneBuilder smallRoom() {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {-6, -5, 0}, {6, 5, 3}, true).point({0, 0, 2.5f}, 100);
+  return builder;
+}
+
+Layout fiveCameras() {
+  std::vector<LayoutCamera> cameras;
+  for (int i = 0; i < 5; ++i) cameras.push_back(cameraAt({0.1 * i, 0}, {square(1)}));
+  return layoutOf(std::move(cameras));
+}
+
+BakeSettings coarse() {
+  BakeSettings settings;
+  settings.samplesPerDegree = 0.5;
+  return settings;
+}
+
+TEST(Bake, PutsEveryCameraUnderItsKeyAndNeverBakesItAgain) {
+  const auto scene = smallRoom().rays();
+  const Layout layout = fiveCameras();
+  MemorySink sink;
+  TaskRunner runner(1);
+  std::vector<ProgressState> seen;
+  const auto first = bake(*scene, layout, {0, 1, 2, 3, 4}, coarse(), sink, runner,
+                          [&](const ProgressState& p) { seen.push_back(p); });
+  ASSERT_TRUE(first.has_value()) << first.error().describe();
+  EXPECT_EQ(first->baked, 5);
+  EXPECT_EQ(first->reused, 0);
+  EXPECT_EQ(sink.size(), 5u);
+  EXPECT_GT(first->rays.primary, 0u);
+  for (const ContentKey& key : captureKeys(scene->scene(), scene->plan(), coarse(), layout))
+    EXPECT_TRUE(sink.has(key));
+  ASSERT_GE(seen.size(), 5u);
+  EXPECT_EQ(seen[2].done, 2);
+  EXPECT_EQ(seen[2].total, 5);
+  EXPECT_EQ(seen[2].stage, "baking camera 2 (3 of 5)");
+  EXPECT_EQ(seen.back().done, 5);
+
+  const auto again = bake(*scene, layout, {0, 1, 2, 3, 4}, coarse(), sink, runner);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->baked, 0);
+  EXPECT_EQ(again->reused, 5);
+  EXPECT_EQ(again->rays.primary, 0u);
+}
+
+TEST(Bake, AMovedCameraIsTheOnlyOneBakedAgain) {
+  const auto scene = smallRoom().rays();
+  Layout layout = fiveCameras();
+  MemorySink sink;
+  TaskRunner runner;
+  ASSERT_TRUE(bake(*scene, layout, {0, 1, 2, 3, 4}, coarse(), sink, runner).has_value());
+  layout.cameras[3].position.y += 0.25;
+  const auto again = bake(*scene, layout, {0, 1, 2, 3, 4}, coarse(), sink, runner);
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->baked, 1);
+  ASSERT_EQ(again->cameras.size(), 5u);
+  EXPECT_FALSE(again->cameras[3].reused);
+}
+
+TEST(Bake, WhenStoppedWhatIsFinishedIsKept) {
+  const auto scene = smallRoom().rays();
+  MemorySink sink;
+  TaskRunner runner;
+  std::stop_source stop;
+  int started = 0;
+  const auto outcome = bake(
+      *scene, fiveCameras(), {0, 1, 2, 3, 4}, coarse(), sink, runner,
+      [&](const ProgressState&) {
+        if (++started == 4) stop.request_stop();  // three are baked
+      },
+      stop.get_token());
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_EQ(outcome.error().kind, ErrorKind::cancelled);
+  EXPECT_EQ(sink.size(), 3u);
+}
+
+TEST(Bake, AnErrorOfTheSinkEndsTheBakeAndComesBack) {
+  const auto scene = smallRoom().rays();
+  MemorySink sink;
+  sink.room = 2;
+  TaskRunner runner;
+  const auto outcome = bake(*scene, fiveCameras(), {0, 1, 2, 3, 4}, coarse(), sink, runner);
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_EQ(outcome.error().kind, ErrorKind::outOfSpace);
+  EXPECT_EQ(outcome.error().describe(), "sink: the disk is full");
+  EXPECT_EQ(sink.size(), 2u);
+}
+
+TEST(Bake, ASinkThatThrowsBecomesAnError) {
+  const auto scene = smallRoom().rays();
+  MemorySink sink;
+  sink.onPut = [] { throw std::runtime_error("unplugged"); };
+  TaskRunner runner;
+  const auto outcome = bake(*scene, fiveCameras(), {0}, coarse(), sink, runner);
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message.find("unplugged"), std::string::npos);
+}
+
+TEST(Bake, RefusesACameraThatDoesNotExist) {
+  const auto scene = smallRoom().rays();
+  MemorySink sink;
+  TaskRunner runner;
+  const auto outcome = bake(*scene, fiveCameras(), {0, 9}, coarse(), sink, runner);
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_EQ(outcome.error().kind, ErrorKind::notFound);
+  EXPECT_EQ(sink.size(), 0u);
+}
+
+TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
+  SceneBuilder builder = smallRoom();
+  builder.sky(glm::vec3(1));
+  const ScenePtr scene = builder.scene();
+  const EffectPlan plan = planEffects(*scene);
+  const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
+  const auto keyFor = [](const Scene& s, const EffectPlan& p, const BakeSettings& b, const LayoutCamera& c) {
+    return captureKey(s, p, b, c, columnCameraFor(c, 1.6, 1, s.bounds, p.on(Effect::sky), b));
+  };
+  const ContentKey key = keyFor(*scene, plan, {}, camera);
+  EXPECT_EQ(keyFor(*builder.scene(), planEffects(*builder.scene()), {}, camera), key)
+      << "made twice, the same";
+
+  std::set<ContentKey> keys{key};
+  const auto changes = [&](const char* what, const ContentKey& other) {
+    EXPECT_TRUE(keys.insert(other).second) << what;
+  };
+  BakeSettings settings;
+  settings.samplesPerDegree = 9;
+  changes("samples per degree", keyFor(*scene, plan, settings, camera));
+  settings = {};
+  settings.ambientRays = 13;
+  changes("ambient rays", keyFor(*scene, plan, settings, camera));
+  settings = {};
+  settings.ambientRadius = 3;
+  changes("ambient radius", keyFor(*scene, plan, settings, camera));
+  settings = {};
+  settings.maxLayers = 5;
+  changes("layers", keyFor(*scene, plan, settings, camera));
+  changes("an effect", keyFor(*scene, planEffects(*scene, {{Effect::hardShadows, false}}), {}, camera));
+  LayoutCamera other = camera;
+  other.position.x = 0.5;
+  changes("position", keyFor(*scene, plan, {}, other));
+  other = camera;
+  other.lowAzimuth += 0.1;
+  changes("direction", keyFor(*scene, plan, {}, other));
+  other = camera;
+  other.served[0] = square(1.5);
+  changes("served region", keyFor(*scene, plan, {}, other));
+  other = camera;
+  other.served.push_back(square(1.5));
+  changes("another served region", keyFor(*scene, plan, {}, other));
+  SceneBuilder brighter = builder;
+  brighter.point({1, 1, 2}, 5);
+  changes("scene", keyFor(*brighter.scene(), plan, {}, camera));
+
+  settings = {};
+  settings.surfaceTexel = 0.5;
+  EXPECT_EQ(keyFor(*scene, plan, settings, camera), key) << "the texel of surface light changes no capture";
+  other = camera;
+  other.id.i = 77;
+  EXPECT_EQ(keyFor(*scene, plan, {}, other), key) << "numbering is not a pixel";
+}
+
+TEST(ColumnCameraFor, CoversTheSceneAcrossTheNearBand) {
+  const LayoutCamera camera = cameraAt({1, 2}, {});
+  BakeSettings settings;
+  settings.samplesPerDegree = 4;
+  Bounds bounds;
+  bounds.add({-5, -5, 0});
+  bounds.add({5, 5, 3});
+  const ColumnCamera c = columnCameraFor(camera, 1.6, 1, bounds, false, settings);
+  EXPECT_TRUE(c.check().has_value());
+  EXPECT_EQ(c.centreOfProjection, glm::dvec3(1, 2, 1.6));
+  EXPECT_NEAR(c.topElevation, std::atan(1.4), 1e-6);
+  EXPECT_NEAR(c.bottomElevation, -std::atan(1.6), 1e-6);
+  EXPECT_EQ(c.columns, 240);
+  EXPECT_EQ(c.rows, int(std::ceil(degrees(c.topElevation - c.bottomElevation) * 4)));
+
+  bounds.add({0, 0, 1000});
+  EXPECT_NEAR(columnCameraFor(camera, 1.6, 1, bounds, false, settings).topElevation, radians(85), 1e-9);
+  EXPECT_TRUE(columnCameraFor(camera, 1.6, 0, bounds, true, settings).check().has_value());
+  const ColumnCamera flat = columnCameraFor(camera, 1.6, 1, {}, false, settings);
+  EXPECT_NEAR(flat.topElevation, radians(10), 1e-9);
+  EXPECT_NEAR(flat.bottomElevation, -radians(10), 1e-9);
+  EXPECT_NEAR(columnCameraFor(camera, 1.6, 1, {}, true, settings).topElevation, radians(50), 1e-9);
+}
+
+TEST(BakeSettings, RefusesEveryValueOutOfItsRange) {
+  EXPECT_TRUE(BakeSettings{}.check().has_value());
+  const auto refused = [](auto change) {
+    BakeSettings settings;
+    change(settings);
+    const Status status = settings.check();
+    return !status && status.error().kind == ErrorKind::invalidArgument;
+  };
+  EXPECT_TRUE(refused([](auto& s) { s.samplesPerDegree = 0.4; }));
+  EXPECT_TRUE(refused([](auto& s) { s.samplesPerDegree = std::nan(""); }));
+  EXPECT_TRUE(refused([](auto& s) { s.ambientRays = -1; }));
+  EXPECT_TRUE(refused([](auto& s) { s.ambientRadius = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.surfaceTexel = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.maxLayers = 65; }));
+}
+
+}  // namespace
+}  // namespace acentric

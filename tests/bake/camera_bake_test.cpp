@@ -1,0 +1,295 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "engine/bake/bake.h"
+#include "engine/bake/truth.h"
+#include "engine/image/colour.h"
+#include "layout_builder.h"
+#include "scene_builder.h"
+
+namespace acentric {
+namespace {
+
+using test::cameraAt;
+using test::matte;
+using test::SceneBuilder;
+using test::square;
+
+constexpr double kEyeZ = 1.6;
+
+struct Baked {
+  ColumnCamera columns;
+  Capture capture;
+  RayCounts rays;
+
+  struct Sample {
+    double w;
+    glm::vec4 colour;
+  };
+  /// Samples of the pixel that looks in a direction, nearest first.
+  std::vector<Sample> pixel(double azimuth, double elevation) const {
+    const int k = int((azimuth - columns.lowAzimuth) / columns.columnPitch());
+    const int r = int((columns.topElevation - elevation) / columns.rowPitch());
+    return pixelAt(k, r);
+  }
+  std::vector<Sample> pixelAt(int k, int r) const {
+    std::vector<Sample> samples;
+    for (auto i = capture.columnStart[std::size_t(k)]; i < capture.columnStart[std::size_t(k) + 1]; ++i)
+      if (capture.row[i] == r)
+        samples.push_back({double(capture.inverseDistance[i]), unpackColour(capture.colour[i])});
+    return samples;
+  }
+};
+
+Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, BakeSettings settings = {},
+               int workers = 0) {
+  if (settings == BakeSettings{}) settings.samplesPerDegree = 2;
+  Baked out;
+  out.columns =
+      columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, scene->plan().on(Effect::sky), settings);
+  TaskRunner runner(workers);
+  auto capture = bakeCamera(*scene, camera, out.columns, settings, runner, out.rays);
+  EXPECT_TRUE(capture.has_value()) << (capture ? "" : capture.error().describe());
+  if (!capture) return out;
+  EXPECT_TRUE(capture->check().has_value()) << capture->check().error().describe();
+  out.capture = std::move(*capture);
+  return out;
+}
+
+/// A room whose wall in front is at x = 6, lit by a lamp.
+SceneBuilder room() {
+  SceneBuilder builder;
+  builder.box(builder.material(matte({0.8f, 0.7f, 0.6f})), {-6, -5, 0}, {6, 5, 3}, true)
+      .point({0, 0, 2.5f}, 100);
+  return builder;
+}
+
+TEST(BakeCamera, MeasuresTheWallsOfARoomExactly) {
+  const Baked baked = bakeFrom(room().rays(), cameraAt({0.5, 0}, {square(1)}));
+  ASSERT_EQ(baked.columns.columns, 120);
+  ASSERT_EQ(baked.capture.sampleCount(),
+            std::size_t(baked.columns.columns) * std::size_t(baked.columns.rows));
+  std::size_t checked = 0;
+  for (int k = 0; k < baked.columns.columns; ++k)
+    for (int r = 0; r < baked.columns.rows; ++r) {
+      const glm::dvec2 c = baked.columns.directionAt(k + 0.5);
+      const double t = baked.columns.tangentAt(r + 0.5);
+      double distance = (6 - 0.5) / c.x;
+      if (c.y > 0) distance = std::min(distance, 5 / c.y);
+      if (c.y < 0) distance = std::min(distance, -5 / c.y);
+      if (t > 0) distance = std::min(distance, (3 - kEyeZ) / t);
+      if (t < 0) distance = std::min(distance, -kEyeZ / t);
+      // Floor and ceiling within the served square are local geometry: the march goes on to what lies below
+      // or above them, which is nothing.
+      const auto samples = baked.pixelAt(k, r);
+      ASSERT_EQ(samples.size(), 1u);
+      const double exit = std::min(0.5 / c.x, std::min(c.y > 0 ? 1 / c.y : 1e9, c.y < 0 ? -1 / c.y : 1e9));
+      if (std::abs(distance - exit) < 1e-4) continue;
+      if (distance < exit) {
+        EXPECT_EQ(samples[0].w, 0);
+      } else {
+        EXPECT_NEAR(samples[0].w * distance, 1, 2e-5) << "column " << k << ", row " << r;
+        ++checked;
+      }
+    }
+  EXPECT_GT(checked, baked.capture.sampleCount() / 2);
+}
+
+TEST(BakeCamera, SkipsWhatStandsInsideTheServedRegion) {
+  SceneBuilder builder = room();
+  builder.box(builder.material(matte()), {1, -0.5f, 1}, {1.5f, 0.5f, 2});  // an exhibit
+  const auto scene = builder.rays();
+  const auto inside = bakeFrom(scene, cameraAt({0, 0}, {square(2)})).pixel(0.01, 0.01);
+  ASSERT_EQ(inside.size(), 1u);
+  EXPECT_NEAR(1 / inside[0].w, 6, 0.01) << "the wall behind the exhibit";
+  const auto outside = bakeFrom(scene, cameraAt({0, 0}, {square(0.75)})).pixel(0.01, 0.01);
+  ASSERT_EQ(outside.size(), 1u);
+  EXPECT_NEAR(1 / outside[0].w, 1, 0.01) << "the exhibit itself";
+}
+
+TEST(BakeCamera, KeepsTheFirstSurfaceOfEveryServedRegionOnce) {
+  SceneBuilder builder = room();
+  const int white = builder.material(matte());
+  builder.box(white, {1, -0.5f, 1}, {1.5f, 0.5f, 2}).box(white, {3, -0.5f, 1}, {3.5f, 0.5f, 2});
+  const auto scene = builder.rays();
+  const auto distances = [&](std::vector<ConvexPolygon> served) {
+    std::vector<int> centimetres;
+    for (const auto& s : bakeFrom(scene, cameraAt({0, 0}, std::move(served))).pixel(0.01, 0.01))
+      centimetres.push_back(int(std::lround(100 / s.w)));
+    return centimetres;
+  };
+  EXPECT_EQ(distances({square(0.5)}), (std::vector{100}));
+  EXPECT_EQ(distances({square(0.5), square(2)}), (std::vector{100, 300}));
+  EXPECT_EQ(distances({square(4), square(0.5), square(2)}), (std::vector{100, 300, 600}));
+  EXPECT_EQ(distances({square(0.5), square(0.8)}), (std::vector{100}))
+      << "one surface serves both, stored once";
+  EXPECT_EQ(distances({square(1.2)}), (std::vector{150})) << "the exhibit's far side, seen from within";
+}
+
+TEST(BakeCamera, GlassInFrontGivesABlendedSampleAndWhatIsBehind) {
+  SceneBuilder builder = room();
+  Material glass = matte();
+  glass.transmission = 1;
+  builder.quad(builder.material(glass), {3, 2, 0}, {3, -2, 0}, {3, -2, 3}, {3, 2, 3});
+  const auto pixel = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)})).pixel(0.01, 0.01);
+  ASSERT_EQ(pixel.size(), 2u);
+  EXPECT_NEAR(pixel[0].w, 1.0 / 3, 1e-4);
+  EXPECT_NEAR(pixel[0].colour.a, 0.12, 0.01);
+  EXPECT_NEAR(pixel[1].w, 1.0 / 6, 1e-4);
+  EXPECT_EQ(pixel[1].colour.a, 1);
+  // Glass within the region is local geometry.
+  EXPECT_EQ(bakeFrom(builder.rays(), cameraAt({0, 0}, {square(4)})).pixel(0.01, 0.01).size(), 1u);
+  // With transmission off it is a wall.
+  const auto wall =
+      bakeFrom(builder.rays({Effect::transmission}), cameraAt({0, 0}, {square(1)})).pixel(0.01, 0.01);
+  ASSERT_EQ(wall.size(), 1u);
+  EXPECT_NEAR(wall[0].w, 1.0 / 3, 1e-4);
+}
+
+TEST(BakeCamera, MoreLayersThanAllowedKeepTheNearestAndEndOnAnOpaqueOne) {
+  SceneBuilder builder = room();
+  Material film = matte();
+  film.alphaMode = AlphaMode::blend;
+  film.baseColour.a = 0.5f;
+  const int m = builder.material(film);
+  for (const float x : {1.5f, 2.0f, 2.5f, 3.0f, 3.5f})
+    builder.quad(m, {x, 2, 0}, {x, -2, 0}, {x, -2, 3}, {x, 2, 3});
+  BakeSettings settings;
+  settings.samplesPerDegree = 1;
+  settings.maxLayers = 3;
+  const Baked baked = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)}), settings);
+  EXPECT_EQ(baked.capture.maxLayers(), 3);
+  const auto pixel = baked.pixel(0.01, 0.01);
+  ASSERT_EQ(pixel.size(), 3u);
+  EXPECT_NEAR(1 / pixel[0].w, 1.5, 0.01);
+  EXPECT_NEAR(1 / pixel[1].w, 2.0, 0.01);
+  EXPECT_NEAR(1 / pixel[2].w, 6.0, 0.01);
+  EXPECT_EQ(pixel[2].colour.a, 1);
+}
+
+TEST(BakeCamera, TheSkyIsASampleWithoutDistanceAndSoIsAnEmptyBackground) {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte()), 3).sky({0.2f, 0.4f, 0.8f}, {1, 1, 1}, {0.1f, 0.1f, 0.1f});
+  const Baked open = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)}));
+  const double elevation = open.columns.elevationAt(10.5);
+  const auto up = open.pixelAt(40, 10);
+  ASSERT_EQ(up.size(), 1u);
+  EXPECT_EQ(up[0].w, 0);
+  const float s = float(std::sin(elevation));
+  test::expectNear(glm::vec3(up[0].colour), glm::mix(glm::vec3(1), glm::vec3(0.2f, 0.4f, 0.8f), s), 1e-3f);
+
+  const auto black = bakeFrom(builder.rays({Effect::sky}), cameraAt({0, 0}, {square(1)})).pixel(0.01, 0.1);
+  ASSERT_EQ(black.size(), 1u);
+  EXPECT_EQ(black[0].w, 0);
+  EXPECT_EQ(black[0].colour, glm::vec4(0, 0, 0, 1));
+}
+
+TEST(BakeCamera, ACameraThatServesNoRegionHasNoSamples) {
+  const Baked baked = bakeFrom(room().rays(), cameraAt({0, 0}, {}));
+  EXPECT_EQ(baked.capture.sampleCount(), 0u);
+  EXPECT_EQ(baked.rays.primary, 0u);
+}
+
+TEST(BakeCamera, AgreesWithTheReferencePictureAtTheSameEye) {
+  SceneBuilder builder = room();
+  Material silver;
+  silver.roughness = 0.02f;
+  Material glass = matte({0.7f, 0.9f, 0.8f});
+  glass.transmission = 0.9f;
+  builder.box(builder.material(silver), {3, -1, 0.5f}, {4, 1, 2})
+      .quad(builder.material(glass), {2, 2, 0}, {2, -2, 0}, {2, -2, 3}, {2, 2, 3});
+  const auto scene = builder.rays();
+  BakeSettings settings;
+  settings.samplesPerDegree = 1;
+  // A tiny served region: everything is seen as from the centre of projection.
+  const Baked baked = bakeFrom(scene, cameraAt({0.2, 0.1}, {square(1e-3, {0.2, 0.1})}), settings);
+  TaskRunner runner;
+  int compared = 0;
+  for (int k = 0; k < baked.columns.columns; k += 3)
+    for (int r = 0; r < baked.columns.rows; r += 5) {
+      PerspectiveView view;
+      view.eye = baked.columns.centreOfProjection;
+      view.yawRadians = baked.columns.azimuthAt(k + 0.5);
+      view.pitchRadians = baked.columns.elevationAt(r + 0.5);
+      view.width = view.height = 1;
+      view.fovRadians = radians(1);
+      const float exposure = 0.05f;
+      const TruthFrame truth = renderTruth(*scene, view, settings, exposure, 1, runner);
+      glm::vec3 composed(0);
+      float passing = 1;
+      double opaque = 0;
+      for (const auto& s : baked.pixelAt(k, r)) {
+        composed += passing * s.colour.a * glm::vec3(s.colour);
+        passing *= 1 - s.colour.a;
+        opaque = s.w;
+      }
+      const Rgba8 expected = truth.colour.at(0, 0), actual = encodeForDisplay(composed, exposure);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(int(actual[c]), int(expected[c]), 1) << "column " << k << " row " << r;
+      const double flat = std::cos(view.pitchRadians);
+      EXPECT_NEAR(opaque * double(truth.rayDistance.at(0, 0)) * flat, 1, 1e-4);
+      ++compared;
+    }
+  EXPECT_GT(compared, 300);
+}
+
+TEST(BakeCamera, GivesTheSameBytesForAnyNumberOfThreads) {
+  SceneBuilder builder = room();
+  builder.sky(glm::vec3(1));
+  const auto scene = builder.rays();
+  const LayoutCamera camera = cameraAt({0.3, 0.2}, {square(1), square(2)});
+  const Baked one = bakeFrom(scene, camera);
+  for (const int workers : {1, 3}) {
+    const Baked many = bakeFrom(scene, camera, {}, workers);
+    EXPECT_EQ(many.capture.columnStart, one.capture.columnStart);
+    EXPECT_EQ(many.capture.row, one.capture.row);
+    EXPECT_EQ(many.capture.inverseDistance, one.capture.inverseDistance);
+    EXPECT_EQ(many.capture.colour, one.capture.colour);
+    EXPECT_EQ(many.rays.primary, one.rays.primary);
+    EXPECT_EQ(many.rays.ambient, one.rays.ambient);
+  }
+}
+
+TEST(BakeCamera, StopsWithinASecondAndReturnsNothing) {
+  SceneBuilder builder = room();
+  builder.sky(glm::vec3(1));
+  BakeSettings slow;
+  slow.samplesPerDegree = 64;
+  slow.ambientRays = 256;
+  const auto scene = builder.rays();
+  const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
+  const ColumnCamera columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, true, slow);
+  std::stop_source stop;
+  std::chrono::steady_clock::time_point asked;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    asked = std::chrono::steady_clock::now();
+    stop.request_stop();
+  });
+  TaskRunner runner(1);
+  RayCounts rays;
+  const auto capture = bakeCamera(*scene, camera, columns, slow, runner, rays, stop.get_token());
+  stopper.join();
+  ASSERT_FALSE(capture.has_value());
+  EXPECT_EQ(capture.error().kind, ErrorKind::cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(1));
+}
+
+TEST(BakeCamera, RefusesSettingsOutOfRange) {
+  const auto scene = room().rays();
+  const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
+  BakeSettings bad;
+  bad.maxLayers = 0;
+  TaskRunner runner;
+  RayCounts rays;
+  const auto capture =
+      bakeCamera(*scene, camera, columnCameraFor(camera, 1.6, 1, {}, false, {}), bad, runner, rays);
+  ASSERT_FALSE(capture.has_value());
+  EXPECT_EQ(capture.error().kind, ErrorKind::invalidArgument);
+}
+
+}  // namespace
+}  // namespace acentric
