@@ -2,7 +2,9 @@
 /// Which of two directions comes first, turning counter-clockwise: signs by the exact predicate, sizes by
 /// atan2.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/geometry/conventions.h"
 #include "engine/geometry/predicates/orientation.h"
@@ -12,9 +14,11 @@ namespace acentric {
 /// +1: b is counter-clockwise of a (by less than half a turn), -1: clockwise, 0: parallel either way.
 inline int turn(const glm::dvec2& a, const glm::dvec2& b) { return orientation(glm::dvec2(0), a, b); }
 
-/// The angle from a counter-clockwise to b in [0, 2 pi); exactly 0 only where they point the same way.
+/// The angle from a counter-clockwise to b in [0, 2 pi]; exactly 0 only where they point the same way.
 inline double angleFrom(const glm::dvec2& a, const glm::dvec2& b) {
-  const double size = std::atan2(std::abs(cross(a, b)), glm::dot(a, b));
+  // The cross product may round to zero where the exact sign does not.
+  const double size =
+      std::max(std::atan2(std::abs(cross(a, b)), glm::dot(a, b)), std::numeric_limits<double>::min());
   switch (turn(a, b)) {
     case 1:
       return size;

@@ -42,14 +42,16 @@ std::vector<int> cullRingAsInPaper(const Cover& ring, const ViewSector& view) {
   }
   std::vector<int> cameras;
   if (first < 0) return cameras;
-  // On round the ring to the first two neighbours whose COPs lie on either side of the view's other border.
+  // On round the ring to the first two neighbours (E, F) whose COPs lie on either side of the view's other
+  // border.
   const int step = counterClockwise ? 1 : -1;
-  cameras.push_back(at(first).camera);
-  for (int m = first + step; m != first + step * count; m += step) {
+  const auto seen = [&](int m) {
     const glm::dvec2 toApex = at(m).apex - view.eye;
-    const bool seen = counterClockwise ? turn(eye.left, toApex) < 0 : turn(eye.right, toApex) > 0;
-    if (!seen) break;
+    return counterClockwise ? turn(eye.left, toApex) < 0 : turn(eye.right, toApex) > 0;
+  };
+  for (int m = first; cameras.size() < ring.pieces.size(); m += step) {
     cameras.push_back(at(m).camera);
+    if (seen(m) && !seen(m + step)) break;
   }
   return cameras;
 }

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "engine/layout/lattice.h"
+#include "tests/layout/layout_fixtures.h"
+
+namespace acentric {
+namespace {
+using test::makeLayout;
+using test::Placing;
+using test::Random;
+
+int holders(const Cover& cover, const glm::dvec2& point) {
+  return static_cast<int>(
+      std::ranges::count_if(cover.pieces, [&](const Piece& p) { return p.holds(point); }));
+}
+
+class CoverOf : public testing::TestWithParam<Configuration> {};
+INSTANTIATE_TEST_SUITE_P(Configurations, CoverOf, testing::Values(Configuration::b, Configuration::e),
+                         [](const auto& test) { return std::string(nameOf(test.param)); });
+
+const Placing kPlacings[] = {{2, {0, 0}, 0},         {0.05, {0.3, -0.2}, 0.3}, {1000, {10, 20}, 1.1},
+                             {2, {5e6, -5e6}, 0.77}, {0.05, {5e6, 5e6}, 0},    {1.7, {-3, 4}, -2.2}};
+
+TEST_P(CoverOf, EveryPointOutsideARegionLiesInExactlyOnePiece) {
+  Random random(1);
+  for (const Placing& placing : kPlacings) {
+    const Layout layout = makeLayout(GetParam(), placing);
+    ASSERT_FALSE(layout.regions.empty());
+    for (const Region& region : layout.regions)
+      for (const Cover& cover : region.covers)
+        for (int n = 0; n < 200; ++n) {
+          const double reach = placing.cellSize * std::pow(10.0, random(0, 2));
+          const glm::dvec2 point =
+              region.polygon.centroid() + glm::dvec2(random(-reach, reach), random(-reach, reach));
+          if (region.polygon.containsClosed(point)) continue;
+          ASSERT_EQ(holders(cover, point), 1) << "at " << point.x << ", " << point.y;
+        }
+  }
+}
+
+TEST_P(CoverOf, PointsOnSectorBordersAndOneUlpBesideThemLieInExactlyOnePiece) {
+  // Borders are the continuations of edges: lattice corners further out lie on them, exactly or nearly so.
+  for (const Placing& placing :
+       {Placing{2, {0, 0}, 0}, Placing{1, {0, 0}, 0.4}, Placing{2, {5e6, 5e6}, 0.2}}) {
+    const Layout layout = makeLayout(GetParam(), placing);
+    for (const Region& region : layout.regions)
+      for (const Cover& cover : region.covers)
+        for (const Region& other : layout.regions)
+          for (const glm::dvec2& corner : other.polygon.corners)
+            for (int ulpX = -1; ulpX <= 1; ++ulpX)
+              for (int ulpY = -1; ulpY <= 1; ++ulpY) {
+                glm::dvec2 point = corner;
+                if (ulpX != 0) point.x = std::nextafter(point.x, ulpX * INFINITY);
+                if (ulpY != 0) point.y = std::nextafter(point.y, ulpY * INFINITY);
+                if (region.polygon.containsClosed(point)) continue;
+                ASSERT_EQ(holders(cover, point), 1);
+              }
+  }
+}
+
+TEST_P(CoverOf, ACamerasSectorIsWhatThePieceHolds) {
+  Random random(2);
+  const Layout layout = makeLayout(GetParam(), {2, {1, 2}, 0.3});
+  for (const Region& region : layout.regions)
+    for (const Cover& cover : region.covers)
+      for (const Piece& piece : cover.pieces) {
+        const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
+        EXPECT_EQ(camera.position, piece.apex);
+        EXPECT_LE(camera.fovRadians, radians(60) + 1e-12);
+        for (int n = 0; n < 20; ++n) {
+          const double inside = random(1e-9, 1 - 1e-9);
+          const glm::dvec2 far =
+              camera.position + 50.0 * directionOf(camera.lowAzimuth + inside * camera.fovRadians);
+          EXPECT_TRUE(piece.holds(far));
+          const double outside = random(1 + 1e-9, kTwoPi / camera.fovRadians - 1e-9);
+          EXPECT_FALSE(piece.holds(camera.position +
+                                   50.0 * directionOf(camera.lowAzimuth + outside * camera.fovRadians)));
+        }
+      }
+}
+
+TEST_P(CoverOf, NeighboursProvideTheOtherHand) {
+  // "Auto": the clockwise cameras at each corner are counter-clockwise cameras of neighbours.
+  const Layout layout = makeLayout(GetParam(), {}, 4);
+  std::set<int> counterClockwise;
+  for (const Region& region : layout.regions)
+    if (region.kind == RegionKind::ring) {
+      for (const Piece& piece : region.covers[0].pieces)
+        EXPECT_TRUE(counterClockwise.insert(piece.camera).second) << "in two counter-clockwise rings";
+    }
+  int inner = 0;
+  for (const Region& region : layout.regions) {
+    if (region.kind != RegionKind::ring || glm::length(region.polygon.centroid()) > 4) continue;
+    ++inner;
+    ASSERT_EQ(region.covers.size(), 2u);
+    EXPECT_EQ(region.covers[0].hand, Hand::counterClockwise);
+    EXPECT_EQ(region.covers[1].hand, Hand::clockwise);
+    for (const Piece& piece : region.covers[1].pieces) EXPECT_TRUE(counterClockwise.contains(piece.camera));
+  }
+  EXPECT_GT(inner, 3);
+}
+
+TEST(CoverOfAGap, GapTrianglesHaveThreeWedgesAndThreeStripsOfSixCameras) {
+  const Layout layout = makeLayout(Configuration::b);
+  int triangles = 0;
+  for (const Region& region : layout.regions) {
+    if (region.kind != RegionKind::gapTriangle) continue;
+    ++triangles;
+    ASSERT_EQ(region.covers.size(), 1u);
+    EXPECT_EQ(region.covers[0].wedges, 3);
+    std::set<int> cameras;
+    for (const Piece& piece : region.covers[0].pieces) cameras.insert(piece.camera);
+    EXPECT_EQ(cameras.size(), 6u);
+  }
+  EXPECT_GT(triangles, 2);
+}
+
+TEST(Cameras, EachKagomeCornerHasTwoAndEachSquareCornerEight) {
+  for (const auto& [configuration, expected] :
+       {std::pair{Configuration::b, 2}, std::pair{Configuration::e, 8}}) {
+    const Layout layout = makeLayout(configuration, {}, 3);
+    std::map<std::tuple<int, int, int>, int> perCorner;
+    for (const LayoutCamera& camera : layout.cameras)
+      ++perCorner[{camera.id.i, camera.id.j, camera.id.corner}];
+    int most = 0;
+    for (const auto& [corner, count] : perCorner) most = std::max(most, count);
+    EXPECT_EQ(most, expected);
+  }
+}
+
+TEST(Cameras, AreSortedUniqueAndIndependentOfTheNeighboursPlaced) {
+  for (const Configuration configuration : {Configuration::b, Configuration::e}) {
+    const Layout many = makeLayout(configuration, {2, {3, 1}, 0.4}, 4);
+    EXPECT_TRUE(std::ranges::is_sorted(many.cameras, std::ranges::less_equal{}, &LayoutCamera::id));
+    for (std::size_t k = 1; k < many.cameras.size(); ++k)
+      EXPECT_LT(many.cameras[k - 1].id, many.cameras[k].id);
+    LayoutSpec alone = many.spec;
+    alone.outline = {};
+    alone.added = {many.regions[many.regions.size() / 2].id};
+    const Layout one = buildLayout(alone).value();
+    ASSERT_EQ(one.regions.size(), 1u);
+    for (const LayoutCamera& camera : one.cameras) {
+      const auto same = std::ranges::find(many.cameras, camera.id, &LayoutCamera::id);
+      ASSERT_NE(same, many.cameras.end());
+      EXPECT_EQ(camera.position, same->position);
+      EXPECT_EQ(camera.lowAzimuth, same->lowAzimuth);
+      ASSERT_EQ(camera.served.size(), same->served.size());
+      for (std::size_t s = 0; s < camera.served.size(); ++s)
+        EXPECT_EQ(camera.served[s].corners, same->served[s].corners);
+    }
+  }
+}
+
+TEST(Cameras, ServeTheRegionsAroundThemGrownByTheNearBand) {
+  const Layout layout = makeLayout(Configuration::b, {}, 4);
+  for (const Region& region : layout.regions)
+    for (const Cover& cover : region.covers)
+      for (const Piece& piece : cover.pieces) {
+        const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
+        EXPECT_EQ(camera.served.size(), 4u) << "two hexagons and two triangles meet at a kagome corner";
+        EXPECT_TRUE(std::ranges::any_of(
+            camera.served, [&](const ConvexPolygon& p) { return p.corners == region.grown.corners; }));
+      }
+  for (const LayoutCamera& camera : makeLayout(Configuration::e).cameras) EXPECT_EQ(camera.served.size(), 2u);
+}
+
+}  // namespace
+}  // namespace acentric
