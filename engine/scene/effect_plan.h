@@ -1,6 +1,6 @@
 #pragma once
-/// Which effects a scene calls for, each with its reason. Bake and viewers take their kernels and passes from it:
-/// what is off costs no ray, no branch, no pass, no byte.
+/// Which effects a scene calls for, each with its reason. Bake and viewers take their kernels and passes from
+/// it: what is off costs no ray, no branch, no pass, no byte.
 
 #include <array>
 #include <cstdint>
@@ -13,10 +13,23 @@
 namespace acentric {
 
 enum class Effect : std::uint8_t {
-  textures, vertexColours, alphaTest, alphaBlend, emission,
-  directionalLights, pointLights, spotLights, sky,
-  hardShadows, softShadows, ambientOcclusion, diffuseInterreflection,
-  mirrorReflection, transmission, normalMaps, unlit,
+  textures,
+  vertexColours,
+  alphaTest,
+  alphaBlend,
+  emission,
+  directionalLights,
+  pointLights,
+  spotLights,
+  sky,
+  hardShadows,
+  softShadows,
+  ambientOcclusion,
+  diffuseInterreflection,
+  mirrorReflection,
+  transmission,
+  normalMaps,
+  unlit,
 };
 inline constexpr int kEffectCount = 17;
 
@@ -24,10 +37,10 @@ const char* nameOf(Effect effect);   ///< camelCase word, for files and options
 const char* labelOf(Effect effect);  ///< for people
 
 struct EffectState {
-  bool calledFor = false;   ///< by the scene
-  bool on = false;          ///< what bake and viewers do: calledFor, or the override
+  bool calledFor = false;  ///< by the scene
+  bool on = false;         ///< what bake and viewers do: calledFor, or the override
   bool overridden = false;
-  std::string reason;       ///< names the materials or lights: "3 materials with textures: Floor, Wall, frame"
+  std::string reason;  ///< names the materials or lights: "3 materials with textures: Floor, Wall, frame"
 };
 
 struct EffectPlan {

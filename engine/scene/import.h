@@ -1,7 +1,8 @@
 #pragma once
-/// From a model file to a Scene. Parsing runs in a child process (the `acentric-importer` program) with limits on
-/// time and memory, because parsers crash and hang on bad files; the child hands the Scene over as a scene file in
-/// the cache. That cache is keyed by the content of every file read and by the options, so a second open is fast.
+/// From a model file to a Scene. Parsing runs in a child process (the `acentric-importer` program) with
+/// limits on time and memory, because parsers crash and hang on bad files; the child hands the Scene over as
+/// a scene file in the cache. That cache is keyed by the content of every file read and by the options, so a
+/// second open is fast.
 
 #include <filesystem>
 #include <optional>
@@ -17,9 +18,9 @@ namespace acentric {
 enum class UpAxis : std::uint8_t { guess, y, z };
 
 struct ImportOptions {
-  double metresPerUnit = 0;        ///< 0 = guess (glTF: 1; others: by the file's unit, else by size)
-  UpAxis up = UpAxis::guess;       ///< glTF: Y; others: by the file, else Y
-  bool defaultLight = true;        ///< add a sun and sky when the file has no light
+  double metresPerUnit = 0;   ///< 0 = guess (glTF: 1; others: by the file's unit, else by size)
+  UpAxis up = UpAxis::guess;  ///< glTF: Y; others: by the file, else Y
+  bool defaultLight = true;   ///< add a sun and sky when the file has no light
 
   Status check() const;
   void addTo(Hasher& hasher) const;
@@ -35,10 +36,12 @@ struct ImportHost {
   bool useCache = true;
 };
 
-Result<ScenePtr> importScene(const std::filesystem::path& path, const ImportOptions& options, const ImportHost& host = {},
-                             const Progress& progress = {}, std::stop_token stop = {});
+Result<ScenePtr> importScene(const std::filesystem::path& path, const ImportOptions& options,
+                             const ImportHost& host = {}, const Progress& progress = {},
+                             std::stop_token stop = {});
 
-/// What the child does, in this process: parse, check, convert. Only for the child and for tests of sound files.
+/// What the child does, in this process: parse, check, convert. Only for the child and for tests of sound
+/// files.
 Result<Scene> parseScene(const std::filesystem::path& path, const ImportOptions& options);
 
 /// The scene file (cache, hand-over): versioned, checksummed, zstd.

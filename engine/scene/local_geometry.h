@@ -1,5 +1,6 @@
 #pragma once
-/// The scene's triangles near the eye: clipped exactly, in plan, to a region grown by the near band (apv.md section 4).
+/// The scene's triangles near the eye: clipped exactly, in plan, to a region grown by the near band (apv.md
+/// section 4).
 
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -1,9 +1,10 @@
 #pragma once
 /// Light baked to the surfaces themselves (mesh colours): each triangle carries a regular grid of samples in
-/// barycentric coordinates, so no unwrapping is needed. It lights the local geometry with the same light as the captures.
+/// barycentric coordinates, so no unwrapping is needed. It lights the local geometry with the same light as
+/// the captures.
 ///
-/// A triangle of resolution R has (R+1)(R+2)/2 samples at barycentric weights (i/R, j/R) of its 2nd and 3rd corner,
-/// 0 <= i, j and i + j <= R, stored with j fastest within i. R = 0 means "no light baked": black.
+/// A triangle of resolution R has (R+1)(R+2)/2 samples at barycentric weights (i/R, j/R) of its 2nd and 3rd
+/// corner, 0 <= i, j and i + j <= R, stored with j fastest within i. R = 0 means "no light baked": black.
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -27,7 +28,9 @@ struct SurfaceLight {
   glm::vec3 at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const;
 };
 
-inline std::uint32_t surfaceSampleCount(std::uint32_t resolution) { return (resolution + 1) * (resolution + 2) / 2; }
+inline std::uint32_t surfaceSampleCount(std::uint32_t resolution) {
+  return (resolution + 1) * (resolution + 2) / 2;
+}
 /// Index of sample (i, j) within one side of a triangle of resolution R.
 inline std::uint32_t surfaceSampleIndex(std::uint32_t resolution, std::uint32_t i, std::uint32_t j) {
   return i * (resolution + 1) - i * (i - 1) / 2 + j;  // i = 0 first: R+1 samples, then R, ...

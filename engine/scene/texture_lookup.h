@@ -1,6 +1,6 @@
 #pragma once
-/// Reading textures on the CPU: bilinear with wrap modes, level 0, sRGB decoded to linear where the use is a colour.
-/// One routine for bake, truth and the software renderer, so that their pictures agree.
+/// Reading textures on the CPU: bilinear with wrap modes, level 0, sRGB decoded to linear where the use is a
+/// colour. One routine for bake, truth and the software renderer, so that their pictures agree.
 
 #include <glm/glm.hpp>
 

@@ -1,0 +1,216 @@
+#include "engine/scene/finish_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/default_light.h"
+#include "engine/scene/mesh_cleaning.h"
+
+namespace acentric {
+namespace {
+
+struct Box {
+  glm::dvec3 min{std::numeric_limits<double>::max()};
+  glm::dvec3 max{std::numeric_limits<double>::lowest()};
+  bool empty() const { return min.x > max.x; }
+  void add(const SourceMesh& mesh) {
+    for (const glm::uvec3& t : mesh.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        min = glm::min(min, mesh.positions[t[corner]]);
+        max = glm::max(max, mesh.positions[t[corner]]);
+      }
+  }
+  double diagonal() const { return empty() ? 0 : glm::length(max - min); }
+};
+
+/// "1,021,813"
+std::string withCommas(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (int i = int(digits.size()) - 3; i > 0; i -= 3) digits.insert(std::size_t(i), ",");
+  return digits;
+}
+
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", withCommas(n), n == 1 ? one : many);
+}
+
+double chooseUnit(const SourceScene& source, const ImportOptions& options, double diagonal,
+                  ReportLines& guessed) {
+  if (options.metresPerUnit > 0) return options.metresPerUnit;
+  if (source.metresPerUnit > 0) {
+    guessed.add(source.metresPerUnit == 1
+                    ? fmt::format("unit: metres ({})", source.unitSource)
+                    : fmt::format("unit: {} m ({})", source.metresPerUnit, source.unitSource));
+    if (diagonal * source.metresPerUnit > 20000)
+      guessed.add(fmt::format("the scene is {:.0f} km across: if that is too large, set metres per unit",
+                              diagonal * source.metresPerUnit / 1000));
+    return source.metresPerUnit;
+  }
+  if (diagonal <= 2000) {
+    guessed.add("unit: metres (the file states none)");
+    return 1;
+  }
+  const double unit = diagonal * 0.01 < 500 ? 0.01 : 0.001;
+  guessed.add(fmt::format("unit: {} (the file states none, and as metres the scene would be {:.0f} m across)",
+                          unit == 0.01 ? "centimetres" : "millimetres", diagonal));
+  return unit;
+}
+
+UpAxis chooseUp(const SourceScene& source, const ImportOptions& options, ReportLines& guessed) {
+  if (options.up != UpAxis::guess) return options.up;
+  if (source.up != UpAxis::guess) {
+    guessed.add(fmt::format("up axis: {} ({})", source.up == UpAxis::y ? "Y" : "Z", source.upSource));
+    return source.up;
+  }
+  guessed.add("up axis: Y (the file states none)");
+  return UpAxis::y;
+}
+
+glm::dmat4 metresZUp(double metresPerUnit, UpAxis up) {
+  glm::dmat4 out(metresPerUnit);
+  if (up == UpAxis::y) {  // (x, y, z) -> (x, -z, y)
+    out[1] = glm::dvec4(0, 0, metresPerUnit, 0);
+    out[2] = glm::dvec4(0, -metresPerUnit, 0, 0);
+  }
+  out[3] = glm::dvec4(0, 0, 0, 1);
+  return out;
+}
+
+/// Floats keep 24 bits: far from zero they lose the millimetres. Whole metres keep the origin exact in any
+/// format.
+glm::dvec3 chooseOrigin(const Box& box) {
+  const glm::dvec3 centre = 0.5 * (box.min + box.max);
+  const double distance = glm::length(centre);
+  const double reach = 0.5 * box.diagonal();
+  const bool far = distance > 10000;
+  const bool coarse =
+      distance > 4 * reach && distance + reach > 1000;  // a float's step is above 0.06 mm there
+  return far || coarse ? glm::round(centre) : glm::dvec3(0);
+}
+
+void reportDropped(const CleaningCounts& counts, ImportReport& report) {
+  const auto line = [&](std::size_t n, const char* what) {
+    if (n > 0) report.dropped.push_back(fmt::format("{} {}", counted(n, "triangle", "triangles"), what));
+  };
+  line(counts.degenerate, "without area");
+  line(counts.notFinite, "with positions that are not finite numbers");
+  line(counts.indexOutOfRange, "with indices out of range");
+}
+
+tl::unexpected<Error> noSurfaces(const CleaningCounts& counts, const std::string& modelledElse) {
+  ImportReport report;
+  reportDropped(counts, report);
+  std::string why = modelledElse;
+  for (const std::string& line : report.dropped) why += (why.empty() ? "" : ", ") + line;
+  return fail(ErrorKind::unsupported, "has no surfaces" + (why.empty() ? std::string() : " (" + why + ")"));
+}
+
+class Finisher {
+ public:
+  Finisher(SourceScene source, const ImportOptions& options, const Progress& progress)
+      : source_(std::move(source)), options_(options), progress_(progress) {}
+
+  Result<Scene> finish(const std::string& name) {
+    scene_.name = name;
+    Box box;
+    for (SourceMesh& mesh : source_.meshes) {
+      dropBroken(mesh, counts_);
+      box.add(mesh);
+    }
+    const auto nothing = [&] {
+      return noSurfaces(counts_, fmt::format("{}", fmt::join(source_.ignored.take(), ", ")));
+    };
+    if (box.empty()) return nothing();
+    placeEverything(box);
+    cleanMeshes();
+    if (scene_.meshes.empty()) return nothing();
+    takeRest();
+    return std::move(scene_);
+  }
+
+ private:
+  void placeEverything(const Box& sourceBox) {
+    metresPerUnit_ = chooseUnit(source_, options_, sourceBox.diagonal(), source_.guessed);
+    const glm::dmat4 world = metresZUp(metresPerUnit_, chooseUp(source_, options_, source_.guessed));
+    Box box;
+    for (SourceMesh& mesh : source_.meshes) {
+      applyTransform(mesh, world);
+      box.add(mesh);
+    }
+    scene_.origin = chooseOrigin(box);
+    if (scene_.origin != glm::dvec3(0))
+      source_.guessed.add(fmt::format("project origin: moved to ({:.0f}, {:.0f}, {:.0f}) m, near the scene",
+                                      scene_.origin.x, scene_.origin.y, scene_.origin.z));
+    for (const SourceLight& from : source_.lights) placeLight(from, world);
+  }
+
+  void placeLight(const SourceLight& from, const glm::dmat4& world) {
+    Light light = from.light;
+    light.direction = glm::vec3(glm::normalize(glm::dmat3(world) * glm::dvec3(light.direction)));
+    light.position = glm::vec3(glm::dvec3(world * glm::dvec4(from.position, 1)) - scene_.origin);
+    light.range *= float(metresPerUnit_);
+    // The file's distances shrink with the unit; so that the picture stays, candela shrink with their square.
+    if (light.kind != LightKind::directional) light.intensity *= float(metresPerUnit_ * metresPerUnit_);
+    scene_.lights.push_back(std::move(light));
+  }
+
+  void cleanMeshes() {
+    double done = 0;
+    for (SourceMesh& mesh : source_.meshes) {
+      if (progress_ && int(done) % 64 == 0)
+        progress_({done, double(source_.meshes.size()), "checking meshes"});
+      done += 1;
+      const Material& material = source_.materials[std::size_t(mesh.material)];
+      const TextureUse& normals = material.normalTexture;
+      Mesh clean = cleanMesh(std::move(mesh), scene_.origin, normals.used(), normals.uvSet, normals.transform,
+                             counts_);
+      mesh = {};
+      if (!clean.triangles.empty()) scene_.meshes.push_back(std::move(clean));
+    }
+  }
+
+  void takeRest() {
+    scene_.materials = std::move(source_.materials);
+    scene_.textures = std::move(source_.textures);
+    scene_.images = std::move(source_.images);
+    scene_.bounds = boundsOf(scene_);
+    const std::size_t ownLights = scene_.lights.size();
+    addDefaultLight(scene_, options_.defaultLight, source_.guessed);
+    if (counts_.normalsMade > 0)
+      source_.guessed.add(fmt::format("normals: {} without any are shaded flat",
+                                      counted(counts_.normalsMade, "mesh", "meshes")));
+    if (counts_.tangentsMade > 0)
+      source_.guessed.add(
+          fmt::format("tangents: made for {}", counted(counts_.tangentsMade, "mesh", "meshes")));
+    ImportReport& report = scene_.report;
+    report.found.push_back(fmt::format("{} in {}", counted(counts_.kept, "triangle", "triangles"),
+                                       counted(scene_.meshes.size(), "mesh", "meshes")));
+    report.found.push_back(fmt::format(
+        "{}, {}, {}", counted(scene_.materials.size(), "material", "materials"),
+        counted(scene_.textures.size(), "texture", "textures"), counted(ownLights, "light", "lights")));
+    const glm::vec3 size = scene_.bounds.size();
+    report.found.push_back(fmt::format("{:.2f} x {:.2f} x {:.2f} m (x, y, z up)", size.x, size.y, size.z));
+    reportDropped(counts_, report);
+    report.ignored = source_.ignored.take();
+    report.guessed = source_.guessed.take();
+    scene_.key = keyOf(scene_);
+  }
+
+  SourceScene source_;
+  const ImportOptions& options_;
+  const Progress& progress_;
+  double metresPerUnit_ = 1;
+  CleaningCounts counts_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Result<Scene> finishScene(SourceScene source, const std::string& name, const ImportOptions& options,
+                          const Progress& progress) {
+  return Finisher(std::move(source), options, progress).finish(name);
+}
+
+}  // namespace acentric

@@ -1,0 +1,128 @@
+#include "engine/scene/import.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "engine/base/file.h"
+#include "engine/scene/import_process.h"
+#include "engine/scene/scene_file.h"
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kEntryExtension = ".acscene";
+/// Raised whenever the same file would import to another scene than before.
+constexpr std::uint32_t kImportVersion = 1;
+
+/// Entries are found by the model file's content; the files that it names are then compared one by one.
+fs::path entryFor(const fs::path& folder, const ContentKey& model, const ImportOptions& options) {
+  Hasher hasher;
+  hasher.text("acentric import")
+      .value(kImportVersion)
+      .value(kSceneFileVersion)
+      .value(model.high)
+      .value(model.low);
+  options.addTo(hasher);
+  return folder / (hasher.finish().toHex() + kEntryExtension);
+}
+
+Status checkModel(const fs::path& path) {
+  std::error_code error;
+  const auto type = fs::status(path, error).type();
+  if (type == fs::file_type::not_found) return fail(ErrorKind::notFound, "does not exist", path.string());
+  if (type == fs::file_type::directory)
+    return fail(ErrorKind::invalidArgument, "is a folder; name the model file in it", path.string());
+  if (type != fs::file_type::regular)
+    return fail(ErrorKind::unreadable, "is not a regular file", path.string());
+  return {};
+}
+
+/// Nothing where there is no entry, or a damaged or outdated one: the caller imports afresh.
+ScenePtr fromCache(const fs::path& entry, const fs::path& model) {
+  std::error_code error;
+  if (!fs::exists(entry, error)) return nullptr;
+  bool current = false;
+  auto file = readSceneFile(entry, [&](const std::vector<Dependency>& dependencies) {
+    for (const Dependency& dependency : dependencies)
+      if (!unchanged(dependency, model.parent_path())) return false;
+    return current = true;
+  });
+  if (!file || !current) return nullptr;
+  file->scene.name = model.stem().string();  // the same bytes may lie under another name
+  return std::make_shared<const Scene>(std::move(file->scene));
+}
+
+/// The temporary that the importer writes, gone when this goes unless it was put in place.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& folder) {
+    static std::atomic<unsigned> counter{0};
+    path_ =
+        folder / fmt::format("{}{}-import-{}{}", kTemporaryPrefix, ::getpid(), counter++, kEntryExtension);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+  ~Temporary() {
+    std::error_code error;
+    fs::remove(path_, error);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& options, const ImportHost& host,
+                                 const Progress& progress, std::stop_token stop) {
+  if (auto status = options.check(); !status) return tl::unexpected(status.error());
+  if (auto status = checkModel(asked); !status) return tl::unexpected(status.error());
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(asked, error);
+  const fs::path folder = host.cacheFolder.empty() ? userCacheFolder() / "scenes" : host.cacheFolder;
+  fs::create_directories(folder, error);
+  if (error)
+    return fail(ErrorKind::unreadable, "the cache folder cannot be made: " + error.message(),
+                folder.string());
+  removeStaleTemporaries(folder);
+  if (progress) progress({0, 0, "looking in the cache"});
+  const auto content = hashFile(path);
+  if (!content) return tl::unexpected(content.error());
+  const fs::path entry = entryFor(folder, *content, options);
+  if (host.useCache)
+    if (ScenePtr scene = fromCache(entry, path)) return scene;
+
+  const auto program = importerProgram(host);
+  if (!program) return tl::unexpected(program.error());
+  const Temporary temporary(folder);
+  if (auto status = runImporter(*program, path, options, temporary.path(), host, progress, stop); !status) {
+    if (status.error().where == path.string()) status.error().where = asked.string();
+    return tl::unexpected(status.error());
+  }
+  if (progress) progress({0, 0, "taking the scene over"});
+  auto file = readSceneFile(temporary.path(), nullptr);
+  if (!file)
+    return fail(ErrorKind::internal, "the importer handed over a broken scene: " + file.error().message,
+                asked.string());
+  // A model that changed while it was read must not be found under the old content's key.
+  const auto after = hashFile(path);
+  if (host.useCache && after && *after == *content) fs::rename(temporary.path(), entry, error);
+  return std::make_shared<const Scene>(std::move(file->scene));
+}
+
+}  // namespace
+
+Result<ScenePtr> importScene(const fs::path& path, const ImportOptions& options, const ImportHost& host,
+                             const Progress& progress, std::stop_token stop) {
+  try {
+    return importUnguarded(path, options, host, progress, std::move(stop));
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "the scene does not fit in memory", path.string());
+  } catch (const std::exception& error) {
+    return fail(ErrorKind::internal, error.what(), path.string());
+  }
+}
+
+}  // namespace acentric

@@ -1,0 +1,58 @@
+#pragma once
+/// The files that a model file names (buffers, textures, material libraries): where they are, whether they
+/// may be read, and which were read, so that a cached import knows when it is out of date. Private to this
+/// folder.
+///
+/// A file is read only from the model's folder, its parent, or below them; or from an absolute path that the
+/// model itself states. Back slashes, a missing drive and wrong letter case are forgiven.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/base/result.h"
+
+namespace acentric {
+
+struct Dependency {
+  std::string path;  ///< relative to the model's folder, or absolute
+  bool exists = false;
+  std::uint64_t size = 0;
+  std::int64_t modifiedNanoseconds = 0;
+  std::uint64_t inode = 0;
+  ContentKey content;
+};
+
+class References {
+ public:
+  explicit References(const std::filesystem::path& model);
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// The file that `named` means. A file that does not exist is remembered too: it may appear later.
+  Result<std::filesystem::path> find(std::string_view named);
+  /// The bytes of the file that `named` means.
+  Result<std::vector<std::byte>> read(std::string_view named, std::size_t maxBytes);
+  /// A library opened this file itself.
+  void noteRead(const std::filesystem::path& path);
+  bool mayRead(const std::filesystem::path& path) const;
+
+  /// Everything asked for, with sizes, times and contents as they are now.
+  Result<std::vector<Dependency>> dependencies() const;
+
+ private:
+  std::string keyFor(const std::filesystem::path& path) const;
+
+  std::filesystem::path folder_;  ///< canonical
+  std::filesystem::path model_;
+  std::map<std::string, bool> files_;  ///< path as in Dependency -> existed
+};
+
+/// Is the file as it was? Reads its content only where size, time or inode differ.
+bool unchanged(const Dependency& dependency, const std::filesystem::path& modelFolder);
+
+}  // namespace acentric

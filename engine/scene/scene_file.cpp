@@ -1,0 +1,382 @@
+#include "engine/scene/scene_file.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+#include "engine/base/file.h"
+#include "engine/scene/byte_stream.h"
+#include "engine/scene/import.h"
+
+namespace acentric {
+namespace {
+
+constexpr char kMagic[8] = {'A', 'C', 'S', 'C', 'E', 'N', 'E', '\n'};
+constexpr std::size_t kHeaderBytes = 56;
+constexpr std::uint64_t kMaxUnpacked = std::uint64_t(64) << 30;
+
+struct Header {
+  std::uint32_t version = kSceneFileVersion;
+  std::uint64_t dependencyBytes = 0;
+  std::uint64_t packedBytes = 0;
+  std::uint64_t unpackedBytes = 0;
+  ContentKey checksum;
+};
+
+ContentKey checksumOf(const Header& header, std::span<const std::byte> rest) {
+  Hasher hasher;
+  hasher.value(header.version)
+      .value(header.dependencyBytes)
+      .value(header.packedBytes)
+      .value(header.unpackedBytes);
+  return hasher.bytes(rest.data(), rest.size()).finish();
+}
+
+void write(ByteWriter& out, const TextureUse& use) {
+  out.value(std::int32_t(use.texture));
+  out.value(use.uvSet);
+  out.value(use.transform);
+}
+
+void read(ByteReader& in, TextureUse& use) {
+  std::int32_t texture = 0;
+  in.value(texture);
+  use.texture = texture;
+  in.small(use.uvSet, 1);
+  in.value(use.transform);
+}
+
+void write(ByteWriter& out, const Material& m) {
+  out.text(m.name);
+  out.value(m.baseColour);
+  write(out, m.baseColourTexture);
+  out.value(m.emissive);
+  write(out, m.emissiveTexture);
+  out.value(m.metallic);
+  out.value(m.roughness);
+  write(out, m.metallicRoughnessTexture);
+  write(out, m.normalTexture);
+  out.value(m.normalScale);
+  out.value(m.transmission);
+  out.value(m.alphaMode);
+  out.value(m.alphaCutoff);
+  out.flag(m.doubleSided);
+  out.flag(m.unlit);
+}
+
+void read(ByteReader& in, Material& m) {
+  in.text(m.name);
+  in.value(m.baseColour);
+  read(in, m.baseColourTexture);
+  in.value(m.emissive);
+  read(in, m.emissiveTexture);
+  in.value(m.metallic);
+  in.value(m.roughness);
+  read(in, m.metallicRoughnessTexture);
+  read(in, m.normalTexture);
+  in.value(m.normalScale);
+  in.value(m.transmission);
+  in.small(m.alphaMode, 2);
+  in.value(m.alphaCutoff);
+  in.small(m.doubleSided, 1);
+  in.small(m.unlit, 1);
+}
+
+void write(ByteWriter& out, const Mesh& m) {
+  out.text(m.name);
+  out.value(std::int32_t(m.material));
+  out.array(m.positions);
+  out.array(m.normals);
+  out.array(m.tangents);
+  out.array(m.uv[0]);
+  out.array(m.uv[1]);
+  out.array(m.colours);
+  out.array(m.triangles);
+}
+
+void read(ByteReader& in, Mesh& m) {
+  in.text(m.name);
+  std::int32_t material = 0;
+  in.value(material);
+  m.material = material;
+  in.array(m.positions);
+  in.array(m.normals);
+  in.array(m.tangents);
+  in.array(m.uv[0]);
+  in.array(m.uv[1]);
+  in.array(m.colours);
+  in.array(m.triangles);
+}
+
+void write(ByteWriter& out, const Texture& t) {
+  out.text(t.name);
+  out.value(std::int32_t(t.image));
+  out.value(t.wrapU);
+  out.value(t.wrapV);
+  out.flag(t.nearest);
+}
+
+void read(ByteReader& in, Texture& t) {
+  in.text(t.name);
+  std::int32_t image = 0;
+  in.value(image);
+  t.image = image;
+  in.small(t.wrapU, 2);
+  in.small(t.wrapV, 2);
+  in.small(t.nearest, 1);
+}
+
+void write(ByteWriter& out, const std::shared_ptr<const ColourImage>& image) {
+  static const ColourImage kNone;
+  const ColourImage& picture = image ? *image : kNone;
+  out.value(std::int32_t(picture.width));
+  out.value(std::int32_t(picture.height));
+  out.array(picture.pixels);
+}
+
+void read(ByteReader& in, std::shared_ptr<const ColourImage>& image) {
+  ColourImage picture;
+  std::int32_t width = 0, height = 0;
+  in.value(width);
+  in.value(height);
+  in.array(picture.pixels);
+  const bool fits =
+      width > 0 && height > 0 && std::size_t(width) * std::size_t(height) == picture.pixels.size();
+  if (fits) {
+    picture.width = width;
+    picture.height = height;
+    image = std::make_shared<const ColourImage>(std::move(picture));
+  }
+}
+
+void write(ByteWriter& out, const Light& l) {
+  out.text(l.name);
+  out.value(l.kind);
+  out.value(l.colour);
+  out.value(l.intensity);
+  out.value(l.position);
+  out.value(l.direction);
+  out.value(l.range);
+  out.value(l.innerCone);
+  out.value(l.outerCone);
+}
+
+void read(ByteReader& in, Light& l) {
+  in.text(l.name);
+  in.small(l.kind, 2);
+  in.value(l.colour);
+  in.value(l.intensity);
+  in.value(l.position);
+  in.value(l.direction);
+  in.value(l.range);
+  in.value(l.innerCone);
+  in.value(l.outerCone);
+}
+
+void write(ByteWriter& out, const std::string& line) { out.text(line); }
+void read(ByteReader& in, std::string& line) { in.text(line); }
+
+void write(ByteWriter& out, const Dependency& d) {
+  out.text(d.path);
+  out.flag(d.exists);
+  out.value(d.size);
+  out.value(d.modifiedNanoseconds);
+  out.value(d.inode);
+  out.value(d.content);
+}
+
+void read(ByteReader& in, Dependency& d) {
+  in.text(d.path);
+  in.small(d.exists, 1);
+  in.value(d.size);
+  in.value(d.modifiedNanoseconds);
+  in.value(d.inode);
+  in.value(d.content);
+}
+
+template <class T>
+void writeAll(ByteWriter& out, const std::vector<T>& things) {
+  out.value(std::uint64_t(things.size()));
+  for (const T& thing : things) write(out, thing);
+}
+
+template <class T>
+void readAll(ByteReader& in, std::vector<T>& things) {
+  const std::size_t count = in.length(8);
+  for (std::size_t i = 0; i < count && in.sound(); ++i) read(in, things.emplace_back());
+}
+
+void write(ByteWriter& out, const Scene& scene) {
+  out.text(scene.name);
+  out.value(scene.key);
+  out.value(scene.origin);
+  writeAll(out, scene.materials);
+  writeAll(out, scene.meshes);
+  writeAll(out, scene.textures);
+  writeAll(out, scene.images);
+  writeAll(out, scene.lights);
+  out.value(scene.sky.zenith);
+  out.value(scene.sky.horizon);
+  out.value(scene.sky.ground);
+  out.value(scene.bounds.min);
+  out.value(scene.bounds.max);
+  for (const auto* lines :
+       {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
+    writeAll(out, *lines);
+}
+
+void read(ByteReader& in, Scene& scene) {
+  in.text(scene.name);
+  in.value(scene.key);
+  in.value(scene.origin);
+  readAll(in, scene.materials);
+  readAll(in, scene.meshes);
+  readAll(in, scene.textures);
+  readAll(in, scene.images);
+  readAll(in, scene.lights);
+  in.value(scene.sky.zenith);
+  in.value(scene.sky.horizon);
+  in.value(scene.sky.ground);
+  in.value(scene.bounds.min);
+  in.value(scene.bounds.max);
+  for (auto* lines :
+       {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
+    readAll(in, *lines);
+}
+
+/// What the Scene type promises, for a file whose checksum may have been forged.
+bool keepsPromises(const Scene& scene) {
+  const auto sound = [&](const TextureUse& use) {
+    return use.texture >= -1 && use.texture < int(scene.textures.size());
+  };
+  for (const Material& m : scene.materials)
+    if (!sound(m.baseColourTexture) || !sound(m.emissiveTexture) || !sound(m.metallicRoughnessTexture) ||
+        !sound(m.normalTexture))
+      return false;
+  for (const Texture& t : scene.textures)
+    if (t.image < -1 || t.image >= int(scene.images.size())) return false;
+  for (const auto& image : scene.images)
+    if (!image) return false;
+  for (const Mesh& m : scene.meshes) {
+    const std::size_t n = m.positions.size();
+    const auto fits = [&](const auto& array, bool optional) {
+      return array.size() == n || (optional && array.empty());
+    };
+    if (m.material < 0 || m.material >= int(scene.materials.size())) return false;
+    if (!fits(m.normals, false) || !fits(m.tangents, true) || !fits(m.uv[0], true) || !fits(m.uv[1], true) ||
+        !fits(m.colours, true))
+      return false;
+    for (const glm::uvec3& t : m.triangles)
+      if (std::max({t.x, t.y, t.z}) >= n) return false;
+  }
+  return scene.triangleCount() <= std::numeric_limits<std::uint32_t>::max();
+}
+
+tl::unexpected<Error> malformed(const char* message, const std::filesystem::path& path) {
+  return fail(ErrorKind::malformed, message, path.string());
+}
+
+Result<std::vector<std::byte>> packed(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+  std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1);
+  if (ZSTD_isError(size))
+    return fail(ErrorKind::internal, fmt::format("packing failed: {}", ZSTD_getErrorName(size)),
+                path.string());
+  out.resize(size);
+  return out;
+}
+
+}  // namespace
+
+Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) try {
+  ByteWriter scene, dependencies;
+  write(scene, file.scene);
+  writeAll(dependencies, file.dependencies);
+  const auto body = packed(scene.bytes(), path);
+  if (!body) return tl::unexpected(body.error());
+  Header header;
+  header.dependencyBytes = dependencies.bytes().size();
+  header.packedBytes = body->size();
+  header.unpackedBytes = scene.bytes().size();
+  std::vector<std::byte>& rest = dependencies.bytes();
+  rest.insert(rest.end(), body->begin(), body->end());
+  header.checksum = checksumOf(header, rest);
+
+  ByteWriter out;
+  out.value(kMagic);
+  out.value(header.version);
+  out.value(std::uint32_t(0));
+  out.value(header.dependencyBytes);
+  out.value(header.packedBytes);
+  out.value(header.unpackedBytes);
+  out.value(header.checksum);
+  out.bytes().insert(out.bytes().end(), rest.begin(), rest.end());
+  return writeFileAtomically(path, out.bytes());
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::outOfSpace, "the scene does not fit in memory twice, as writing it needs",
+              path.string());
+}
+
+Result<SceneFile> readSceneFile(const std::filesystem::path& path,
+                                const std::function<bool(const std::vector<Dependency>&)>& accept) try {
+  const auto bytes = readFile(path, kMaxUnpacked);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (bytes->size() < kHeaderBytes ||
+      !std::equal(std::begin(kMagic), std::end(kMagic), reinterpret_cast<const char*>(bytes->data())))
+    return malformed("is not a scene file", path);
+  Header header;
+  std::uint32_t zero = 0;
+  ByteReader in(std::span<const std::byte>(*bytes).subspan(sizeof kMagic));
+  in.value(header.version);
+  in.value(zero);
+  in.value(header.dependencyBytes);
+  in.value(header.packedBytes);
+  in.value(header.unpackedBytes);
+  in.value(header.checksum);
+  if (header.version != kSceneFileVersion || zero != 0)
+    return fail(ErrorKind::unsupported,
+                fmt::format("is version {} of the scene file; this program reads version {}", header.version,
+                            kSceneFileVersion),
+                path.string());
+  const std::span<const std::byte> rest = std::span<const std::byte>(*bytes).subspan(kHeaderBytes);
+  if (header.dependencyBytes > rest.size() || header.packedBytes != rest.size() - header.dependencyBytes)
+    return malformed("is cut off or too long", path);
+  if (checksumOf(header, rest) != header.checksum)
+    return malformed("is damaged: its checksum is wrong", path);
+
+  SceneFile out;
+  ByteReader dependencies(rest.first(header.dependencyBytes));
+  readAll(dependencies, out.dependencies);
+  if (!dependencies.sound() || !dependencies.atEnd()) return malformed("has a broken list of files", path);
+  if (accept && !accept(out.dependencies)) return out;
+
+  const std::span<const std::byte> body = rest.subspan(header.dependencyBytes);
+  const unsigned long long unpacked = ZSTD_getFrameContentSize(body.data(), body.size());
+  if (unpacked != header.unpackedBytes || unpacked > kMaxUnpacked)
+    return malformed("has a broken size", path);
+  const std::unique_ptr<std::byte[]> buffer(new std::byte[unpacked]);
+  const std::size_t got = ZSTD_decompress(buffer.get(), unpacked, body.data(), body.size());
+  if (ZSTD_isError(got) || got != unpacked) return malformed("cannot be unpacked", path);
+  ByteReader scene(std::span(buffer.get(), std::size_t(unpacked)));
+  read(scene, out.scene);
+  if (!scene.sound() || !scene.atEnd() || !keepsPromises(out.scene))
+    return malformed("has broken contents", path);
+  return out;
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::outOfSpace, "the scene does not fit in memory", path.string());
+}
+
+Status writeSceneFile(const Scene& scene, const std::filesystem::path& path) {
+  return writeSceneFile(SceneFile{scene, {}}, path);
+}
+
+Result<Scene> readSceneFile(const std::filesystem::path& path) {
+  auto file = readSceneFile(path, nullptr);
+  if (!file) return tl::unexpected(file.error());
+  return std::move(file->scene);
+}
+
+}  // namespace acentric

@@ -1,0 +1,27 @@
+#pragma once
+/// The scene file as the cache keeps it: a Scene and the files that it was made from. Private to this folder.
+///
+/// Layout, little-endian: 8 bytes "ACSCENE\n"; u32 version; u32 zero; u64 bytes of the dependency block; u64
+/// bytes packed; u64 bytes unpacked; 16 bytes XXH3-128 of all that follows and of the four sizes; the
+/// dependency block; the scene, zstd. Any other version is refused: the file can always be made again.
+
+#include <functional>
+
+#include "engine/scene/references.h"
+#include "engine/scene/scene.h"
+
+namespace acentric {
+
+inline constexpr std::uint32_t kSceneFileVersion = 1;
+
+struct SceneFile {
+  Scene scene;
+  std::vector<Dependency> dependencies;
+};
+
+Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path);
+/// `accept` looks at the dependencies before the scene is unpacked; if it says no, the scene stays empty.
+Result<SceneFile> readSceneFile(const std::filesystem::path& path,
+                                const std::function<bool(const std::vector<Dependency>&)>& accept);
+
+}  // namespace acentric
