@@ -1,0 +1,204 @@
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "engine/base/file.h"
+#include "engine/store/capture_store.h"
+#include "tests/store/synthetic_capture.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+namespace fs = std::filesystem;
+
+const ContentKey kKey{0x0123456789abcdef, 0xfedcba9876543210};
+
+struct CaptureFormat {
+  const char* name;
+  Status (*write)(const Capture&, const ContentKey&, const fs::path&);
+  Result<Capture> (*read)(const fs::path&);
+};
+const CaptureFormat kPack = {"c.pack", writeCapturePack, readCapturePack};
+const CaptureFormat kExr = {"c.exr", writeCaptureExr, readCaptureExr};
+
+/// Everything but the colour of samples that are not opaque, which OpenEXR's premultiplication rounds.
+void expectSame(const Capture& a, const Capture& b, bool coloursExact) {
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.columnStart, b.columnStart);
+  EXPECT_EQ(a.row, b.row);
+  EXPECT_EQ(a.inverseDistance, b.inverseDistance);
+  ASSERT_EQ(a.colour.size(), b.colour.size());
+  for (std::size_t i = 0; i < a.colour.size(); ++i) {
+    ASSERT_EQ(a.colour[i].a, b.colour[i].a) << i;
+    if (coloursExact || a.colour[i].a == 0x3c00) {
+      ASSERT_EQ(a.colour[i], b.colour[i]) << i;
+      continue;
+    }
+    const glm::vec4 x = unpackColour(a.colour[i]), y = unpackColour(b.colour[i]);
+    for (int channel = 0; channel < 3; ++channel)
+      ASSERT_NEAR(x[channel], y[channel], x[channel] * 0x1p-9f + 1e-6f);
+  }
+}
+
+Capture emptyCapture() {
+  Capture capture = syntheticCapture({});
+  capture.row.clear();
+  capture.inverseDistance.clear();
+  capture.colour.clear();
+  std::fill(capture.columnStart.begin(), capture.columnStart.end(), 0u);
+  return capture;
+}
+
+Capture deepButEmptyColumns() {
+  Capture capture = emptyCapture();
+  capture.row = {3, 3};
+  capture.inverseDistance = {1, 0};
+  capture.colour = {packColour({1, 2, 3, 0.5f}), packColour({0, 0, 0, 1})};
+  for (std::size_t k = 8; k < capture.columnStart.size(); ++k) capture.columnStart[k] = 2;
+  return capture;
+}
+
+class CaptureFiles : public FolderTest, public testing::WithParamInterface<const CaptureFormat*> {};
+INSTANTIATE_TEST_SUITE_P(Formats, CaptureFiles, testing::Values(&kPack, &kExr),
+                         [](const auto& format) { return format.param == &kPack ? "Pack" : "OpenExr"; });
+
+TEST_P(CaptureFiles, RoundTripsEveryShape) {
+  const Capture captures[] = {syntheticCapture({}),
+                              syntheticCapture({48, 40, false, false, 2}),
+                              syntheticCapture({48, 40, true, true, 3}),
+                              syntheticCapture({1, 1, false, false, 4}),
+                              syntheticCapture({1, 33, true, false, 5}),
+                              syntheticCapture({300, 260, true, true, 6}),
+                              emptyCapture(),
+                              deepButEmptyColumns()};
+  const fs::path path = folder_ / GetParam()->name;
+  for (const Capture& capture : captures) {
+    ASSERT_TRUE(capture.check());
+    const Status written = GetParam()->write(capture, kKey, path);
+    ASSERT_TRUE(written) << written.error().describe();
+    const auto back = GetParam()->read(path);
+    ASSERT_TRUE(back) << back.error().describe();
+    expectSame(capture, *back, GetParam() == &kPack);
+  }
+}
+
+TEST_P(CaptureFiles, KeepExtremeDistancesBitForBit) {
+  Capture capture = syntheticCapture({4, 8, false, false, 1});
+  const float extremes[] = {0, 1e-38f, 1e-45f, 1e-4f, 3.4e38f, 1000, std::nextafter(1.0f, 2.0f), 1.0f / 3};
+  for (std::size_t i = 0; i < capture.sampleCount(); ++i) capture.inverseDistance[i] = extremes[i % 8];
+  capture.colour[0] = HalfColour(0x7bff, 1, 0, 0x3c00);
+  ASSERT_TRUE(GetParam()->write(capture, kKey, folder_ / GetParam()->name));
+  const auto back = GetParam()->read(folder_ / GetParam()->name);
+  ASSERT_TRUE(back) << back.error().describe();
+  expectSame(capture, *back, true);
+}
+
+TEST_P(CaptureFiles, AreNeverWrittenFromABrokenCapture) {
+  Capture capture = syntheticCapture({});
+  capture.inverseDistance[5] = -1;
+  EXPECT_FALSE(GetParam()->write(capture, kKey, folder_ / GetParam()->name));
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_P(CaptureFiles, SayWhichFileIsMissing) {
+  const auto missing = GetParam()->read(folder_ / GetParam()->name);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().kind, ErrorKind::notFound);
+  EXPECT_NE(missing.error().describe().find(GetParam()->name), std::string::npos);
+}
+
+TEST_P(CaptureFiles, CutAnywhereAreMalformed) {
+  const fs::path path = folder_ / GetParam()->name;
+  ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, true, true, 1}), kKey, path));
+  const auto bytes = readFile(path);
+  ASSERT_TRUE(bytes);
+  const std::size_t step = std::max<std::size_t>(1, bytes->size() / 400);
+  for (std::size_t size = 0; size < bytes->size(); size += step) {
+    writeQuickly(path, std::span(*bytes).first(size));
+    const auto read = GetParam()->read(path);
+    ASSERT_FALSE(read) << size;
+    EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
+  }
+}
+
+TEST_P(CaptureFiles, DamagedByChanceAreRefusedOrUnharmed) {
+  const fs::path path = folder_ / GetParam()->name;
+  std::mt19937 random(17);
+  for (const bool layered : {false, true}) {
+    ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, layered, true, 1}), kKey, path));
+    const auto sound = readFile(path);
+    ASSERT_TRUE(sound);
+    const auto original = GetParam()->read(path);
+    ASSERT_TRUE(original);
+    int refused = 0;
+    constexpr int kRounds = 400;
+    for (int round = 0; round < kRounds; ++round) {
+      auto bytes = *sound;
+      const int damages = 1 + static_cast<int>(random() % 4);
+      for (int i = 0; i < damages; ++i) {
+        // Every other round in the first kilobytes, where sizes and counts are.
+        const std::size_t at =
+            random() % (round % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 1500));
+        bytes[at] = random() % 3 ? bytes[at] ^ std::byte(1u << (random() % 8)) : std::byte(random() % 256);
+      }
+      writeQuickly(path, bytes);
+      const auto read = GetParam()->read(path);
+      if (read) {
+        expectSame(*original, *read, true);
+      } else {
+        ++refused;
+        EXPECT_NE(read.error().describe().find(GetParam()->name), std::string::npos);
+        EXPECT_TRUE(read.error().kind == ErrorKind::malformed ||
+                    read.error().kind == ErrorKind::unsupported || read.error().kind == ErrorKind::outOfSpace)
+            << read.error().describe();
+      }
+    }
+    EXPECT_GT(refused, kRounds / 2);
+  }
+}
+
+TEST_F(FolderTest, PacksForgedWithAMatchingChecksumAreHarmless) {
+  const fs::path path = folder_ / kPack.name;
+  ASSERT_TRUE(kPack.write(syntheticCapture({16, 12, true, true, 1}), kKey, path));
+  const auto sound = readFile(path);
+  ASSERT_TRUE(sound);
+  std::mt19937 random(29);
+  int refused = 0;
+  for (int round = 0; round < 2000; ++round) {
+    auto bytes = *sound;
+    const std::size_t checked = bytes.size() - 16;
+    // Preamble, description and table fill the first 150 bytes; the key's 16 bytes and the magic are left
+    // alone.
+    const std::size_t at = round % 4 ? 32 + random() % 118 : 150 + random() % (checked - 150);
+    const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
+                                bytes[at] ^ std::byte(1u << (random() % 8))};
+    bytes[at] = values[random() % 4];
+    const std::uint64_t fileBytes = bytes.size();
+    std::memcpy(bytes.data() + 32, &fileBytes, sizeof fileBytes);
+    const ContentKey checksum = Hasher().bytes(bytes.data(), checked).finish();
+    std::memcpy(bytes.data() + checked, &checksum.high, 8);
+    std::memcpy(bytes.data() + checked + 8, &checksum.low, 8);
+    writeQuickly(path, bytes);
+    const auto read = kPack.read(path);
+    if (read) {
+      EXPECT_TRUE(read->check());
+    } else {
+      ++refused;
+      EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
+    }
+  }
+  EXPECT_GT(refused, 500);
+}
+
+TEST_P(CaptureFiles, OfOtherProgramsAreRefused) {
+  const fs::path path = folder_ / GetParam()->name;
+  for (const std::string& text : {std::string(), std::string("not a capture"), std::string(100000, '\0')}) {
+    ASSERT_TRUE(writeTextAtomically(path, text));
+    const auto read = GetParam()->read(path);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::malformed);
+  }
+}
+
+}  // namespace
+}  // namespace acentric

@@ -1,0 +1,95 @@
+#include <functional>
+#include <random>
+
+#include "engine/base/file.h"
+#include "engine/store/capture_store.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+namespace fs = std::filesystem;
+
+SurfaceLight randomLight(std::size_t triangles, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> light(0, 4);
+  SurfaceLight result;
+  result.firstSample.push_back(0);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const std::uint32_t resolution = random() % 3 == 0 ? 0 : random() % 9;
+    const bool back = random() % 4 == 0;
+    const std::uint32_t samples = resolution == 0 ? 0 : surfaceSampleCount(resolution) * (back ? 2 : 1);
+    result.resolution.push_back(static_cast<std::uint16_t>(resolution));
+    result.hasBack.push_back(back ? 1 : 0);
+    result.firstSample.push_back(result.firstSample.back() + samples);
+    for (std::uint32_t i = 0; i < samples; ++i)
+      result.light.push_back(packColour({light(random), light(random), light(random), 1}));
+  }
+  return result;
+}
+
+void expectSame(const SurfaceLight& a, const SurfaceLight& b) {
+  EXPECT_EQ(a.firstSample, b.firstSample);
+  EXPECT_EQ(a.resolution, b.resolution);
+  EXPECT_EQ(a.hasBack, b.hasBack);
+  EXPECT_EQ(a.light, b.light);
+}
+
+class SurfaceLightFile : public FolderTest {
+ protected:
+  fs::path path() const { return folder_ / "surface.light"; }
+};
+
+TEST_F(SurfaceLightFile, RoundTripsBitForBit) {
+  for (const std::size_t triangles : {0, 1, 500, 70000}) {
+    const SurfaceLight light = randomLight(triangles, 3);
+    const Status written = writeSurfaceLight(light, {1, 1}, path());
+    ASSERT_TRUE(written) << written.error().describe();
+    const auto back = readSurfaceLight(path());
+    ASSERT_TRUE(back) << back.error().describe();
+    expectSame(light, *back);
+  }
+}
+
+TEST_F(SurfaceLightFile, BrokenTablesAreNeverWritten) {
+  const std::function<void(SurfaceLight&)> breakages[] = {
+      [](SurfaceLight& l) { l.firstSample.pop_back(); }, [](SurfaceLight& l) { l.hasBack.pop_back(); },
+      [](SurfaceLight& l) { l.hasBack[1] = 2; },         [](SurfaceLight& l) { l.resolution[7] = 60000; },
+      [](SurfaceLight& l) { l.firstSample[4] += 900; },  [](SurfaceLight& l) { l.light.pop_back(); },
+      [](SurfaceLight& l) { l.light[3].g = 0x7c00; }};
+  for (const auto& damage : breakages) {
+    SurfaceLight light = randomLight(50, 4);
+    damage(light);
+    EXPECT_FALSE(writeSurfaceLight(light, {1, 1}, path()));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(SurfaceLightFile, DamageIsAlwaysFound) {
+  const SurfaceLight light = randomLight(200, 5);
+  ASSERT_TRUE(writeSurfaceLight(light, {1, 1}, path()));
+  const auto sound = readFile(path());
+  ASSERT_TRUE(sound);
+  std::mt19937 random(6);
+  for (int round = 0; round < 500; ++round) {
+    auto bytes = *sound;
+    if (round % 4 == 0)
+      bytes.resize(random() % bytes.size());
+    else
+      bytes[random() % (round % 2 ? bytes.size() : 100)] ^= std::byte(1u << (random() % 8));
+    writeQuickly(path(), bytes);
+    const auto read = readSurfaceLight(path());
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::malformed);
+    EXPECT_NE(read.error().describe().find("surface.light"), std::string::npos);
+  }
+}
+
+TEST_F(SurfaceLightFile, ACaptureIsNoSurfaceLight) {
+  ASSERT_TRUE(writeSurfaceLight(randomLight(5, 1), {1, 1}, path()));
+  const auto read = readCapturePack(path());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().kind, ErrorKind::malformed);
+}
+
+}  // namespace
+}  // namespace acentric

@@ -1,0 +1,52 @@
+#pragma once
+/// Captures with contents like a baked room's: walls, floor and sky, textured, some glass, some hidden
+/// surfaces.
+
+#include <cmath>
+#include <random>
+
+#include "engine/geometry/conventions.h"
+#include "engine/image/capture.h"
+
+namespace acentric {
+
+struct SyntheticOptions {
+  int columns = 48;
+  int rows = 40;
+  bool layered = false;  ///< hidden surfaces behind a quarter of the pixels, glass before an eighth
+  bool gaps = true;      ///< some pixels hold nothing
+  unsigned seed = 1;
+};
+
+inline Capture syntheticCapture(const SyntheticOptions& options) {
+  std::mt19937 random(options.seed);
+  std::uniform_real_distribution<float> noise(0.8f, 1.2f);
+  Capture capture;
+  capture.camera = {{1.25, -3.5, 1.6}, 0.3,         kPi / 3, radians(40), radians(-46),
+                    options.columns,   options.rows};
+  capture.columnStart.push_back(0);
+  const auto add = [&](int row, double w, float alpha) {
+    capture.row.push_back(static_cast<std::uint16_t>(row));
+    capture.inverseDistance.push_back(static_cast<float>(w));
+    const float light = static_cast<float>(0.1 + 0.5 * w) * noise(random);
+    capture.colour.push_back(packColour({light, 0.8f * light, 0.6f * light, alpha}));
+  };
+  for (int k = 0; k < options.columns; ++k) {
+    const double azimuth = capture.camera.azimuthAt(k + 0.5);
+    const double wall = (1.2 + std::cos(azimuth - 0.8)) / 8;  // one over the distance of a slanted wall
+    for (int row = 0; row < options.rows; ++row) {
+      const unsigned draw = static_cast<unsigned>(random());
+      if (options.gaps && draw % 11 == 0) continue;
+      const double tangent = capture.camera.tangentAt(row + 0.5);
+      const double floor = -tangent / 1.6;
+      const double first = tangent > 0.5 ? 0.0 : std::max(wall, floor);
+      if (options.layered && draw % 8 == 1) add(row, first + 0.5, 0.3f);
+      add(row, first, 1);
+      if (options.layered && draw % 4 == 2 && first > 0) add(row, first * 0.5, 1);
+    }
+    capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+  }
+  return capture;
+}
+
+}  // namespace acentric
