@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "engine/bake/surface.h"
+#include "engine/scene/surface_alpha.h"
 
 namespace acentric {
 namespace {
 
 /// Layers of glass and blending that a composed ray goes through at most.
 constexpr int kMaxBlendedLayers = 32;
-
-float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 template <bool kShadows>
 glm::vec3 arriving(const RayScene& scene, const Surface& surface, const glm::vec3& irradiance,
@@ -46,23 +45,6 @@ glm::vec3 directLight(const RayScene& scene, const LightSet& lights, const Surfa
       sum += arriving<kShadows>(scene, surface, irradiance, towards, distance * (1 - 1e-5f), rays);
     }
   return sum;
-}
-
-struct GlassLook {
-  float alpha;
-  float reflecting;  ///< share of the visible colour that is reflection; the rest is the glass's own body
-};
-
-/// Glass seen at an angle: a faint film that grows by Schlick's Fresnel term. What the glass keeps back of
-/// the light behind it (tint, partial transmission) shows as its own diffuse colour, since one alpha cannot
-/// tint per channel.
-GlassLook glassLook(const Surface& surface, float transmission, const glm::vec3& toViewer) {
-  const float cosine = std::clamp(glm::dot(surface.normal, toViewer), 0.0f, 1.0f);
-  const float fresnel = 0.04f + 0.96f * std::pow(1 - cosine, 5.0f);
-  const float film = std::min(1.0f, 0.08f + fresnel);
-  const float passing = std::clamp(transmission * luminance(glm::vec3(surface.baseColour)), 0.0f, 1.0f);
-  const float body = (1 - film) * (1 - passing);
-  return {film + body, film / (film + body)};
 }
 
 }  // namespace
@@ -116,10 +98,11 @@ struct ShadingKernels {
     }
     if constexpr (kSpecial) {
       if (rules.transmissive) {
-        const GlassLook look = glassLook(surface, scene.scene().materials[material].transmission, toViewer);
-        out.light =
-            glm::mix(out.light, shader.ambient_.radianceFrom(mirrored) * ambient.open, look.reflecting);
-        out.alpha *= look.alpha;
+        const GlassAlpha glass = glassAlpha(scene.scene().materials[material].transmission, out.baseColour,
+                                            glm::dot(surface.normal, toViewer));
+        const glm::vec3 film = shader.ambient_.radianceFrom(mirrored) * ambient.open;
+        out.light = (out.light * glass.body + film * glass.film) / glass.alpha();
+        out.alpha *= glass.alpha();
       }
     }
     return out;
