@@ -1,7 +1,5 @@
 #include "ui/file_browser.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -10,6 +8,7 @@
 #include <cstdlib>
 
 #include "ui/colour.h"
+#include "ui/keys.h"
 #include "ui/text_format.h"
 #include "ui/widgets.h"
 
@@ -91,29 +90,29 @@ bool FileBrowser::handleKey(const InputEvent& event) {
     scrollToSelection_ = true;
   };
   switch (event.code) {
-    case GLFW_KEY_DOWN:
+    case key::down:
       select(selected_ + 1);
       return true;
-    case GLFW_KEY_UP:
+    case key::up:
       select(std::max(0, selected_ - 1));
       return true;
-    case GLFW_KEY_PAGE_DOWN:
+    case key::pageDown:
       select(selected_ + 12);
       return true;
-    case GLFW_KEY_PAGE_UP:
+    case key::pageUp:
       select(selected_ - 12);
       return true;
-    case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER:
+    case key::enter:
+    case key::keypadEnter:
       accept();
       return true;
-    case GLFW_KEY_ESCAPE:
+    case key::escape:
       if (question_.empty())
         open_ = false;
       else
         question_.clear();
       return true;
-    case GLFW_KEY_BACKSPACE:
+    case key::backspace:
       if (!name_.empty() && request_.saving) return false;
       if (!name_.empty()) return false;
       enter(folder_.parent_path());

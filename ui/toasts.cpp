@@ -29,7 +29,7 @@ void Toasts::post(Tone tone, const std::string& text, double now) {
     same->until = until;
     return;
   }
-  toasts_.push_back({tone, text, until});
+  toasts_.push_back({tone, text, until, {0, 0}, {0, 0}});
   if (toasts_.size() > kMost) toasts_.erase(toasts_.begin());
 }
 
@@ -44,12 +44,19 @@ std::optional<double> Toasts::nextChange() const {
   return earliest;
 }
 
+bool Toasts::covers(const ImVec2& place) const {
+  return std::any_of(toasts_.begin(), toasts_.end(), [&place](const Toast& toast) {
+    return place.x >= toast.low.x && place.y >= toast.low.y && place.x < toast.high.x &&
+           place.y < toast.high.y;
+  });
+}
+
 void Toasts::draw(const ImVec2& lowerRight) {
   constexpr float kWidth = 380;
   float bottom = lowerRight.y;
   int clicked = -1;
   for (int i = int(toasts_.size()) - 1; i >= 0; --i) {
-    const Toast& toast = toasts_[std::size_t(i)];
+    Toast& toast = toasts_[std::size_t(i)];
     ImGui::SetNextWindowPos({lowerRight.x, bottom}, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowSize({kWidth, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised.withOpacity(0.97F).vec());
@@ -65,6 +72,8 @@ void Toasts::draw(const ImVec2& lowerRight) {
       ImGui::TextUnformatted(toast.text.c_str());
       ImGui::PopTextWrapPos();
       if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) clicked = i;
+      toast.low = at;
+      toast.high = {at.x + size.x, at.y + size.y};
       bottom -= size.y + 8;
     }
     ImGui::End();

@@ -25,6 +25,8 @@ class Toasts {
   /// When something will change by itself: the next expiry.
   std::optional<double> nextChange() const;
   std::size_t count() const { return toasts_.size(); }
+  /// Does a toast that was drawn last cover this place (window pixels)?
+  bool covers(const ImVec2& place) const;
   /// Stacked upwards from a corner (window pixels).
   void draw(const ImVec2& lowerRight);
 
@@ -33,6 +35,7 @@ class Toasts {
     Tone tone = Tone::info;
     std::string text;
     double until = 0;  ///< infinity: until clicked
+    ImVec2 low{0, 0}, high{0, 0};
   };
   std::vector<Toast> toasts_;
 };

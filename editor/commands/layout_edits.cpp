@@ -1,0 +1,127 @@
+#include "editor/commands/layout_edits.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "engine/geometry/conventions.h"
+
+namespace acentric::editor {
+namespace {
+
+bool placedByOutline(const LayoutSpec& spec, const CellId& cell) {
+  return spec.outline.overlaps(cellPolygon(spec, cell));
+}
+
+void place(LayoutSpec& spec, const CellId& cell) {
+  spec.removed.erase(cell);
+  if (!placedByOutline(spec, cell)) spec.added.insert(cell);
+}
+
+void take(LayoutSpec& spec, const CellId& cell) {
+  spec.added.erase(cell);
+  if (placedByOutline(spec, cell)) spec.removed.insert(cell);
+}
+
+std::string nameOf(const CellId& cell) {
+  return cell.slot == 0 ? fmt::format("({}, {})", cell.i, cell.j)
+                        : fmt::format("({}, {}, {})", cell.i, cell.j, cell.slot);
+}
+
+template <class Change>
+Edit edited(const Project& project, std::string label, Change change) {
+  Edit edit{project, std::move(label)};
+  change(edit.project.layout);
+  return edit;
+}
+
+}  // namespace
+
+bool isPlaced(const LayoutSpec& spec, const CellId& cell) {
+  if (spec.removed.contains(cell)) return false;
+  return spec.added.contains(cell) || placedByOutline(spec, cell);
+}
+
+Edit addCell(const Project& project, const CellId& cell) {
+  return edited(project, "Add cell " + nameOf(cell), [&](LayoutSpec& spec) { place(spec, cell); });
+}
+
+Edit removeCells(const Project& project, const std::set<CellId>& cells) {
+  const std::string label = cells.size() == 1 ? "Remove cell " + nameOf(*cells.begin())
+                                              : fmt::format("Remove {} cells", cells.size());
+  return edited(project, label, [&](LayoutSpec& spec) {
+    for (const CellId& cell : cells) take(spec, cell);
+  });
+}
+
+Edit moveCell(const Project& project, const CellId& from, const CellId& to) {
+  const bool possible = from != to && isPlaced(project.layout, from) && !isPlaced(project.layout, to);
+  return edited(project, fmt::format("Move cell {} to {}", nameOf(from), nameOf(to)), [&](LayoutSpec& spec) {
+    if (!possible) return;
+    take(spec, from);
+    place(spec, to);
+  });
+}
+
+Edit setConfiguration(const Project& project, Configuration configuration) {
+  return edited(project, fmt::format("Configuration {}", acentric::nameOf(configuration)),
+                [&](LayoutSpec& spec) {
+                  if (spec.configuration == configuration) return;
+                  spec.configuration = configuration;
+                  spec.added.clear();
+                  spec.removed.clear();
+                });
+}
+
+Edit setCellSize(const Project& project, double metres) {
+  return edited(project, fmt::format("Cell size {:.2f} m", metres),
+                [&](LayoutSpec& spec) { spec.cellSize = metres; });
+}
+
+Edit setLatticeOrigin(const Project& project, const glm::dvec2& origin) {
+  return edited(project, fmt::format("Lattice origin {:.2f}, {:.2f} m", origin.x, origin.y),
+                [&](LayoutSpec& spec) { spec.latticeOrigin = origin; });
+}
+
+Edit setRotation(const Project& project, double radiansValue) {
+  return edited(project, fmt::format("Lattice rotation {:.1f}°", degrees(radiansValue)),
+                [&](LayoutSpec& spec) { spec.rotationRadians = radiansValue; });
+}
+
+Edit setOutline(const Project& project, Outline outline) {
+  const char* label = outline.empty() ? "Clear outline" : "Draw outline";
+  return edited(project, label, [&](LayoutSpec& spec) { spec.outline = std::move(outline); });
+}
+
+Edit setEyeHeight(const Project& project, double metres) {
+  return edited(project, fmt::format("Eye height {:.2f} m", metres),
+                [&](LayoutSpec& spec) { spec.eyeHeight = metres; });
+}
+
+Edit setFloorHeight(const Project& project, double metres) {
+  return edited(project, fmt::format("Floor height {:.2f} m", metres),
+                [&](LayoutSpec& spec) { spec.floorHeight = metres; });
+}
+
+Edit setNearBand(const Project& project, double metres) {
+  return edited(project, fmt::format("Near band {:.2f} m", metres),
+                [&](LayoutSpec& spec) { spec.nearBand = metres; });
+}
+
+CellId nearestSlot(const LayoutSpec& spec, const CellId& like, const glm::dvec2& centre) {
+  const double reach = 2.5 * spec.cellSize;  // holds a cell of every kind in each lattice
+  constexpr int kMost = 200;
+  CellId best = like;
+  double nearest = std::numeric_limits<double>::max();
+  for (const LatticeCell& cell : cellsIn(spec, centre - reach, centre + reach, kMost)) {
+    if (cell.id.slot != like.slot) continue;
+    const double distance = glm::distance(cell.polygon.centroid(), centre);
+    if (distance < nearest) {
+      nearest = distance;
+      best = cell.id;
+    }
+  }
+  return best;
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,33 @@
+#pragma once
+/// Edits of the layout. Pure: project in, edit out. A cell is placed if the outline places it or it was
+/// added, unless it was removed; edits keep the added and removed sets free of what says nothing.
+
+#include <set>
+
+#include "editor/commands/edit.h"
+#include "engine/layout/layout.h"
+
+namespace acentric::editor {
+
+bool isPlaced(const LayoutSpec& spec, const CellId& cell);
+
+Edit addCell(const Project& project, const CellId& cell);
+Edit removeCells(const Project& project, const std::set<CellId>& cells);
+/// To a free place; the same cell, or a place that is taken, changes nothing.
+Edit moveCell(const Project& project, const CellId& from, const CellId& to);
+
+/// Cells are addressed within the old lattice, so added and removed ones are dropped.
+Edit setConfiguration(const Project& project, Configuration configuration);
+Edit setCellSize(const Project& project, double metres);
+Edit setLatticeOrigin(const Project& project, const glm::dvec2& origin);
+Edit setRotation(const Project& project, double radiansValue);
+Edit setOutline(const Project& project, Outline outline);
+Edit setEyeHeight(const Project& project, double metres);
+Edit setFloorHeight(const Project& project, double metres);
+Edit setNearBand(const Project& project, double metres);
+
+/// Where a cell that is dragged by one of its points would land: the cell of the same kind (slot) nearest to
+/// `centre`.
+CellId nearestSlot(const LayoutSpec& spec, const CellId& like, const glm::dvec2& centre);
+
+}  // namespace acentric::editor

@@ -1,0 +1,53 @@
+#include "editor/commands/setting_edits.h"
+
+#include <fmt/format.h>
+
+namespace acentric::editor {
+
+Edit setBakeSettings(const Project& project, const BakeSettings& bake, const char* field) {
+  Edit edit{project, fmt::format("Bake: {}", field)};
+  edit.project.bake = bake;
+  return edit;
+}
+
+Edit setViewSettings(const Project& project, const ViewSettings& view, const char* field) {
+  Edit edit{project, fmt::format("View: {}", field)};
+  edit.project.view = view;
+  return edit;
+}
+
+Edit setFieldOfView(const Project& project, double degreesValue) {
+  Edit edit{project, fmt::format("Field of view {:.0f}°", degreesValue)};
+  edit.project.fovDegrees = degreesValue;
+  return edit;
+}
+
+Edit setExposure(const Project& project, float exposure) {
+  Edit edit{project, fmt::format("Exposure {:.3g}", exposure)};
+  edit.project.exposure = exposure;
+  return edit;
+}
+
+Edit setSpawn(const Project& project, const Spawn& spawn) {
+  Edit edit{project, "Set start of the walk"};
+  edit.project.spawn = spawn;
+  return edit;
+}
+
+Edit setEffect(const Project& project, Effect effect, std::optional<bool> override) {
+  const char* state = !override ? "as the scene calls for" : *override ? "on" : "off";
+  Edit edit{project, fmt::format("{}: {}", labelOf(effect), state)};
+  if (override)
+    edit.project.effects[effect] = *override;
+  else
+    edit.project.effects.erase(effect);
+  return edit;
+}
+
+Edit setImport(const Project& project, const ImportOptions& import, const char* field) {
+  Edit edit{project, fmt::format("Import: {}", field)};
+  edit.project.import = import;
+  return edit;
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,20 @@
+#pragma once
+/// Edits of everything that is not the layout. Pure: project in, edit out.
+
+#include <optional>
+
+#include "editor/commands/edit.h"
+
+namespace acentric::editor {
+
+/// Any change of bake or view settings, named by the field that changed.
+Edit setBakeSettings(const Project& project, const BakeSettings& bake, const char* field);
+Edit setViewSettings(const Project& project, const ViewSettings& view, const char* field);
+Edit setFieldOfView(const Project& project, double degreesValue);
+Edit setExposure(const Project& project, float exposure);
+Edit setSpawn(const Project& project, const Spawn& spawn);
+/// Nothing: as the scene calls for.
+Edit setEffect(const Project& project, Effect effect, std::optional<bool> override);
+Edit setImport(const Project& project, const ImportOptions& import, const char* field);
+
+}  // namespace acentric::editor

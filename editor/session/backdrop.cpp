@@ -1,0 +1,152 @@
+#include "editor/session/backdrop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/image/colour.h"
+#include "engine/scene/texture_lookup.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr Rgba8 kCutLine{226, 230, 236, 255};
+constexpr Rgba8 kSolid{18, 20, 24, 255};
+constexpr float kDim = 0.62F;  // the lattice is drawn over it and must stand out
+
+glm::vec4 materialColour(const Scene& scene, const Hit& hit) {
+  const Mesh& mesh = scene.meshes[hit.mesh];
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  glm::vec4 colour = material.baseColour;
+  const auto& uvs = mesh.uv[material.baseColourTexture.uvSet];
+  if (material.baseColourTexture.used() && !uvs.empty()) {
+    const glm::uvec3 corner = mesh.triangles[hit.triangle];
+    const float b0 = 1 - hit.barycentric.x - hit.barycentric.y;
+    const glm::vec2 uv =
+        b0 * uvs[corner.x] + hit.barycentric.x * uvs[corner.y] + hit.barycentric.y * uvs[corner.z];
+    colour *= sampleColour(scene, material.baseColourTexture, uv);
+  }
+  return colour;
+}
+
+/// Lit from above and a little from the side, darker towards the floor, so that heights read.
+Rgba8 shade(const Scene& scene, const Hit& hit, float cutHeight, float floorHeight) {
+  const Material& material = scene.materials[std::size_t(scene.meshes[hit.mesh].material)];
+  // Looking down and meeting the back of a one-sided surface: the cut went through a solid.
+  if (hit.geometricNormal.z < 0 && !material.doubleSided) return kSolid;
+  const glm::vec3 normal = hit.geometricNormal.z < 0 ? -hit.geometricNormal : hit.geometricNormal;
+  const float light =
+      0.35F + 0.65F * std::max(0.0F, glm::dot(normal, glm::normalize(glm::vec3(-0.35F, 0.45F, 1.0F))));
+  const float height = cutHeight - hit.distance;
+  const float range = std::max(0.1F, cutHeight - floorHeight);
+  const float lift = 0.8F + 0.35F * std::clamp((height - floorHeight) / range, 0.0F, 1.0F);
+  const glm::vec3 colour = glm::vec3(materialColour(scene, hit));
+  const float grey = glm::dot(colour, glm::vec3(0.2126F, 0.7152F, 0.0722F));
+  const glm::vec3 calm = glm::mix(glm::vec3(grey), colour, 0.7F) + 0.02F;
+  return encodeForDisplay(calm * (light * lift * kDim), 1.0F);
+}
+
+struct Raster {
+  ColourImage& picture;
+  glm::dvec2 min;
+  double pixelsPerMetre;
+
+  glm::dvec2 pixelOf(const glm::dvec2& world) const {
+    const glm::dvec2 offset = (world - min) * pixelsPerMetre;
+    return {offset.x, double(picture.height) - offset.y};
+  }
+  void line(glm::dvec2 a, glm::dvec2 b) const {
+    const glm::dvec2 size(picture.width, picture.height);
+    const glm::dvec2 low = glm::min(a, b);
+    const glm::dvec2 high = glm::max(a, b);
+    if (high.x < 0 || high.y < 0 || low.x >= size.x || low.y >= size.y) return;
+    const double length = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
+    // A line far longer than the picture is walked only where it can be seen.
+    const int steps = int(std::clamp(std::ceil(length), 1.0, 1e5));
+    for (int i = 0; i <= steps; ++i) {
+      const glm::dvec2 p = a + (b - a) * (double(i) / steps);
+      const int x = int(std::floor(p.x));
+      const int y = int(std::floor(p.y));
+      if (x >= 0 && y >= 0 && x < picture.width && y < picture.height) picture.at(x, y) = kCutLine;
+    }
+  }
+};
+
+/// Where the plane z = height cuts a triangle, if it does.
+std::optional<std::pair<glm::dvec2, glm::dvec2>> cutTriangle(const std::array<glm::vec3, 3>& corners,
+                                                             float height) {
+  std::array<glm::dvec2, 3> points;
+  int found = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 a(corners[i]);
+    const glm::dvec3 b(corners[(i + 1) % 3]);
+    if ((a.z < height) == (b.z < height)) continue;
+    const double t = (height - a.z) / (b.z - a.z);
+    points[std::size_t(found++)] = glm::dvec2(a) + t * (glm::dvec2(b) - glm::dvec2(a));
+  }
+  if (found != 2) return std::nullopt;
+  return std::pair(points[0], points[1]);
+}
+
+void drawCuts(const Scene& scene, float height, const Raster& raster, const std::stop_token& stop) {
+  for (const Mesh& mesh : scene.meshes) {
+    if (stop.stop_requested()) return;
+    for (const glm::uvec3& t : mesh.triangles) {
+      const std::array<glm::vec3, 3> corners = {mesh.positions[t.x], mesh.positions[t.y],
+                                                mesh.positions[t.z]};
+      if (const auto cut = cutTriangle(corners, height))
+        raster.line(raster.pixelOf(cut->first), raster.pixelOf(cut->second));
+    }
+  }
+}
+
+}  // namespace
+
+PlanBox planBoxOf(const Bounds& scene, const Layout& layout) {
+  if (scene.empty()) return {{-5, -5}, {5, 5}};
+  const glm::dvec2 sceneMin(scene.min.x, scene.min.y);
+  const glm::dvec2 sceneMax(scene.max.x, scene.max.y);
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(std::numeric_limits<double>::lowest());
+  const auto add = [&](const glm::dvec2& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  };
+  for (const Region& region : layout.regions)
+    for (const glm::dvec2& corner : region.polygon.corners) add(corner);
+  for (const auto& loop : layout.spec.outline.loops)
+    for (const glm::dvec2& corner : loop) add(corner);
+  if (low.x > high.x) return {sceneMin, sceneMax};
+  const glm::dvec2 room = 0.25 * (high - low) + 2.0;
+  const PlanBox box{glm::max(sceneMin, low - room), glm::min(sceneMax, high + room)};
+  const bool apart = box.min.x >= box.max.x || box.min.y >= box.max.y;  // laid out beside the scene
+  return apart ? PlanBox{sceneMin, sceneMax} : box;
+}
+
+std::optional<Backdrop> drawBackdrop(const RayScene& scene, double cutHeight, const PlanBox& box, int pixels,
+                                     TaskRunner& runner, std::stop_token stop) {
+  const glm::dvec2 size = glm::max(box.max - box.min, glm::dvec2(1e-3));
+  const double pixelsPerMetre = pixels / std::max(size.x, size.y);
+  Backdrop backdrop;
+  backdrop.min = box.min;
+  backdrop.picture = ColourImage(std::max(1, int(std::lround(size.x * pixelsPerMetre))),
+                                 std::max(1, int(std::lround(size.y * pixelsPerMetre))), Rgba8(0));
+  ColourImage& picture = backdrop.picture;
+  backdrop.max = box.min + glm::dvec2(picture.width, picture.height) / pixelsPerMetre;
+  const float floorHeight = scene.scene().bounds.min.z;
+  const float cut = float(cutHeight);
+  runner.parallelFor(std::size_t(picture.height), [&](std::size_t row) {
+    if (stop.stop_requested()) return;
+    const double y = box.min.y + (picture.height - double(row) - 0.5) / pixelsPerMetre;
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::vec3 origin(float(box.min.x + (x + 0.5) / pixelsPerMetre), float(y), cut);
+      const Hit hit = scene.trace({origin, {0, 0, -1}});
+      if (hit.found()) picture.at(x, int(row)) = shade(scene.scene(), hit, cut, floorHeight);
+    }
+  });
+  if (!stop.stop_requested()) drawCuts(scene.scene(), cut, {picture, box.min, pixelsPerMetre}, stop);
+  if (stop.stop_requested()) return std::nullopt;
+  return backdrop;
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,61 @@
+#pragma once
+/// Undo and redo: snapshots of the whole Project with a cursor. A drag or a slider is one entry: while it
+/// lasts it is a preview that replaces itself, then it is committed or rolled back. Bakes are never on the
+/// history.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/pipeline/project.h"
+
+namespace acentric::editor {
+
+class History {
+ public:
+  static constexpr std::size_t kMostEntries = 1000;
+
+  /// `saved`: the project is on disk as it is.
+  History(Project initial, bool saved);
+
+  const Project& current() const { return entries_[cursor_].project; }
+  /// A finished edit; what could be redone is gone. An edit that changes nothing is no entry.
+  void push(Project project, std::string label);
+
+  void preview(Project project, std::string label);
+  void commitPreview();
+  void rollbackPreview();
+  bool previewing() const { return previewing_; }
+
+  bool canUndo() const { return cursor_ > 0; }
+  bool canRedo() const { return cursor_ + 1 < entries_.size(); }
+  const std::string& undoLabel() const;  ///< of what undo() takes back; empty if nothing
+  const std::string& redoLabel() const;
+  void undo();
+  void redo();
+  /// Takes back the current entry and forgets it: it turned out to be impossible.
+  void discardCurrent();
+
+  void markSaved() { saved_ = current(), everSaved_ = true; }
+  bool dirty() const { return !everSaved_ || saved_ != current(); }
+
+  std::size_t size() const { return entries_.size(); }
+  std::size_t cursor() const { return cursor_; }
+  const std::string& label(std::size_t entry) const { return entries_[entry].label; }
+
+ private:
+  struct Entry {
+    std::string label;
+    Project project;
+  };
+  void append(Project project, std::string label);
+
+  std::vector<Entry> entries_;
+  std::size_t cursor_ = 0;
+  Project saved_;
+  bool everSaved_ = false;
+  bool previewing_ = false;
+  std::vector<Entry> hiddenRedo_;  // what push() would drop, kept until a preview is committed
+};
+
+}  // namespace acentric::editor

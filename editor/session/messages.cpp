@@ -1,0 +1,33 @@
+#include "editor/session/messages.h"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+#include <utility>
+
+namespace acentric::editor {
+namespace {
+
+std::string clockTime() {
+  const std::time_t now = std::time(nullptr);
+  return fmt::format("{:%H:%M:%S}", fmt::localtime(now));
+}
+
+}  // namespace
+
+void Messages::add(MessageLevel level, std::string text) {
+  all_.push_back({level, std::move(text), clockTime(), false});
+  fresh_.push_back(all_.back());
+  if (all_.size() > kMost) all_.erase(all_.begin());
+}
+
+void Messages::addFailure(const std::string& what, const Error& error) {
+  if (error.kind == ErrorKind::cancelled) return add(MessageLevel::info, what + " was cancelled");
+  add(MessageLevel::error, what + " failed. " + error.describe());
+  all_.back().modal = true;
+  fresh_.back().modal = true;
+}
+
+std::vector<Message> Messages::takeNew() { return std::exchange(fresh_, {}); }
+
+}  // namespace acentric::editor

@@ -1,0 +1,90 @@
+#include "editor/session/project_files.h"
+
+#include "engine/base/file.h"
+
+namespace acentric::editor {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostProjectBytes = std::size_t(64) << 20;
+
+fs::path folderOf(const fs::path& file) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(file, error).parent_path(), error);
+}
+
+}  // namespace
+
+bool isProjectFile(const fs::path& file) { return file.filename().string().ends_with(kProjectEnding); }
+
+fs::path suggestedProjectFile(const fs::path& model) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(model, error);
+  return absolute.parent_path() / (absolute.stem().string() + kProjectEnding);
+}
+
+fs::path autosaveFileFor(const fs::path& projectFile) {
+  fs::path file = projectFile;
+  file += ".autosave";
+  return file;
+}
+
+Status writeAutosave(const Project& project, const fs::path& projectFile) {
+  return writeTextAtomically(autosaveFileFor(projectFile), formatProject(project));
+}
+
+void removeAutosave(const fs::path& projectFile) {
+  std::error_code error;  // one that is not there is as good as removed
+  fs::remove(autosaveFileFor(projectFile), error);
+}
+
+std::optional<Project> recoverableAutosave(const fs::path& projectFile, const Project& saved) {
+  const fs::path file = autosaveFileFor(projectFile);
+  const auto text = readText(file, kMostProjectBytes);
+  if (!text) return std::nullopt;
+  auto project = parseProject(*text, file.string());
+  if (!project || *project == saved) return std::nullopt;
+  return *project;
+}
+
+Result<Project> movedProject(const Project& project, const fs::path& from, const fs::path& to) {
+  if (folderOf(from) == folderOf(to)) return project;
+  std::error_code error;
+  const fs::path model = fs::weakly_canonical(folderOf(from) / project.scene, error);
+  Project moved = project;
+  if (!error) moved.scene = fs::relative(model, folderOf(to), error);
+  if (error || moved.scene.empty() || moved.scene.is_absolute())
+    return fail(ErrorKind::invalidArgument,
+                "no relative path leads from there to the model; choose a folder on the model's file system",
+                to.string());
+  return moved;
+}
+
+Result<int> shareCaptures(const fs::path& from, const fs::path& to) {
+  const fs::path source = captureFolderFor(from);
+  const fs::path target = captureFolderFor(to);
+  std::error_code error;
+  if (source == target || !fs::is_directory(source, error)) return 0;
+  fs::create_directories(target, error);
+  if (error)
+    return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(), target.string());
+  int added = 0;
+  fs::directory_iterator it(source, error);
+  for (; !error && it != fs::directory_iterator(); it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    std::error_code ignored;
+    if (!it->is_regular_file(ignored) || name.starts_with(kTemporaryPrefix) ||
+        fs::exists(target / name, ignored))
+      continue;
+    std::error_code problem;
+    fs::create_hard_link(it->path(), target / name, problem);
+    if (problem) fs::copy_file(it->path(), target / name, problem);
+    if (problem)
+      return fail(ErrorKind::unreadable, "cannot be copied: " + problem.message(), it->path().string());
+    ++added;
+  }
+  if (error) return fail(ErrorKind::unreadable, error.message(), source.string());
+  return added;
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,32 @@
+#pragma once
+/// Files around a project: its autosave, the captures beside it, and moving it to another folder.
+
+#include <filesystem>
+#include <optional>
+
+#include "engine/pipeline/project.h"
+
+namespace acentric::editor {
+
+inline constexpr const char* kProjectEnding = ".acentric.json";
+
+bool isProjectFile(const std::filesystem::path& file);
+/// Where a model's project would be kept: beside it, "gallery.glb" -> "gallery.acentric.json".
+std::filesystem::path suggestedProjectFile(const std::filesystem::path& model);
+
+/// "gallery.acentric.json" -> "gallery.acentric.json.autosave"
+std::filesystem::path autosaveFileFor(const std::filesystem::path& projectFile);
+/// Never touches the project file itself.
+Status writeAutosave(const Project& project, const std::filesystem::path& projectFile);
+void removeAutosave(const std::filesystem::path& projectFile);
+/// What a crashed run left behind, if it is readable and differs from `saved`.
+std::optional<Project> recoverableAutosave(const std::filesystem::path& projectFile, const Project& saved);
+
+/// The same project as seen from another file: the path to its model is made relative to the new folder.
+Result<Project> movedProject(const Project& project, const std::filesystem::path& from,
+                             const std::filesystem::path& to);
+/// Makes the captures of `from` known to `to` (links where the disk can, else copies). Captures are found by
+/// content, so ones that `to` has already are left alone. Returns how many files were added.
+Result<int> shareCaptures(const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace acentric::editor

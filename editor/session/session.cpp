@@ -1,0 +1,215 @@
+#include "editor/session/session.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace acentric::editor {
+
+Session::Session(SessionOptions options)
+    : options_(std::move(options)),
+      processors_(options_.processors > 0 ? options_.processors
+                                          : std::max(1, int(std::thread::hardware_concurrency()))),
+      inbox_(options_.wake),
+      preferences_(loadPreferences(options_.preferencesFile)) {}
+
+Session::~Session() = default;
+
+bool onlyViewDiffers(const Project& a, const Project& b) {
+  Project same = b;
+  same.view = a.view;
+  same.fovDegrees = a.fovDegrees;
+  same.spawn = a.spawn;
+  return same == a;
+}
+
+bool Session::poll(double now) {
+  const bool delivered = inbox_.deliver();
+  if (baking_.running()) {
+    const ProgressState& progress = baking_.progress();
+    if (progress.total > 0) eta_.report(now, progress.done, progress.total);
+    if (progress.done != bakeProgressSeen_) {
+      bakeProgressSeen_ = progress.done;
+      loadWanted_ = true;
+    }
+  }
+  constexpr double kLoadInterval = 1.0;  // captures appear in the walk soon, without loading after each
+  if (loadWanted_ && built_ && now >= nextLoad_ && !loading_.running()) {
+    nextLoad_ = now + kLoadInterval;
+    loadCaptures();
+  }
+  autosave(now);
+  return delivered;
+}
+
+bool Session::working() const {
+  return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
+         drawingBackdrop_.running();
+}
+
+bool Session::apply(Edit edit) {
+  if (!hasProject()) return false;
+  if (const Status sound = edit.project.check(); !sound) {
+    messages_.addFailure(edit.label, sound.error());
+    return false;
+  }
+  history_->push(std::move(edit.project), std::move(edit.label));
+  projectChanged();
+  return true;
+}
+
+void Session::applyLive(Edit edit, bool finished) {
+  if (!hasProject()) return;
+  // A value on its way may be out of range for a moment: wait for the next one.
+  if (edit.project.check()) history_->preview(std::move(edit.project), std::move(edit.label));
+  if (finished) history_->commitPreview();
+  projectChanged();
+}
+
+void Session::finishLive() {
+  if (hasProject()) history_->commitPreview();
+}
+
+void Session::cancelLive() {
+  if (!hasProject() || !history_->previewing()) return;
+  history_->rollbackPreview();
+  projectChanged();
+}
+
+void Session::undo() {
+  if (!hasProject() || !history_->canUndo()) return;
+  messages_.add(MessageLevel::info, "Undone: " + history_->undoLabel());
+  history_->undo();
+  projectChanged();
+}
+
+void Session::redo() {
+  if (!hasProject() || !history_->canRedo()) return;
+  messages_.add(MessageLevel::info, "Done again: " + history_->redoLabel());
+  history_->redo();
+  projectChanged();
+}
+
+void Session::projectChanged() {
+  if (!built_ || built_->project == project()) {
+    if (built_ && rebuilding_.running()) rebuild();  // what is being built is no longer wanted
+    return;
+  }
+  if (onlyViewDiffers(built_->project, project()) && !rebuilding_.running()) {
+    OpenProject open = *built_;
+    open.project = project();
+    built_ = std::make_shared<const OpenProject>(std::move(open));
+    return;
+  }
+  rebuild();
+}
+
+void Session::rebuild() {
+  rebuilding_.restart("Laying the tessellation", [this, former = built_, wanted = project(),
+                                                  host = options_.importHost](const Job::Context& context) {
+    auto result = reopenProject(*former, wanted, host, context.progress(), context.stop());
+    context.post([this, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
+      if (*result) return rebuilt(std::move(**result));
+      if (result->error().kind == ErrorKind::cancelled) return;
+      messages_.addFailure(history_->undoLabel().empty() ? "The change" : history_->undoLabel(),
+                           result->error());
+      history_->discardCurrent();
+      projectChanged();
+    });
+  });
+}
+
+void Session::rebuilt(OpenProject open) {
+  show(std::move(open));
+  loadCaptures();
+  drawBackdropIfStale();
+}
+
+void Session::show(OpenProject open) {
+  const bool sameLayout = built_ && built_->layout == open.layout;
+  open.file = file_;
+  built_ = std::make_shared<const OpenProject>(std::move(open));
+  // What is baked is asked of the disk in the background; until then regions of a new layout count as
+  // missing.
+  if (!sameLayout || !captures_)
+    captures_ = std::make_shared<const CaptureStatus>(
+        captureStatus(*built_->layout, std::vector<bool>(built_->layout->cameras.size(), false)));
+}
+
+void Session::loadCaptures() {
+  if (loading_.running()) {  // it will be asked again, with what that has loaded
+    loadWanted_ = true;
+    nextLoad_ = 0;
+    return;
+  }
+  loadWanted_ = false;
+  loading_.restart("Loading captures", [this, open = built_, former = walk_,
+                                        threads = bakeThreads()](const Job::Context& context) {
+    TaskRunner runner(threads - 1);
+    CaptureStatus status = captureStatus(*open->layout, bakedCameras(*open));
+    context.post([this, open, status] {
+      if (built_->layout == open->layout) captures_ = std::make_shared<const CaptureStatus>(status);
+    });
+    auto walk = loadWalk(*open, former.get(), runner, context.progress(), context.stop());
+    context.post([this, open, status, walk = std::make_shared<Result<LoadedWalk>>(std::move(walk))] {
+      if (*walk) return loaded(std::move(**walk), status, *open);
+      messages_.addFailure("Loading the captures", walk->error());
+    });
+  });
+}
+
+void Session::loaded(LoadedWalk walk, CaptureStatus status, const OpenProject& from) {
+  for (const std::string& warning : walk.warnings) messages_.add(MessageLevel::warning, warning);
+  walk.warnings.clear();
+  walk_ = std::make_shared<const LoadedWalk>(std::move(walk));
+  if (built_->layout == from.layout) captures_ = std::make_shared<const CaptureStatus>(std::move(status));
+  if (built_->layout != from.layout || built_->keys != from.keys) loadWanted_ = true;
+}
+
+void Session::drawBackdropIfStale() {
+  const Layout& layout = *built_->layout;
+  BackdropKey key{built_->scene, layout.eyeZ(), planBoxOf(built_->scene->bounds, layout)};
+  // Small edits of the layout stay within a backdrop that is there.
+  const bool inside = backdropKey_.scene == key.scene && backdropKey_.cutHeight == key.cutHeight &&
+                      key.box.min.x >= backdropKey_.box.min.x && key.box.min.y >= backdropKey_.box.min.y &&
+                      key.box.max.x <= backdropKey_.box.max.x && key.box.max.y <= backdropKey_.box.max.y;
+  if (inside) return;
+  backdropKey_ = key;
+  drawingBackdrop_.restart("Drawing the plan", [this, key, rays = built_->rays,
+                                                threads = bakeThreads()](const Job::Context& context) {
+    TaskRunner runner(threads - 1);
+    for (const int pixels : {256, 1400}) {  // a coarse one at once, then the fine one
+      auto drawn = drawBackdrop(*rays, key.cutHeight, key.box, pixels, runner, context.stop());
+      if (!drawn) return;
+      context.post(
+          [this, backdrop = std::make_shared<const Backdrop>(std::move(*drawn))] { backdrop_ = backdrop; });
+    }
+  });
+}
+
+int Session::bakeThreads() const {
+  const int wanted = preferences_.bakeThreads > 0 ? preferences_.bakeThreads : processors_ - 1;
+  return std::clamp(wanted, 1, processors_);
+}
+
+void Session::startBake() {
+  if (!built_ || baking_.running()) return;
+  eta_.reset();
+  bakeProgressSeen_ = 0;
+  baking_.restart("Baking", [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
+    TaskRunner runner(threads - 1);
+    const auto report = bakeProject(*open, {}, runner, context.progress(), context.stop());
+    context.post([this, report] { bakeEnded(report); });
+  });
+}
+
+void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
+  loadWanted_ = true;
+  nextLoad_ = 0;
+  if (!report) return messages_.addFailure("Baking", report.error());
+  lastBake_ = *report;
+  const BakeReport& captures = report->captures;
+  messages_.add(MessageLevel::good, "Baked " + std::to_string(captures.baked) + " captures, " +
+                                        std::to_string(captures.reused) + " were there already");
+}
+
+}  // namespace acentric::editor

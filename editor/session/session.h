@@ -1,0 +1,165 @@
+#pragma once
+/// The open project and all work on it: history, files, background jobs. No window: the panels show it, the
+/// actions call it, and tests drive it directly. Everything here belongs to the main thread; jobs answer
+/// through the inbox.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "editor/commands/edit.h"
+#include "editor/session/backdrop.h"
+#include "editor/session/capture_status.h"
+#include "editor/session/eta.h"
+#include "editor/session/history.h"
+#include "editor/session/inbox.h"
+#include "editor/session/job.h"
+#include "editor/session/messages.h"
+#include "editor/session/preferences.h"
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric::editor {
+
+struct SessionOptions {
+  ImportHost importHost;
+  std::filesystem::path preferencesFile;  ///< empty = nothing is remembered
+  int processors = 0;                     ///< 0 = what the machine has
+  double autosaveSeconds = 20;
+  std::function<void()> wake;  ///< ends the main thread's sleep; any thread
+};
+
+class Session {
+ public:
+  explicit Session(SessionOptions options);
+  ~Session();
+
+  /// Delivers what jobs sent, keeps time for autosave and for loading what a running bake has finished.
+  /// True if anything may look different. `now` in seconds, monotonic.
+  bool poll(double now);
+
+  // Files
+  // ------------------------------------------------------------------------------------------------------
+  /// A project file, or a model file for a new project. What is open stays until the new one is ready.
+  void open(const std::filesystem::path& file);
+  void cancelOpening() { opening_.cancel(); }
+  void close();
+  Status save();
+  Status saveAs(const std::filesystem::path& file);
+  bool hasProject() const { return history_.has_value(); }
+  bool untitled() const { return untitled_; }
+  bool dirty() const { return history_ && history_->dirty(); }
+  /// The project's file; for an untitled project, where it would be saved.
+  const std::filesystem::path& file() const { return file_; }
+  std::string title() const;
+  /// An autosave that a crashed run left, until it is answered.
+  bool recoveryOffered() const { return recovery_.has_value(); }
+  void answerRecovery(bool recover);
+
+  // Edits
+  // ------------------------------------------------------------------------------------------------------
+  const Project& project() const { return history_->current(); }
+  const History& history() const { return *history_; }
+  /// False, with a message, if the project would not be sound.
+  bool apply(Edit edit);
+  /// While a value is dragged; `finished` makes it one entry.
+  void applyLive(Edit edit, bool finished);
+  void finishLive();
+  void cancelLive();
+  void undo();
+  void redo();
+
+  // What was made of it
+  // ----------------------------------------------------------------------------------------
+  /// Null before the first open is done. May lag behind project() for a moment.
+  const std::shared_ptr<const OpenProject>& built() const { return built_; }
+  const std::shared_ptr<const LoadedWalk>& walk() const { return walk_; }
+  const std::shared_ptr<const CaptureStatus>& captures() const { return captures_; }
+  const std::shared_ptr<const Backdrop>& backdrop() const { return backdrop_; }
+  /// Grows by one with each opened project: views start afresh.
+  int generation() const { return generation_; }
+
+  // Bake
+  // -------------------------------------------------------------------------------------------------------
+  void startBake();
+  void cancelBake() { baking_.cancel(); }
+  std::optional<double> bakeSecondsLeft(double now) const { return eta_.secondsLeft(now); }
+  const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
+  int bakeThreads() const;
+  int processors() const { return processors_; }
+
+  const Job& opening() const { return opening_; }
+  const Job& rebuilding() const { return rebuilding_; }
+  const Job& baking() const { return baking_; }
+  const Job& loading() const { return loading_; }
+  const Job& drawingBackdrop() const { return drawingBackdrop_; }
+  bool working() const;
+
+  Messages& messages() { return messages_; }
+  Preferences& preferences() { return preferences_; }
+  void savePreferencesNow();
+
+ private:
+  struct Opened {
+    OpenProject open;
+    bool untitled = false;
+    std::optional<Project> recovery;
+  };
+  Result<Opened> openNow(const std::filesystem::path& file, const Job::Context& context) const;
+  void opened(Opened opened);
+  void projectChanged();
+  void rebuild();
+  void rebuilt(OpenProject open);
+  void show(OpenProject open);
+  void loadCaptures();
+  void loaded(LoadedWalk walk, CaptureStatus status, const OpenProject& from);
+  void drawBackdropIfStale();
+  void bakeEnded(const Result<ProjectBakeReport>& report);
+  void remember(const std::filesystem::path& file);
+  void autosave(double now);
+
+  SessionOptions options_;
+  int processors_;
+  Inbox inbox_;
+  Messages messages_;
+  Preferences preferences_;
+
+  std::optional<History> history_;
+  std::filesystem::path file_;
+  bool untitled_ = false;
+  std::optional<Project> recovery_;
+  int generation_ = 0;
+
+  std::shared_ptr<const OpenProject> built_;
+  std::shared_ptr<const LoadedWalk> walk_;
+  std::shared_ptr<const CaptureStatus> captures_;
+  std::shared_ptr<const Backdrop> backdrop_;
+  struct BackdropKey {
+    ScenePtr scene;
+    double cutHeight = 0;
+    PlanBox box;
+    bool operator==(const BackdropKey&) const = default;
+  };
+  BackdropKey backdropKey_;
+
+  Eta eta_;
+  std::optional<ProjectBakeReport> lastBake_;
+  double bakeProgressSeen_ = 0;
+  double nextLoad_ = 0;
+  bool loadWanted_ = false;
+  double nextAutosave_ = 0;
+  std::optional<Project> autosaved_;
+
+  // Last: they are stopped and joined first.
+  Job opening_{inbox_};
+  Job rebuilding_{inbox_};
+  Job baking_{inbox_};
+  Job loading_{inbox_};
+  Job drawingBackdrop_{inbox_};
+};
+
+/// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.
+bool onlyViewDiffers(const Project& a, const Project& b);
+
+}  // namespace acentric::editor

@@ -1,0 +1,61 @@
+#include "editor/session/walk_renderer.h"
+
+#include <utility>
+
+namespace acentric::editor {
+
+WalkRenderer::WalkRenderer(int threads, std::function<void()> wake)
+    : threads_(threads),
+      wake_(std::move(wake)),
+      thread_([this](const std::stop_token& stop) { loop(stop); }) {}
+
+WalkRenderer::~WalkRenderer() {
+  thread_.request_stop();
+  thread_.join();
+}
+
+void WalkRenderer::request(WalkRequest request) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_ = std::move(request);
+  }
+  changed_.notify_one();
+}
+
+std::optional<WalkPicture> WalkRenderer::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(finished_, std::nullopt);
+}
+
+bool WalkRenderer::busy() const {
+  const std::lock_guard lock(mutex_);
+  return rendering_ || waiting_.has_value();
+}
+
+void WalkRenderer::loop(const std::stop_token& stop) {
+  TaskRunner runner(threads_ - 1);
+  while (!stop.stop_requested()) {
+    WalkPicture picture;
+    {
+      std::unique_lock lock(mutex_);
+      if (!changed_.wait(lock, stop, [this] { return waiting_.has_value(); })) return;
+      picture.request = std::move(*waiting_);
+      waiting_.reset();
+      rendering_ = true;
+    }
+    auto frame =
+        renderFrame(picture.request.loaded->walk, picture.request.view, picture.request.settings, runner);
+    if (frame)
+      picture.frame = std::move(*frame);
+    else
+      picture.problem = frame.error().describe();
+    {
+      const std::lock_guard lock(mutex_);
+      finished_ = std::move(picture);
+      rendering_ = false;
+    }
+    if (wake_) wake_();
+  }
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,47 @@
+#pragma once
+/// Walking: keys move the eye at walking speed, dragging looks around, and a soft wall keeps the eye inside
+/// the layout (it slides along the border). Pure: time and keys are handed in.
+
+#include <functional>
+#include <glm/glm.hpp>
+
+namespace acentric::editor {
+
+struct WalkKeys {
+  bool forward = false, back = false, left = false, right = false;
+  bool turnLeft = false, turnRight = false;
+  bool fast = false;
+  bool any() const { return forward || back || left || right || turnLeft || turnRight; }
+};
+
+struct WalkPose {
+  glm::dvec3 eye{0};
+  double yawRadians = 0;
+  double pitchRadians = 0;
+  bool operator==(const WalkPose&) const = default;
+};
+
+class Walker {
+ public:
+  static constexpr double kMetresPerSecond = 1.4;
+  static constexpr double kFastFactor = 3.0;
+  static constexpr double kTurnRadiansPerSecond = 1.6;
+  static constexpr double kSettleSeconds = 0.08;  ///< time constant of starting and stopping
+  static constexpr double kMaxPitchRadians = 1.45;
+  using Clamp = std::function<glm::dvec2(const glm::dvec2&)>;
+
+  const WalkPose& pose() const { return pose_; }
+  void setPose(const WalkPose& pose);
+  /// Dragging by pixels: to the right turns right, downwards looks down.
+  void look(const glm::dvec2& pixels, double radiansPerPixel);
+  /// True while the eye moves or still glides.
+  bool step(double seconds, const WalkKeys& keys, const Clamp& clamp);
+  bool moving() const { return velocity_ != glm::dvec2(0) || turning_; }
+
+ private:
+  WalkPose pose_;
+  glm::dvec2 velocity_{0};  // plan, metres per second
+  bool turning_ = false;
+};
+
+}  // namespace acentric::editor
