@@ -70,6 +70,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   WarpOptions options;
   options.project = settings.renderer == Renderer::scalar ? projectSamplesScalar : fastestProjectSamples();
   options.depthTest = settings.renderer == Renderer::zbuffer;
+  options.bands = runner.threads();
   Canvas canvas = makeCanvas(view, blended);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
   develop(canvas, plan, frame, inverseZDepth, runner);

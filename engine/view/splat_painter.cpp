@@ -60,12 +60,13 @@ bool paintSplat(const PaintTarget& target, const Splat& splat) {
       for (int y = y0; y < y1; ++y)
         if (splat.inverseZDepth > inverseZDepthOf(column[y])) column[y] = pixel;
     } else {
+      std::uint64_t* stamps = canvas.stampColumn(x);
       if (mode == PaintMode::overBlended && opaque) {
-        for (int y = y0; y < y1; ++y) column[y] = pixel;
+        std::fill(column + y0, column + y1, pixel);
+        std::fill(stamps + y0, stamps + y1, 0);  // what was blended here is hidden now
         continue;
       }
       const std::uint64_t stamp = stampOf(target, splat.index);
-      std::uint64_t* stamps = canvas.stampColumn(x);
       for (int y = y0; y < y1; ++y)
         if (mode == PaintMode::overBlended || splat.inverseZDepth >= inverseZDepthOf(column[y]))
           blendInto(column[y], stamps[y], colour, stamp);

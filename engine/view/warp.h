@@ -11,14 +11,13 @@ namespace acentric {
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one
-  /// The picture is cut in this many bands of rows, one task each. Rows of a capture move little in
-  /// elevation, so few samples fall on two bands; bands do not depend on the thread count, so neither does
-  /// the picture.
-  int bands = 8;
+  /// The picture is cut in this many bands of rows, one task each; pixels do not depend on it. A capture's
+  /// rows move little in elevation, so few samples fall on two bands.
+  int bands = 1;
 };
 
 struct WarpCounts {
-  std::uint64_t samplesRead = 0;  ///< a sample near a band's border may be read for both
+  std::uint64_t samplesRead = 0;  ///< once per band that a sample may fall on
   std::uint64_t samplesDrawn = 0;
 };
 

@@ -1,0 +1,57 @@
+#pragma once
+/// Scenes whose rays are solved by hand, and captures of them: truth for the renderers, without a ray tracer.
+
+#include <glm/glm.hpp>
+#include <random>
+#include <vector>
+
+#include "engine/image/capture.h"
+#include "engine/view/view_settings.h"
+#include "engine/view/walk_scene.h"
+
+namespace acentric::test {
+
+struct AnalyticBox {
+  glm::dvec3 min{0}, max{0};
+  glm::vec4 colour{1};  ///< linear, straight alpha
+};
+
+/// Axis-aligned boxes over an optional floor at z = 0, under a sky of one colour.
+struct AnalyticScene {
+  std::vector<AnalyticBox> boxes;
+  bool floor = true;
+  glm::vec4 floorColour{0.2f, 0.25f, 0.2f, 1};
+  glm::vec4 skyColour{0.3f, 0.5f, 0.7f, 1};
+
+  struct Crossing {
+    double distance = 0;  ///< in units of `direction`
+    glm::vec4 colour{0};
+  };
+  /// Every surface along a ray beyond `from`, nearest first (a box counts where the ray enters it).
+  std::vector<Crossing> along(const glm::dvec3& origin, const glm::dvec3& direction, double from) const;
+};
+
+/// `count` opaque boxes on the floor around the origin, none nearer to it than `innerRadius`.
+AnalyticScene randomBoxes(unsigned seed, int count, double innerRadius);
+
+/// Up to `layers` surfaces per pixel, of what lies beyond `region` grown by the near band (nullptr: of
+/// everything).
+Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown,
+                int layers = 1);
+
+/// A column camera of a layout camera, `perDegree` columns and rows per degree, elevations +-60 degrees.
+ColumnCamera columnCamera(const Layout& layout, int camera, double perDegree);
+
+/// A layout around the origin with the ring (or any region) that holds the origin in its middle.
+std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize = 2);
+
+/// Captures of all the cameras of one region's covers.
+WalkScene walkScene(const AnalyticScene& scene, std::shared_ptr<const Layout> layout, int region,
+                    double perDegree, int layers = 1);
+
+glm::dvec2 randomPointIn(const ConvexPolygon& polygon, std::mt19937& random);
+
+/// Share of pixels whose colours differ by more than `tolerance` codes in some channel.
+double differingShare(const ColourImage& a, const ColourImage& b, int tolerance = 0);
+
+}  // namespace acentric::test

@@ -1,0 +1,90 @@
+/// Samples per second of the renderers on a load like a walk's: a hexagon ring, dense captures of 480
+/// columns.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "analytic_scene.h"
+#include "engine/view/render.h"
+#include "engine/view/view_plan.h"
+#include "engine/view/warp.h"
+
+using namespace acentric;
+
+namespace {
+
+double best(int repeats, const std::function<void()>& work) {
+  double seconds = 1e9;
+  for (int i = 0; i < repeats; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    seconds =
+        std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return seconds;
+}
+
+}  // namespace
+
+int main() {
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const auto region = layout->regionAt({0, 0});
+  const WalkScene scene = test::walkScene(test::randomBoxes(1, 60, 3.2), layout, *region, 8);
+  PerspectiveView view;
+  view.eye = {0.4, 0.3, layout->eyeZ()};
+  view.yawRadians = 0.7;
+  ViewSettings settings;
+  for (bool secondary : {false, true}) {
+    settings.secondaryCover = secondary;
+    const auto plan = planView(scene, view, settings);
+    if (!plan) return 1;
+    TaskRunner one(0), two(1);
+    struct Case {
+      const char* name;
+      ProjectSamples project;
+      bool depthTest;
+      TaskRunner* runner;
+      int bands;
+    };
+    for (const Case& c : {Case{"scalar", projectSamplesScalar, false, &one, 8},
+                          Case{"fast", fastestProjectSamples(), false, &one, 1},
+                          Case{"fast", fastestProjectSamples(), false, &one, 2},
+                          Case{"fast", fastestProjectSamples(), false, &one, 4},
+                          Case{"fast", fastestProjectSamples(), false, &one, 8},
+                          Case{"fast", fastestProjectSamples(), false, &one, 16},
+                          Case{"fast", fastestProjectSamples(), false, &two, 2},
+                          Case{"fast", fastestProjectSamples(), false, &two, 4},
+                          Case{"fast", fastestProjectSamples(), false, &two, 8},
+                          Case{"zbuffer", fastestProjectSamples(), true, &one, 8}}) {
+      WarpOptions options;
+      options.project = c.project;
+      options.depthTest = c.depthTest;
+      options.bands = c.bands;
+      Canvas canvas = makeCanvas(view, false);
+      WarpCounts counts;
+      const double seconds =
+          best(20, [&] { counts = warpPieces(scene, view, settings, *plan, options, canvas, *c.runner); });
+      fmt::print(
+          "{} pieces, {:8} {} thread(s) {:2} bands: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} "
+          "M read/s\n",
+          plan->pieces.size(), c.name, c.runner->threads(), c.bands, seconds * 1e3, counts.samplesRead,
+          counts.samplesDrawn, static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
+          static_cast<double>(counts.samplesRead) / seconds * 1e-6);
+    }
+    for (Renderer renderer : {Renderer::scalar, Renderer::list, Renderer::zbuffer}) {
+      settings.renderer = renderer;
+      settings.fillHoles = true;
+      FrameStats stats;
+      std::size_t holes = 0;
+      const double seconds = best(10, [&] {
+        const auto frame = renderFrame(scene, view, settings, two);
+        stats = frame->stats;
+        holes = frame->holeCount();
+      });
+      fmt::print("frame {} 2 threads {:.2f} ms (warp {:.2f}, fill {:.2f}), {} holes\n", nameOf(renderer),
+                 seconds * 1e3, stats.warpSeconds * 1e3, stats.fillSeconds * 1e3, holes);
+    }
+  }
+}
