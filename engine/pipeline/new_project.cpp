@@ -26,11 +26,23 @@ DistanceProbe probeFor(const RayScene& rays) {
   };
 }
 
-glm::dvec2 middleOf(const Outline& outline) {
+std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const auto& loop : outline.loops)
     for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
+  return {low, high};
+}
+
+glm::dvec2 middleOf(const Outline& outline) {
+  const auto [low, high] = extentOf(outline);
   return 0.5 * (low + high);
+}
+
+/// To the thousandth of a metre: finer than any floor plan, and short in the file.
+Outline tidy(Outline outline) {
+  for (auto& loop : outline.loops)
+    for (glm::dvec2& corner : loop) corner = {roundTo(corner.x, 1e-3), roundTo(corner.y, 1e-3)};
+  return outline;
 }
 
 /// Area of lattice per ring, in units of the squared edge length.
@@ -42,11 +54,18 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
                                   const NewProjectOptions& options) {
   WalkableOptions walkable;
   walkable.eyeHeight = options.eyeHeight;
-  auto area = findWalkableArea(scene.bounds, walkable, probeFor(rays));
-  if (options.outline == "auto") return area;
+  if (options.outline == "auto") return findWalkableArea(scene.bounds, walkable, probeFor(rays));
   const auto outline = parseOutline(options.outline);
   if (!outline) return tl::unexpected(outline.error());
-  // A drawn outline needs only the floor; a scene without a walkable floor then stands on its lowest point.
+  // A drawn outline needs only its floor. A scene without a walkable one there then stands on its lowest
+  // point.
+  const auto [low, high] = extentOf(*outline);
+  Bounds within = scene.bounds;
+  within.min = glm::max(within.min, glm::vec3(glm::vec2(low), within.min.z));
+  within.max = glm::min(within.max, glm::vec3(glm::vec2(high), within.max.z));
+  if (within.empty() || within.min.y > within.max.y)
+    return fail(ErrorKind::invalidArgument, "the outline lies outside the scene", options.outline);
+  const auto area = findWalkableArea(within, walkable, probeFor(rays));
   return WalkableArea{area ? area->floorHeight : double(scene.bounds.min.z), *outline};
 }
 
@@ -62,10 +81,35 @@ double longestView(const RayScene& rays, const glm::dvec3& eye) {
   return yaw;
 }
 
+/// Free distance around an eye, at knee, hip and eye height, metres, at most `most`.
+double clearance(const RayScene& rays, const glm::dvec3& eye, double eyeHeight, double most) {
+  double least = most;
+  for (const double drop : {0.7 * eyeHeight, 0.4 * eyeHeight, 0.0})
+    for (int k = 0; k < 16; ++k) {
+      const glm::dvec2 d = directionOf(kTwoPi * k / 16);
+      least = std::min(
+          least,
+          double(rays.trace({glm::vec3(eye.x, eye.y, eye.z - drop), glm::vec3(d.x, d.y, 0)}).distance));
+    }
+  return least;
+}
+
+/// The place nearest to the outline's middle where a person has room; else the roomiest.
 Spawn chooseSpawn(const Layout& layout, const RayScene& rays) {
-  const glm::dvec2 position = clampToPlan(layout, middleOf(layout.spec.outline));
-  return {glm::dvec2(roundTo(position.x, 0.01), roundTo(position.y, 0.01)),
-          longestView(rays, {position, layout.eyeZ()})};
+  constexpr double kRoom = 0.8;  // metres
+  const glm::dvec2 middle = middleOf(layout.spec.outline);
+  glm::dvec2 best = clampToPlan(layout, middle);
+  double bestRoom = -1, bestDistance = std::numeric_limits<double>::infinity();
+  for (const Region& region : layout.regions) {
+    const glm::dvec2 place = region.polygon.centroid();
+    if (!layout.spec.outline.empty() && !layout.spec.outline.contains(place)) continue;
+    const double room = clearance(rays, {place, layout.eyeZ()}, layout.spec.eyeHeight, kRoom);
+    const double distance = glm::distance(place, middle);
+    if (room > bestRoom || (room == bestRoom && distance < bestDistance))
+      best = place, bestRoom = room, bestDistance = distance;
+  }
+  const glm::dvec2 tidied{roundTo(best.x, 0.01), roundTo(best.y, 0.01)};
+  return {layout.regionAt(tidied) ? tidied : best, longestView(rays, {best, layout.eyeZ()})};
 }
 
 std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
@@ -114,7 +158,7 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
 
   LayoutSpec& spec = project.layout;
   spec.configuration = options.configuration;
-  spec.outline = area->outline;
+  spec.outline = tidy(area->outline);
   spec.floorHeight = roundTo(area->floorHeight, 1e-4);
   spec.eyeHeight = options.eyeHeight;
   const double middling = std::sqrt(area->outline.area() / (kFirstRings * areaPerRing(spec.configuration)));

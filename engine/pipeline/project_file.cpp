@@ -147,6 +147,28 @@ Project projectFrom(const Json& json) {
   return project;
 }
 
+/// Arrays that hold only numbers (points, cells) on one line each: files stay short and diff point by point.
+std::string withShortArraysOnOneLine(const std::string& text) {
+  std::string out;
+  out.reserve(text.size());
+  bool inString = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') inString = !inString || text[i - 1] == '\\';
+    const bool opens = !inString && text[i] == '[';
+    const std::size_t close =
+        opens ? text.find_first_not_of("0123456789+-.eE, \n", i + 1) : std::string::npos;
+    if (close == std::string::npos || text[close] != ']') {
+      out += text[i];
+      continue;
+    }
+    for (; i < close; ++i)
+      if (text[i] != '\n' && text[i] != ' ')
+        out += text[i] == ',' ? std::string(", ") : std::string(1, text[i]);
+    out += ']';
+  }
+  return out;
+}
+
 /// The first thing that the schema refuses, as "/layout/cellSize: reason".
 Status checkSchema(const Json& json, const std::string& where) {
   const nlohmann::json plain = json;  // the adapter reads nlohmann::json
@@ -224,7 +246,7 @@ std::string formatProject(const Project& project) {
       {"spawn",
        {{"position", toJson(project.spawn.position)},
         {"yawDegrees", tidyDegrees(project.spawn.yawRadians)}}}};
-  return json.dump(2) + "\n";
+  return withShortArraysOnOneLine(json.dump(2)) + "\n";
 }
 
 Result<Project> parseProject(const std::string& text, const std::string& where) {

@@ -63,6 +63,17 @@ TEST(ProjectFile, WritingIsStable) {
   EXPECT_EQ(once.back(), '\n');
 }
 
+TEST(ProjectFile, PointsStandOnOneLineAndNamesAreLeftAlone) {
+  Project project = everythingSet();
+  project.scene = "odd [1,2] \"name\" [3,\\\" 4].glb";
+  const std::string text = formatProject(project);
+  EXPECT_THAT(text, HasSubstr("[8.0, 6.0]"));
+  EXPECT_THAT(text, HasSubstr("[1, -2, 0]"));
+  const auto back = parseProject(text, "p");
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, project);
+}
+
 TEST(ProjectFile, FillsInDefaultsForWhatIsNotNamed) {
   const auto project = parseProject(minimal(R"({"configuration":"b","cellSize":2})"), "p");
   ASSERT_TRUE(project) << project.error().describe();
@@ -75,11 +86,15 @@ TEST(ProjectFile, FillsInDefaultsForWhatIsNotNamed) {
 
 TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
   EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":-1})")), HasSubstr("/layout/cellSize"));
-  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"z","cellSize":1})")), HasSubstr("/layout/configuration"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"z","cellSize":1})")),
+              HasSubstr("/layout/configuration"));
   EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":"2"})")), HasSubstr("/layout/cellSize"));
-  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2,"outline":[[[0,0],[1,0]]]})")), HasSubstr("/layout/outline/0"));
-  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"bake":{"ambientRays":1e9})")), HasSubstr("/bake/ambientRays"));
-  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")), HasSubstr("/view/exposure"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2,"outline":[[[0,0],[1,0]]]})")),
+              HasSubstr("/layout/outline/0"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"bake":{"ambientRays":1e9})")),
+              HasSubstr("/bake/ambientRays"));
+  EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")),
+              HasSubstr("/view/exposure"));
 }
 
 TEST(ProjectFile, RefusesUnknownKeys) {
@@ -87,7 +102,8 @@ TEST(ProjectFile, RefusesUnknownKeys) {
 }
 
 TEST(ProjectFile, RefusesWhatIsNoProject) {
-  for (const char* text : {"", "{", "[]", "null", "42", "{}", "\xff\xfe", R"({"format":"other","version":1})"})
+  for (const char* text :
+       {"", "{", "[]", "null", "42", "{}", "\xff\xfe", R"({"format":"other","version":1})"})
     EXPECT_NE(refusalOf(text), "accepted") << text;
   EXPECT_THAT(refusalOf(std::string(100000, '[')), testing::Not(testing::IsEmpty()));
 }
@@ -97,12 +113,15 @@ TEST(ProjectFile, SaysThatANewerVersionIsNewer) {
 }
 
 TEST(ProjectFile, RefusesAbsoluteScenePaths) {
-  EXPECT_THAT(refusalOf(R"({"format":"acentric-project","version":1,"scene":"/etc/passwd","layout":{"configuration":"b","cellSize":2}})"),
-              HasSubstr("/scene"));
+  EXPECT_THAT(
+      refusalOf(
+          R"({"format":"acentric-project","version":1,"scene":"/etc/passwd","layout":{"configuration":"b","cellSize":2}})"),
+      HasSubstr("/scene"));
 }
 
 TEST(ProjectFile, SavesAndLoads) {
-  const auto file = std::filesystem::temp_directory_path() / ("acentric-project-test-" + std::to_string(::getpid()) + ".acentric.json");
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("acentric-project-test-" + std::to_string(::getpid()) + ".acentric.json");
   ASSERT_TRUE(saveProject(everythingSet(), file));
   const auto back = loadProject(file);
   std::filesystem::remove(file);
