@@ -1,4 +1,5 @@
-// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, LAYERED, LINEAR.
+// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, LAYERED; for captures with clear samples,
+// OPAQUE (draws the others) and CLEAR (draws these, one rank at a time).
 //
 // A sample of column direction c, row tangent t and inverse horizontal distance w lies, seen from the eye, along
 // q = K M (c + t z + w b), where M turns the world into view axes and K multiplies focal length and picture centre in:
@@ -45,11 +46,10 @@ flat out vec4 pointColour;
 
 const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
 
-#ifdef LINEAR
-vec3 linearFromSrgb(vec3 code) {
-  return mix(code / 12.92, pow((code + 0.055) / 1.055, vec3(2.4)), greaterThan(code, vec3(0.04045)));
-}
-#endif
+// Inverse depths of captures are scaled down so far that local geometry (local.vert), whose depth is kNearest / z, always
+// lies in front of them, and both share one floating-point depth buffer. Sky is just above the cleared value, a hole.
+const float kBackgroundDepthScale = 1e-20;
+const float kSkyDepth = 1e-30;
 
 // The sample that this vertex stands for.
 uint orderedSample(uint vertex, Column column) {
@@ -73,21 +73,38 @@ uint orderedSample(uint vertex, Column column) {
   return index;
 }
 
+#ifdef CLEAR
+uniform uint rank;
+uniform uint lastRank;
+
+// How many clear samples of the same pixel lie nearer to the camera.
+uint rankAmongClear(uint index, uint first) {
+  uint nearer = 0u;
+  for (uint i = index; i > first && samples[i - 1u].rowAndColumn == samples[index].rowAndColumn; --i)
+    if (samples[i - 1u].colour < 0xff000000u) ++nearer;
+  return nearer;
+}
+#endif
+
 void main() {
   uint own = samples[gl_VertexID].rowAndColumn >> 16;
   Column column = columns[own];
-  Sample s = samples[orderedSample(uint(gl_VertexID), column)];
+  uint index = orderedSample(uint(gl_VertexID), column);
+  Sample s = samples[index];
   float w = s.inverseDistance;
   float t = rowTangent[s.rowAndColumn & 0xffffu];
   vec3 q = column.inPicture.xyz + t * upInPicture + w * baselineInPicture;
   vec4 colour = unpackUnorm4x8(s.colour);
-#ifdef LINEAR
-  colour.rgb = linearFromSrgb(colour.rgb);
-#endif
   pointColour = colour;
   gl_PointSize = 1.0;
   gl_Position = kOutside;
   if (w > column.inPicture.w || !(q.z > 0.0)) return;
+#ifdef OPAQUE
+  if (colour.a < 1.0) return;
+#endif
+#ifdef CLEAR
+  if (colour.a == 1.0 || min(rankAmongClear(index, column.parts.x), lastRank) != rank) return;
+#endif
 #ifdef CLIP_TO_PART
   vec2 inPlan = column.inPlan + w * baselineInPlan;
   float fromLow = partLow.x * inPlan.y - partLow.y * inPlan.x;
@@ -108,5 +125,5 @@ void main() {
   // sub-pixel rounding has no say.
   vec2 centre = floor(position + 0.5 - 0.5 * side) + 0.5 * side;
   vec2 clip = 2.0 * (centre + clipMargin) / (pictureSize + 2.0 * clipMargin) - 1.0;
-  gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
+  gl_Position = vec4(clip.x, -clip.y, max(kBackgroundDepthScale * w / q.z, kSkyDepth), 1.0);
 }

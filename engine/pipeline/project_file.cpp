@@ -153,7 +153,11 @@ std::string withShortArraysOnOneLine(const std::string& text) {
   out.reserve(text.size());
   bool inString = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"') inString = !inString || text[i - 1] == '\\';
+    if (inString && text[i] == '\\') {  // an escape: the next character ends no string
+      out.append(text, i++, 2);
+      continue;
+    }
+    if (text[i] == '"') inString = !inString;
     const bool opens = !inString && text[i] == '[';
     const std::size_t close =
         opens ? text.find_first_not_of("0123456789+-.eE, \n", i + 1) : std::string::npos;

@@ -103,8 +103,9 @@ class AssimpReader {
     if (!from_.mRootNode) return fail(ErrorKind::malformed, "has no root node");
     if (auto status = walk(); !status) return status;
     readLights();
-    if (from_.mNumAnimations > 0) scene_.ignored.add(fmt::format("{} animations", from_.mNumAnimations));
-    if (from_.mNumCameras > 0) scene_.ignored.add(fmt::format("{} cameras", from_.mNumCameras));
+    if (from_.mNumAnimations > 0)
+      scene_.ignored.add(counted(from_.mNumAnimations, "animation", "animations"));
+    if (from_.mNumCameras > 0) scene_.ignored.add(counted(from_.mNumCameras, "camera", "cameras"));
     return {};
   }
 
@@ -260,6 +261,8 @@ Result<SourceScene> readWithAssimp(const ReadContext& context) {
   if (!from) {
     std::string why = importer.GetErrorString();
     std::replace(why.begin(), why.end(), '\n', ' ');
+    if (why.find("bad_alloc") != why.npos)
+      return fail(ErrorKind::outOfSpace, "needs more memory than there is");
     return fail(ErrorKind::malformed,
                 why.empty() ? "cannot be read" : "cannot be read: " + why.substr(0, 300));
   }

@@ -25,17 +25,6 @@ struct Box {
   double diagonal() const { return empty() ? 0 : glm::length(max - min); }
 };
 
-/// "1,021,813"
-std::string withCommas(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (int i = int(digits.size()) - 3; i > 0; i -= 3) digits.insert(std::size_t(i), ",");
-  return digits;
-}
-
-std::string counted(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", withCommas(n), n == 1 ? one : many);
-}
-
 double chooseUnit(const SourceScene& source, const ImportOptions& options, double diagonal,
                   ReportLines& guessed) {
   if (options.metresPerUnit > 0) return options.metresPerUnit;

@@ -198,8 +198,8 @@ class GltfReader {
     if (!roots) return tl::unexpected(roots.error());
     if (auto status = walk(*roots); !status) return tl::unexpected(status.error());
     if (!model_.animations.empty())
-      scene_.ignored.add(fmt::format("{} animations", model_.animations.size()));
-    if (!model_.cameras.empty()) scene_.ignored.add(fmt::format("{} cameras", model_.cameras.size()));
+      scene_.ignored.add(counted(model_.animations.size(), "animation", "animations"));
+    if (!model_.cameras.empty()) scene_.ignored.add(counted(model_.cameras.size(), "camera", "cameras"));
     return std::move(scene_);
   }
 
@@ -214,7 +214,7 @@ class GltfReader {
                                                    : "scene: the first one (the file names no default)");
     }
     if (model_.scenes.size() > 1)
-      scene_.ignored.add(fmt::format("{} other scenes of the file", model_.scenes.size() - 1));
+      scene_.ignored.add(counted(model_.scenes.size() - 1, "other scene", "other scenes"));
     return model_.scenes[std::size_t(index)].nodes;
   }
 

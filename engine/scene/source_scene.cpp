@@ -16,6 +16,12 @@ glm::vec3 unitOrZero(const glm::dvec3& v) {
 
 }  // namespace
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+  std::string digits = std::to_string(count);
+  for (int i = int(digits.size()) - 3; i > 0; i -= 3) digits.insert(std::size_t(i), ",");
+  return fmt::format("{} {}", digits, count == 1 ? one : many);
+}
+
 void ReportLines::add(std::string line) {
   if (seen_.contains(line)) return;
   if (lines_.size() >= kMaxReportLines) {

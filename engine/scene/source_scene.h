@@ -36,6 +36,9 @@ struct SourceLight {
   glm::dvec3 position{0};
 };
 
+/// "1,021,813 meshes", "1 mesh".
+std::string counted(std::size_t count, const char* one, const char* many);
+
 /// Lines for the report, each once, and no more of a kind than a person reads.
 class ReportLines {
  public:

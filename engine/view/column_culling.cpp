@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace acentric {
+namespace {
+
+constexpr double kSlack = 1e-6;  // the kernels compute in float
+
+}  // namespace
 
 FrustumPlanes frustumPlanes(const PerspectiveView& view, const PixelRect& rect, double margin) {
   const double focal = view.focalPixels();
@@ -22,7 +27,6 @@ FrustumPlanes frustumPlanes(const PerspectiveView& view, const PixelRect& rect, 
 std::optional<TangentRange> visibleTangents(const FrustumPlanes& planes, const glm::dvec2& columnDirection,
                                             const glm::dvec3& baseline, const glm::dvec2& range,
                                             const TangentRange& all) {
-  constexpr double kSlack = 1e-6;  // the kernels compute in float
   if (range.x > range.y) return std::nullopt;
   TangentRange visible = all;
   const double reach = 1 + range.y * glm::length(baseline);
@@ -41,6 +45,20 @@ std::optional<TangentRange> visibleTangents(const FrustumPlanes& planes, const g
     if (!(visible.low <= visible.high)) return std::nullopt;
   }
   return visible;
+}
+
+bool mayBeVisible(const FrustumPlanes& planes, const glm::dvec2& columnDirection, const glm::dvec3& baseline,
+                  const glm::dvec2& range, const TangentRange& tangents) {
+  if (range.x > range.y) return false;
+  const double slack = kSlack * (1 + range.y * glm::length(baseline));
+  for (const glm::dvec3& normal : planes.normals) {
+    const double perInverseDistance = glm::dot(normal, baseline);
+    const double best = glm::dot(glm::dvec2(normal), columnDirection) +
+                        std::max(range.x * perInverseDistance, range.y * perInverseDistance) +
+                        std::max(tangents.low * normal.z, tangents.high * normal.z);
+    if (best + slack < 0) return false;
+  }
+  return true;
 }
 
 }  // namespace acentric

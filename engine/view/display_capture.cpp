@@ -4,6 +4,17 @@
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
+namespace {
+
+/// Smallest and largest inverse distance of samples [begin, end); smallest above largest if there are none.
+glm::vec2 rangeOf(const Capture& capture, std::uint32_t begin, std::uint32_t end) {
+  if (begin >= end) return {1, 0};
+  const auto [low, high] =
+      std::minmax_element(capture.inverseDistance.begin() + begin, capture.inverseDistance.begin() + end);
+  return {*low, *high};
+}
+
+}  // namespace
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
@@ -25,16 +36,14 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
 
   display.columnDirection.resize(columns);
   display.columnRange.resize(columns);
+  display.columnBlock.resize(columns);
   for (std::size_t k = 0; k < columns; ++k) {
     display.columnDirection[k] = glm::vec2(capture.camera.directionAt(static_cast<double>(k) + 0.5));
-    glm::vec2 range(1, 0);  // an empty column: smallest above largest
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
-    if (begin < end) {
-      const auto [low, high] =
-          std::minmax_element(capture.inverseDistance.begin() + begin, capture.inverseDistance.begin() + end);
-      range = {*low, *high};
-    }
-    display.columnRange[k] = range;
+    display.columnRange[k] = rangeOf(capture, begin, end);
+    display.columnBlock[k] = static_cast<std::uint32_t>(display.blockRange.size());
+    for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock)
+      display.blockRange.push_back(rangeOf(capture, i, std::min(i + kSamplesPerBlock, end)));
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];
   }

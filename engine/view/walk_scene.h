@@ -14,6 +14,8 @@
 
 namespace acentric {
 
+inline constexpr std::uint32_t kSamplesPerBlock = 64;
+
 /// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.
 struct DisplayCapture {
   ColumnCamera camera;
@@ -24,6 +26,9 @@ struct DisplayCapture {
   std::vector<glm::vec2> columnDirection;    ///< unit, at column centres
   std::vector<float> rowTangent;             ///< at row centres
   std::vector<glm::vec2> columnRange;        ///< per column: smallest and largest inverse distance (for culling)
+  /// The same per kSamplesPerBlock successive samples of a column: column k's blocks start at columnBlock[k].
+  std::vector<glm::vec2> blockRange;
+  std::vector<std::uint32_t> columnBlock;
   bool layered = false;                      ///< some pixel has more than one sample
   bool blended = false;                      ///< some sample has alpha < 255
 };

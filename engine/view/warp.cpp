@@ -126,9 +126,7 @@ class BandWarp {
     const std::uint16_t* row = capture.row.data() + begin;
     const float* inverseDistance = capture.inverseDistance.data() + begin;
     splats_.resize(std::max<std::size_t>(splats_.size(), end - begin + 8));
-    const int count = options_.project(column, capture.rowTangent.data(), row, inverseDistance,
-                                       static_cast<int>(end - begin), splats_.data());
-    counts_.samplesRead += end - begin;
+    const int count = projectVisible(piece, capture, column, k, begin, end);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
@@ -142,6 +140,37 @@ class BandWarp {
     const int above = static_cast<int>(pivot - splats);
     counts_.samplesDrawn += paintSplats(target, mode, splats, above, !order.inwards, capture.layered);
     counts_.samplesDrawn += paintSplats(target, mode, pivot, count - above, order.inwards, capture.layered);
+  }
+
+  /// Projects samples [begin, end) of column k block by block, leaving out blocks that cannot be seen.
+  int projectVisible(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
+                     std::size_t k, std::size_t begin, std::size_t end) {
+    const std::size_t start = capture.columnStart[k];
+    const double limit = piece.maxInverseDistance[k];
+    int count = 0;
+    std::size_t from = begin;  // of the run of visible blocks that is being gathered
+    const auto flush = [&](std::size_t to) {
+      if (to <= from) return;
+      count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
+                                capture.inverseDistance.data() + from, static_cast<int>(to - from),
+                                static_cast<std::uint32_t>(from - begin), splats_.data() + count);
+      counts_.samplesRead += to - from;
+    };
+    for (std::size_t block = (begin - start) / kSamplesPerBlock; start + block * kSamplesPerBlock < end;
+         ++block) {
+      const std::size_t first = std::max(begin, start + block * kSamplesPerBlock);
+      const std::size_t last = std::min(end, start + (block + 1) * kSamplesPerBlock);
+      const glm::dvec2 range(capture.blockRange[capture.columnBlock[k] + block]);
+      const TangentRange tangents{static_cast<double>(capture.rowTangent[capture.row[last - 1]]),
+                                  static_cast<double>(capture.rowTangent[capture.row[first]])};
+      if (mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
+                       {range.x, std::min(range.y, limit)}, tangents))
+        continue;
+      flush(first);
+      from = last;
+    }
+    flush(end);
+    return count;
   }
 
   /// Samples of column k whose row tangents lie in the range.

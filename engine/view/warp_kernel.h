@@ -17,7 +17,7 @@ namespace acentric {
 struct alignas(16) Splat {
   std::int16_t x, y;
   std::int32_t side;
-  std::uint32_t index;  ///< of the sample, counted from the first one handed in
+  std::uint32_t index;  ///< of the sample: firstIndex + its place among those handed in
   float inverseZDepth;  ///< 1/m along the view axis; 0 = sky
 };
 
@@ -47,12 +47,12 @@ struct ProjectColumn {
 /// Writes the splats that touch the rectangle to `out` (room for count + 8), in the order of the samples, and
 /// returns how many. `rowTangent` is the capture's table.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                               const float* inverseDistance, int count, Splat* out);
+                               const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, Splat* out);
+                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, int count, Splat* out);
+                       const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
 
 /// The fastest kernel that this processor runs.
 ProjectSamples fastestProjectSamples();

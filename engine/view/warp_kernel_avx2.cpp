@@ -79,8 +79,9 @@ struct EightLanes {
 }  // namespace
 
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, int count, Splat* out) {
-  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, count, out);
+                       const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
+  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, count, firstIndex,
+                                                out);
 }
 
 }  // namespace acentric

@@ -59,11 +59,11 @@ inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const s
 
 template <class B>
 inline int projectColumn(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, Splat* out) {
+                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
   int written = 0, i = 0;
   for (; i + B::kWidth <= count; i += B::kWidth)
     written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i,
-                               static_cast<std::uint32_t>(i), out + written);
+                               firstIndex + static_cast<std::uint32_t>(i), out + written);
   if (i < count) {
     std::uint16_t lastRow[B::kWidth];
     float lastInverse[B::kWidth];
@@ -71,8 +71,8 @@ inline int projectColumn(const ProjectColumn& column, const float* rowTangent, c
       lastRow[lane] = i + lane < count ? row[i + lane] : row[i];
       lastInverse[lane] = i + lane < count ? inverseDistance[i + lane] : __builtin_nanf("");
     }
-    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse, static_cast<std::uint32_t>(i),
-                               out + written);
+    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse,
+                               firstIndex + static_cast<std::uint32_t>(i), out + written);
   }
   return written;
 }

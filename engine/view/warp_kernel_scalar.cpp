@@ -42,8 +42,9 @@ struct OneLane {
 }  // namespace
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, Splat* out) {
-  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, count, out);
+                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
+  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, count, firstIndex,
+                                             out);
 }
 
 ProjectSamples fastestProjectSamples() {

@@ -50,6 +50,20 @@ std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, i
   return packed;
 }
 
+std::vector<std::uint8_t> clearSamplesOf(const DisplayCapture& capture) {
+  std::vector<std::uint8_t> most(std::size_t(capture.camera.columns), 0);
+  if (!capture.blended) return most;
+  for (std::size_t column = 0; column < most.size(); ++column) {
+    int inPixel = 0;
+    for (std::size_t s = capture.columnStart[column]; s < capture.columnStart[column + 1]; ++s) {
+      if (s == capture.columnStart[column] || capture.row[s] != capture.row[s - 1]) inPixel = 0;
+      inPixel += capture.colour[s].a < 255 ? 1 : 0;
+      most[column] = std::max(most[column], std::uint8_t(std::min(inPixel, kMostClearRanks)));
+    }
+  }
+  return most;
+}
+
 template <class Value>
 GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
   GlBuffer buffer = GlBuffer::make();
@@ -90,6 +104,7 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
     }
     first = last;
   }
+  buffers.clearSamples = clearSamplesOf(*capture);
   buffers.rowTangents = makeBuffer(capture->rowTangent, buffers.bytes);
   const std::string doing = fmt::format("uploading {}", name);
   if (Status uploaded = checkGl(doing.c_str()); !uploaded) return tl::unexpected(uploaded.error());

@@ -13,6 +13,10 @@
 
 namespace acentric {
 
+/// Clear samples behind one another in a pixel are drawn one rank at a time; those beyond this many share the
+/// last.
+inline constexpr int kMostClearRanks = 8;
+
 struct CaptureChunk {
   int firstColumn = 0;
   int lastColumn = 0;             ///< one behind
@@ -24,6 +28,8 @@ struct CaptureBuffers {
   std::weak_ptr<const DisplayCapture> owner;
   std::vector<CaptureChunk> chunks;
   GlBuffer rowTangents;  ///< float per row
+  std::vector<std::uint8_t>
+      clearSamples;  ///< per column: most clear samples in one pixel, at most kMostClearRanks
   std::size_t bytes = 0;
   std::uint64_t lastUse = 0;
 };

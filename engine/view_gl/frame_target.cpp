@@ -25,12 +25,11 @@ GlTexture storage(GLenum format, int width, int height) {
 Status complete() {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status == GL_FRAMEBUFFER_COMPLETE) return {};
-  return fail(
-      ErrorKind::unsupported,
-      fmt::format(
-          "this driver does not draw into RGBA8 + R16UI + DEPTH32F (status {:#x}): use a CPU renderer",
-          status),
-      "OpenGL");
+  return fail(ErrorKind::unsupported,
+              fmt::format("this driver does not draw into RGBA8 + R16UI + DEPTH32F_STENCIL8 (status {:#x}): "
+                          "use a CPU renderer",
+                          status),
+              "OpenGL");
 }
 
 /// Rows from bottom-up to top-down.
@@ -54,19 +53,21 @@ Status FrameTarget::resize(int width, int height) {
                 "OpenGL");
 
   width_ = height_ = 0;  // nothing usable until all is made
+  clear_.reset();
+  clearLayer_.reset();
   glActiveTexture(GL_TEXTURE0);
   colour_ = storage(GL_RGBA8, width, height);
   colourSrgb_ = GlTexture::make();
   glTextureView(colourSrgb_.name(), GL_TEXTURE_2D, colour_.name(), GL_SRGB8_ALPHA8, 0, 1, 0, 1);
   source_ = storage(GL_R16UI, width, height);
-  depth_ = storage(GL_DEPTH_COMPONENT32F, width, height);
+  depth_ = storage(GL_DEPTH32F_STENCIL8, width, height);
   if (Status made = checkGl("making the frame's textures"); !made) return made;
 
   draw_ = GlFramebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, draw_.name());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colourSrgb_.name(), 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, source_.name(), 0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
   constexpr std::array<GLenum, 2> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
   if (Status drawable = complete(); !drawable) return drawable;
@@ -87,14 +88,29 @@ void FrameTarget::bindForDrawing() const {
   glViewport(0, 0, width_, height_);
 }
 
+Status FrameTarget::beginClearLayer() {
+  if (!clear_) {
+    glActiveTexture(GL_TEXTURE0);
+    clearLayer_ = storage(GL_RGBA8, width_, height_);
+    clear_ = GlFramebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, clear_.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, clearLayer_.name(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+    if (Status drawable = complete(); !drawable) return drawable;
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, clear_.name());
+  constexpr std::array<GLfloat, 4> kNothing = {0, 0, 0, 0};
+  glClearBufferfv(GL_COLOR, 0, kNothing.data());
+  return checkGl("making the layer of clear samples");
+}
+
 void FrameTarget::begin() const {
   bindForDrawing();
   constexpr std::array<GLfloat, 4> kNoColour = {0, 0, 0, 0};
   constexpr std::array<GLuint, 4> kNoSource = {kSourceHole, 0, 0, 0};
-  constexpr GLfloat kFar = 1;
   glClearBufferfv(GL_COLOR, 0, kNoColour.data());
   glClearBufferuiv(GL_COLOR, 1, kNoSource.data());
-  glClearBufferfv(GL_DEPTH, 0, &kFar);
+  glClearBufferfi(GL_DEPTH_STENCIL, 0, 0.0f, 0);
 }
 
 Frame FrameTarget::read() const {

@@ -17,13 +17,16 @@ class FrameTarget {
   /// Binds for drawing into colour and source, and clears both (holes) and the depth.
   void begin() const;
   void bindForDrawing() const;
+  /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
+  Status beginClearLayer();
   /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.
   Frame read() const;
 
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint colourCodes() const { return colour_.name(); }  ///< RGBA8 view
-  GLuint sources() const { return source_.name(); }      ///< R16UI
+  GLuint depths() const { return depth_.name(); }        ///< DEPTH32F_STENCIL8
+  GLuint clearLayer() const { return clearLayer_.name(); }
 
  private:
   int width_ = 0;
@@ -34,6 +37,8 @@ class FrameTarget {
   GlTexture depth_;
   GlFramebuffer draw_;
   GlFramebuffer read_;
+  GlTexture clearLayer_;  ///< made when first used
+  GlFramebuffer clear_;
 };
 
 }  // namespace acentric

@@ -8,10 +8,12 @@
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/fill_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_program.h"
 #include "engine/view_gl/gl_state.h"
+#include "engine/view_gl/local_pass.h"
 #include "engine/view_gl/point_pass.h"
 
 namespace acentric {
@@ -19,6 +21,11 @@ namespace {
 
 /// Captures beyond this leave graphics memory, those unused for longest first.
 constexpr std::size_t kCaptureBudgetBytes = std::size_t(2) << 30;
+
+/// How far colours spread into a hole, as in view/render.cpp: where images are not loaded yet the gap must
+/// stay visible.
+constexpr int kFillReach = 4096;
+constexpr int kFillReachWhileLoading = 8;
 
 using Clock = std::chrono::steady_clock;
 
@@ -35,10 +42,16 @@ struct GlRenderer::Impl {
   ProgramCache programs;
   CaptureResidency captures;
   FrameTarget target;
+  LocalResidency locals;
+  TextureCache textures;
   PointPass points{programs, captures};
+  LocalPass localPass{programs, textures};
+  FillPass fillPass{programs};
   FrameStats stats;
 
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  Status drawAfterBackground(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                             const ViewSettings& settings);
 };
 
 Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const PerspectiveView& view,
@@ -52,15 +65,48 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   stats = {};
   stats.missingImages = plan->missingImages;
   captures.dropGone(scene);
+  locals.dropGone(scene);
+  textures.dropGone();
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
   target.begin();
   const Clock::time_point warpStart = Clock::now();
   if (Status drawn = points.draw(scene, *plan, view, settings, target, stats); !drawn)
     return tl::unexpected(drawn.error());
   stats.warpSeconds = secondsOfDrawing(warpStart);
+  if (Status drawn = drawAfterBackground(scene, *plan, view, settings); !drawn)
+    return tl::unexpected(drawn.error());
   captures.trim(kCaptureBudgetBytes);
   stats.totalSeconds = secondsOfDrawing(start);
   return stats;
+}
+
+Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewPlan& plan,
+                                             const PerspectiveView& view, const ViewSettings& settings) {
+  const std::size_t region = std::size_t(plan.region);
+  const bool drawLocal = settings.localGeometry && region < scene.local.size() && scene.local[region] &&
+                         !scene.local[region]->triangles.empty() && scene.scene;
+  LocalBuffers* local = nullptr;
+  if (drawLocal) {
+    const Clock::time_point start = Clock::now();
+    const Result<LocalBuffers*> buffers = locals.get(scene, region);
+    if (!buffers) return tl::unexpected(buffers.error());
+    local = *buffers;
+    if (Status drawn = localPass.drawOpaque(scene, view, target, *local); !drawn) return drawn;
+    stats.localTriangles = local->triangles;
+    stats.localSeconds = secondsOfDrawing(start);
+  }
+  if (settings.fillHoles) {
+    const Clock::time_point start = Clock::now();
+    const int reach = plan.missingImages > 0 ? kFillReachWhileLoading : kFillReach;
+    if (Status filled = fillPass.draw(target, reach); !filled) return filled;
+    stats.fillSeconds = secondsOfDrawing(start);
+  }
+  if (local != nullptr) {
+    const Clock::time_point start = Clock::now();
+    if (Status drawn = localPass.drawClear(scene, view, target, *local); !drawn) return drawn;
+    stats.localSeconds += secondsOfDrawing(start);
+  }
+  return {};
 }
 
 GlRenderer::GlRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -74,6 +120,11 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create() {
         fmt::format("the current context has OpenGL {}.{}, at least 4.3 is needed: use a CPU renderer",
                     version / 10, version % 10),
         "OpenGL");
+  if (version < 45 && !epoxy_has_gl_extension("GL_ARB_clip_control"))
+    return fail(ErrorKind::unsupported,
+                "this OpenGL driver lacks GL_ARB_clip_control (in every driver for OpenGL 4.5): update it or "
+                "use a CPU renderer",
+                "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
   std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>()));

@@ -9,6 +9,21 @@ constexpr std::array<GLenum, 8> kPixelStore = {
 constexpr std::array<GLenum, 6> kBlend = {GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA, GL_BLEND_SRC_RGB,
                                           GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,      GL_BLEND_DST_ALPHA};
 
+constexpr std::array<GLenum, 14> kStencil = {GL_STENCIL_FUNC,
+                                             GL_STENCIL_REF,
+                                             GL_STENCIL_VALUE_MASK,
+                                             GL_STENCIL_WRITEMASK,
+                                             GL_STENCIL_FAIL,
+                                             GL_STENCIL_PASS_DEPTH_FAIL,
+                                             GL_STENCIL_PASS_DEPTH_PASS,
+                                             GL_STENCIL_BACK_FUNC,
+                                             GL_STENCIL_BACK_REF,
+                                             GL_STENCIL_BACK_VALUE_MASK,
+                                             GL_STENCIL_BACK_WRITEMASK,
+                                             GL_STENCIL_BACK_FAIL,
+                                             GL_STENCIL_BACK_PASS_DEPTH_FAIL,
+                                             GL_STENCIL_BACK_PASS_DEPTH_PASS};
+
 GLint integer(GLenum name) {
   GLint value = 0;
   glGetIntegerv(name, &value);
@@ -61,12 +76,19 @@ GlStateGuard::GlStateGuard() {
   frontFace_ = integer(GL_FRONT_FACE);
   pointOrigin_ = integer(GL_POINT_SPRITE_COORD_ORIGIN);
   provokingVertex_ = integer(GL_PROVOKING_VERTEX);
+  clipOrigin_ = integer(GL_CLIP_ORIGIN);
+  clipDepth_ = integer(GL_CLIP_DEPTH_MODE);
+  for (std::size_t i = 0; i < kStencil.size(); ++i) stencil_[i] = integer(kStencil[i]);
 
   for (GLenum what : kSwitches) glDisable(what);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LESS);
+  glDepthFunc(GL_GREATER);
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glStencilMask(0xff);
+  glStencilFunc(GL_ALWAYS, 1, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glDepthRange(0, 1);
   glClearDepth(1);
   glCullFace(GL_BACK);
@@ -121,6 +143,14 @@ GlStateGuard::~GlStateGuard() {
   glFrontFace(token(frontFace_));
   glPointParameteri(GL_POINT_SPRITE_COORD_ORIGIN, pointOrigin_);
   glProvokingVertex(token(provokingVertex_));
+  glClipControl(token(clipOrigin_), token(clipDepth_));
+  for (std::size_t face : {0u, 7u}) {
+    const GLenum side = face == 0 ? GL_FRONT : GL_BACK;
+    glStencilFuncSeparate(side, token(stencil_[face]), stencil_[face + 1], name(stencil_[face + 2]));
+    glStencilMaskSeparate(side, name(stencil_[face + 3]));
+    glStencilOpSeparate(side, token(stencil_[face + 4]), token(stencil_[face + 5]),
+                        token(stencil_[face + 6]));
+  }
 }
 
 }  // namespace acentric

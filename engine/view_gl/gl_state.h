@@ -53,6 +53,8 @@ class GlStateGuard {
   GLint drawFramebuffer_ = 0, readFramebuffer_ = 0, program_ = 0, vertexArray_ = 0, activeTexture_ = 0;
   GLint arrayBuffer_ = 0, storageBuffer_ = 0, packBuffer_ = 0, unpackBuffer_ = 0;
   GLint depthFunction_ = 0, cullMode_ = 0, frontFace_ = 0, pointOrigin_ = 0, provokingVertex_ = 0;
+  GLint clipOrigin_ = 0, clipDepth_ = 0;
+  std::array<GLint, 14> stencil_{};  // front, then back: function, reference, masks, operations
   GLfloat clearDepth_ = 1;
   GLboolean depthMask_ = GL_TRUE;
   std::array<GLfloat, 2> depthRange_{};

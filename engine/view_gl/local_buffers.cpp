@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "engine/view_gl/gl_check.h"
@@ -23,30 +23,43 @@ bool fits(const Scene& scene, const LocalGeometry& geometry) {
   });
 }
 
-bool isBlended(const Material& material) {
+/// Whether some effect plan can make it clear.
+bool canBeClear(const Material& material) {
   return material.alphaMode == AlphaMode::blend || material.transmission > 0;
 }
 
 template <class Value>
-Value interpolated(const std::vector<Value>& values, const glm::uvec3& corners, const glm::vec2& weights) {
-  const glm::vec4 a(glm::vec4(0) + glm::vec4(values[corners.x])), b(values[corners.y]), c(values[corners.z]);
-  return Value((1 - weights.x - weights.y) * a + weights.x * b + weights.y * c);
+Value blend(const std::vector<Value>& values, const glm::uvec3& corners, const glm::vec2& weights) {
+  return values[corners.x] * (1 - weights.x - weights.y) + values[corners.y] * weights.x +
+         values[corners.z] * weights.y;
+}
+
+const std::vector<glm::vec2>& coordinates(const Mesh& mesh, const TextureUse& use) {
+  return mesh.uv[use.uvSet == 1 ? 1 : 0];
+}
+bool hasCoordinates(const Mesh& mesh, const TextureUse& use) {
+  return use.used() && !coordinates(mesh, use).empty();
 }
 
 glm::vec2 uvAt(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& weights) {
-  const std::vector<glm::vec2>& uv = mesh.uv[use.uvSet];
-  if (!use.used() || uv.empty()) return glm::vec2(0);
-  const glm::vec2 at =
-      (1 - weights.x - weights.y) * uv[corners.x] + weights.x * uv[corners.y] + weights.y * uv[corners.z];
-  return use.transform * glm::vec3(at, 1);
+  if (!hasCoordinates(mesh, use)) return glm::vec2(0);
+  return use.transform * glm::vec3(blend(coordinates(mesh, use), corners, weights), 1);
 }
 
 glm::u16vec4 colourAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
   if (mesh.colours.empty()) return glm::u16vec4(65535);
-  const glm::vec4 colour = (1 - weights.x - weights.y) * glm::vec4(mesh.colours[corners.x]) +
-                           weights.x * glm::vec4(mesh.colours[corners.y]) +
-                           weights.y * glm::vec4(mesh.colours[corners.z]);
+  const glm::vec4 colour = glm::vec4(mesh.colours[corners.x]) * (1 - weights.x - weights.y) +
+                           glm::vec4(mesh.colours[corners.y]) * weights.x +
+                           glm::vec4(mesh.colours[corners.z]) * weights.y;
   return glm::u16vec4(glm::round(glm::clamp(colour / 255.0f, 0.0f, 1.0f) * 65535.0f));
+}
+
+/// Without usable normals in the file, that of the triangle.
+glm::vec3 normalAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
+  const glm::vec3 normal = mesh.normals.empty() ? glm::vec3(0) : blend(mesh.normals, corners, weights);
+  if (glm::dot(normal, normal) > 0) return normal;
+  return glm::cross(mesh.positions[corners.y] - mesh.positions[corners.x],
+                    mesh.positions[corners.z] - mesh.positions[corners.x]);
 }
 
 /// Copies the light of source triangles into one compact array, each triangle once.
@@ -100,6 +113,7 @@ void describeVertices(const LocalBuffers& buffers) {
   glEnableVertexAttribArray(5);
   glVertexAttribIPointer(5, 2, GL_UNSIGNED_INT, sizeof(LocalGpuVertex),
                          reinterpret_cast<const void*>(offsetof(LocalGpuVertex, lightFirst)));
+  attribute(6, 3, GL_FLOAT, offsetof(LocalGpuVertex, normal));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers.indices.name());
 }
 
@@ -123,12 +137,14 @@ Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const
   buffers.lightOwner = light;
   buffers.lit = light != nullptr && !light->empty();
 
-  const auto materialOf = [&](const LocalTriangle& t) { return scene.meshes[t.mesh].material; };
+  if (!geometry->polygon.corners.empty()) buffers.origin = glm::dvec3(geometry->polygon.corners.front(), 0);
   std::vector<LocalTriangle> triangles = geometry->triangles;
   const auto key = [&](const LocalTriangle& t) {
-    const int material = materialOf(t);
-    return std::make_tuple(isBlended(scene.materials[std::size_t(material)]), material,
-                           scene.meshes[t.mesh].colours.empty());
+    const Mesh& mesh = scene.meshes[t.mesh];
+    const Material& material = scene.materials[std::size_t(mesh.material)];
+    return std::make_tuple(canBeClear(material), mesh.material, !mesh.colours.empty(),
+                           hasCoordinates(mesh, material.baseColourTexture),
+                           hasCoordinates(mesh, material.emissiveTexture));
   };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const LocalTriangle& a, const LocalTriangle& b) { return key(a) < key(b); });
@@ -142,20 +158,22 @@ Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const
     const Material& material = scene.materials[std::size_t(mesh.material)];
     const glm::uvec3 source = mesh.triangles[triangle.triangle];
     const LightGatherer::Place place = gatherer.place(triangle);
-    const bool blended = isBlended(material);
+    const bool clear = canBeClear(material);
     for (int corner = 0; corner < 3; ++corner) {
       const LocalVertex& v = geometry->vertices[triangle.vertices[corner]];
-      vertices.push_back({v.position, v.barycentric,
-                          uvAt(mesh, material.baseColourTexture, source, v.barycentric),
-                          uvAt(mesh, material.emissiveTexture, source, v.barycentric),
-                          colourAt(mesh, source, v.barycentric), place.first, place.resolution});
-      if (blended) buffers.blendedCorners.push_back(v.position);
+      const glm::vec3 position(glm::dvec3(v.position) - buffers.origin);
+      vertices.push_back(
+          {position, v.barycentric, uvAt(mesh, material.baseColourTexture, source, v.barycentric),
+           uvAt(mesh, material.emissiveTexture, source, v.barycentric), colourAt(mesh, source, v.barycentric),
+           place.first, place.resolution, normalAt(mesh, source, v.barycentric)});
+      if (clear) buffers.clearCorners.push_back(position);
     }
-    std::vector<LocalBatch>& batches = blended ? buffers.blended : buffers.opaque;
-    if (batches.empty() || key(triangles[n - 1]) != key(triangle))
-      batches.push_back({mesh.material, std::uint32_t(n), 0, !mesh.colours.empty()});
-    ++batches.back().triangles;
-    if (!blended) buffers.firstBlended = std::uint32_t(n) + 1;
+    if (n == 0 || key(triangles[n - 1]) != key(triangle)) {
+      const auto [isClear, index, colours, baseUv, emissiveUv] = key(triangle);
+      buffers.batches.push_back({index, colours, baseUv, emissiveUv, std::uint32_t(n), 0});
+    }
+    ++buffers.batches.back().triangles;
+    if (!clear) buffers.firstClear = std::uint32_t(n) + 1;
   }
   buffers.triangles = std::uint32_t(triangles.size());
 

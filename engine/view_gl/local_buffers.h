@@ -14,7 +14,7 @@ namespace acentric {
 
 /// One corner as the shader reads it. All attributes of the source triangle are evaluated here, once.
 struct LocalGpuVertex {
-  glm::vec3 position;
+  glm::vec3 position;  ///< relative to LocalBuffers::origin
   glm::vec2 barycentric;
   glm::vec2 baseUv;               ///< transformed
   glm::vec2 emissiveUv;           ///< transformed
@@ -24,12 +24,14 @@ struct LocalGpuVertex {
 };
 static_assert(sizeof(LocalGpuVertex) == 52, "the vertex layout has no padding");
 
-/// Consecutive triangles of one material.
+/// Consecutive triangles of one material and one set of attributes.
 struct LocalBatch {
   int material = 0;
+  bool vertexColours = false;
+  bool baseUv = false;
+  bool emissiveUv = false;
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangles = 0;
-  bool vertexColours = false;
 };
 
 struct LocalBuffers {
@@ -37,13 +39,15 @@ struct LocalBuffers {
   std::weak_ptr<const SurfaceLight> lightOwner;
   bool lit = false;  ///< a surface light was there
   GlVertexArray vertexArray;
-  GlBuffer vertices;                      ///< LocalGpuVertex, three per triangle
-  GlBuffer indices;                       ///< of the blended triangles, rewritten in each frame's order
-  GlBuffer light;                         ///< uvec2 (four halves) per sample
-  std::vector<LocalBatch> opaque;         ///< opaque and masked triangles, first in the buffer
-  std::vector<LocalBatch> blended;        ///< blended triangles, behind them
-  std::vector<glm::vec3> blendedCorners;  ///< three per blended triangle, for sorting
-  std::uint32_t firstBlended = 0;         ///< triangle number
+  GlBuffer vertices;     ///< LocalGpuVertex, three per triangle
+  GlBuffer indices;      ///< of the clear triangles, rewritten in each frame's order
+  GlBuffer light;        ///< uvec2 (four halves) per sample
+  glm::dvec3 origin{0};  ///< amid the region, so that floats do not lose digits far from the project's
+  std::vector<LocalBatch> batches;
+  /// Corners of the triangles whose material can be clear, three each, for sorting: these come last, from
+  /// this one on.
+  std::vector<glm::vec3> clearCorners;
+  std::uint32_t firstClear = 0;
   std::uint32_t triangles = 0;
 };
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_culling.h"
 #include "engine/view/column_order.h"
 #include "engine/view_gl/gl_check.h"
+#include "engine/view_gl/whole_picture.h"
 
 namespace acentric {
 namespace {
@@ -104,6 +106,20 @@ void setUniform(GlProgram& program, const char* name, const glm::vec3& value) {
 
 }  // namespace
 
+struct PointPass::Piece {
+  const PieceDraw& plan;
+  const DisplayCapture& capture;
+  const CaptureBuffers& buffers;
+  const PerspectiveView& view;
+  const ViewSettings& settings;
+  std::vector<std::pair<const CaptureChunk*, int>> columns = {};  ///< visible ones, in drawing order
+
+  bool splat() const { return settings.reconstruction == Reconstruction::splat; }
+  /// A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
+  /// the largest splat, and the framebuffer's border cuts.
+  int margin() const { return splat() ? settings.maxSplatPixels / 2 + 1 : 0; }
+};
+
 PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
     : programs_(programs),
       captures_(captures),
@@ -111,100 +127,157 @@ PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
       columnPlans_(GlBuffer::make()) {}
 
 Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                       const ViewSettings& settings, const FrameTarget& target, FrameStats& stats) {
-  glBindVertexArray(noAttributes_.name());
-  for (const PieceDraw& piece : plan.pieces)
-    if (Status drawn = drawPiece(scene, piece, view, settings, target, stats); !drawn) return drawn;
+                       const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
+  const auto sharedOf = [&](const PieceDraw& piece) { return scene.captures[std::size_t(piece.camera)]; };
+  const bool anyClear = std::any_of(plan.pieces.begin(), plan.pieces.end(), [&](const PieceDraw& piece) {
+    return sharedOf(piece) && sharedOf(piece)->blended;
+  });
+  std::set<int> images;
+  for (const PieceDraw& planned : plan.pieces) {
+    const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
+    if (!capture || capture->row.empty() || planned.runs.empty()) continue;
+    const std::string name = fmt::format("capture of camera {}", planned.camera);
+    const Result<const CaptureBuffers*> buffers = captures_.get(capture, name.c_str());
+    if (!buffers) return tl::unexpected(buffers.error());
+    // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
+    // holes.
+    const auto turn = [](GLenum what, bool on) { on ? glEnable(what) : glDisable(what); };
+    turn(GL_DEPTH_TEST, anyClear || settings.fillHoles);
+    glDepthFunc(GL_ALWAYS);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 1, 0xff);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    // Samples go into the picture as the codes they are.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_BLEND);
+    target.bindForDrawing();
+    Piece piece{planned, *capture, **buffers, view, settings};
+    images.insert(planned.camera);
+    if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
+  }
+  stats.images = int(images.size());
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
   return {};
 }
 
-Status PointPass::drawPiece(const WalkScene& scene, const PieceDraw& piece, const PerspectiveView& view,
-                            const ViewSettings& settings, const FrameTarget& target, FrameStats& stats) {
-  const auto& shared = scene.captures[std::size_t(piece.camera)];
-  if (!shared || shared->row.empty() || piece.runs.empty()) return {};
-  const DisplayCapture& capture = *shared;
-  const std::string name = fmt::format("capture of camera {}", piece.camera);
-  const Result<const CaptureBuffers*> buffers = captures_.get(shared, name.c_str());
-  if (!buffers) return tl::unexpected(buffers.error());
-
+Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   Defines defines;
-  const bool splat = settings.reconstruction == Reconstruction::splat;
-  if (splat) defines.push_back("SPLAT");
-  if (piece.clipToPart) defines.push_back("CLIP_TO_PART");
-  if (capture.layered) defines.push_back("LAYERED");
-  if (capture.blended) defines.push_back("LINEAR");
+  if (piece.splat()) defines.push_back("SPLAT");
+  if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
+  if (piece.capture.layered) defines.push_back("LAYERED");
+  if (piece.capture.blended) defines.push_back(samples);
   const Result<GlProgram*> found = programs_.get("points.vert", "points.frag", defines);
-  if (!found) return tl::unexpected(found.error());
+  if (!found) return found;
   GlProgram& program = **found;
-
-  // A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
-  // the largest splat, and the framebuffer's border cuts.
-  const int margin = splat ? settings.maxSplatPixels / 2 + 1 : 0;
-  glViewport(-margin, -margin, target.width() + 2 * margin, target.height() + 2 * margin);
-  const glm::dmat3 pictureFromWorld = pictureMatrix(view);
   program.use();
+  const PerspectiveView& view = piece.view;
+  const glm::dmat3 pictureFromWorld = pictureMatrix(view);
   setUniform(program, "upInPicture", glm::vec3(pictureFromWorld[2]));
-  setUniform(program, "baselineInPicture", glm::vec3(pictureFromWorld * glm::dvec3(piece.baseline)));
+  setUniform(program, "baselineInPicture", glm::vec3(pictureFromWorld * glm::dvec3(piece.plan.baseline)));
   setUniform(program, "pictureSize", glm::vec2(view.width, view.height));
-  glUniform1f(program.location("clipMargin"), float(margin));
-  glUniform1ui(program.location("sourceOfPiece"), GLuint(piece.camera) + 1);
-  if (splat) {
+  glUniform1f(program.location("clipMargin"), float(piece.margin()));
+  glUniform1ui(program.location("sourceOfPiece"),
+               GLuint(std::min(piece.plan.camera + 1, kSourceInvented - 1)));
+  if (piece.splat()) {
     const double focal = view.focalPixels();
-    const double pitch = std::max(capture.camera.columnPitch(), capture.camera.rowPitch());
+    const double pitch = std::max(piece.capture.camera.columnPitch(), piece.capture.camera.rowPitch());
     glUniform1f(program.location("footprint"), float(focal * pitch * kSlantAllowance));
     glUniform1f(program.location("inverseFocal"), float(1 / focal));
-    glUniform1f(program.location("maxSide"), float(settings.maxSplatPixels));
+    glUniform1f(program.location("maxSide"), float(piece.settings.maxSplatPixels));
   }
-  if (piece.clipToPart) {
-    const AzimuthRange& part = piece.part.azimuths;
-    setUniform(program, "baselineInPlan", glm::vec2(piece.baseline));
+  if (piece.plan.clipToPart) {
+    const AzimuthRange& part = piece.plan.part.azimuths;
+    setUniform(program, "baselineInPlan", glm::vec2(piece.plan.baseline));
     setUniform(program, "partLow", glm::vec2(directionOf(part.low)));
     setUniform(program, "partHigh", glm::vec2(directionOf(part.low + part.width)));
     glUniform1i(program.location("partIsWide"), part.width > kPi ? 1 : 0);
   }
-  // Opaque samples go into the picture as the codes they are; blended ones mix in linear light.
-  if (capture.blended) {
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  } else {
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    glDisable(GL_BLEND);
-  }
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, (*buffers)->rowTangents.name());
+  glBindVertexArray(noAttributes_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, piece.buffers.rowTangents.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, columnPlans_.name());
+  glViewport(-piece.margin(), -piece.margin(), view.width + 2 * piece.margin(),
+             view.height + 2 * piece.margin());
+  return found;
+}
 
-  plans_.assign(std::size_t(capture.camera.columns), ColumnPlan{});
-  const ColumnPlanner planner(capture, piece, view, settings.maxSplatPixels);
-  std::vector<std::pair<const CaptureChunk*, int>> columns;  // in drawing order
-  for (const ColumnRun& run : piece.runs)
+Status PointPass::drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats) {
+  plans_.assign(std::size_t(piece.capture.camera.columns), ColumnPlan{});
+  const ColumnPlanner planner(piece.capture, piece.plan, piece.view, piece.settings.maxSplatPixels);
+  for (const ColumnRun& run : piece.plan.runs)
     for (int n = 0; n < run.last - run.first; ++n) {
       const int column = run.ascending ? run.first + n : run.last - 1 - n;
-      const CaptureChunk* chunk = chunkOf(**buffers, column);
+      const CaptureChunk* chunk = chunkOf(piece.buffers, column);
       if (chunk != nullptr && planner.plan(column, *chunk, plans_[std::size_t(column)]))
-        columns.emplace_back(chunk, column);
+        piece.columns.emplace_back(chunk, column);
     }
-  if (columns.empty()) return {};
-  ++stats.images;
+  if (piece.columns.empty()) return {};
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, columnPlans_.name());
   glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(plans_.size() * sizeof(ColumnPlan)), plans_.data(),
                GL_STREAM_DRAW);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, columnPlans_.name());
 
-  for (std::size_t n = 0; n < columns.size();) {
-    const CaptureChunk* chunk = columns[n].first;
+  const Result<GlProgram*> opaque = program(piece, "OPAQUE");
+  if (!opaque) return tl::unexpected(opaque.error());
+  drawColumns(piece, -1, stats);
+  if (piece.capture.blended)
+    if (Status drawn = drawClearRanks(piece, target, stats); !drawn) return drawn;
+  return checkGl("drawing captures");
+}
+
+Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& stats) {
+  const Result<GlProgram*> lay = programs_.get("whole_picture.vert", "clear_layer.frag", {});
+  if (!lay) return tl::unexpected(lay.error());
+  int ranks = 0;
+  for (const auto& column : piece.columns)
+    ranks = std::max(ranks, int(piece.buffers.clearSamples[std::size_t(column.second)]));
+  for (int rank = ranks - 1; rank >= 0; --rank) {  // farthest from the camera first
+    if (Status ready = target.beginClearLayer(); !ready) return ready;
+    glDisable(GL_BLEND);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, 0, 0xff);  // over a hole there is nothing to tint
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    const Result<GlProgram*> clear = program(piece, "CLEAR");
+    if (!clear) return tl::unexpected(clear.error());
+    glUniform1ui((*clear)->location("rank"), GLuint(rank));
+    glUniform1ui((*clear)->location("lastRank"), GLuint(kMostClearRanks - 1));
+    drawColumns(piece, rank, stats);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_STENCIL_TEST);
+
+    target.bindForDrawing();
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // the source stays that of what shows through
+    drawWholePicture(**lay, noAttributes_, {{"layer", target.clearLayer()}});
+    glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  return {};
+}
+
+void PointPass::drawColumns(const Piece& piece, int clearRank, FrameStats& stats) {
+  for (std::size_t n = 0; n < piece.columns.size();) {
+    const CaptureChunk* chunk = piece.columns[n].first;
     firsts_.clear();
     counts_.clear();
-    for (; n < columns.size() && columns[n].first == chunk; ++n) {
-      const glm::uvec4& parts = plans_[std::size_t(columns[n].second)].parts;
+    for (; n < piece.columns.size() && piece.columns[n].first == chunk; ++n) {
+      const std::size_t column = std::size_t(piece.columns[n].second);
+      if (clearRank >= 0 && int(piece.buffers.clearSamples[column]) <= clearRank) continue;
+      const glm::uvec4& parts = plans_[column].parts;
       firsts_.push_back(GLint(parts.x));
       counts_.push_back(GLsizei(parts.z - parts.x));
-      stats.samplesRead += parts.z - parts.x;
-      stats.samplesDrawn += parts.z - parts.x;
+      if (clearRank < 0) stats.samplesRead += parts.z - parts.x;
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk->samples.name());
     glMultiDrawArrays(GL_POINTS, firsts_.data(), counts_.data(), GLsizei(firsts_.size()));
   }
-  return checkGl("drawing captures");
+  stats.samplesDrawn = stats.samplesRead;  // which of them fell on the picture only the graphics card knows
 }
 
 }  // namespace acentric

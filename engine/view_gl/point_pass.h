@@ -25,13 +25,22 @@ static_assert(sizeof(ColumnPlan) == 48, "the shader reads a stride of 48 bytes")
 class PointPass {
  public:
   PointPass(ProgramCache& programs, CaptureResidency& captures);
-  /// Into the bound framebuffer of `target`. Counts images and samples in `stats`.
+  /// Into `target`, which begin() has cleared. Writes depth only where a later pass reads it. Counts images
+  /// and samples in `stats`.
   Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-              const ViewSettings& settings, const FrameTarget& target, FrameStats& stats);
+              const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
 
  private:
-  Status drawPiece(const WalkScene& scene, const PieceDraw& piece, const PerspectiveView& view,
-                   const ViewSettings& settings, const FrameTarget& target, FrameStats& stats);
+  /// One piece on its way: what all its draw calls share.
+  struct Piece;
+  Status drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats);
+  /// Blended samples behind one another in a pixel cannot be drawn at once: the splats of one pane overlap,
+  /// and where they do the pane must still tint once. So rank by rank, each into a layer of its own, laid
+  /// over the picture.
+  Status drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& stats);
+  Result<GlProgram*> program(const Piece& piece, const char* samples);
+  /// Columns with more than `clearRank` clear samples in a pixel; all of them for a negative rank.
+  void drawColumns(const Piece& piece, int clearRank, FrameStats& stats);
 
   ProgramCache& programs_;
   CaptureResidency& captures_;

@@ -65,7 +65,7 @@ TEST(ProjectFile, WritingIsStable) {
 
 TEST(ProjectFile, PointsStandOnOneLineAndNamesAreLeftAlone) {
   Project project = everythingSet();
-  project.scene = "odd [1,2] \"name\" [3,\\\" 4].glb";
+  project.scene = "odd [1,2] \"name\" [3,\\\" 4].glb\\";
   const std::string text = formatProject(project);
   EXPECT_THAT(text, HasSubstr("[8.0, 6.0]"));
   EXPECT_THAT(text, HasSubstr("[1, -2, 0]"));

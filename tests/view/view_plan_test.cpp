@@ -42,6 +42,7 @@ TEST(ColumnCulling, NeverDropsAVisibleSample) {
       if (u < rect.x0 || u >= rect.x1 || v < rect.y0 || v >= rect.y1) continue;
       ++visible;
       ASSERT_TRUE(kept.has_value());
+      EXPECT_TRUE(mayBeVisible(planes, c, b, range, {t - 0.1, t + 0.1}));
       EXPECT_GE(t, kept->low);
       EXPECT_LE(t, kept->high);
     }
@@ -229,6 +230,8 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
   EXPECT_EQ(display.columnRange[0], glm::vec2(0, 0.5f));
   EXPECT_GT(display.columnRange[1].x, display.columnRange[1].y);
   EXPECT_EQ(display.columnRange[2], glm::vec2(0.25f, 2));
+  EXPECT_EQ(display.columnBlock, (std::vector<std::uint32_t>{0, 1, 1}));
+  EXPECT_EQ(display.blockRange, (std::vector<glm::vec2>{{0, 0.5f}, {0.25f, 2}}));
   EXPECT_EQ(display.colour[0], encodeForDisplay({0.5f, 0.25f, 0.125f}, 2));
   EXPECT_EQ(display.colour[2].a, 128);
   EXPECT_NEAR(display.rowTangent[0], std::tan(0.2), 1e-6);

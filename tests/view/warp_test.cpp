@@ -198,9 +198,9 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     }
     std::vector<Splat> one(static_cast<std::size_t>(count) + 8), eight(one.size());
     const int n1 =
-        projectSamplesScalar(column, tangents.data(), rows.data(), inverse.data(), count, one.data());
+        projectSamplesScalar(column, tangents.data(), rows.data(), inverse.data(), count, 7, one.data());
     const int n8 =
-        fastestProjectSamples()(column, tangents.data(), rows.data(), inverse.data(), count, eight.data());
+        fastestProjectSamples()(column, tangents.data(), rows.data(), inverse.data(), count, 7, eight.data());
     ASSERT_EQ(n1, n8);
     for (int i = 0; i < n1; ++i) {
       const Splat &a = one[static_cast<std::size_t>(i)], &b = eight[static_cast<std::size_t>(i)];

@@ -18,12 +18,11 @@ bool isSkylight(int column, int row) { return row == 1 && column >= 3 && column 
 Shape rosette() {
   const std::array<glm::vec2, 6> bud{
       {{0, -0.075f}, {0.03f, -0.07f}, {0.05f, -0.045f}, {0.055f, -0.03f}, {0.1f, -0.02f}, {0.12f, 0}}};
-  Shape out = lathe(bud, 16);
+  Shape out = lathe(bud, 12);
   // Petals around it.
   for (int i = 0; i < 8; ++i) {
-    Shape petal = blob(10, 6, [](const glm::vec3& d) {
-      return 0.05f / glm::length(glm::vec3(d.x * 0.5f, d.y, d.z * 2.2f));
-    });
+    Shape petal = blob(
+        6, 4, [](const glm::vec3& d) { return 0.05f / glm::length(glm::vec3(d.x * 0.5f, d.y, d.z * 2.2f)); });
     out.append(petal, turned(45.0f * static_cast<float>(i)) * moved(0.14f, 0, -0.005f));
   }
   return out;

@@ -11,7 +11,7 @@ namespace acentric::gallery {
 namespace {
 
 constexpr int kFlutes = 20;
-constexpr int kSamplesPerFlute = 8;
+constexpr int kSamplesPerFlute = 6;
 constexpr float kShaftBottom = 0.38f, kShaftTop = 3.34f;
 
 /// Radius with a slight swelling below the middle.
@@ -19,8 +19,8 @@ float shaftRadius(float t) { return glm::mix(0.256f, 0.212f, std::pow(t, 1.6f));
 
 Shape shaft() {
   // Rows are dense where the flutes end in round niches.
-  constexpr std::array<float, 15> kRows{0,     0.012f, 0.018f, 0.026f, 0.036f, 0.05f,  0.25f, 0.5f,
-                                        0.75f, 0.95f,  0.964f, 0.974f, 0.982f, 0.988f, 1};
+  constexpr std::array<float, 11> kRows{0,     0.013f, 0.02f, 0.031f, 0.05f, 0.5f,
+                                        0.95f, 0.969f, 0.98f, 0.987f, 1};
   Shape out;
   const auto rowAt = [&](float t) {
     const float place = std::clamp(t, 0.0f, 1.0f) * (kRows.size() - 1);
@@ -66,7 +66,7 @@ Shape column() {
                                         {0.297f, 0.342f},
                                         {0.272f, 0.345f},
                                         {0.256f, kShaftBottom}}};
-  out.append(lathe(base, 48));
+  out.append(lathe(base, 32));
   out.append(shaft());
   const std::array<glm::vec2, 16> capital{{{0.212f, kShaftTop},
                                            {0.226f, 3.345f},
@@ -84,7 +84,7 @@ Shape column() {
                                            {0.322f, 3.615f},
                                            {0.312f, 3.63f},
                                            {0.3f, 3.633f}}};
-  out.append(lathe(capital, 48));
+  out.append(lathe(capital, 32));
   addBox(out, {-0.35f, -0.35f, 3.63f}, {0.35f, 0.35f, kBeamBottom}, 0.012f);
   return out;
 }

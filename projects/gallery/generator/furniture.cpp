@@ -19,13 +19,13 @@ constexpr glm::vec3 kLampGlobe{-4.667f, 0, 3.0f};
 /// A knot of two by three turns, standing.
 Shape sculpture() {
   std::vector<glm::vec3> line;
-  constexpr int kSteps = 220;
+  constexpr int kSteps = 168;
   for (int i = 0; i < kSteps; ++i) {
     const float t = 2 * kPi * static_cast<float>(i) / kSteps;
     const float ring = 0.088f * (2 + std::cos(3 * t));
     line.emplace_back(ring * std::cos(2 * t), 0.088f * std::sin(3 * t), ring * std::sin(2 * t));
   }
-  Shape out = tube(line, 0.05f, 20, true);
+  Shape out = tube(line, 0.05f, 16, true);
   out.paint([](const glm::vec3& p, const glm::vec3&) {
     const float t = 0.5f + 1.7f * p.z + 0.12f * fractalNoise(p * 14.0f, 3, 5);
     return gradient({colour(0x123b4a), colour(0x1f7a8c), colour(0x58b3a3), colour(0xe9d8a6), colour(0xee9b00),
@@ -75,8 +75,9 @@ void addCase(Model& model, const Materials& materials) {
   model.add("Case glass", materials.glass, std::move(glass));
   Shape knot;
   knot.append(sculpture(), moved(0, 0, 1.4f) * turned(25));
-  model.things.push_back(
-      {"Sculpture", {{materials.sculpture, std::move(knot)}, {materials.bronzeTrim, lathe(stand, 32)}}, {glm::mat4(1)}});
+  model.things.push_back({"Sculpture",
+                          {{materials.sculpture, std::move(knot)}, {materials.bronzeTrim, lathe(stand, 32)}},
+                          {glm::mat4(1)}});
 }
 
 void addRopes(Model& model, const Materials& materials) {
@@ -231,7 +232,7 @@ void addVases(Model& model, const Materials& materials) {
                                            {0.06f, 1.58f},
                                            {0.045f, 1.54f},
                                            {0, 1.5f}}};
-  Shape vase = lathe(profile, 40);
+  Shape vase = lathe(profile, 28);
   vase.paint([](const glm::vec3& p, const glm::vec3&) {
     const float azimuth = std::atan2(p.y, p.x);
     const float wave = 0.022f * std::sin(9 * azimuth);
@@ -271,7 +272,6 @@ void addLights(Model& model) {
   // Below its globe, which would else keep its light in.
   lamp.position = kLampGlobe - glm::vec3(0, 0, 0.19f);
   model.lights.push_back(lamp);
-  model.sky = {{0.42f, 0.62f, 0.95f}, {0.88f, 0.92f, 0.96f}, {0.42f, 0.37f, 0.30f}};
 }
 
 }  // namespace acentric::gallery

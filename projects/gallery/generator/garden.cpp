@@ -32,7 +32,7 @@ Shape baluster() {
                                            {0.044f, 0.7f},
                                            {0.032f, 0.72f},
                                            {0.05f, 0.76f}}};
-  return lathe(profile, 12);
+  return lathe(profile, 8);
 }
 
 /// Bottom course and rail from one corner to another, with balusters between.
@@ -69,8 +69,8 @@ Shape hedgeBlock(const glm::vec3& size) {
                                    {{-h.x, h.y, 0}, {0, -size.y, 0}, {0, 0, h.z}},
                                    {{-h.x, -h.y, h.z}, {size.x, 0, 0}, {0, size.y, 0}}}};
   for (const Face& f : faces) {
-    const int columns = std::max(4, static_cast<int>(glm::length(f.s) / 0.1f)),
-              rows = std::max(4, static_cast<int>(glm::length(f.t) / 0.1f));
+    const int columns = std::max(4, static_cast<int>(glm::length(f.s) / 0.17f)),
+              rows = std::max(4, static_cast<int>(glm::length(f.t) / 0.17f));
     addGrid(out, columns, rows, [&](float s, float t) { return rough(f.corner + s * f.s + t * f.t); });
   }
   return out;
@@ -85,7 +85,7 @@ void paintFoliage(Shape& shape, const glm::vec3& dark, const glm::vec3& light, s
 
 Shape cypress() {
   Shape out;
-  addGrid(out, 36, 44, [](float s, float t) {
+  addGrid(out, 22, 28, [](float s, float t) {
     const float turn = 2 * kPi * (s - std::floor(s)), up = std::clamp(t, 0.0f, 1.0f);
     const float body = 0.62f * std::pow(std::sin(kPi * std::pow(0.02f + 0.98f * up, 0.62f)), 0.85f);
     const glm::vec3 ring(std::cos(turn), std::sin(turn), 5.6f * up);
@@ -102,10 +102,10 @@ Thing roundTree(const Materials& materials) {
       {{0, 0, 0}, {0.05f, 0.02f, 0.7f}, {0.0f, -0.03f, 1.4f}, {0.12f, 0.05f, 2.1f}, {0.1f, 0, 2.8f}}};
   bark.append(tube(trunk, 0.12f, 10));
   Random random(3);
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const float azimuth = 2.4f * static_cast<float>(i), out = i == 0 ? 0.0f : random.between(0.5f, 1.05f);
     const float size = random.between(0.65f, 0.95f);
-    const Shape puff = blob(26, 16, [&](const glm::vec3& d) {
+    const Shape puff = blob(14, 9, [&](const glm::vec3& d) {
       return size * (1 + 0.32f * fractalNoise(d * 2.6f + static_cast<float>(i) * 3.0f, 3, 17));
     });
     crown.append(
@@ -174,11 +174,11 @@ void addTerrace(Model& model, const Materials& materials) {
                                        {0.2f, 1.47f},
                                        {0, 1.44f}}};
   Shape ball =
-      blob(28, 18, [](const glm::vec3& d) { return 0.24f * (1 + 0.16f * fractalNoise(d * 6.0f, 3, 33)); });
+      blob(18, 12, [](const glm::vec3& d) { return 0.24f * (1 + 0.16f * fractalNoise(d * 6.0f, 3, 33)); });
   paintFoliage(ball, colour(0x1f3d22), colour(0x6c8f46), 34);
   Shape green;
   green.append(ball, moved(0, 0, 1.6f));
-  Thing urns{"Urn", {{materials.stucco, lathe(urn, 28)}, {materials.hedge, std::move(green)}}, {}};
+  Thing urns{"Urn", {{materials.stucco, lathe(urn, 20)}, {materials.hedge, std::move(green)}}, {}};
   for (const float y : {-kTerraceHalf, -kStairHalf - kPier, kStairHalf + kPier, kTerraceHalf})
     urns.placements.push_back(moved(kTerraceEnd, y, 0));
   model.add("Terrace paving", materials.paving, std::move(paving));

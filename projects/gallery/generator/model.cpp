@@ -52,10 +52,6 @@ class Writer {
     writeMaterials();
     writeThings();
     writeLights();
-    Json sky{{"zenith", list(model_.sky.zenith)},
-             {"horizon", list(model_.sky.horizon)},
-             {"ground", list(model_.sky.ground)}};
-    root_["scenes"][0]["extras"] = {{"acentricSky", sky}};
     Json nodes = Json::array();
     for (std::size_t i = 0; i < root_["nodes"].size(); ++i) nodes.push_back(i);
     root_["scenes"][0]["nodes"] = nodes;

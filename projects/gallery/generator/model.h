@@ -57,17 +57,11 @@ struct Light {
   glm::vec3 direction{0, 0, -1};  ///< the way it travels
 };
 
-/// Radiance from all around, kept in the scene's extras.
-struct SkyLight {
-  glm::vec3 zenith{0}, horizon{0}, ground{0};
-};
-
 struct Model {
   std::vector<Picture> pictures;
   std::vector<Material> materials;
   std::vector<Thing> things;
   std::vector<Light> lights;
-  SkyLight sky;
 
   int add(Picture picture);
   int add(Material material);

@@ -39,9 +39,9 @@ float Random::between(float low, float high) { return low + (high - low) * unit(
 int Random::below(int count) { return static_cast<int>(unit() * static_cast<float>(count)); }
 
 float hashUnit(int x, int y, int z, std::uint32_t seed) {
-  std::uint32_t h = mix(static_cast<std::uint32_t>(x) ^ mix(seed));
-  h = mix(h ^ (static_cast<std::uint32_t>(y) * 0x9e3779b9U));
-  return unitOf(mix(h ^ (static_cast<std::uint32_t>(z) * 0x85ebca6bU)));
+  return unitOf(mix(static_cast<std::uint32_t>(x) * 0x9e3779b1U ^
+                    static_cast<std::uint32_t>(y) * 0x85ebca77U ^
+                    static_cast<std::uint32_t>(z) * 0xc2b2ae3dU ^ seed * 0x27d4eb2fU));
 }
 
 float noise(const glm::vec3& p, std::uint32_t seed, int period) {

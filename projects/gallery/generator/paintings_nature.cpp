@@ -45,7 +45,11 @@ void varnish(Canvas& canvas, std::uint32_t seed) {
 
 Canvas paintMountains(int width, int height, std::uint32_t seed) {
   Canvas canvas(width, height);
-  const std::vector<glm::vec3> sky{colour(0x3c4f76), colour(0x8a6f93), colour(0xe39a7b), colour(0xf7d08a)};
+  // Even seeds are mornings.
+  const bool morning = seed % 2 == 0;
+  const std::vector<glm::vec3> sky =
+      morning ? std::vector{colour(0x5f8fb0), colour(0x9cc3cf), colour(0xdce8dc), colour(0xfbf0d2)}
+              : std::vector{colour(0x3c4f76), colour(0x8a6f93), colour(0xe39a7b), colour(0xf7d08a)};
   const auto skyAt = [&](const glm::vec2& p) {
     const float cloud = fractalNoise({p.x * 2.2f, p.y * 9, 0.3f}, 5, seed);
     return glm::mix(gradient(sky, p.y * 1.75f), colour(0xfbe3c0), 0.45f * smooth(0.05f, 0.5f, cloud));
@@ -57,7 +61,9 @@ Canvas paintMountains(int width, int height, std::uint32_t seed) {
   constexpr int kRanges = 6;
   for (int range = 0; range < kRanges; ++range) {
     const float near = static_cast<float>(range) / (kRanges - 1);
-    const glm::vec3 far = colour(0xc98f83), close = colour(0x1d2f3c);
+    const glm::vec3 far = colour(morning ? 0xa9c4c6 : 0xc98f83),
+                    close = colour(morning ? 0x1f3f36 : 0x1d2f3c);
+    const glm::vec3 haze = colour(morning ? 0xe4ecdf : 0xe6b596);
     const auto ridge = [&](float x) {
       const float rough = fractalNoise({x * (1.6f + 1.2f * near) + 17.0f * near, 4.0f * near, 0.7f}, 6,
                                        seed + 7U * static_cast<std::uint32_t>(range));
@@ -66,7 +72,7 @@ Canvas paintMountains(int width, int height, std::uint32_t seed) {
     canvas.over([&](const glm::vec2& p) {
       const float below = p.y - ridge(p.x);
       const float light = 0.12f * fractalNoise({p.x * 14, p.y * 22, near}, 4, seed + 3U);
-      const glm::vec3 mist = glm::mix(glm::mix(far, close, std::sqrt(near)), colour(0xe6b596),
+      const glm::vec3 mist = glm::mix(glm::mix(far, close, std::sqrt(near)), haze,
                                       0.5f * smooth(0.0f, 0.22f, below) * (1 - near));
       return glm::vec4(mist * (1 + light), below * static_cast<float>(height) + 0.5f);
     });
@@ -78,22 +84,29 @@ Canvas paintSea(int width, int height, std::uint32_t seed) {
   Canvas canvas(width, height);
   const float horizon = 0.52f;
   const glm::vec2 sun(canvas.aspect() * 0.42f, 0.40f);
-  const std::vector<glm::vec3> sky{colour(0x2f5d7c), colour(0x76a3b0), colour(0xf2c58f), colour(0xf4a261)};
+  // Even seeds are moonlit.
+  const bool night = seed % 2 == 0;
+  const std::vector<glm::vec3> sky =
+      night ? std::vector{colour(0x0f1c33), colour(0x1f3a57), colour(0x4a6f86), colour(0x86a3a8)}
+            : std::vector{colour(0x2f5d7c), colour(0x76a3b0), colour(0xf2c58f), colour(0xf4a261)};
+  const std::vector<glm::vec3> sea = night
+                                         ? std::vector{colour(0x5c7f8c), colour(0x1b3d52), colour(0x0a1a2a)}
+                                         : std::vector{colour(0x9bb8ae), colour(0x2f6f7e), colour(0x123a4d)};
+  const glm::vec3 gleam = colour(night ? 0xe6edda : 0xffd79a),
+                  cloudTint = colour(night ? 0x7d8fa3 : 0xc9798c);
   const auto paint = [&](const glm::vec2& p) {
     if (p.y < horizon) {
       const float cloud = fractalNoise({p.x * 3, p.y * 14 - p.x, 0.1f}, 5, seed);
       const glm::vec3 base = gradient(sky, p.y / horizon);
       const float glow = std::exp(-9 * glm::length(p - sun));
-      return glm::mix(glm::mix(base, colour(0xc9798c), 0.5f * smooth(0.1f, 0.45f, cloud)), colour(0xfff0c0),
-                      glow);
+      return glm::mix(glm::mix(base, cloudTint, 0.5f * smooth(0.1f, 0.45f, cloud)), colour(0xfff0c0), glow);
     }
     const float depth = (p.y - horizon) / (1 - horizon);
     const float wave =
         fractalNoise({p.x * (14 - 9 * depth), (p.y - horizon) * (90 - 62 * depth), 0.9f}, 4, seed + 5U);
     const float track = std::exp(-std::abs(p.x - sun.x) * (12 - 7 * depth)) * smooth(-0.15f, 0.35f, wave);
-    const glm::vec3 water =
-        gradient({colour(0x9bb8ae), colour(0x2f6f7e), colour(0x123a4d)}, depth) * (1 + 0.45f * wave);
-    return glm::mix(water, colour(0xffd79a), std::min(1.0f, 1.1f * track));
+    const glm::vec3 water = gradient(sea, depth) * (1 + 0.45f * wave);
+    return glm::mix(water, gleam, std::min(1.0f, 1.1f * track));
   };
   canvas.fill(paint);
   Random random(seed);

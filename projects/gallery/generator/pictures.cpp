@@ -11,7 +11,7 @@ namespace acentric::gallery {
 namespace {
 
 constexpr float kFrameWidth = 0.115f;
-constexpr float kPixelsPerMetre = 400;
+constexpr float kPixelsPerMetre = 360;
 constexpr float kPictureCentre = 1.85f;  // z
 
 struct Hanging {
@@ -43,7 +43,7 @@ std::vector<Hanging> hangings() {
       {"Birches", paintBirches, 109, {1.0f, 1.4f}, on(-3.75f, west), west, false},
       {"Fields of colour", paintFields, 110, {1.05f, 1.4f}, on(3.75f, west), west, true},
       {"Still life with oranges", paintStillLife, 111, {1.25f, 1.0f}, on(-3.8f, east), east, false},
-      {"Two sails", paintSea, 112, {1.25f, 1.0f}, on(3.8f, east), east, false},
+      {"Moonlit bay", paintSea, 112, {1.25f, 1.0f}, on(3.8f, east), east, false},
   };
 }
 
