@@ -35,6 +35,16 @@ Result<PathPose> poseFrom(const nlohmann::json& json, const std::string& pointer
   return pose;
 }
 
+/// Centres of the regions, without those that lie outside the walkable outline (in a wall, say).
+std::vector<glm::dvec2> standingPlaces(const Layout& layout) {
+  std::vector<glm::dvec2> inside, all;
+  for (const Region& region : layout.regions) {
+    all.push_back(region.polygon.centroid());
+    if (layout.spec.outline.contains(all.back())) inside.push_back(all.back());
+  }
+  return inside.empty() ? all : inside;
+}
+
 }  // namespace
 
 Result<CameraPath> loadPath(const std::filesystem::path& path) {
@@ -78,19 +88,16 @@ Status savePath(const CameraPath& path, const std::filesystem::path& file) {
 CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames) {
   CameraPath path;
   if (layout.regions.empty() || frames < 1) return path;
-  // Nearest-neighbour order through the region centres: neighbours mostly touch, so the tour stays in the
+  // Nearest-neighbour order through the places to stand: neighbours mostly touch, so the tour stays in the
   // layout.
+  std::vector<glm::dvec2> places = standingPlaces(layout);
   std::vector<glm::dvec2> stops{clampToPlan(layout, start)};
-  std::vector<char> visited(layout.regions.size(), 0);
-  for (std::size_t n = 0; n < layout.regions.size(); ++n) {
-    std::size_t best = layout.regions.size();
-    double bestDistance = std::numeric_limits<double>::infinity();
-    for (std::size_t r = 0; r < layout.regions.size(); ++r) {
-      const double d = glm::distance(layout.regions[r].polygon.centroid(), stops.back());
-      if (!visited[r] && d < bestDistance) best = r, bestDistance = d;
-    }
-    visited[best] = 1;
-    stops.push_back(layout.regions[best].polygon.centroid());
+  while (!places.empty()) {
+    const auto nearest = std::min_element(places.begin(), places.end(), [&](const auto& p, const auto& q) {
+      return glm::distance(p, stops.back()) < glm::distance(q, stops.back());
+    });
+    stops.push_back(*nearest);
+    places.erase(nearest);
   }
   std::vector<double> travelled{0};
   for (std::size_t i = 1; i < stops.size(); ++i)

@@ -50,7 +50,7 @@ Layout someLayout() {
   return *buildLayout(spec);
 }
 
-TEST(Tour, StaysInsideTheLayoutAndVisitsEveryRegion) {
+TEST(Tour, StaysInsideTheLayoutAndVisitsEveryWalkableRegion) {
   const Layout layout = someLayout();
   const CameraPath path = tourOf(layout, {0, 0}, 2000);
   ASSERT_EQ(path.poses.size(), 2000u);
@@ -61,7 +61,8 @@ TEST(Tour, StaysInsideTheLayoutAndVisitsEveryRegion) {
     ++visits[std::size_t(*region)];
     EXPECT_EQ(pose.eye.z, layout.eyeZ());
   }
-  for (int count : visits) EXPECT_GT(count, 0);
+  for (std::size_t r = 0; r < visits.size(); ++r)
+    if (layout.spec.outline.contains(layout.regions[r].polygon.centroid())) EXPECT_GT(visits[r], 0);
 }
 
 TEST(Clamp, LeavesInsidePointsAloneAndBringsOthersIn) {
