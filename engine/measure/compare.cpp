@@ -1,0 +1,90 @@
+#include "engine/measure/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/base/contract.h"
+
+namespace acentric {
+namespace {
+
+constexpr double kIdentical = 99;  ///< dB
+constexpr Rgba8 kSheetBackground(24, 24, 24, 255);
+
+template <class A, class B>
+bool sameSize(const Image<A>& a, const Image<B>& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+bool isReal(PixelSource source) { return source != kSourceHole && source != kSourceInvented; }
+
+}  // namespace
+
+Result<Comparison> compare(const Frame& frame, const ColourImage& truth, const FloatImage& truthDistance) {
+  if (!sameSize(frame.colour, truth) || !sameSize(frame.source, truth) || !sameSize(truthDistance, truth))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("a frame of {} x {} cannot be compared with a truth of {} x {} (distances {} x "
+                            "{}); render both alike",
+                            frame.colour.width, frame.colour.height, truth.width, truth.height,
+                            truthDistance.width, truthDistance.height),
+                "comparison");
+  if (truth.empty())
+    return fail(ErrorKind::invalidArgument, "an empty picture cannot be compared", "comparison");
+  std::size_t holes = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+    holes += std::isfinite(truthDistance.pixels[i]) && !isReal(frame.source.pixels[i]) ? 1 : 0;
+  return Comparison{psnrOf(frame.colour, truth), ssimOf(frame.colour, truth),
+                    static_cast<double>(holes) / static_cast<double>(truth.pixels.size())};
+}
+
+double psnrOf(const ColourImage& a, const ColourImage& b) {
+  require(sameSize(a, b), "pictures of one size are compared");
+  std::uint64_t squares = 0;  // 3 * 255^2 per pixel: holds 10^14 pixels
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    const glm::ivec3 difference = glm::ivec3(a.pixels[i]) - glm::ivec3(b.pixels[i]);
+    squares += static_cast<std::uint64_t>(difference.x * difference.x + difference.y * difference.y +
+                                          difference.z * difference.z);
+  }
+  if (squares == 0) return kIdentical;
+  const double meanSquare = static_cast<double>(squares) / (3.0 * static_cast<double>(a.pixels.size()));
+  return std::min(kIdentical, 10 * std::log10(255.0 * 255.0 / meanSquare));
+}
+
+ColourImage differenceImage(const ColourImage& a, const ColourImage& b, int gain) {
+  require(sameSize(a, b), "pictures of one size are compared");
+  ColourImage out(a.width, a.height);
+  const auto amplified = [&](int x, int y) {
+    return static_cast<std::uint8_t>(std::clamp<std::int64_t>(std::int64_t(gain) * std::abs(x - y), 0, 255));
+  };
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    const Rgba8 &p = a.pixels[i], &q = b.pixels[i];
+    out.pixels[i] = Rgba8(amplified(p.r, q.r), amplified(p.g, q.g), amplified(p.b, q.b), 255);
+  }
+  return out;
+}
+
+ColourImage contactSheet(const std::vector<ColourImage>& pictures, int columns, int gap) {
+  require(columns >= 1 && gap >= 0, "a contact sheet has at least one column and no negative gap");
+  if (pictures.empty()) return {};
+  int cellWidth = 0, cellHeight = 0;
+  for (const ColourImage& picture : pictures) {
+    cellWidth = std::max(cellWidth, picture.width);
+    cellHeight = std::max(cellHeight, picture.height);
+  }
+  const int count = static_cast<int>(pictures.size());
+  const int used = std::min(columns, count), rows = (count + columns - 1) / columns;
+  ColourImage sheet(used * cellWidth + (used - 1) * gap, rows * cellHeight + (rows - 1) * gap,
+                    kSheetBackground);
+  for (int i = 0; i < count; ++i) {
+    const ColourImage& picture = pictures[static_cast<std::size_t>(i)];
+    const int left = (i % columns) * (cellWidth + gap), top = (i / columns) * (cellHeight + gap);
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
+  }
+  return sheet;
+}
+
+}  // namespace acentric
