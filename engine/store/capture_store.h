@@ -42,7 +42,7 @@ class CaptureStore {
   Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
-  /// Deletes captures whose key is not in `keep`; returns bytes freed.
+  /// Deletes captures whose key is not in `keep`, and captures set aside; returns bytes freed. Surface light stays.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:
