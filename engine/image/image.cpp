@@ -11,6 +11,7 @@
 
 #include "engine/base/file.h"
 #include "engine/image/colour.h"
+#include "engine/image/png_check.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -146,6 +147,8 @@ Result<ColourImage> decode(std::span<const std::byte> bytes, const std::string& 
   if (format.empty() && isNamedTarga(name)) format = "targa";
   if (format.empty())
     return fail(ErrorKind::unsupported, "is no picture of a known format; convert it to PNG or JPEG", name);
+  if (format == "png")
+    if (Status whole = checkPng(bytes, name); !whole) return tl::unexpected(whole.error());
   auto input = OIIO::ImageInput::create(format);
   if (!input || !input->supports("ioproxy")) {
     OIIO::geterror();  // fetched so that it is not pending for somebody else
