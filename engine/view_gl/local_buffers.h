@@ -21,8 +21,9 @@ struct LocalGpuVertex {
   glm::u16vec4 colour;            ///< vertex colour, 0..65535
   std::uint32_t lightFirst;       ///< into the light buffer
   std::uint32_t lightResolution;  ///< resolution, bit 16: has a back side
+  glm::vec3 normal;               ///< shading normal
 };
-static_assert(sizeof(LocalGpuVertex) == 52, "the vertex layout has no padding");
+static_assert(sizeof(LocalGpuVertex) == 64, "the vertex layout has no padding");
 
 /// Consecutive triangles of one material and one set of attributes.
 struct LocalBatch {
