@@ -11,14 +11,15 @@ namespace acentric {
 /// Source of a pixel: 0 = hole; 1.. = camera index + 1; the values below are special.
 using PixelSource = std::uint16_t;
 inline constexpr PixelSource kSourceHole = 0;
-inline constexpr PixelSource kSourceLocal = 0xffff;     ///< local geometry
-inline constexpr PixelSource kSourceInvented = 0xfffe;  ///< screen-space fill: counts as a hole, never as covered
+inline constexpr PixelSource kSourceLocal = 0xffff;  ///< local geometry
+inline constexpr PixelSource kSourceInvented =
+    0xfffe;  ///< screen-space fill: counts as a hole, never as covered
 
 struct FrameStats {
-  int images = 0;                   ///< captures drawn
-  int missingImages = 0;            ///< captures that the view needs and that are not loaded
+  int images = 0;         ///< captures drawn
+  int missingImages = 0;  ///< captures that the view needs and that are not loaded
   std::uint64_t samplesRead = 0;
-  std::uint64_t samplesDrawn = 0;   ///< that fell on the picture
+  std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
   std::uint64_t localTriangles = 0;
   double warpSeconds = 0;
   double localSeconds = 0;
@@ -27,7 +28,7 @@ struct FrameStats {
 };
 
 struct Frame {
-  ColourImage colour;          ///< opaque; holes are 0,0,0 with alpha 0 (invented pixels: alpha 255)
+  ColourImage colour;  ///< opaque; holes are 0,0,0 with alpha 0 (invented pixels: alpha 255)
   Image<PixelSource> source;
   FrameStats stats;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// One frame on the CPU: cover and order (layout), warp, hole filling, local geometry (apv.md sections 2, 4, 5).
-/// Renderer::scalar is the truth that the SIMD and OpenGL renderers are tested against.
+/// One frame on the CPU: cover and order (layout), warp, hole filling, local geometry (apv.md sections 2, 4,
+/// 5). Renderer::scalar is the truth that the SIMD and OpenGL renderers are tested against.
 
 #include "engine/base/task_runner.h"
 #include "engine/geometry/perspective_view.h"
@@ -10,8 +10,9 @@
 
 namespace acentric {
 
-/// Fails when the view is out of range, or the eye stands outside every region (the message gives the nearest point).
-/// `settings.renderer` must not be `gl`. The result does not depend on the number of threads.
-Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings, TaskRunner& runner);
+/// Fails when the view is out of range, or the eye stands outside every region (the message gives the nearest
+/// point). `settings.renderer` must not be `gl`. The result does not depend on the number of threads.
+Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                          TaskRunner& runner);
 
 }  // namespace acentric

@@ -25,10 +25,10 @@ enum class Reconstruction : std::uint8_t {
 struct ViewSettings {
   Renderer renderer = Renderer::list;
   Reconstruction reconstruction = Reconstruction::splat;
-  int maxSplatPixels = 16;      ///< side of the largest splat, 1..64
+  int maxSplatPixels = 16;  ///< side of the largest splat, 1..64
   bool localGeometry = true;
-  bool secondaryCover = true;   ///< in rings: the other hand is painted first, behind
-  bool fillHoles = true;        ///< screen-space fill of what is still open, marked as invented
+  bool secondaryCover = true;  ///< in rings: the other hand is painted first, behind
+  bool fillHoles = true;       ///< screen-space fill of what is still open, marked as invented
 
   Status check() const;
   bool operator==(const ViewSettings&) const = default;

@@ -19,18 +19,18 @@ inline constexpr std::uint32_t kSamplesPerBlock = 64;
 /// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.
 struct DisplayCapture {
   ColumnCamera camera;
-  std::vector<std::uint32_t> columnStart;    ///< columns + 1
+  std::vector<std::uint32_t> columnStart;  ///< columns + 1
   std::vector<std::uint16_t> row;
-  std::vector<float> inverseDistance;        ///< 1/m, horizontal
-  std::vector<Rgba8> colour;                 ///< sRGB, straight alpha
-  std::vector<glm::vec2> columnDirection;    ///< unit, at column centres
-  std::vector<float> rowTangent;             ///< at row centres
-  std::vector<glm::vec2> columnRange;        ///< per column: smallest and largest inverse distance (for culling)
+  std::vector<float> inverseDistance;      ///< 1/m, horizontal
+  std::vector<Rgba8> colour;               ///< sRGB, straight alpha
+  std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
+  std::vector<float> rowTangent;           ///< at row centres
+  std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
   /// The same per kSamplesPerBlock successive samples of a column: column k's blocks start at columnBlock[k].
   std::vector<glm::vec2> blockRange;
   std::vector<std::uint32_t> columnBlock;
-  bool layered = false;                      ///< some pixel has more than one sample
-  bool blended = false;                      ///< some sample has alpha < 255
+  bool layered = false;  ///< some pixel has more than one sample
+  bool blended = false;  ///< some sample has alpha < 255
 };
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure);
@@ -40,9 +40,9 @@ struct WalkScene {
   std::shared_ptr<const Layout> layout;
   EffectPlan plan;
   float exposure = 1;
-  std::vector<std::shared_ptr<const DisplayCapture>> captures;    ///< by camera; null = not loaded
-  std::vector<std::shared_ptr<const LocalGeometry>> local;        ///< by region; null = not loaded
-  std::shared_ptr<const SurfaceLight> surfaceLight;               ///< null = not baked
+  std::vector<std::shared_ptr<const DisplayCapture>> captures;  ///< by camera; null = not loaded
+  std::vector<std::shared_ptr<const LocalGeometry>> local;      ///< by region; null = not loaded
+  std::shared_ptr<const SurfaceLight> surfaceLight;             ///< null = not baked
 };
 
 }  // namespace acentric
