@@ -161,7 +161,7 @@ void addLamp(Model& model, const Materials& materials) {
 /// A leaf that leaves the pot at an angle and bows under its weight; the texture's stem is at its foot.
 Shape leaf(float length, float width, float rise, float bow) {
   Shape out;
-  addGrid(out, 2, 7, [&](float s, float t) {
+  addGrid(out, 2, 6, [&](float s, float t) {
     const float angle = rise - bow * t;
     // Arc length along a circle of that bow, and a slight trough across.
     const float reach = length * (std::sin(rise) - std::sin(rise - bow * t)) / bow;
@@ -232,7 +232,7 @@ void addVases(Model& model, const Materials& materials) {
                                            {0.06f, 1.58f},
                                            {0.045f, 1.54f},
                                            {0, 1.5f}}};
-  Shape vase = lathe(profile, 28);
+  Shape vase = lathe(profile, 22);
   vase.paint([](const glm::vec3& p, const glm::vec3&) {
     const float azimuth = std::atan2(p.y, p.x);
     const float wave = 0.022f * std::sin(9 * azimuth);
@@ -263,12 +263,12 @@ void addLights(Model& model) {
   sun.directional = true;
   sun.colour = {1.0f, 0.93f, 0.80f};
   sun.intensity = 7;
-  sun.direction = glm::normalize(glm::vec3(-0.74f, 0.36f, -0.60f));
+  sun.direction = glm::normalize(glm::vec3(-0.50f, 0.58f, -0.64f));
   model.lights.push_back(sun);
   Light lamp;
   lamp.name = "Lamp";
   lamp.colour = {1.0f, 0.80f, 0.55f};
-  lamp.intensity = 6;
+  lamp.intensity = 14;
   // Below its globe, which would else keep its light in.
   lamp.position = kLampGlobe - glm::vec3(0, 0, 0.19f);
   model.lights.push_back(lamp);

@@ -31,7 +31,9 @@ void addPictures(Model& model, const Materials& materials);   ///< framed, on th
 void addFurniture(Model& model, const Materials& materials);  ///< glass case, ropes, benches, lamp, plants
 void addTerrace(Model& model, const Materials& materials);    ///< paving, balustrade, urns
 void addGarden(Model& model, const Materials& materials);     ///< lawn, hedges, trees, hills
-void addLights(Model& model);                                 ///< sun and lamp
+/// A round temple, its foot there.
+void addFolly(Model& model, const Materials& materials, const glm::vec3& foot);
+void addLights(Model& model);  ///< sun and lamp
 
 /// All of it.
 Model makeGallery();

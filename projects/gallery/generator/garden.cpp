@@ -119,7 +119,7 @@ Thing roundTree(const Materials& materials) {
 void addRidge(Shape& out, float distance, float low, float high, std::uint32_t seed, const glm::vec3& foot,
               const glm::vec3& crest) {
   Shape ridge;
-  addGrid(ridge, 90, 6, [&](float s, float t) {
+  addGrid(ridge, 110, 5, [&](float s, float t) {
     const float azimuth = kPi * (0.5f - s) * 1.1f;  // from north to south: faces the middle
     const float tall = low + (high - low) * (0.5f + 0.5f * fractalNoise({6 * s, 0, 0}, 5, seed));
     return glm::vec3(kHalfLength + (distance + 3.5f * t) * std::cos(azimuth),
@@ -195,8 +195,8 @@ void addGarden(Model& model, const Materials& materials) {
   });
   for (std::size_t i = 0; i < lawn.uv.size(); ++i)
     lawn.uv[i] = glm::vec2(lawn.positions[i].x, -lawn.positions[i].y);
-  addQuad(path, {kTerraceEnd, -kStairHalf, kLawn + 0.01f}, {38, -kStairHalf, kLawn + 0.01f},
-          {38, kStairHalf, kLawn + 0.01f}, {kTerraceEnd, kStairHalf, kLawn + 0.01f});
+  addQuad(path, {kTerraceEnd, -kStairHalf, kLawn + 0.01f}, {30.5f, -kStairHalf, kLawn + 0.01f},
+          {30.5f, kStairHalf, kLawn + 0.01f}, {kTerraceEnd, kStairHalf, kLawn + 0.01f});
   Shape block = hedgeBlock({4.6f, 0.8f, 0.85f});
   paintFoliage(block, colour(0x1d3a1f), colour(0x6a8a41), 22);
   Thing hedges{"Hedge", {{materials.hedge, std::move(block)}}, {}};
@@ -211,13 +211,13 @@ void addGarden(Model& model, const Materials& materials) {
     }
     hedges.placements.push_back(moved(16.2f, side * 5.2f, kLawn) * turned(90));
     trees.placements.push_back(moved(19.5f, side * 7.4f, kLawn) * turned(60 * side));
-    trees.placements.push_back(moved(27.0f, side * 5.6f + 1.0f, kLawn) * turned(130 * side));
-    trees.placements.push_back(moved(24.0f, side * 12.5f - 1.0f, kLawn) * turned(200 * side));
+    trees.placements.push_back(moved(28.5f, side * 5.4f + 0.5f, kLawn) * turned(130 * side));
+    trees.placements.push_back(moved(38.0f, side * 4.2f - 0.4f, kLawn) * turned(200 * side));
     trees.placements.push_back(moved(15.5f, side * 12.0f, kLawn) * turned(20 * side));
   }
   Shape hills;
-  addRidge(hills, 40, 2.5f, 6.5f, 51, colour(0x5f7d4a), colour(0x86a06b));
-  addRidge(hills, 43, 5.0f, 10.5f, 61, colour(0x7d9a86), colour(0xa6bdb6));
+  addRidge(hills, 40, 0.8f, 2.4f, 51, colour(0x5f7d4a), colour(0x86a06b));
+  addRidge(hills, 43, 2.0f, 7.0f, 61, colour(0x7d9a86), colour(0xa6bdb6));
   model.add("Lawn", materials.grass, std::move(lawn));
   model.add("Path", materials.paving, std::move(path));
   model.things.push_back(std::move(hedges));
@@ -236,6 +236,7 @@ Model makeGallery() {
   addFurniture(model, materials);
   addTerrace(model, materials);
   addGarden(model, materials);
+  addFolly(model, materials, {33, 0, kLawn});
   addLights(model);
   return model;
 }

@@ -52,7 +52,7 @@ Canvas floorPicture(int size) {
     }
     if (at.toJoint < kJoint) return colour(0x8d8471);
     const glm::vec3 stone =
-        gradient({colour(0xb9a888), colour(0xcdbd9f), colour(0xddd0b6)}, 0.5f + 0.75f * cloud);
+        gradient({colour(0xb99f72), colour(0xcfb78a), colour(0xe0cca3)}, 0.5f + 0.75f * cloud);
     const glm::vec3 veined = glm::mix(stone, colour(0xa18c6b), 0.35f * smooth(0.90f, 1.0f, vein));
     return veined * (0.9f + 0.18f * own) * (1 + 0.04f * noise(q * 16.0f, kSeed, 128));
   });
@@ -75,7 +75,7 @@ Canvas plasterPicture(int size) {
   canvas.fill([](const glm::vec2& p) {
     const float trowel = fractalNoise({p.x * 6, p.y * 6, 0}, 5, 21, 6);
     const float stroke = fractalNoise({p.x * 20, p.y * 60, 0.5f}, 3, 22, 20);
-    return colour(0x6f8b84) * (1 + 0.10f * trowel + 0.035f * stroke);
+    return colour(0xa9553f) * (1 + 0.10f * trowel + 0.035f * stroke);
   });
   return canvas;
 }
@@ -171,7 +171,7 @@ Materials addMaterials(Model& model) {
   const int green =
       jpeg("Green marble", marblePicture(512, colour(0x1c2b26), colour(0x3a5247), colour(0x9fb3a4), 51));
   const int travertine =
-      jpeg("Travertine", marblePicture(512, colour(0xd8ccb4), colour(0xeae2d0), colour(0xc4b08d), 61));
+      jpeg("Travertine", marblePicture(512, colour(0xdcc8a2), colour(0xebdcbd), colour(0xcbb185), 61));
   const int walnut = jpeg("Walnut", woodPicture(512, colour(0x4a2e1c), colour(0x7d5230), 71));
   const int oak = jpeg("Oak", woodPicture(512, colour(0x6b4a2b), colour(0x9a7044), 81));
   const int paving = jpeg("Paving", pavingPicture(512));
@@ -202,8 +202,8 @@ Materials addMaterials(Model& model) {
   out.floorTiles = model.add(floor);
   out.darkMarble = model.add(pictured("Green marble", green, 1.6f, 0.35f));
   out.plaster = model.add(pictured("Plaster", plaster, 2.5f, 0.9f));
-  out.panel = model.add(plain("Dado", colour(0xd9d2bf)));
-  out.trim = model.add(plain("Cream paint", colour(0xefe8d8), 0.6f));
+  out.panel = model.add(plain("Dado", colour(0xe3d5b8)));
+  out.trim = model.add(plain("Cream paint", colour(0xf2e6cc), 0.6f));
   out.columnStone = model.add(pictured("Travertine", travertine, 1.3f, 0.7f));
   out.coffer = model.add(plain("Coffer blue", colour(0x86a3a6)));
   out.gilt = model.add(plain("Gilt", colour(0xd2a64e), 0.4f, 0.35f));
@@ -223,8 +223,8 @@ Materials addMaterials(Model& model) {
   out.lampShade = model.add(shade);
 
   out.walnut = model.add(pictured("Walnut", walnut, 0.9f, 0.5f));
-  out.leather = model.add(plain("Leather", colour(0x6e2a23), 0.55f));
-  out.velvet = model.add(plain("Velvet", colour(0x8c1c2b), 0.95f));
+  out.leather = model.add(plain("Leather", colour(0x7c4a28), 0.55f));
+  out.velvet = model.add(plain("Velvet", colour(0x1d5566), 0.95f));
   out.brass = model.add(plain("Brass", colour(0xc79a4b), 0.3f, 0.35f));
   out.plinthStone = model.add(pictured("Plinth stone", travertine, 0.9f, 0.6f));
   out.sculpture = model.add(plain("Glaze", glm::vec3(1), 0.25f));
