@@ -1,0 +1,41 @@
+/// The editor's command line.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "editor/app.h"
+
+int main(int argc, char** argv) {
+  CLI::App command("Lay, bake and walk acentric panorama views in a window.", "acentric-editor");
+  acentric::editor::AppOptions options;
+  std::string size;
+  command.add_option("file", options.file, "a project (*.acentric.json), or a model for a new project")
+      ->type_name("FILE");
+  command.add_option("--size", size, "of the window, as WIDTHxHEIGHT (default 1600x900)");
+  command.add_option("--importer", options.importHost.importer,
+                     "program that parses models (default: beside this one)");
+  command.add_option("--log-ui", options.uiLog, "write where widgets are and what happens, for tests")
+      ->type_name("FILE");
+  command.add_option("--exit-after", options.exitAfterSeconds, "leave by itself after so many seconds")
+      ->check(CLI::NonNegativeNumber);
+  command.footer(
+      "Examples:\n  acentric-editor\n  acentric-editor gallery.acentric.json\n  acentric-editor kitchen.glb");
+  CLI11_PARSE(command, argc, argv);
+  if (!size.empty() &&
+      (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 || options.width < 640 ||
+       options.height < 400 || options.width > 16384 || options.height > 16384)) {
+    std::fprintf(stderr, "acentric-editor: --size: give WIDTHxHEIGHT of at least 640x400, not \"%s\"\n",
+                 size.c_str());
+    return 2;
+  }
+  const auto app = acentric::editor::App::create(options);
+  if (!app) {
+    std::fprintf(
+        stderr,
+        "acentric-editor: %s. The command line program \"acentric\" does all of this without a window.\n",
+        app.error().c_str());
+    return 1;
+  }
+  (*app)->run();
+  return 0;
+}

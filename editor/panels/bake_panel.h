@@ -1,0 +1,14 @@
+#pragma once
+/// The bake: what is there, what is missing, progress, time left, cancel.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+void drawBakePanel(PanelContext& context);
+
+/// "Baking: baking camera 12, 12 of 54" for any running job, and how far it is (< 0: unknown).
+std::string progressText(const Job& job);
+double progressFraction(const Job& job);
+
+}  // namespace acentric::editor

@@ -1,0 +1,38 @@
+#include "editor/panels/messages_panel.h"
+
+namespace acentric::editor {
+
+ui::Colour colourOf(MessageLevel level) {
+  switch (level) {
+    case MessageLevel::info:
+      return ui::palette::muted;
+    case MessageLevel::good:
+      return ui::palette::good;
+    case MessageLevel::warning:
+      return ui::palette::warning;
+    case MessageLevel::error:
+      return ui::palette::danger;
+  }
+  return ui::palette::muted;
+}
+
+void drawMessagesPanel(PanelContext& context) {
+  ui::panelTitle(context.window.fonts().bold, "Messages");
+  ImGui::BeginChild("##lines");
+  const bool atEnd = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1;
+  for (const Message& message : context.session().messages().all()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ui::palette::faint.vec());
+    ImGui::TextUnformatted(message.time.c_str());
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    const ui::Colour colour =
+        message.level == MessageLevel::info ? ui::palette::text : colourOf(message.level);
+    ui::wrappedText(colour, message.text);
+    if (ImGui::IsItemClicked()) ImGui::SetClipboardText(message.text.c_str());
+    ui::tooltip("Click to copy");
+  }
+  if (atEnd) ImGui::SetScrollHereY(1);
+  ImGui::EndChild();
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,44 @@
+#pragma once
+/// What every panel is handed when it draws, and the helpers that tie widgets to the table of actions.
+
+#include <string>
+#include <vector>
+
+#include "editor/actions/action_table.h"
+#include "ui/fields.h"
+#include "ui/ui_log.h"
+#include "ui/widgets.h"
+#include "ui/window.h"
+
+namespace acentric::editor {
+
+struct PanelContext {
+  ActionContext actions;
+  const std::vector<Action>& table;
+  ui::Window& window;
+  ui::UiLog& log;
+  const std::vector<ui::InputEvent>& events;  ///< of this frame, oldest first
+  bool inputBlocked = false;                  ///< a dialog, menu or toast takes the pointer and the keys
+  double now = 0;                             ///< seconds, monotonic
+
+  Session& session() { return actions.session; }
+  EditorState& state() { return actions.state; }
+};
+
+enum class ButtonLook { plain, primary, toggle };
+
+/// A button of an action: its label (or `label`), enabled state, help and shortcut; logged by the action's
+/// id.
+void actionButton(PanelContext& context, const char* id, ButtonLook look = ButtonLook::plain,
+                  const ImVec2& size = {0, 0}, const char* label = nullptr);
+/// Runs it if it is enabled; logged.
+void runAction(PanelContext& context, const Action& action);
+
+/// A pane of the main layout.
+bool beginPane(const char* id, const ImVec2& size, bool padded = true);
+void endPane();
+
+/// A field's edit as an edit of the project: one history entry per drag.
+void applyFieldEdit(PanelContext& context, const ui::FieldEdit& field, Edit edit);
+
+}  // namespace acentric::editor

@@ -1,0 +1,233 @@
+#include "editor/panels/plan_panel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "editor/commands/layout_edits.h"
+#include "editor/overlays/plan_overlays.h"
+#include "engine/geometry/conventions.h"
+#include "engine/pipeline/camera_path.h"
+#include "ui/canvas_draw.h"
+#include "ui/keys.h"
+#include "ui/text_format.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr int kMostFreeCells = 1500;
+constexpr double kLeastCellPixels = 9;  ///< smaller cells are not worth drawing, and cannot be hit
+
+std::span<const std::uint8_t> bytesOf(const ColourImage& image) {
+  return {&image.pixels.front().x, image.pixels.size() * sizeof(Rgba8)};
+}
+
+PlanSituation situationOf(PanelContext& context, const ui::CanvasView& view) {
+  return {&context.session().project().layout, &context.state().selection,
+          glm::dvec2(context.state().walker.pose().eye), view.pixelsPerMetre()};
+}
+
+}  // namespace
+
+void PlanPanel::fit(const Session& session) {
+  const Bounds& bounds = session.built()->scene->bounds;
+  const Layout& layout = *session.built()->layout;
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(std::numeric_limits<double>::lowest());
+  for (const Region& region : layout.regions)
+    for (const glm::dvec2& corner : region.polygon.corners)
+      low = glm::min(low, corner), high = glm::max(high, corner);
+  if (layout.regions.empty()) low = glm::dvec2(bounds.min), high = glm::dvec2(bounds.max);
+  view_.fit(low, high, 0.08);
+}
+
+void PlanPanel::drawToolbar(PanelContext& context) {
+  for (const char* tool : {"tool.cells", "tool.eye", "tool.outline"}) {
+    actionButton(context, tool, ButtonLook::toggle);
+    ImGui::SameLine(0, 3);
+  }
+  ImGui::SameLine(0, 16);
+  actionButton(context, "view.backdrop", ButtonLook::toggle, {}, "Scene");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.lattice", ButtonLook::toggle, {}, "Lattice");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.cameras", ButtonLook::toggle, {}, "Cameras");
+  ImGui::SameLine(0, 16);
+  actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
+  if (!context.session().built()) return;
+  const Layout& layout = *context.session().built()->layout;
+  const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
+                                       ui::formatCount(layout.cameras.size()));
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText(text);
+}
+
+void PlanPanel::updateFreeCells(const Session& session) {
+  freeCells_.clear();
+  const LayoutSpec& spec = session.project().layout;
+  if (spec.cellSize * view_.pixelsPerMetre() < kLeastCellPixels) return;
+  const glm::dvec2 a = view_.worldFromScreen(view_.areaMin());
+  const glm::dvec2 b = view_.worldFromScreen(view_.areaMin() + view_.areaSize());
+  const Layout& layout = *session.built()->layout;
+  for (LatticeCell& cell : cellsIn(spec, glm::min(a, b), glm::max(a, b), kMostFreeCells))
+    if (layout.spec != spec || !layout.findRegion(cell.id))
+      if (!isPlaced(spec, cell.id)) freeCells_.push_back(std::move(cell));
+}
+
+std::optional<CellId> PlanPanel::hoveredCell(const PanelContext& context) const {
+  const EditorState& state = context.actions.state;
+  const LayoutSpec& spec = context.actions.session.project().layout;
+  const bool pointing = state.planTool.mode() == PlanMode::cells && !context.inputBlocked &&
+                        view_.contains(pointer_) && !state.planTool.capturing() &&
+                        spec.cellSize * view_.pixelsPerMetre() >= kLeastCellPixels;
+  if (!pointing) return std::nullopt;
+  return cellAt(spec, view_.worldFromScreen(pointer_)).id;
+}
+
+void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
+  Session& session = context.session();
+  EditorState& state = context.state();
+  const Project& project = session.project();
+  const auto placeEye = [&](const glm::dvec2& position) {
+    WalkPose pose = state.walker.pose();
+    pose.eye = glm::dvec3(clampToPlan(*session.built()->layout, position), pose.eye.z);
+    state.walker.setPose(pose);
+  };
+  if (const auto* add = std::get_if<AddCellIntent>(&intent)) {
+    if (session.apply(addCell(project, add->cell))) state.selection = {add->cell};
+  } else if (const auto* remove = std::get_if<RemoveCellIntent>(&intent)) {
+    session.apply(removeCells(project, {remove->cell}));
+    state.selection.erase(remove->cell);
+  } else if (const auto* select = std::get_if<SelectIntent>(&intent)) {
+    state.selection = select->cells;
+  } else if (const auto* move = std::get_if<MoveCellIntent>(&intent)) {
+    if (session.apply(moveCell(project, move->from, move->to))) state.selection = {move->to};
+  } else if (const auto* pan = std::get_if<PanIntent>(&intent)) {
+    view_.panPixels(pan->pixels);
+  } else if (const auto* place = std::get_if<PlaceEyeIntent>(&intent)) {
+    placeEye(place->position);
+  } else if (const auto* turn = std::get_if<TurnEyeIntent>(&intent)) {
+    WalkPose pose = state.walker.pose();
+    pose.yawRadians = turn->yawRadians;
+    state.walker.setPose(pose);
+  } else if (const auto* outline = std::get_if<OutlineIntent>(&intent)) {
+    Outline drawn;
+    drawn.loops.push_back(outline->loop);
+    if (session.apply(setOutline(project, std::move(drawn)))) state.planTool.setMode(PlanMode::cells);
+  }
+}
+
+void PlanPanel::handleEvents(PanelContext& context) {
+  using Kind = ui::InputEvent::Kind;
+  PlanTool& tool = context.state().planTool;
+  for (const ui::InputEvent& event : context.events) {
+    const bool inside = view_.contains(event.position) && !context.inputBlocked;
+    if (event.kind == Kind::scroll && inside) view_.zoomAt(event.position, std::pow(1.18, event.scroll.y));
+    if (event.kind == Kind::keyPress && !context.inputBlocked && tool.mode() == PlanMode::outline &&
+        (event.code == ui::key::enter || event.code == ui::key::keypadEnter))
+      act(context, tool.closeOutline());
+    if (event.kind == Kind::keyPress && event.code == ui::key::escape && !context.inputBlocked &&
+        !tool.cancel())
+      context.state().selection.clear();
+    PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
+                         view_.worldFromScreen(event.position)};
+    if (event.kind == Kind::buttonPress && inside)
+      pointer.kind = PointerEvent::Kind::press;
+    else if (event.kind == Kind::buttonRelease && tool.capturing())
+      pointer.kind = PointerEvent::Kind::release;
+    else if (event.kind != Kind::move || !tool.capturing())
+      continue;
+    act(context, tool.handle(pointer, situationOf(context, view_)));
+  }
+}
+
+void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
+  Session& session = context.session();
+  EditorState& state = context.state();
+  const Layout& layout = *session.built()->layout;
+  const LayoutSpec& spec = session.project().layout;
+  if (session.backdrop() != shownBackdrop_) {
+    shownBackdrop_ = session.backdrop();
+    if (shownBackdrop_)
+      backdropTexture_.upload(shownBackdrop_->picture.width, shownBackdrop_->picture.height,
+                              bytesOf(shownBackdrop_->picture));
+    else
+      backdropTexture_.clear();
+  }
+  if (state.showBackdrop && shownBackdrop_ && !backdropTexture_.empty()) {
+    const glm::dvec2 upperLeft = view_.screenFromWorld({shownBackdrop_->min.x, shownBackdrop_->max.y});
+    const glm::dvec2 lowerRight = view_.screenFromWorld({shownBackdrop_->max.x, shownBackdrop_->min.y});
+    list.AddImage(backdropTexture_.imguiId(), ui::imVec(upperLeft), ui::imVec(lowerRight));
+  }
+  ui::drawGrid(list, view_);
+  const std::optional<CellId> hovered = hoveredCell(context);
+  const CellId* hoveredId = hovered ? &*hovered : nullptr;
+  updateFreeCells(session);
+  if (state.showLattice) drawFreeCells(list, view_, freeCells_, hoveredId);
+  drawRegions(list, view_, layout, *session.captures(), state.selection, hoveredId);
+  drawOutline(list, view_, spec.outline);
+  if (state.showCameras) drawCameras(list, view_, layout, *session.captures());
+  drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
+  const WalkPose& pose = state.walker.pose();
+  const auto region = layout.regionAt(glm::dvec2(pose.eye));
+  drawEye(list, view_, pose, radians(session.project().fovDegrees),
+          region ? &layout.regions[std::size_t(*region)] : nullptr);
+  if (const auto drag = state.planTool.cellDrag())
+    drawCellDrag(list, view_, spec, *drag, drag->from != drag->to && !isPlaced(spec, drag->to));
+  if (!state.planTool.outlineCorners().empty())
+    drawOutlineInHand(list, view_, state.planTool.outlineCorners(), view_.worldFromScreen(pointer_));
+}
+
+void PlanPanel::logCells(PanelContext& context) const {
+  if (!context.log.on()) return;
+  const auto logPoint = [&](const std::string& name, const glm::dvec2& world) {
+    const glm::dvec2 at = view_.screenFromWorld(world);
+    if (view_.contains(at)) context.log.rect(name, float(at.x), float(at.y), float(at.x), float(at.y));
+  };
+  for (const LatticeCell& cell : freeCells_)
+    logPoint(fmt::format("free.{}.{}.{}", cell.id.i, cell.id.j, cell.id.slot), cell.polygon.centroid());
+  for (const Region& region : context.actions.session.built()->layout->regions)
+    logPoint(fmt::format("cell.{}.{}.{}", region.id.i, region.id.j, region.id.slot),
+             region.polygon.centroid());
+  logPoint("plan.eye", glm::dvec2(context.actions.state.walker.pose().eye));
+}
+
+void PlanPanel::draw(PanelContext& context) {
+  ImGui::SetCursorPos({8, 7});
+  ImGui::BeginGroup();
+  drawToolbar(context);
+  ImGui::EndGroup();
+  const float top = ImGui::GetFrameHeight() + 14;
+  ImGui::SetCursorPos({0, top});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  if (size.x < 40 || size.y < 40) return;
+  view_.setArea(ui::fromIm(at), ui::fromIm(size));
+  ImGui::InvisibleButton("##plan", size);
+  context.log.item("plan");
+  pointer_ = context.window.input().pointer();
+
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ui::palette::backdrop.packed());
+  if (context.session().built()) {
+    if (context.state().fitPlan) {
+      fit(context.session());
+      context.state().fitPlan = false;
+    }
+    handleEvents(context);
+    drawContents(context, list);
+    logCells(context);
+  } else {
+    ui::drawGrid(list, view_);
+  }
+  ImFont* small = context.window.fonts().small;
+  const bool inside = view_.contains(pointer_) && !context.inputBlocked;
+  ui::drawRulers(list, view_, small, inside ? std::optional(pointer_) : std::nullopt);
+  ui::drawScaleBar(list, view_, small);
+  if (inside) ui::drawCoordinates(list, view_, small, view_.worldFromScreen(pointer_));
+  list.PopClipRect();
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,31 @@
+#pragma once
+/// The plan: backdrop, lattice, cameras and eye, with the tools that edit them.
+
+#include "editor/panels/panel_context.h"
+#include "ui/canvas_view.h"
+#include "ui/texture.h"
+
+namespace acentric::editor {
+
+class PlanPanel {
+ public:
+  void draw(PanelContext& context);
+
+ private:
+  void drawToolbar(PanelContext& context);
+  void handleEvents(PanelContext& context);
+  void act(PanelContext& context, const PlanIntent& intent);
+  void drawContents(PanelContext& context, ImDrawList& list);
+  void logCells(PanelContext& context) const;
+  void fit(const Session& session);
+  void updateFreeCells(const Session& session);
+  std::optional<CellId> hoveredCell(const PanelContext& context) const;
+
+  ui::CanvasView view_;
+  ui::Texture backdropTexture_;
+  std::shared_ptr<const Backdrop> shownBackdrop_;
+  std::vector<LatticeCell> freeCells_;
+  glm::dvec2 pointer_{0};
+};
+
+}  // namespace acentric::editor

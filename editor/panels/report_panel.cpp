@@ -1,0 +1,34 @@
+#include "editor/panels/report_panel.h"
+
+#include <fmt/format.h>
+
+namespace acentric::editor {
+namespace {
+
+void lines(const char* heading, const std::vector<std::string>& entries, const ui::Colour& colour) {
+  for (const std::string& entry : entries) {
+    ui::badge(colour, heading);
+    ImGui::SameLine(92);
+    ui::wrappedText(ui::palette::text, entry);
+  }
+}
+
+}  // namespace
+
+void drawReportPanel(PanelContext& context) {
+  ui::panelTitle(context.window.fonts().bold, "Scene");
+  const auto& built = context.session().built();
+  if (!built) {
+    ui::wrappedText(ui::palette::faint, "What is found in a model is told here.");
+    return;
+  }
+  const Scene& scene = *built->scene;
+  const glm::vec3 size = scene.bounds.size();
+  lines("size", {fmt::format("{:.2f} × {:.2f} × {:.2f} m", size.x, size.y, size.z)}, ui::palette::faint);
+  lines("found", scene.report.found, ui::palette::good);
+  lines("guessed", scene.report.guessed, ui::palette::accent);
+  lines("dropped", scene.report.dropped, ui::palette::warning);
+  lines("ignored", scene.report.ignored, ui::palette::faint);
+}
+
+}  // namespace acentric::editor

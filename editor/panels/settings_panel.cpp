@@ -1,0 +1,214 @@
+#include "editor/panels/settings_panel.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "editor/commands/layout_edits.h"
+#include "editor/commands/setting_edits.h"
+#include "engine/geometry/conventions.h"
+#include "ui/text_format.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr float kLabelWidth = 136;
+
+void drawConfiguration(PanelContext& context) {
+  const Project& project = context.session().project();
+  std::vector<ui::Choice> choices;
+  for (int i = 0; i <= int(Configuration::g); ++i) {
+    const auto configuration = Configuration(i);
+    const bool supported = isSupported(configuration);
+    choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)),
+                       supported ? "" : "This version does not lay it yet.", supported});
+  }
+  int index = int(project.layout.configuration);
+  const ui::FieldEdit edit =
+      ui::choiceField("Configuration", choices, index, kLabelWidth,
+                      "How panoramas are placed: angle of a camera and the polygons of the lattice.");
+  context.log.item("settings.configuration");
+  applyFieldEdit(context, edit, setConfiguration(project, Configuration(index)));
+  ui::wrappedText(ui::palette::faint, describe(project.layout.configuration));
+}
+
+/// A number of the project in one line: `get` from it, `edit` from the new value.
+template <class MakeEdit>
+void number(PanelContext& context, const char* logName, const ui::NumberField& field, double value,
+            MakeEdit makeEdit) {
+  const ui::FieldEdit edit = ui::numberField(field, value, kLabelWidth);
+  context.log.item(std::string("settings.") + logName);
+  if (edit) applyFieldEdit(context, edit, makeEdit(value));
+}
+
+void drawLayout(PanelContext& context) {
+  if (!ui::section("Layout")) return;
+  drawConfiguration(context);
+  const Project& project = context.session().project();
+  const LayoutSpec& spec = project.layout;
+  number(context, "cellSize",
+         {"Cell size", "%.2f m", 0.01, 0.05, 1000,
+          "Edge length of the polygons. Smaller: nearer sampling, more captures."},
+         spec.cellSize, [&](double v) { return setCellSize(project, v); });
+  number(context, "eyeHeight",
+         {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
+         spec.eyeHeight, [&](double v) { return setEyeHeight(project, v); });
+  number(context, "floorHeight", {"Floor height", "%.3f m", 0.005, -1e6, 1e6, "Z of the walk plane."},
+         spec.floorHeight, [&](double v) { return setFloorHeight(project, v); });
+  number(context, "nearBand",
+         {"Near band", "%.2f m", 0.01, 0, 100,
+          "Geometry this far beyond a region's border is drawn as polygons. More: sharper near walls, more "
+          "triangles."},
+         spec.nearBand, [&](double v) { return setNearBand(project, v); });
+  number(context, "originX", {"Origin x", "%.2f m", 0.01, -1e6, 1e6, "A ring's centre: shifts the lattice."},
+         spec.latticeOrigin.x, [&](double v) {
+           return setLatticeOrigin(project, {v, spec.latticeOrigin.y});
+         });
+  number(context, "originY", {"Origin y", "%.2f m", 0.01, -1e6, 1e6, "A ring's centre: shifts the lattice."},
+         spec.latticeOrigin.y, [&](double v) {
+           return setLatticeOrigin(project, {spec.latticeOrigin.x, v});
+         });
+  number(context, "rotation", {"Rotation", "%.1f°", 0.1, -180, 180, "Turns the lattice, counter-clockwise."},
+         degrees(spec.rotationRadians), [&](double v) { return setRotation(project, radians(v)); });
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Outline");
+  ImGui::SameLine(kLabelWidth);
+  if (spec.outline.empty()) {
+    ui::mutedText("none: cells only by hand");
+  } else {
+    ImGui::Text("%.1f m², %zu loop%s", spec.outline.area(), spec.outline.loops.size(),
+                spec.outline.loops.size() == 1 ? "" : "s");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Clear")) context.session().apply(setOutline(project, {}));
+    ui::tooltip("Cells are then placed by hand only.");
+  }
+}
+
+void drawBake(PanelContext& context) {
+  if (!ui::section("Bake quality")) return;
+  const Project& project = context.session().project();
+  BakeSettings bake = project.bake;
+  number(context, "samplesPerDegree",
+         {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,
+          "Resolution of captures. Time and bytes grow with its square."},
+         bake.samplesPerDegree, [&](double v) {
+           bake.samplesPerDegree = v;
+           return setBakeSettings(project, bake, "samples per degree");
+         });
+  int rays = bake.ambientRays;
+  const ui::FieldEdit raysEdit = ui::numberField(
+      {"Ambient rays", "%.0f", 0.2, 0, 1024, "Per sample, for soft shade in corners; 0 to 1024."}, rays,
+      kLabelWidth);
+  if (raysEdit) {
+    bake.ambientRays = rays;
+    applyFieldEdit(context, raysEdit, setBakeSettings(project, bake, "ambient rays"));
+  }
+  number(context, "ambientRadius",
+         {"Ambient radius", "%.2f m", 0.01, 0.01, 1000, "Farther surfaces cast no ambient shade."},
+         bake.ambientRadius, [&](double v) {
+           bake.ambientRadius = v;
+           return setBakeSettings(project, bake, "ambient radius");
+         });
+  number(context, "surfaceTexel",
+         {"Surface texel", "%.3f m", 0.001, 0.002, 10, "Distance of light samples on near geometry."},
+         bake.surfaceTexel, [&](double v) {
+           bake.surfaceTexel = v;
+           return setBakeSettings(project, bake, "surface texel");
+         });
+  int layers = bake.maxLayers;
+  const ui::FieldEdit layersEdit = ui::numberField(
+      {"Most layers", "%.0f", 0.05, 1, 64, "Samples kept per pixel at most: what opens up behind edges."},
+      layers, kLabelWidth);
+  if (layersEdit) {
+    bake.maxLayers = layers;
+    applyFieldEdit(context, layersEdit, setBakeSettings(project, bake, "most layers"));
+  }
+}
+
+void drawView(PanelContext& context) {
+  if (!ui::section("Walk", false)) return;
+  const Project& project = context.session().project();
+  number(context, "fov", {"Field of view", "%.0f°", 0.2, 10, 150, "Horizontal."}, project.fovDegrees,
+         [&](double v) { return setFieldOfView(project, v); });
+  number(
+      context, "exposure",
+      {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
+      double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
+
+  ViewSettings view = project.view;
+  const std::array<ui::Choice, 2> kReconstructions = {
+      ui::Choice{"Points", "One pixel a sample: shows the sampling.", true},
+      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true}};
+  int reconstruction = view.reconstruction == Reconstruction::point ? 0 : 1;
+  if (const ui::FieldEdit edit =
+          ui::choiceField("Reconstruction", kReconstructions, reconstruction, kLabelWidth)) {
+    view.reconstruction = reconstruction == 0 ? Reconstruction::point : Reconstruction::splat;
+    applyFieldEdit(context, edit, setViewSettings(project, view, "reconstruction"));
+  }
+  if (const ui::FieldEdit edit = ui::numberField(
+          {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
+          view.maxSplatPixels, kLabelWidth))
+    applyFieldEdit(context, edit, setViewSettings(project, view, "largest splat"));
+  const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
+    bool value = view.*member;
+    if (const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help)) {
+      view.*member = value;
+      applyFieldEdit(context, edit, setViewSettings(project, view, label));
+    }
+  };
+  check("Near geometry", &ViewSettings::localGeometry, "Polygons within the near band, over the captures.");
+  check("Other hand behind", &ViewSettings::secondaryCover,
+        "In rings: the other ring's samples fill what the first leaves open.");
+  check("Fill holes", &ViewSettings::fillHoles, "By guesswork; still counted as holes.");
+}
+
+void drawImport(PanelContext& context) {
+  if (!ui::section("Scene", false)) return;
+  const Project& project = context.session().project();
+  ui::keyValue("Model", ui::shortenPath(project.scene.string(), 30), kLabelWidth);
+  ui::tooltip(project.scene.string());
+  ImportOptions import = project.import;
+  const std::array<ui::Choice, 3> kAxes = {ui::Choice{"By the file", "", true}, ui::Choice{"Y up", "", true},
+                                           ui::Choice{"Z up", "", true}};
+  int axis = int(import.up);
+  if (const ui::FieldEdit edit = ui::choiceField("Up axis", kAxes, axis, kLabelWidth)) {
+    import.up = UpAxis(axis);
+    applyFieldEdit(context, edit, setImport(project, import, "up axis"));
+  }
+  double metres = import.metresPerUnit;
+  // Typed, not dragged live: each value is a new import.
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Metres per unit");
+  ImGui::SameLine(kLabelWidth);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::InputDouble("##metresPerUnit", &metres, 0, 0, metres == 0 ? "by the file" : "%.6g",
+                         ImGuiInputTextFlags_EnterReturnsTrue)) {
+    import.metresPerUnit = metres;
+    context.session().apply(setImport(project, import, "metres per unit"));
+  }
+  ui::tooltip("0: by the file, else guessed. Press Enter to import again.");
+  bool light = import.defaultLight;
+  if (const ui::FieldEdit edit = ui::checkField("Default light", light, kLabelWidth,
+                                                "A sun and a sky where the file has no light.")) {
+    import.defaultLight = light;
+    applyFieldEdit(context, edit, setImport(project, import, "default light"));
+  }
+}
+
+}  // namespace
+
+void drawSettingsPanel(PanelContext& context) {
+  ui::panelTitle(context.window.fonts().bold, "Project");
+  if (!context.session().hasProject()) {
+    ui::wrappedText(ui::palette::faint, "No project is open.");
+    return;
+  }
+  drawLayout(context);
+  drawBake(context);
+  drawView(context);
+  drawEffects(context);
+  drawImport(context);
+  ImGui::Dummy({0, 8});
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,13 @@
+#pragma once
+/// All settings of the project, by topic, with what each trades.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+void drawSettingsPanel(PanelContext& context);
+
+/// The effect plan: what the scene calls for, with reasons and overrides. A section of the settings.
+void drawEffects(PanelContext& context);
+
+}  // namespace acentric::editor

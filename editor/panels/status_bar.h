@@ -1,0 +1,12 @@
+#pragma once
+/// One line at the bottom: what is being done, and how to use the tool in hand.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+inline constexpr float kStatusBarPixels = 26;
+
+void drawStatusBar(PanelContext& context);
+
+}  // namespace acentric::editor

@@ -1,0 +1,339 @@
+#include "editor/panels/walk_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "editor/commands/setting_edits.h"
+#include "engine/geometry/conventions.h"
+#include "engine/pipeline/camera_path.h"
+#include "ui/canvas_draw.h"
+#include "ui/image_view.h"
+#include "ui/keys.h"
+#include "ui/text_format.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr double kRadiansPerPixel = 0.0035;
+constexpr Rgba8 kHoleColour{13, 14, 16, 255};
+constexpr Rgba8 kMarkedHole{255, 0, 200, 255};
+
+bool samePlace(const PerspectiveView& a, const PerspectiveView& b) {
+  return a.eye == b.eye && a.yawRadians == b.yawRadians && a.pitchRadians == b.pitchRadians &&
+         a.fovRadians == b.fovRadians;
+}
+
+WalkKeys keysHeld(const PanelContext& context) {
+  namespace key = ui::key;
+  // A tap shorter than a frame still counts for that frame.
+  const auto held = [&](int code) {
+    if (context.window.input().keyHeld(code)) return true;
+    return std::any_of(context.events.begin(), context.events.end(), [code](const ui::InputEvent& event) {
+      return event.kind == ui::InputEvent::Kind::keyPress && event.code == code &&
+             (event.modifiers & ui::modifier::control) == 0;
+    });
+  };
+  WalkKeys keys;
+  keys.forward = held(key::w) || held(key::up);
+  keys.back = held(key::s) || held(key::down);
+  keys.left = held(key::a) || held(key::left);
+  keys.right = held(key::d) || held(key::right);
+  keys.turnLeft = held(key::q);
+  keys.turnRight = held(key::e);
+  keys.fast = held(key::leftShift) || held(key::rightShift);
+  return keys;
+}
+
+}  // namespace
+
+WalkPanel::WalkPanel(int threads, std::function<void()> wake) : renderer_(threads, std::move(wake)) {}
+
+void WalkPanel::followProject(PanelContext& context) {
+  Session& session = context.session();
+  EditorState& state = context.state();
+  const Layout& layout = *session.built()->layout;
+  const bool fresh = generation_ != session.generation();
+  if (fresh || state.restart) {
+    const Spawn& spawn = session.project().spawn;
+    state.walker.setPose({glm::dvec3(spawn.position, layout.eyeZ()), spawn.yawRadians, 0});
+    state.restart = false;
+  }
+  if (fresh) {
+    generation_ = session.generation();
+    shown_ = {};
+    problem_.clear();
+    state.fitPlan = true;
+    state.selection.clear();
+  }
+  // Cells may have gone from under the eye, or the eye height changed.
+  WalkPose pose = state.walker.pose();
+  pose.eye = glm::dvec3(clampToPlan(layout, glm::dvec2(pose.eye)), layout.eyeZ());
+  if (pose != state.walker.pose()) state.walker.setPose(pose);
+}
+
+void WalkPanel::walk(PanelContext& context) {
+  if (!context.session().built()) return;
+  followProject(context);
+  const bool typing = context.inputBlocked || ImGui::GetIO().WantTextInput ||
+                      (context.window.input().modifiers() & ui::modifier::control) != 0;
+  const WalkKeys keys = typing ? WalkKeys{} : keysHeld(context);
+  Walker& walker = context.state().walker;
+  const double seconds = lastStep_ < 0 ? 1.0 / 60 : context.now - lastStep_;
+  lastStep_ = -1;
+  if (keys.any() || walker.moving()) {
+    const Layout& layout = *context.session().built()->layout;
+    walker.step(seconds, keys, [&layout](const glm::dvec2& place) { return clampToPlan(layout, place); });
+    lastStep_ = context.now;
+    context.window.pacer().request(1);
+  } else if (context.log.on() && walker.pose() != loggedPose_) {
+    loggedPose_ = walker.pose();
+    context.log.event("eye",
+                      fmt::format("{:.3f} {:.3f} {:.3f} {:.4f} {:.4f}", loggedPose_.eye.x, loggedPose_.eye.y,
+                                  loggedPose_.eye.z, loggedPose_.yawRadians, loggedPose_.pitchRadians));
+  }
+}
+
+void WalkPanel::drawToolbar(PanelContext& context) {
+  const Project& project = context.session().project();
+  const std::array<Renderer, 4> kRenderers = {Renderer::list, Renderer::scalar, Renderer::zbuffer,
+                                              Renderer::gl};
+  const std::array<const char*, 4> kHelp = {
+      "List priority without a depth buffer: the fast one on the processor.",
+      "List priority, one sample at a time: the reference.",
+      "The same splats with a depth buffer, for comparison.", "List priority on the graphics card."};
+  ImGui::SetNextItemWidth(120);
+  const bool open = ImGui::BeginCombo("##renderer", nameOf(project.view.renderer));
+  context.log.item("walk.renderer");
+  if (open) {
+    for (std::size_t i = 0; i < kRenderers.size(); ++i) {
+      const bool broken = kRenderers[i] == Renderer::gl && !glProblem_.empty();
+      const auto flags = broken ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
+      if (ImGui::Selectable(nameOf(kRenderers[i]), kRenderers[i] == project.view.renderer, flags)) {
+        ViewSettings view = project.view;
+        view.renderer = kRenderers[i];
+        context.session().apply(setViewSettings(project, view, "renderer"));
+      }
+      context.log.item(std::string("walk.renderer.") + nameOf(kRenderers[i]));
+      ui::tooltip(broken ? glProblem_ : kHelp[i]);
+    }
+    ImGui::EndCombo();
+  } else {
+    ui::tooltip("Renderer of the walk");
+  }
+  ImGui::SameLine();
+  actionButton(context, "view.holes", ButtonLook::toggle);
+  ImGui::SameLine(0, 16);
+  actionButton(context, "walk.restart");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "walk.setStart");
+}
+
+void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& high) {
+  using Kind = ui::InputEvent::Kind;
+  for (const ui::InputEvent& event : context.events) {
+    const bool inside = event.position.x >= double(low.x) && event.position.y >= double(low.y) &&
+                        event.position.x < double(high.x) && event.position.y < double(high.y);
+    if (event.kind == Kind::buttonPress && inside && !context.inputBlocked) {
+      looking_ = true;
+      lookFrom_ = event.position;
+      context.window.capturePointer(true);
+    } else if (event.kind == Kind::buttonRelease && looking_) {
+      looking_ = false;
+      context.window.capturePointer(false);
+    } else if (event.kind == Kind::move && looking_) {
+      // The mouse turns the head: to the right looks right.
+      context.state().walker.look(event.position - lookFrom_, kRadiansPerPixel);
+      lookFrom_ = event.position;
+    }
+  }
+}
+
+PerspectiveView WalkPanel::viewAt(PanelContext& context, double scale) const {
+  const WalkPose& pose = context.state().walker.pose();
+  PerspectiveView view;
+  view.eye = pose.eye;
+  view.yawRadians = pose.yawRadians;
+  view.pitchRadians = pose.pitchRadians;
+  view.fovRadians = radians(context.session().project().fovDegrees);
+  view.width = std::max(16, int(area_.x * scale));
+  view.height = std::max(16, int(area_.y * scale));
+  return view;
+}
+
+bool WalkPanel::stale(const PanelContext& context, const PerspectiveView& full) const {
+  const Session& session = context.actions.session;
+  return !shown_.valid || shown_.loaded != session.walk() || !samePlace(shown_.view, full) ||
+         shown_.view.width != full.width || shown_.view.height != full.height ||
+         shown_.settings != session.project().view;
+}
+
+void WalkPanel::requestFrame(PanelContext& context) {
+  Session& session = context.session();
+  if (!session.walk() || area_.x < 16 || area_.y < 16) return;
+  if (session.project().view.renderer == Renderer::gl) return drawWithGl(context);
+  const PerspectiveView full = viewAt(context, 1);
+  if (requested_ || !stale(context, full)) return;
+  const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
+  const double scale = moving ? resolution_.movingScale() : 1.0;
+  renderer_.request({session.walk(), viewAt(context, scale), session.project().view, scale});
+  requested_ = true;
+}
+
+void WalkPanel::show(const Frame& frame, bool markHoles) {
+  const ColourImage& colour = frame.colour;
+  pixels_.resize(colour.pixels.size() * 4);
+  for (std::size_t i = 0; i < colour.pixels.size(); ++i) {
+    const PixelSource source = frame.source.pixels[i];
+    Rgba8 pixel = colour.pixels[i];
+    if (source == kSourceHole || source == kSourceInvented) {
+      if (markHoles)
+        pixel = kMarkedHole;
+      else if (source == kSourceHole)
+        pixel = kHoleColour;
+    }
+    pixels_[4 * i] = pixel.r;
+    pixels_[4 * i + 1] = pixel.g;
+    pixels_[4 * i + 2] = pixel.b;
+    pixels_[4 * i + 3] = 255;
+  }
+  texture_.upload(colour.width, colour.height, pixels_);
+  showingGl_ = false;
+}
+
+void WalkPanel::takePicture(PanelContext& context) {
+  auto picture = renderer_.take();
+  if (picture) {
+    requested_ = false;
+    context.window.pacer().request(1);
+    const WalkRequest& request = picture->request;
+    shown_ = {request.loaded,
+              request.view,
+              request.settings,
+              context.state().showHoles,
+              picture->frame.stats,
+              -1,
+              true};
+    problem_ = picture->problem;
+    if (problem_.empty()) {
+      lastFrame_ = std::move(picture->frame);
+      resolution_.measured(request.scale, lastFrame_.stats.totalSeconds);
+      shown_.holeShare =
+          double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
+      show(lastFrame_, shown_.holesMarked);
+      if (context.log.on() && request.scale >= 1)
+        context.log.event("frame", fmt::format("{}x{} images {} holes {:.4f}", request.view.width,
+                                               request.view.height, shown_.stats.images, shown_.holeShare));
+    }
+  } else if (shown_.valid && shown_.holesMarked != context.state().showHoles && !showingGl_ &&
+             !lastFrame_.colour.empty()) {
+    shown_.holesMarked = context.state().showHoles;
+    show(lastFrame_, shown_.holesMarked);
+  }
+}
+
+void WalkPanel::drawWithGl(PanelContext& context) {
+  Session& session = context.session();
+  if (!gl_ && glProblem_.empty()) {
+    auto created = GlRenderer::create();
+    if (created)
+      gl_ = std::move(*created);
+    else
+      glProblem_ = created.error().describe();
+  }
+  if (!gl_) {
+    problem_ = "The OpenGL renderer is not available here: " + glProblem_;
+    return;
+  }
+  const PerspectiveView full = viewAt(context, 1);
+  const bool marked = context.state().showHoles;
+  if (!stale(context, full) && shown_.holesMarked == marked && (showingGl_ || marked)) return;
+  const auto stats = gl_->draw(session.walk()->walk, full, session.project().view);
+  shown_ = {session.walk(), full, session.project().view, marked, stats ? *stats : FrameStats{}, -1, true};
+  problem_ = stats ? "" : stats.error().describe();
+  if (!stats) return;
+  showingGl_ = true;
+  if (!marked) return;
+  lastFrame_ = gl_->readBack();
+  shown_.holeShare =
+      double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
+  show(lastFrame_, true);
+}
+
+void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ui::palette::backdrop.packed());
+  const auto say = [&](const ui::Colour& colour, const std::string& text) {
+    const ImVec2 textSize = ImGui::CalcTextSize(text.c_str(), nullptr, false, size.x - 60);
+    const ImVec2 at(low.x + (size.x - textSize.x) / 2, low.y + size.y / 2 - textSize.y / 2);
+    list.AddRectFilled({at.x - 14, at.y - 10}, {at.x + textSize.x + 14, at.y + textSize.y + 10},
+                       ui::palette::backdrop.withOpacity(0.86F).packed(), 5);
+    ImFont* font = context.window.fonts().regular;
+    list.AddText(font, font->FontSize, at, colour.packed(), text.c_str(), nullptr, size.x - 60);
+  };
+  const bool picture = showingGl_ ? gl_ != nullptr : !texture_.empty();
+  if (shown_.valid && picture) {
+    const double aspect = double(shown_.view.width) / shown_.view.height;
+    const ui::FittedImage place = ui::fitImage(ui::fromIm(low), ui::fromIm(size), aspect);
+    ui::drawImage(showingGl_ ? ui::Texture::imguiTexture(gl_->colourTexture()) : texture_.imguiId(), place,
+                  showingGl_);
+  }
+  const Session& session = context.session();
+  if (!problem_.empty())
+    say(ui::palette::danger, problem_);
+  else if (session.captures() && session.captures()->baked == 0 && !session.baking().running())
+    say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
+  else if (!session.walk())
+    say(ui::palette::muted, "Loading captures…");
+}
+
+void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const {
+  const Session& session = context.actions.session;
+  const Layout& layout = *session.built()->layout;
+  const auto region = layout.regionAt(glm::dvec2(context.state().walker.pose().eye));
+  std::string where = "outside";
+  if (region) {
+    const Region& r = layout.regions[std::size_t(*region)];
+    where = fmt::format("{} ({}, {})", r.kind == RegionKind::ring ? "ring" : "gap", r.id.i, r.id.j);
+  }
+  std::string text = where;
+  if (shown_.valid && problem_.empty()) {
+    text += fmt::format("   {} images", shown_.stats.images);
+    if (shown_.stats.missingImages > 0) text += fmt::format(" (+{} missing)", shown_.stats.missingImages);
+    text += shown_.holeShare >= 0 ? fmt::format("   holes {}", ui::formatPercent(shown_.holeShare)) : "";
+    text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
+                        shown_.stats.totalSeconds * 1000);
+  }
+  ImFont* small = context.window.fonts().small;
+  ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + 12, low.y + size.y - small->FontSize - 11},
+                ui::palette::text, text.c_str());
+}
+
+void WalkPanel::draw(PanelContext& context) {
+  ImGui::SetCursorPos({8, 7});
+  if (context.session().hasProject()) {
+    ImGui::BeginGroup();
+    drawToolbar(context);
+    ImGui::EndGroup();
+  }
+  ImGui::SetCursorPos({0, ImGui::GetFrameHeight() + 14});
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  if (size.x < 40 || size.y < 40) return;
+  area_ = {int(size.x), int(size.y)};
+  ImGui::InvisibleButton("##walk", size);
+  context.log.item("walk");
+  if (!context.session().built()) {
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                                              ui::palette::backdrop.packed());
+    return;
+  }
+  look(context, low, {low.x + size.x, low.y + size.y});
+  takePicture(context);
+  requestFrame(context);
+  drawPicture(context, low, size);
+  drawStatistics(context, low, size);
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,65 @@
+#pragma once
+/// The live walk: the picture at the eye, by the chosen renderer, and what it cost.
+
+#include <memory>
+
+#include "editor/panels/panel_context.h"
+#include "editor/session/adaptive_resolution.h"
+#include "editor/session/walk_renderer.h"
+#include "engine/view_gl/gl_renderer.h"
+#include "ui/texture.h"
+
+namespace acentric::editor {
+
+class WalkPanel {
+ public:
+  WalkPanel(int threads, std::function<void()> wake);
+
+  void draw(PanelContext& context);
+  /// Moves the eye by what is held and what happened; also while the panel's picture is not under the
+  /// pointer.
+  void walk(PanelContext& context);
+
+ private:
+  struct Shown {
+    std::shared_ptr<const LoadedWalk> loaded;
+    PerspectiveView view;
+    ViewSettings settings;
+    bool holesMarked = false;
+    FrameStats stats;
+    double holeShare = -1;  ///< < 0: not measured
+    bool valid = false;
+  };
+  void followProject(PanelContext& context);
+  void drawToolbar(PanelContext& context);
+  void look(PanelContext& context, const ImVec2& low, const ImVec2& high);
+  PerspectiveView viewAt(PanelContext& context, double scale) const;
+  bool stale(const PanelContext& context, const PerspectiveView& full) const;
+  void requestFrame(PanelContext& context);
+  void takePicture(PanelContext& context);
+  void drawWithGl(PanelContext& context);
+  void show(const Frame& frame, bool markHoles);
+  void drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size);
+  void drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const;
+
+  WalkRenderer renderer_;
+  AdaptiveResolution resolution_;
+  std::unique_ptr<GlRenderer> gl_;
+  std::string glProblem_;
+  bool showingGl_ = false;
+
+  ui::Texture texture_;
+  std::vector<std::uint8_t> pixels_;
+  Frame lastFrame_;
+  Shown shown_;
+  std::string problem_;
+  glm::ivec2 area_{0};
+  int generation_ = -1;
+  double lastStep_ = -1;
+  bool looking_ = false;
+  bool requested_ = false;
+  glm::dvec2 lookFrom_{0};
+  WalkPose loggedPose_;
+};
+
+}  // namespace acentric::editor
