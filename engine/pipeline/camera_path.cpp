@@ -45,6 +45,30 @@ std::vector<glm::dvec2> standingPlaces(const Layout& layout) {
   return inside.empty() ? all : inside;
 }
 
+/// Azimuth in which one can walk farthest from a point: there is most to see that way.
+double longestWalk(const Layout& layout, const glm::dvec2& point) {
+  constexpr int kDirections = 36;
+  const double step = 0.25 * layout.spec.cellSize;
+  const auto walkable = [&](const glm::dvec2& p) {
+    return layout.regionAt(p) && (layout.spec.outline.empty() || layout.spec.outline.contains(p));
+  };
+  double best = 0;
+  int bestSteps = -1;
+  for (int k = 0; k < kDirections; ++k) {
+    const double azimuth = kTwoPi * k / kDirections;
+    int steps = 0;
+    while (steps < 400 && walkable(point + (steps + 1) * step * directionOf(azimuth))) ++steps;
+    if (steps > bestSteps) best = azimuth, bestSteps = steps;
+  }
+  return best;
+}
+
+/// The shorter way from one azimuth towards another, at most `most` radians.
+double turnTowards(double from, double to, double most) {
+  const double difference = std::remainder(to - from, kTwoPi);
+  return wrapAngle(from + std::clamp(difference, -most, most));
+}
+
 }  // namespace
 
 Result<CameraPath> loadPath(const std::filesystem::path& path) {
@@ -110,12 +134,11 @@ CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames) {
                ? glm::mix(stops[i - 1], stops[i], std::clamp((s - travelled[i - 1]) / length, 0.0, 1.0))
                : stops[i];
   };
-  double yaw = 0;
+  const double mostTurn = std::max(radians(12.0), kTwoPi * 4 / frames);
+  double yaw = longestWalk(layout, clampToPlan(layout, at(0)));
   for (int f = 0; f < frames; ++f) {
-    const double s = travelled.back() * f / std::max(frames - 1, 1);
-    const glm::dvec2 here = clampToPlan(layout, at(s));
-    const glm::dvec2 ahead = at(std::min(s + 2 * layout.spec.cellSize, travelled.back()));
-    if (glm::distance(here, ahead) > 1e-6) yaw = std::atan2(ahead.y - here.y, ahead.x - here.x);
+    const glm::dvec2 here = clampToPlan(layout, at(travelled.back() * f / std::max(frames - 1, 1)));
+    yaw = turnTowards(yaw, longestWalk(layout, here), mostTurn);
     path.poses.push_back({{here, layout.eyeZ()}, yaw, 0});
   }
   return path;

@@ -24,8 +24,8 @@ struct CameraPath {
 Result<CameraPath> loadPath(const std::filesystem::path& path);
 Status savePath(const CameraPath& path, const std::filesystem::path& file);
 
-/// A tour through the placed regions: visits region centres nearest first from `start`, looking ahead,
-/// `frames` poses.
+/// A tour through the placed regions: visits region centres nearest first from `start`, turning to where the
+/// view is longest, `frames` poses.
 CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames);
 
 /// The point itself if a placed region holds it, else the nearest point just inside one.
