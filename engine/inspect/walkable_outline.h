@@ -1,5 +1,9 @@
 #pragma once
 /// Where a person can stand: found by casting rays down on a grid. The designer may edit the result.
+///
+/// A probe tells distances, not which side of a surface it met, so a closed solid that is higher than the
+/// head room looks like a room from within: where its underside is as large as the real floor, give the floor
+/// height.
 
 #include <functional>
 #include <glm/glm.hpp>
