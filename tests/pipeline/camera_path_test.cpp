@@ -62,7 +62,9 @@ TEST(Tour, StaysInsideTheLayoutAndVisitsEveryWalkableRegion) {
     EXPECT_EQ(pose.eye.z, layout.eyeZ());
   }
   for (std::size_t r = 0; r < visits.size(); ++r)
-    if (layout.spec.outline.contains(layout.regions[r].polygon.centroid())) EXPECT_GT(visits[r], 0);
+    if (layout.spec.outline.contains(layout.regions[r].polygon.centroid())) {
+      EXPECT_GT(visits[r], 0);
+    }
 }
 
 TEST(Clamp, LeavesInsidePointsAloneAndBringsOthersIn) {
