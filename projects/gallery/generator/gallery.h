@@ -23,11 +23,13 @@ inline constexpr float kDoorHalf = 1.2f;     ///< the door's opening: half its w
 inline constexpr float kDoorSpring = 2.3f;   ///< where its arch begins
 inline constexpr float kTerraceEnd = 13.6f;  ///< x of the balustrade
 inline constexpr float kTerraceHalf = 7.0f;
+inline constexpr float kLawn = -0.5f;  ///< z of the garden
 
 void addHall(Model& model, const Materials& materials);       ///< floor, walls, windows, door, outside faces
 void addCeiling(Model& model, const Materials& materials);    ///< coffers, skylights, beams, cornices
 void addColonnade(Model& model, const Materials& materials);  ///< fluted columns
-void addPictures(Model& model, const Materials& materials);   ///< framed, on three walls, and the mirror
+void addPictures(Model& model, const Materials& materials,
+                 float pictureScale);                         ///< framed, on three walls, and the mirror
 void addFurniture(Model& model, const Materials& materials);  ///< glass case, ropes, benches, lamp, plants
 void addTerrace(Model& model, const Materials& materials);    ///< paving, balustrade, urns
 void addGarden(Model& model, const Materials& materials);     ///< lawn, hedges, trees, hills
@@ -35,7 +37,7 @@ void addGarden(Model& model, const Materials& materials);     ///< lawn, hedges,
 void addFolly(Model& model, const Materials& materials, const glm::vec3& foot);
 void addLights(Model& model);  ///< sun and lamp
 
-/// All of it.
-Model makeGallery();
+/// All of it. `pictureScale` below 1 makes the pictures coarser and the making faster; the geometry stays.
+Model makeGallery(float pictureScale = 1);
 
 }  // namespace acentric::gallery

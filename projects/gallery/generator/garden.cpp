@@ -15,7 +15,6 @@ namespace acentric::gallery {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kLawn = -0.5f;      // z
 constexpr float kStairHalf = 1.3f;  // the way down to the lawn
 constexpr float kTerraceStart = kHalfLength + kWall;
 
@@ -57,7 +56,7 @@ Shape hedgeBlock(const glm::vec3& size) {
   Shape out;
   const auto rough = [](const glm::vec3& p) {
     return p + 0.05f * glm::vec3(noise(p * 5.0f, 1), noise(p * 5.0f, 2), noise(p * 5.0f, 3)) +
-           0.035f * glm::vec3(noise(p * 17.0f, 4), noise(p * 17.0f, 5), noise(p * 17.0f, 6));
+           0.035f * glm::vec3(noise(p * 8.0f, 4), noise(p * 8.0f, 5), noise(p * 8.0f, 6));
   };
   const glm::vec3 h(0.5f * size.x, 0.5f * size.y, size.z);
   struct Face {
@@ -87,7 +86,8 @@ Shape cypress() {
   Shape out;
   addGrid(out, 22, 28, [](float s, float t) {
     const float turn = 2 * kPi * (s - std::floor(s)), up = std::clamp(t, 0.0f, 1.0f);
-    const float body = 0.62f * std::pow(std::sin(kPi * std::pow(0.02f + 0.98f * up, 0.62f)), 0.85f);
+    const float body =
+        0.62f * std::pow(std::max(0.0f, std::sin(kPi * std::pow(0.02f + 0.98f * up, 0.62f))), 0.85f);
     const glm::vec3 ring(std::cos(turn), std::sin(turn), 5.6f * up);
     const float rough = 1 + 0.30f * fractalNoise({ring.x * 2.6f, ring.y * 2.6f, ring.z * 3.2f}, 3, 9);
     return glm::vec3(body * rough * glm::vec2(ring), 0.25f + 5.6f * t);
@@ -102,7 +102,7 @@ Thing roundTree(const Materials& materials) {
       {{0, 0, 0}, {0.05f, 0.02f, 0.7f}, {0.0f, -0.03f, 1.4f}, {0.12f, 0.05f, 2.1f}, {0.1f, 0, 2.8f}}};
   bark.append(tube(trunk, 0.12f, 10));
   Random random(3);
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 7; ++i) {
     const float azimuth = 2.4f * static_cast<float>(i), out = i == 0 ? 0.0f : random.between(0.5f, 1.05f);
     const float size = random.between(0.65f, 0.95f);
     const Shape puff = blob(14, 9, [&](const glm::vec3& d) {
@@ -224,21 +224,6 @@ void addGarden(Model& model, const Materials& materials) {
   model.things.push_back(std::move(cypresses));
   model.things.push_back(std::move(trees));
   model.add("Hills", materials.distance, std::move(hills));
-}
-
-Model makeGallery() {
-  Model model;
-  const Materials materials = addMaterials(model);
-  addHall(model, materials);
-  addCeiling(model, materials);
-  addColonnade(model, materials);
-  addPictures(model, materials);
-  addFurniture(model, materials);
-  addTerrace(model, materials);
-  addGarden(model, materials);
-  addFolly(model, materials, {33, 0, kLawn});
-  addLights(model);
-  return model;
 }
 
 }  // namespace acentric::gallery

@@ -66,11 +66,11 @@ Shape frame(const glm::vec2& half, float width) {
 
 }  // namespace
 
-void addPictures(Model& model, const Materials& materials) {
+void addPictures(Model& model, const Materials& materials, float pictureScale) {
   Shape labels;
   for (const Hanging& h : hangings()) {
     const glm::vec2 half = 0.5f * h.size;
-    const glm::ivec2 pixels(glm::round(h.size * kPixelsPerMetre));
+    const glm::ivec2 pixels(glm::round(h.size * kPixelsPerMetre * pictureScale));
     Canvas canvas = h.paint(pixels.x, pixels.y, h.seed);
     varnish(canvas, h.seed);
     const int painting = addPaintingMaterial(model, h.name, canvas.encodeJpeg(92));

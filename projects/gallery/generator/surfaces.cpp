@@ -143,7 +143,8 @@ Canvas leafPicture(int width, int height) {
       const float rib = std::abs(across);
       // A long pointed oval, slit between its side veins towards the rim.
       const float half =
-          0.96f * std::pow(std::sin(3.14159265f * std::pow(std::clamp(up, 0.0f, 1.0f), 0.72f)), 0.8f);
+          0.96f *
+          std::pow(std::max(0.0f, std::sin(3.14159265f * std::pow(std::clamp(up, 0.0f, 1.0f), 0.72f))), 0.8f);
       const float vein = std::abs(std::fmod(11 * (up - 0.55f * rib) + 11.0f, 1.0f) - 0.5f) * 2;
       const float slit = smooth(0.45f, 1.0f, rib / std::max(half, 1e-3f)) * smooth(0.75f, 0.95f, vein) * 1.2f;
       const bool stem = up < 0.12f && rib < 0.05f;
@@ -159,24 +160,28 @@ Canvas leafPicture(int width, int height) {
 
 }  // namespace
 
-Materials addMaterials(Model& model) {
+Materials addMaterials(Model& model, float pictureScale) {
+  const auto pixels = [&](int usual) {
+    return std::max(8, static_cast<int>(std::lround(static_cast<float>(usual) * pictureScale)));
+  };
   const auto jpeg = [&](const char* name, const Canvas& canvas) {
     return model.add(Picture{name, canvas.encodeJpeg(kJpegQuality), true, true});
   };
   constexpr float kFloorMetres = 2.4f;
-  const int floorPictureIndex = jpeg("Floor tiles", floorPicture(1024));
+  const int floorPictureIndex = jpeg("Floor tiles", floorPicture(pixels(1024)));
   const int floorReliefIndex =
-      model.add(Picture{"Floor relief", floorRelief(512, kFloorMetres), false, true});
-  const int plaster = jpeg("Plaster", plasterPicture(512));
-  const int green =
-      jpeg("Green marble", marblePicture(512, colour(0x1c2b26), colour(0x3a5247), colour(0x9fb3a4), 51));
-  const int travertine =
-      jpeg("Travertine", marblePicture(512, colour(0xdcc8a2), colour(0xebdcbd), colour(0xcbb185), 61));
-  const int walnut = jpeg("Walnut", woodPicture(512, colour(0x4a2e1c), colour(0x7d5230), 71));
-  const int oak = jpeg("Oak", woodPicture(512, colour(0x6b4a2b), colour(0x9a7044), 81));
-  const int paving = jpeg("Paving", pavingPicture(512));
-  const int grass = jpeg("Grass", grassPicture(512));
-  const int leaf = model.add(Picture{"Leaf", leafPicture(128, 256).encodePng(true), false, false});
+      model.add(Picture{"Floor relief", floorRelief(pixels(512), kFloorMetres), false, true});
+  const int plaster = jpeg("Plaster", plasterPicture(pixels(512)));
+  const int green = jpeg(
+      "Green marble", marblePicture(pixels(512), colour(0x1c2b26), colour(0x3a5247), colour(0x9fb3a4), 51));
+  const int travertine = jpeg(
+      "Travertine", marblePicture(pixels(512), colour(0xdcc8a2), colour(0xebdcbd), colour(0xcbb185), 61));
+  const int walnut = jpeg("Walnut", woodPicture(pixels(512), colour(0x4a2e1c), colour(0x7d5230), 71));
+  const int oak = jpeg("Oak", woodPicture(pixels(512), colour(0x6b4a2b), colour(0x9a7044), 81));
+  const int paving = jpeg("Paving", pavingPicture(pixels(512)));
+  const int grass = jpeg("Grass", grassPicture(pixels(512)));
+  const int leaf =
+      model.add(Picture{"Leaf", leafPicture(pixels(128), pixels(256)).encodePng(true), false, false});
 
   const auto plain = [&](const char* name, const glm::vec3& base, float roughness = 0.8f,
                          float metallic = 0) {

@@ -15,7 +15,8 @@ struct Materials {
   int stucco, paving, grass, hedge, bark, distance, doorWood;
 };
 
-Materials addMaterials(Model& model);
+/// `pictureScale` makes every picture smaller or larger than its usual size.
+Materials addMaterials(Model& model, float pictureScale);
 
 /// A matt material that is one picture.
 int addPaintingMaterial(Model& model, const std::string& name, std::vector<std::byte> jpeg);
