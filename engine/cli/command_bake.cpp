@@ -44,7 +44,9 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   if (options.prune) {
     const auto store = CaptureStore::open(captureFolderFor(open->file));
     if (!store) return tl::unexpected(store.error());
-    freed = store->prune(open->keys);
+    std::vector<ContentKey> used = open->keys;
+    used.push_back(open->surfaceLightKey);
+    freed = store->prune(used);
   }
 
   const BakeReport& captures = baked->captures;

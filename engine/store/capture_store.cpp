@@ -16,6 +16,8 @@ namespace {
 constexpr const char* kExrExtension = ".exr";
 constexpr const char* kPackExtension = ".pack";
 constexpr const char* kDamagedExtension = ".damaged";
+constexpr const char* kLightExtension = ".light";
+constexpr std::string_view kLightPrefix = "surface-";
 
 fs::path exrOf(const fs::path& folder, const ContentKey& key) {
   return folder / (key.toHex() + kExrExtension);
@@ -24,7 +26,7 @@ fs::path packOf(const fs::path& folder, const ContentKey& key) {
   return folder / (key.toHex() + kPackExtension);
 }
 fs::path lightOf(const fs::path& folder, const ContentKey& key) {
-  return folder / ("surface-" + key.toHex() + ".light");
+  return folder / (std::string(kLightPrefix) + key.toHex() + kLightExtension);
 }
 
 bool isFile(const fs::path& path) {
@@ -52,12 +54,16 @@ Result<Keyed<Value>> expectKey(Result<Keyed<Value>>&& read, const ContentKey& ke
   return std::move(read);
 }
 
-/// The key in the name of a capture's file (also of one set aside).
+/// The key in the name of a capture's or a surface light's file (also of one set aside).
 std::optional<ContentKey> keyInName(const fs::path& path) {
   fs::path name = path.filename();
   if (name.extension() == kDamagedExtension) name = name.stem();
-  if (name.extension() != kExrExtension && name.extension() != kPackExtension) return std::nullopt;
-  const auto key = ContentKey::fromHex(name.stem().string());
+  std::string stem = name.stem().string();
+  if (name.extension() == kLightExtension && stem.starts_with(kLightPrefix))
+    stem.erase(0, kLightPrefix.size());
+  else if (name.extension() != kExrExtension && name.extension() != kPackExtension)
+    return std::nullopt;
+  const auto key = ContentKey::fromHex(stem);
   return key ? std::optional(*key) : std::nullopt;
 }
 

@@ -42,7 +42,8 @@ class CaptureStore {
   Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
-  /// Deletes captures whose key is not in `keep`, and captures set aside; returns bytes freed. Surface light stays.
+  /// Deletes captures and surface light whose key is not in `keep`, and what was set aside; returns bytes
+  /// freed.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:

@@ -120,13 +120,16 @@ TEST_F(StoreTest, PruneDeletesOnlyWhatIsNotKept) {
   const CaptureStore store = openStore();
   ASSERT_TRUE(store.put(kFirst, capture_));
   ASSERT_TRUE(store.put(kSecond, capture_));
+  ASSERT_TRUE(store.putSurfaceLight(kFirst, {{0}, {}, {}, {}}));
   ASSERT_TRUE(store.putSurfaceLight(kSecond, {{0}, {}, {}, {}}));
+  const std::uint64_t light = fs::file_size(folder_ / "captures" / ("surface-" + kSecond.toHex() + ".light"));
   ASSERT_TRUE(writeTextAtomically(folder_ / "captures" / "notes.txt", "mine"));
   const std::uint64_t bytes = fs::file_size(file(kSecond, ".exr")) + fs::file_size(file(kSecond, ".pack"));
-  EXPECT_EQ(store.prune({kFirst}), bytes);
+  EXPECT_EQ(store.prune({kFirst}), bytes + light);
   EXPECT_TRUE(store.get(kFirst));
   EXPECT_FALSE(store.has(kSecond));
-  EXPECT_TRUE(store.hasSurfaceLight(kSecond));
+  EXPECT_TRUE(store.hasSurfaceLight(kFirst));
+  EXPECT_FALSE(store.hasSurfaceLight(kSecond));
   EXPECT_TRUE(fs::exists(folder_ / "captures" / "notes.txt"));
   EXPECT_EQ(store.prune({kFirst}), 0u);
 }
