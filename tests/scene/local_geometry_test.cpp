@@ -1,0 +1,115 @@
+#include "engine/scene/local_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace acentric {
+namespace {
+
+ConvexPolygon rectangle(double x0, double y0, double x1, double y1) {
+  return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
+}
+
+Scene sceneOf(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles) {
+  Scene scene;
+  scene.materials.emplace_back();
+  Mesh mesh;
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+  mesh.normals.assign(mesh.positions.size(), glm::vec3(0, 0, 1));
+  scene.meshes.push_back(std::move(mesh));
+  return scene;
+}
+
+double areaOf(const LocalGeometry& local) {
+  double area = 0;
+  for (const LocalTriangle& t : local.triangles) {
+    const glm::dvec3 a(local.vertices[t.vertices.x].position), b(local.vertices[t.vertices.y].position),
+        c(local.vertices[t.vertices.z].position);
+    area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
+}
+
+/// Floor of 20 x 20 m at z = 0, two triangles.
+Scene floorScene() {
+  return sceneOf({{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}}, {{0, 1, 2}, {0, 2, 3}});
+}
+
+TEST(LocalGeometry, AFloorIsCutToThePolygonsArea) {
+  EXPECT_NEAR(areaOf(clipToPolygon(floorScene(), rectangle(-1, -2, 3, 4))), 24, 1e-5);
+  ConvexPolygon hexagon;
+  for (int i = 0; i < 6; ++i)
+    hexagon.corners.push_back(2.0 * glm::dvec2(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3)));
+  EXPECT_NEAR(areaOf(clipToPolygon(floorScene(), hexagon)), 1.5 * std::sqrt(3.0) * 4, 1e-5);
+}
+
+TEST(LocalGeometry, ATriangleInsideIsKeptAsItIsAndOneOutsideIsDropped) {
+  const Scene scene =
+      sceneOf({{0, 0, 5}, {1, 0, 6}, {0, 1, 7}, {20, 0, 0}, {21, 0, 0}, {20, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
+  const LocalGeometry local = clipToPolygon(scene, rectangle(-2, -2, 2, 2));
+  ASSERT_EQ(local.triangles.size(), 1u);
+  EXPECT_EQ(local.triangles[0].triangle, 0u);
+  ASSERT_EQ(local.vertices.size(), 3u);
+  EXPECT_EQ(local.vertices[1].position, glm::vec3(1, 0, 6));
+  EXPECT_EQ(local.vertices[1].barycentric, glm::vec2(1, 0));
+  EXPECT_EQ(local.vertices[2].barycentric, glm::vec2(0, 1));
+}
+
+TEST(LocalGeometry, AWallOnTheSharedBorderOfTwoRegionsIsKeptByBoth) {
+  // Vertical wall in the plane x = 1, and a slanted border with corners that are no round numbers.
+  const Scene straight = sceneOf({{1, -1, 0}, {1, 1, 0}, {1, 1, 3}, {1, -1, 3}}, {{0, 1, 2}, {0, 2, 3}});
+  EXPECT_NEAR(areaOf(clipToPolygon(straight, rectangle(0, -5, 1, 5))), 6, 1e-6);
+  EXPECT_NEAR(areaOf(clipToPolygon(straight, rectangle(1, -5, 2, 5))), 6, 1e-6);
+
+  const glm::dvec2 a(0.1f, 0.7f), b(3.3f, 2.9f);
+  const Scene slanted = sceneOf({{0.1f, 0.7f, 0}, {3.3f, 2.9f, 0}, {3.3f, 2.9f, 2}}, {{0, 1, 2}});
+  const double whole = glm::length(b - a);
+  EXPECT_NEAR(areaOf(clipToPolygon(slanted, {{a, b, {-3, 6}}})), whole, 1e-6);
+  EXPECT_NEAR(areaOf(clipToPolygon(slanted, {{b, a, {5, -6}}})), whole, 1e-6);
+}
+
+TEST(LocalGeometry, ATouchingEdgeAddsNothing) {
+  const Scene scene = sceneOf({{1, 0, 0}, {1, 1, 0}, {2, 0, 0}}, {{0, 1, 2}});
+  EXPECT_TRUE(clipToPolygon(scene, rectangle(0, -5, 1, 5)).triangles.empty());
+  EXPECT_TRUE(clipToPolygon(scene, rectangle(0, -5, 1, 5)).vertices.empty());
+}
+
+TEST(LocalGeometry, PositionsFollowFromTheBarycentricWeightsAndStayInside) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> coordinate(-4, 4);
+  const ConvexPolygon polygon{{{-1.5, -1}, {1.7, -1.2}, {2.1, 0.9}, {0.2, 2.2}, {-1.9, 1.1}}};
+  for (int round = 0; round < 300; ++round) {
+    std::vector<glm::vec3> p(3);
+    for (glm::vec3& corner : p) corner = {coordinate(random), coordinate(random), coordinate(random)};
+    const LocalGeometry local = clipToPolygon(sceneOf(p, {{0, 1, 2}}), polygon);
+    for (const LocalVertex& v : local.vertices) {
+      const glm::vec3 expected = p[0] + v.barycentric.x * (p[1] - p[0]) + v.barycentric.y * (p[2] - p[0]);
+      EXPECT_NEAR(glm::distance(v.position, expected), 0, 2e-5);
+      for (std::size_t e = 0; e < polygon.size(); ++e) {
+        const glm::dvec2 edge = polygon.corners[(e + 1) % polygon.size()] - polygon.corners[e];
+        const glm::dvec2 offset = glm::dvec2(v.position) - polygon.corners[e];
+        EXPECT_GT((edge.x * offset.y - edge.y * offset.x) / glm::length(edge), -1e-6);
+      }
+    }
+  }
+}
+
+TEST(LocalGeometry, PiecesOfATilingAddUpToTheWhole) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> coordinate(-2.9f, 2.9f);
+  for (int round = 0; round < 60; ++round) {
+    std::vector<glm::vec3> p(3);
+    for (glm::vec3& corner : p) corner = {coordinate(random), coordinate(random), coordinate(random)};
+    const Scene scene = sceneOf(p, {{0, 1, 2}});
+    double sum = 0;
+    for (int x = -3; x < 3; ++x)
+      for (int y = -3; y < 3; ++y) sum += areaOf(clipToPolygon(scene, rectangle(x, y, x + 1, y + 1)));
+    const double whole = 0.5 * glm::length(glm::cross(glm::dvec3(p[1] - p[0]), glm::dvec3(p[2] - p[0])));
+    EXPECT_NEAR(sum, whole, 1e-4 * (1 + whole));
+  }
+}
+
+}  // namespace
+}  // namespace acentric

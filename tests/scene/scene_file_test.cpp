@@ -1,0 +1,136 @@
+#include "engine/scene/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/scene/scene_fixtures.h"
+
+namespace acentric::test {
+namespace {
+
+Scene sampleScene() {
+  Scene scene;
+  scene.name = "sample";
+  scene.origin = {1, 2, 3};
+  Material material;
+  material.name = "glass";
+  material.baseColour = {0.1f, 0.2f, 0.3f, 0.4f};
+  material.baseColourTexture = {0, 1, glm::mat3x2(1, 2, 3, 4, 5, 6)};
+  material.alphaMode = AlphaMode::blend;
+  material.transmission = 0.5f;
+  material.doubleSided = true;
+  scene.materials = {material};
+  Mesh mesh;
+  mesh.name = "pane";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.tangents.assign(4, {1, 0, 0, -1});
+  mesh.uv[0].assign(4, {0.5f, 0.25f});
+  mesh.uv[1].assign(4, {0.75f, 0.5f});
+  mesh.colours.assign(4, {1, 2, 3, 4});
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.meshes = {mesh};
+  scene.textures = {{"wood", 0, Wrap::clamp, Wrap::mirror, true}};
+  scene.images = {std::make_shared<const ColourImage>(ColourImage(3, 2, {9, 8, 7, 6}))};
+  Light light;
+  light.name = "lamp";
+  light.kind = LightKind::spot;
+  light.intensity = 12;
+  scene.lights = {light};
+  scene.sky.zenith = {0, 0, 1};
+  scene.bounds = boundsOf(scene);
+  scene.report.found = {"2 triangles in 1 mesh"};
+  scene.report.guessed = {"up axis: Y"};
+  scene.key = keyOf(scene);
+  return scene;
+}
+
+TEST(SceneFile, ARoundTripKeepsEverything) {
+  const TemporaryFolder folder("scene_file");
+  const Scene scene = sampleScene();
+  ASSERT_TRUE(writeSceneFile(scene, folder.path() / "s.acscene"));
+  const auto back = readSceneFile(folder.path() / "s.acscene");
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(back->key, scene.key);
+  EXPECT_EQ(keyOf(*back), scene.key);  // whatever can change a pixel
+  EXPECT_EQ(back->name, scene.name);
+  EXPECT_EQ(back->materials[0].name, "glass");
+  EXPECT_EQ(back->meshes[0].name, "pane");
+  EXPECT_EQ(back->textures[0].name, "wood");
+  EXPECT_EQ(back->lights[0].name, "lamp");
+  EXPECT_EQ(back->bounds.max, scene.bounds.max);
+  EXPECT_EQ(back->report.found, scene.report.found);
+  EXPECT_EQ(back->report.guessed, scene.report.guessed);
+}
+
+TEST(SceneFile, EveryTruncationAndEveryFlippedByteIsRefused) {
+  const TemporaryFolder folder("scene_file");
+  const auto path = folder.path() / "s.acscene";
+  ASSERT_TRUE(writeSceneFile(SceneFile{sampleScene(), {{"a.png", true, 1, 2, 3, {4, 5}}}}, path));
+  const auto whole = readFile(path);
+  ASSERT_TRUE(whole);
+  const auto refuses = [&](const std::vector<std::byte>& bytes) {
+    EXPECT_TRUE(writeFileAtomically(path, bytes));
+    const auto scene = readSceneFile(path);
+    return !scene &&
+           (scene.error().kind == ErrorKind::malformed || scene.error().kind == ErrorKind::unsupported);
+  };
+  std::mt19937 random(3);
+  for (std::size_t i = 0; i < whole->size(); i += i < 80 ? 1 : 1 + random() % 7) {
+    EXPECT_TRUE(refuses({whole->begin(), whole->begin() + std::ptrdiff_t(i)})) << "cut at " << i;
+    auto flipped = *whole;
+    flipped[i] ^= std::byte(1u << random() % 8);
+    EXPECT_TRUE(refuses(flipped)) << "byte " << i;
+  }
+  auto longer = *whole;
+  longer.push_back(std::byte(0));
+  EXPECT_TRUE(refuses(longer));
+}
+
+TEST(SceneFile, BrokenPromisesWithAnIntactChecksumAreRefused) {
+  const TemporaryFolder folder("scene_file");
+  const auto path = folder.path() / "s.acscene";
+  const auto refused = [&](auto breakIt) {
+    Scene scene = sampleScene();
+    breakIt(scene);
+    EXPECT_TRUE(writeSceneFile(scene, path));
+    const auto back = readSceneFile(path);
+    return !back && back.error().kind == ErrorKind::malformed;
+  };
+  EXPECT_TRUE(refused([](Scene& s) { s.meshes[0].triangles[1].z = 4; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.meshes[0].material = 1; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.meshes[0].uv[1].pop_back(); }));
+  EXPECT_TRUE(refused([](Scene& s) { s.textures[0].image = 1; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.materials[0].baseColourTexture.texture = 5; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.materials[0].baseColourTexture.uvSet = 2; }));
+  EXPECT_TRUE(refused([](Scene& s) { s.images[0] = nullptr; }));
+  EXPECT_FALSE(refused([](Scene&) {}));
+}
+
+TEST(SceneKey, ChangesWithEveryVisibleProperty) {
+  const ContentKey plain = keyOf(sampleScene());
+  const auto changed = [&](auto change) {
+    Scene scene = sampleScene();
+    change(scene);
+    return keyOf(scene) != plain;
+  };
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].baseColour.a = 0.5f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].baseColourTexture.transform[2].y = 7; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].alphaMode = AlphaMode::mask; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].unlit = true; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.meshes[0].positions[2].z = 1e-6f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.meshes[0].colours[0].r = 9; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.textures[0].nearest = false; }));
+  EXPECT_TRUE(changed([](Scene& s) {
+    s.images[0] = std::make_shared<const ColourImage>(ColourImage(2, 3, {9, 8, 7, 6}));
+  }));
+  EXPECT_TRUE(changed([](Scene& s) { s.lights[0].outerCone = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.sky.ground.r = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.origin.x = 0; }));
+  EXPECT_FALSE(
+      changed([](Scene& s) { s.name = "other", s.materials[0].name = "other", s.report.found.clear(); }));
+}
+
+}  // namespace
+}  // namespace acentric::test
