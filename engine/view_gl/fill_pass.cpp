@@ -1,0 +1,131 @@
+#include "engine/view_gl/fill_pass.h"
+
+#include <algorithm>
+
+#include "engine/view_gl/gl_check.h"
+#include "engine/view_gl/whole_picture.h"
+
+namespace acentric {
+namespace {
+
+GlTexture levelTexture(int width, int height) {
+  GlTexture texture = GlTexture::make();
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA16F, width, height);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+GlFramebuffer into(const GlTexture& texture) {
+  GlFramebuffer framebuffer = GlFramebuffer::make();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  return framebuffer;
+}
+
+class Query {
+ public:
+  Query() { glGenQueries(1, &name_); }
+  ~Query() { glDeleteQueries(1, &name_); }
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+  GLuint name() const { return name_; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+}  // namespace
+
+FillPass::FillPass(ProgramCache& programs) : programs_(programs), noAttributes_(GlVertexArray::make()) {}
+
+Status FillPass::resize(int width, int height) {
+  if (width == width_ && height == height_) return {};
+  levels_.clear();
+  width_ = height_ = 0;
+  for (int w = width, h = height; w > 1 || h > 1 || levels_.empty();) {
+    w = (w + 1) / 2;
+    h = (h + 1) / 2;
+    Level level{w, h, levelTexture(w, h), levelTexture(w, h), {}, {}};
+    level.intoReduced = into(level.reduced);
+    level.intoExpanded = into(level.expanded);
+    levels_.push_back(std::move(level));
+  }
+  if (Status made = checkGl("making the textures of the hole fill"); !made) return made;
+  width_ = width;
+  height_ = height;
+  return {};
+}
+
+bool FillPass::anyHole(const FrameTarget& target, GlProgram& counter) const {
+  target.bindForDrawing();
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_EQUAL, 0, 0xff);
+  glStencilMask(0);
+  const Query query;
+  glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
+  drawWholePicture(counter, noAttributes_, {});
+  glEndQuery(GL_ANY_SAMPLES_PASSED);
+  GLuint any = 0;
+  glGetQueryObjectuiv(query.name(), GL_QUERY_RESULT, &any);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glStencilMask(0xff);
+  return any != 0;
+}
+
+Status FillPass::draw(const FrameTarget& target, int reach) {
+  const Result<GlProgram*> counter = programs_.get("whole_picture.vert", "nothing.frag", {});
+  if (!counter) return tl::unexpected(counter.error());
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_CULL_FACE);
+  if (!anyHole(target, **counter)) return {};
+
+  const Result<GlProgram*> first = programs_.get("whole_picture.vert", "fill_reduce.frag", {"FROM_FRAME"});
+  if (!first) return tl::unexpected(first.error());
+  const Result<GlProgram*> reduce = programs_.get("whole_picture.vert", "fill_reduce.frag", {});
+  if (!reduce) return tl::unexpected(reduce.error());
+  const Result<GlProgram*> expand = programs_.get("whole_picture.vert", "fill_expand.frag", {});
+  if (!expand) return tl::unexpected(expand.error());
+  const Result<GlProgram*> apply = programs_.get("whole_picture.vert", "fill_apply.frag", {});
+  if (!apply) return tl::unexpected(apply.error());
+  if (Status sized = resize(target.width(), target.height()); !sized) return sized;
+
+  glDisable(GL_STENCIL_TEST);
+  std::size_t used = 1;  // level n knows what is within about 2^(n+1) pixels
+  while (used < levels_.size() && (2 << used) <= reach) ++used;
+  for (std::size_t n = 0; n < used; ++n) {
+    const Level& level = levels_[n];
+    glBindFramebuffer(GL_FRAMEBUFFER, level.intoReduced.name());
+    glViewport(0, 0, level.width, level.height);
+    if (n == 0)
+      drawWholePicture(**first, noAttributes_,
+                       {{"frameColour", target.colourCodes()}, {"frameDepth", target.depths()}});
+    else
+      drawWholePicture(**reduce, noAttributes_, {{"finer", levels_[n - 1].reduced.name()}});
+  }
+  GLuint known = levels_[used - 1].reduced.name();
+  for (std::size_t n = used - 1; n-- > 0;) {
+    const Level& level = levels_[n];
+    glBindFramebuffer(GL_FRAMEBUFFER, level.intoExpanded.name());
+    glViewport(0, 0, level.width, level.height);
+    drawWholePicture(**expand, noAttributes_, {{"own", level.reduced.name()}, {"coarser", known}});
+    known = level.expanded.name();
+  }
+
+  target.bindForDrawing();
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_EQUAL, 0, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_INCR);  // covered from now on
+  (*apply)->use();
+  glUniform1ui((*apply)->location("invented"), kSourceInvented);
+  drawWholePicture(**apply, noAttributes_, {{"coarser", known}});
+  glDisable(GL_STENCIL_TEST);
+  return checkGl("filling holes");
+}
+
+}  // namespace acentric

@@ -1,0 +1,40 @@
+// A corner of local geometry. Define FRESNEL passes on what glass needs.
+
+layout(location = 0) in vec3 position;  // relative to the buffer's origin, metres
+layout(location = 1) in vec2 barycentric;
+layout(location = 2) in vec2 baseUv;
+layout(location = 3) in vec2 emissiveUv;
+layout(location = 4) in vec4 colour;
+layout(location = 5) in uvec2 light;
+layout(location = 6) in vec3 normal;
+
+uniform vec3 originFromEye;
+uniform mat3 viewFromWorld;
+uniform vec2 clipScale;  // clip.xy = clipScale * view.xy
+
+out vec2 atBarycentric;
+out vec2 atBaseUv;
+out vec2 atEmissiveUv;
+out vec4 atColour;
+flat out uvec2 atLight;
+#ifdef FRESNEL
+out vec3 atFromEye;
+out vec3 atNormal;
+#endif
+
+const float kNearest = 1e-3;  // metres along the view axis; nearer surfaces are not drawn
+
+void main() {
+  vec3 fromEye = position + originFromEye;
+  vec3 q = viewFromWorld * fromEye;
+  gl_Position = vec4(clipScale.x * q.x, -clipScale.y * q.y, kNearest, q.z);  // depth kNearest / z: nearer is larger
+  atBarycentric = barycentric;
+  atBaseUv = baseUv;
+  atEmissiveUv = emissiveUv;
+  atColour = colour;
+  atLight = light;
+#ifdef FRESNEL
+  atFromEye = fromEye;
+  atNormal = normal;
+#endif
+}

@@ -1,0 +1,3 @@
+// For passes that only count which pixels pass the tests.
+
+void main() {}
