@@ -32,7 +32,7 @@ FieldEdit endField(bool changed, const char* help) {
 
 FieldEdit numberField(const NumberField& field, double& value, float labelWidth) {
   beginField(field.label, labelWidth, field.help);
-  double edited = value;
+  double edited = std::abs(value) < 1e-9 ? 0.0 : value;  // no "-0.00"
   const bool touched =
       ImGui::DragScalar("##value", ImGuiDataType_Double, &edited, float(field.speed), &field.least,
                         &field.most, field.format, ImGuiSliderFlags_AlwaysClamp);
@@ -66,7 +66,11 @@ FieldEdit choiceField(const char* label, std::span<const Choice> choices, int& i
   beginField(label, labelWidth, help);
   const bool valid = index >= 0 && index < int(choices.size());
   FieldEdit edit;
-  if (ImGui::BeginCombo("##value", valid ? choices[std::size_t(index)].label.c_str() : "")) {
+  const Choice* shown = valid ? &choices[std::size_t(index)] : nullptr;
+  const char* preview = shown == nullptr            ? ""
+                        : shown->shortLabel.empty() ? shown->label.c_str()
+                                                    : shown->shortLabel.c_str();
+  if (ImGui::BeginCombo("##value", preview)) {
     for (int i = 0; i < int(choices.size()); ++i) {
       const Choice& choice = choices[std::size_t(i)];
       const auto flags = choice.enabled ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;

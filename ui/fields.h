@@ -31,6 +31,7 @@ struct Choice {
   std::string label;
   std::string help;
   bool enabled = true;
+  std::string shortLabel = {};  ///< while the list is closed; empty = label
 };
 /// Index into `choices`.
 FieldEdit choiceField(const char* label, std::span<const Choice> choices, int& index, float labelWidth,

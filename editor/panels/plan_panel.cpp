@@ -58,7 +58,7 @@ void PlanPanel::drawToolbar(PanelContext& context) {
   const Layout& layout = *context.session().built()->layout;
   const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
                                        ui::formatCount(layout.cameras.size()));
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x - 12);
   ImGui::AlignTextToFramePadding();
   ui::mutedText(text);
 }

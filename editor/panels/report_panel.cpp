@@ -1,7 +1,5 @@
 #include "editor/panels/report_panel.h"
 
-#include <fmt/format.h>
-
 namespace acentric::editor {
 namespace {
 
@@ -23,8 +21,6 @@ void drawReportPanel(PanelContext& context) {
     return;
   }
   const Scene& scene = *built->scene;
-  const glm::vec3 size = scene.bounds.size();
-  lines("size", {fmt::format("{:.2f} × {:.2f} × {:.2f} m", size.x, size.y, size.z)}, ui::palette::faint);
   lines("found", scene.report.found, ui::palette::good);
   lines("guessed", scene.report.guessed, ui::palette::accent);
   lines("dropped", scene.report.dropped, ui::palette::warning);

@@ -21,7 +21,8 @@ void drawConfiguration(PanelContext& context) {
     const auto configuration = Configuration(i);
     const bool supported = isSupported(configuration);
     choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)),
-                       supported ? "" : "This version does not lay it yet.", supported});
+                       supported ? "" : "This version does not lay it yet.", supported,
+                       nameOf(configuration)});
   }
   int index = int(project.layout.configuration);
   const ui::FieldEdit edit =
@@ -137,8 +138,8 @@ void drawView(PanelContext& context) {
 
   ViewSettings view = project.view;
   const std::array<ui::Choice, 2> kReconstructions = {
-      ui::Choice{"Points", "One pixel a sample: shows the sampling.", true},
-      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true}};
+      ui::Choice{"Points", "One pixel a sample: shows the sampling.", true, ""},
+      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true, ""}};
   int reconstruction = view.reconstruction == Reconstruction::point ? 0 : 1;
   if (const ui::FieldEdit edit =
           ui::choiceField("Reconstruction", kReconstructions, reconstruction, kLabelWidth)) {
@@ -168,8 +169,9 @@ void drawImport(PanelContext& context) {
   ui::keyValue("Model", ui::shortenPath(project.scene.string(), 30), kLabelWidth);
   ui::tooltip(project.scene.string());
   ImportOptions import = project.import;
-  const std::array<ui::Choice, 3> kAxes = {ui::Choice{"By the file", "", true}, ui::Choice{"Y up", "", true},
-                                           ui::Choice{"Z up", "", true}};
+  const std::array<ui::Choice, 3> kAxes = {ui::Choice{"By the file", "", true, ""},
+                                           ui::Choice{"Y up", "", true, ""},
+                                           ui::Choice{"Z up", "", true, ""}};
   int axis = int(import.up);
   if (const ui::FieldEdit edit = ui::choiceField("Up axis", kAxes, axis, kLabelWidth)) {
     import.up = UpAxis(axis);

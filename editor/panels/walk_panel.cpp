@@ -20,6 +20,20 @@ constexpr double kRadiansPerPixel = 0.0035;
 constexpr Rgba8 kHoleColour{13, 14, 16, 255};
 constexpr Rgba8 kMarkedHole{255, 0, 200, 255};
 
+const char* labelOf(Renderer renderer) {
+  switch (renderer) {
+    case Renderer::list:
+      return "List priority";
+    case Renderer::scalar:
+      return "Scalar reference";
+    case Renderer::zbuffer:
+      return "Depth buffer";
+    case Renderer::gl:
+      return "OpenGL";
+  }
+  return "";
+}
+
 bool samePlace(const PerspectiveView& a, const PerspectiveView& b) {
   return a.eye == b.eye && a.yawRadians == b.yawRadians && a.pitchRadians == b.pitchRadians &&
          a.fovRadians == b.fovRadians;
@@ -103,14 +117,14 @@ void WalkPanel::drawToolbar(PanelContext& context) {
       "List priority without a depth buffer: the fast one on the processor.",
       "List priority, one sample at a time: the reference.",
       "The same splats with a depth buffer, for comparison.", "List priority on the graphics card."};
-  ImGui::SetNextItemWidth(120);
-  const bool open = ImGui::BeginCombo("##renderer", nameOf(project.view.renderer));
+  ImGui::SetNextItemWidth(150);
+  const bool open = ImGui::BeginCombo("##renderer", labelOf(project.view.renderer));
   context.log.item("walk.renderer");
   if (open) {
     for (std::size_t i = 0; i < kRenderers.size(); ++i) {
       const bool broken = kRenderers[i] == Renderer::gl && !glProblem_.empty();
       const auto flags = broken ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
-      if (ImGui::Selectable(nameOf(kRenderers[i]), kRenderers[i] == project.view.renderer, flags)) {
+      if (ImGui::Selectable(labelOf(kRenderers[i]), kRenderers[i] == project.view.renderer, flags)) {
         ViewSettings view = project.view;
         view.renderer = kRenderers[i];
         context.session().apply(setViewSettings(project, view, "renderer"));

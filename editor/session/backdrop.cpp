@@ -10,9 +10,9 @@
 namespace acentric::editor {
 namespace {
 
-constexpr Rgba8 kCutLine{226, 230, 236, 255};
-constexpr Rgba8 kSolid{18, 20, 24, 255};
-constexpr float kDim = 0.62F;  // the lattice is drawn over it and must stand out
+constexpr Rgba8 kCutLine{206, 212, 222, 255};
+constexpr Rgba8 kSolid{8, 9, 11, 255};
+constexpr float kDim = 0.16F;  // the lattice is drawn over it and must stand out
 
 glm::vec4 materialColour(const Scene& scene, const Hit& hit) {
   const Mesh& mesh = scene.meshes[hit.mesh];

@@ -1,0 +1,101 @@
+#include "editor/commands/layout_edits.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace acentric::editor {
+namespace {
+
+Project squareRoom() {
+  Project project;
+  project.scene = "room.obj";
+  project.layout.cellSize = 1;
+  project.layout.outline.loops = {{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}};
+  return project;
+}
+
+std::set<CellId> placedCells(const LayoutSpec& spec) {
+  const auto layout = buildLayout(spec);
+  std::set<CellId> cells;
+  if (layout)
+    for (const Region& region : layout->regions) cells.insert(region.id);
+  return cells;
+}
+
+TEST(LayoutEdits, IsPlacedAgreesWithTheLayoutThatIsBuilt) {
+  Project project = squareRoom();
+  project.layout.removed.insert(cellAt(project.layout, {0, 0}).id);
+  project.layout.added.insert(cellAt(project.layout, {8, 8}).id);
+  const std::set<CellId> built = placedCells(project.layout);
+  for (const LatticeCell& cell : cellsIn(project.layout, {-10, -10}, {10, 10}, 1000))
+    EXPECT_EQ(isPlaced(project.layout, cell.id), built.contains(cell.id));
+}
+
+TEST(LayoutEdits, RemovingThenAddingACellOfTheOutlineRestoresTheSpec) {
+  const Project project = squareRoom();
+  const CellId cell = cellAt(project.layout, {0.2, 0.1}).id;
+  const Edit removed = removeCells(project, {cell});
+  EXPECT_FALSE(isPlaced(removed.project.layout, cell));
+  EXPECT_TRUE(removed.project.layout.removed.contains(cell));
+  const Edit added = addCell(removed.project, cell);
+  EXPECT_EQ(added.project, project);
+}
+
+TEST(LayoutEdits, AddingThenRemovingACellOutsideTheOutlineRestoresTheSpec) {
+  const Project project = squareRoom();
+  const CellId cell = cellAt(project.layout, {12, 0}).id;
+  ASSERT_FALSE(isPlaced(project.layout, cell));
+  const Edit added = addCell(project, cell);
+  EXPECT_TRUE(isPlaced(added.project.layout, cell));
+  EXPECT_EQ(removeCells(added.project, {cell}).project, project);
+}
+
+TEST(LayoutEdits, MovingACellKeepsTheirNumberAndNeverLandsOnAnother) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> real(-9, 9);
+  Project project = squareRoom();
+  const std::size_t count = placedCells(project.layout).size();
+  int moved = 0;
+  for (int i = 0; i < 60; ++i) {
+    const CellId from = cellAt(project.layout, {real(random), real(random)}).id;
+    const CellId to = nearestSlot(project.layout, from, {real(random), real(random)});
+    EXPECT_EQ(to.slot, from.slot);
+    const bool possible = isPlaced(project.layout, from) && !isPlaced(project.layout, to);
+    const Edit edit = moveCell(project, from, to);
+    EXPECT_EQ(edit.project == project, !possible);
+    if (possible) {
+      EXPECT_FALSE(isPlaced(edit.project.layout, from));
+      EXPECT_TRUE(isPlaced(edit.project.layout, to));
+      ++moved;
+    }
+    project = edit.project;
+  }
+  EXPECT_GT(moved, 5);
+  EXPECT_EQ(placedCells(project.layout).size(), count);
+}
+
+TEST(LayoutEdits, NearestSlotIsTheCellItselfAtItsOwnCentre) {
+  const LayoutSpec spec = squareRoom().layout;
+  for (const LatticeCell& cell : cellsIn(spec, {-4, -4}, {4, 4}, 200))
+    EXPECT_EQ(nearestSlot(spec, cell.id, cell.polygon.centroid()), cell.id);
+}
+
+TEST(LayoutEdits, AnotherConfigurationDropsCellsThatWereAddressedInTheOldLattice) {
+  Project project = squareRoom();
+  project.layout.added.insert(cellAt(project.layout, {12, 0}).id);
+  const Edit edit = setConfiguration(project, Configuration::e);
+  EXPECT_TRUE(edit.project.layout.added.empty());
+  EXPECT_EQ(setConfiguration(project, project.layout.configuration).project, project);
+}
+
+TEST(LayoutEdits, NameWhatTheyDo) {
+  const Project project = squareRoom();
+  EXPECT_EQ(setCellSize(project, 2.5).label, "Cell size 2.50 m");
+  EXPECT_EQ(removeCells(project, {CellId{0, 0, 0}, CellId{1, 0, 0}}).label, "Remove 2 cells");
+  EXPECT_EQ(addCell(project, CellId{3, -1, 2}).label, "Add cell (3, -1, 2)");
+  EXPECT_EQ(setOutline(project, {}).label, "Clear outline");
+}
+
+}  // namespace
+}  // namespace acentric::editor

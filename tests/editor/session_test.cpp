@@ -1,0 +1,188 @@
+/// The session without a window, on a real model: opened through the import process, edited, baked, saved,
+/// reopened.
+
+#include "editor/session/session.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "editor/commands/layout_edits.h"
+#include "editor/commands/setting_edits.h"
+#include "editor/session/project_files.h"
+
+namespace acentric::editor {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A closed room 6 x 5 x 3 m, Y up, faces inwards.
+void writeRoom(const fs::path& file) {
+  std::ofstream(file) << "v -3 0 -2.5\nv 3 0 -2.5\nv 3 0 2.5\nv -3 0 2.5\n"
+                         "v -3 3 -2.5\nv 3 3 -2.5\nv 3 3 2.5\nv -3 3 2.5\n"
+                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+}
+
+class SessionTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("acentric_session_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    writeRoom(folder_ / "room.obj");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  SessionOptions options() const {
+    SessionOptions options;
+    options.importHost.importer = ACENTRIC_IMPORTER;
+    options.importHost.cacheFolder = folder_ / "cache";
+    options.preferencesFile = folder_ / "editor.json";
+    options.processors = 2;
+    options.autosaveSeconds = 0;
+    return options;
+  }
+  /// Lets jobs work until `done`; fails after a minute.
+  void waitFor(Session& session, const std::function<bool()>& done) {
+    for (int i = 0; i < 12000 && !done(); ++i) {
+      session.poll(now_);
+      now_ += 0.05;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    for (const Message& message : session.messages().all())
+      if (message.level == MessageLevel::error) ADD_FAILURE() << message.text;
+    ASSERT_TRUE(done());
+  }
+  void openAndSettle(Session& session, const fs::path& file) {
+    session.open(file);
+    waitFor(session, [&] { return session.walk() && !session.working(); });
+  }
+  /// Coarse, so that a bake takes a moment.
+  static void makeCoarse(Session& session) {
+    BakeSettings bake = session.project().bake;
+    bake.samplesPerDegree = 0.5;
+    bake.ambientRays = 0;
+    bake.surfaceTexel = 0.5;
+    session.apply(setBakeSettings(session.project(), bake, "coarse"));
+    session.apply(setCellSize(session.project(), 2.5));
+  }
+
+  fs::path folder_;
+  double now_ = 0;
+};
+
+TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
+  const fs::path file = folder_ / "room.acentric.json";
+  {
+    Session session(options());
+    openAndSettle(session, folder_ / "room.obj");
+    EXPECT_TRUE(session.untitled());
+    EXPECT_GT(session.built()->layout->regions.size(), 1U);
+    ASSERT_TRUE(session.backdrop() != nullptr);
+    EXPECT_FALSE(session.backdrop()->picture.empty());
+    makeCoarse(session);
+    waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+    ASSERT_TRUE(session.saveAs(file));
+    EXPECT_FALSE(session.dirty());
+    session.startBake();
+    waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+    EXPECT_EQ(session.walk()->missing, 0);
+    EXPECT_EQ(session.lastBake()->captures.baked, int(session.built()->layout->cameras.size()));
+    for (const BakeState state : session.captures()->regions) EXPECT_EQ(state, BakeState::baked);
+  }
+  Session again(options());
+  EXPECT_EQ(again.preferences().recent.front(), file);
+  openAndSettle(again, file);
+  EXPECT_TRUE(again.captures()->complete());
+  again.startBake();
+  waitFor(again, [&] { return again.lastBake().has_value() && !again.working(); });
+  EXPECT_EQ(again.lastBake()->captures.baked, 0);
+}
+
+TEST_F(SessionTest, RemovingACellAndUndoingItLeavesEverythingBaked) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  session.startBake();
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  const std::size_t before = session.built()->layout->regions.size();
+  session.apply(removeCells(session.project(), {session.built()->layout->regions.front().id}));
+  waitFor(session,
+          [&] { return !session.working() && session.built()->layout->regions.size() == before - 1; });
+  EXPECT_TRUE(session.captures()->complete());
+  session.undo();
+  waitFor(session, [&] { return !session.working() && session.built()->layout->regions.size() == before; });
+  EXPECT_TRUE(session.captures()->complete());
+  EXPECT_FALSE(session.dirty());
+}
+
+TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
+  const fs::path file = folder_ / "room.acentric.json";
+  double edited = 0;
+  {
+    Session session(options());
+    openAndSettle(session, folder_ / "room.obj");
+    ASSERT_TRUE(session.saveAs(file));
+    session.apply(setEyeHeight(session.project(), 1.23));
+    edited = session.project().layout.eyeHeight;
+    waitFor(session, [&] { return !session.working(); });
+    session.poll(now_ + 100);
+    EXPECT_TRUE(fs::exists(autosaveFileFor(file)));
+  }  // gone without saving or closing, as by a crash
+  Session session(options());
+  openAndSettle(session, file);
+  ASSERT_TRUE(session.recoveryOffered());
+  EXPECT_NE(session.project().layout.eyeHeight, edited);
+  session.answerRecovery(true);
+  EXPECT_EQ(session.project().layout.eyeHeight, edited);
+  EXPECT_TRUE(session.dirty());
+  ASSERT_TRUE(session.save());
+  EXPECT_FALSE(fs::exists(autosaveFileFor(file)));
+  waitFor(session, [&] { return !session.working(); });
+}
+
+TEST_F(SessionTest, AnUnsoundEditIsRefusedWithAReason) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  const Project before = session.project();
+  session.messages().takeNew();
+  EXPECT_FALSE(session.apply(setCellSize(before, -1)));
+  EXPECT_EQ(session.project(), before);
+  const auto news = session.messages().takeNew();
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_TRUE(news.front().modal);
+}
+
+TEST_F(SessionTest, AFileThatIsNotThereIsAFailureThatNamesIt) {
+  Session session(options());
+  session.open(folder_ / "missing.glb");
+  for (int i = 0; i < 2000 && session.opening().running(); ++i) {
+    session.poll(now_);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_FALSE(session.hasProject());
+  const auto news = session.messages().takeNew();
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_EQ(news.front().level, MessageLevel::error);
+  EXPECT_NE(news.front().text.find("missing.glb"), std::string::npos);
+}
+
+TEST(OnlyViewDiffers, KnowsWhatNeedsNothingLaidOrLoaded) {
+  Project a;
+  a.scene = "room.obj";
+  Project b = a;
+  b.view.fillHoles = !b.view.fillHoles;
+  b.fovDegrees = 75;
+  b.spawn.yawRadians = 2;
+  EXPECT_TRUE(onlyViewDiffers(a, b));
+  b.exposure = 2;
+  EXPECT_FALSE(onlyViewDiffers(a, b));
+}
+
+}  // namespace
+}  // namespace acentric::editor

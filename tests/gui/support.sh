@@ -1,0 +1,93 @@
+# Functions for tests that drive the editor: a virtual display, waiting on its log, and input by widget names.
+# Sourced. The caller sets EDITOR, WORK (an empty folder) and calls start_display and start_editor.
+
+fail() {
+  echo "FAILED: $*" >&2
+  [ -n "${DISPLAY:-}" ] && import -window root "$WORK/failure.png" 2>/dev/null
+  [ -f "$WORK/ui.log" ] && { echo "--- last events:" >&2; grep '^event' "$WORK/ui.log" | tail -12 >&2; }
+  exit 1
+}
+
+need_tools() {
+  for tool in Xvfb xdotool import; do
+    command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
+  done
+}
+
+stop_all() {
+  [ -n "${EDITOR_PID:-}" ] && kill "$EDITOR_PID" 2>/dev/null && wait "$EDITOR_PID" 2>/dev/null
+  [ -n "${DISPLAY_PID:-}" ] && kill "$DISPLAY_PID" 2>/dev/null && wait "$DISPLAY_PID" 2>/dev/null
+}
+
+start_display() {
+  Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp 3>"$WORK/display" 2>"$WORK/xvfb.log" &
+  DISPLAY_PID=$!
+  for _ in $(seq 100); do [ -s "$WORK/display" ] && break; sleep 0.1; done
+  [ -s "$WORK/display" ] || fail "no virtual display: $(cat "$WORK/xvfb.log")"
+  export DISPLAY=":$(cat "$WORK/display")"
+}
+
+# start_editor FILE
+start_editor() {
+  rm -f "$WORK/ui.log"
+  "$EDITOR" "$1" --log-ui "$WORK/ui.log" --exit-after 390 >"$WORK/editor.out" 2>&1 &
+  EDITOR_PID=$!
+  wait_for '^event READY' 60
+  WINDOW=$(xdotool search --sync --name 'Acentric' | head -1)
+}
+
+# wait_for PATTERN SECONDS: a line of the log matches
+wait_for() {
+  for _ in $(seq $(($2 * 10))); do
+    grep -Eq "$1" "$WORK/ui.log" 2>/dev/null && return
+    kill -0 "$EDITOR_PID" 2>/dev/null || fail "the editor is gone: $(cat "$WORK/editor.out")"
+    sleep 0.1
+  done
+  fail "waited $2 s for: $1"
+}
+
+# wait_state PATTERN SECONDS: the newest state line matches
+wait_state() {
+  for _ in $(seq $(($2 * 10))); do
+    state | grep -Eq "$1" && return
+    kill -0 "$EDITOR_PID" 2>/dev/null || fail "the editor is gone: $(cat "$WORK/editor.out")"
+    sleep 0.1
+  done
+  fail "waited $2 s for state: $1 (it is: $(state))"
+}
+
+state() { grep '^event state' "$WORK/ui.log" | tail -1; }
+# field NAME: number behind a word of the newest state line
+field() { state | sed -nE "s/.* $1 ([0-9]+).*/\1/p"; }
+
+# place NAME: centre of a widget that is shown, "x y"
+place() {
+  local line
+  line=$(grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1)
+  case "$line" in rect*) ;; *) fail "widget $1 is not shown" ;; esac
+  echo "$line" | awk '{ printf "%d %d\n", ($3 + $5) / 2, ($4 + $6) / 2 }'
+}
+
+# The window may still be at work for some frames: buttons and keys are held for longer than one.
+click_at() {
+  xdotool mousemove --window "$WINDOW" "$1" "$2"; sleep 0.3
+  xdotool mousedown 1; sleep 0.3; xdotool mouseup 1; sleep 0.3
+}
+click() {
+  local at
+  at=$(place "$1") || exit 1
+  # shellcheck disable=SC2086
+  click_at $at
+}
+press() { xdotool keydown "$1"; sleep "${2:-0.25}"; xdotool keyup "$1"; sleep 0.2; }
+press_with() {  # press_with MODIFIER KEY
+  xdotool keydown "$1"; sleep 0.1; press "$2"; xdotool keyup "$1"; sleep 0.2
+}
+# drag_to X0 Y0 X1 Y1
+drag_to() {
+  xdotool mousemove --window "$WINDOW" "$1" "$2"; sleep 0.3; xdotool mousedown 1; sleep 0.3
+  for i in 1 2 3 4 5 6; do
+    xdotool mousemove --window "$WINDOW" $(($1 + ($3 - $1) * i / 6)) $(($2 + ($4 - $2) * i / 6)); sleep 0.1
+  done
+  sleep 0.2; xdotool mouseup 1; sleep 0.3
+}

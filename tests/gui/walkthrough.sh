@@ -1,0 +1,132 @@
+#!/bin/bash
+# Opens a project in the editor and does what a designer does, by real input events: adds a cell, drags one, removes one,
+# takes edits back, bakes, walks, looks around, saves. Checks the log, the project file and the captures on disk.
+#   walkthrough.sh EDITOR ACENTRIC WORK_FOLDER
+set -u
+EDITOR=$1
+ACENTRIC=$2
+WORK=$3
+. "$(dirname "$0")/support.sh"
+need_tools
+rm -rf "$WORK"
+mkdir -p "$WORK/config" "$WORK/cache"
+export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
+trap stop_all EXIT
+
+# A closed room, 6 x 5 x 3 m, faces inwards.
+cat >"$WORK/room.obj" <<'OBJ'
+v -3 0 -2.5
+v 3 0 -2.5
+v 3 0 2.5
+v -3 0 2.5
+v -3 3 -2.5
+v 3 3 -2.5
+v 3 3 2.5
+v -3 3 2.5
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+OBJ
+PROJECT=$WORK/room.acentric.json
+"$ACENTRIC" new "$WORK/room.obj" -o "$PROJECT" --cell 2 --samples-per-degree 1 --outline "-1,-1;1,-1;1,1;-1,1" \
+  >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
+
+start_display
+start_editor "$PROJECT"
+wait_for '^event message Opened' 60
+wait_state 'working 0' 60
+REGIONS=$(field regions)
+[ "$REGIONS" -gt 1 ] || fail "a project of $REGIONS regions is too small to try"
+
+# Add: click the free ring nearest to the middle of the plan.
+FREE=$(grep -oE '^rect free\.-?[0-9]+\.-?[0-9]+\.0 ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
+  echo "$(place "$name") $name $(place plan)"
+done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | head -1 | awk '{ print $2 }')
+[ -n "$FREE" ] || fail "no free cell is shown"
+CELL=cell.${FREE#free.}
+click "$FREE"
+wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 1" 30
+
+# Drag it to another free ring: one history entry, as many regions as before.
+TARGET=$(grep -oE '^rect free\.-?[0-9]+\.-?[0-9]+\.0 ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
+  [ "$name" != "$FREE" ] && echo "$(place "$name") $name $(place "$CELL")"
+done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | head -1 | awk '{ print $2 }')
+[ -n "$TARGET" ] || fail "no second free cell is shown"
+# shellcheck disable=SC2046
+drag_to $(place "$CELL") $(place "$TARGET")
+wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 2" 30
+place "cell.${TARGET#free.}" >/dev/null
+
+# Undo the drag, then remove the added cell by selecting it and pressing Delete.
+press_with ctrl z
+wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 1" 30
+click "$CELL"
+press Delete
+wait_state "regions $REGIONS .*working 0 dirty [01] undo 2" 30
+# Take both back, and the first again: the cell is there.
+press_with ctrl z
+press_with ctrl z
+wait_state "regions $REGIONS .*working 0 dirty 0 undo 0" 30
+press_with ctrl y
+wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 1" 30
+
+# Save by key, bake by button.
+press_with ctrl s
+wait_for '^event message Saved room.acentric.json' 20
+grep -q '"added"' "$PROJECT" || fail "the project file has no added cells"
+python3 - "$PROJECT" "${CELL#cell.}" <<'PY' || fail "the added cell is not in the project file"
+import json, sys
+layout = json.load(open(sys.argv[1]))["layout"]
+sys.exit(0 if layout["added"] == [[int(n) for n in sys.argv[2].split(".")]] else 1)
+PY
+CAPTURES=$(field captures)
+click bake.start
+wait_for '^event message Baked' 240
+wait_state "captures $CAPTURES baked $CAPTURES working 0" 60
+FILES=$(find "$WORK/room.captures" -name '*.exr' | wc -l)
+[ "$FILES" -ge "$CAPTURES" ] || fail "$FILES captures on disk, $CAPTURES expected"
+
+# Walk with W for a second, then look by dragging to the right.
+EYE_BEFORE=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+press w 1.0
+sleep 1.5
+EYE_AFTER=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+echo "$EYE_BEFORE $EYE_AFTER" | awk '{ d = sqrt(($9 - $3) ^ 2 + ($10 - $4) ^ 2); exit !(d > 0.3 && d < 4) }' ||
+  fail "W did not walk: from $EYE_BEFORE to $EYE_AFTER"
+at=$(place walk)
+# shellcheck disable=SC2086
+xdotool mousemove --window "$WINDOW" $at; sleep 0.3
+xdotool mousedown 1; sleep 0.3
+for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- 20 0; sleep 0.1; done
+xdotool mouseup 1; sleep 1.5
+EYE_TURNED=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+echo "$EYE_AFTER $EYE_TURNED" | awk '{ d = $6 - $12; if (d < 0) d += 6.2831853; exit !(d > 0.1 && d < 1.5) }' ||
+  fail "dragging did not look to the right: from $EYE_AFTER to $EYE_TURNED"
+
+# In a closed room that is baked all around, little is left open.
+sleep 1
+grep '^event frame' "$WORK/ui.log" | tail -1 | awk '{ exit !($5 > 0 && $7 < 0.2) }' ||
+  fail "the picture has holes: $(grep '^event frame' "$WORK/ui.log" | tail -1)"
+import -window root "$WORK/screenshot.png"
+
+# Nothing changes now, so nothing may be drawn: hardly any processor time is used.
+ticks() { awk '{ print $14 + $15 }' "/proc/$EDITOR_PID/stat"; }
+sleep 6
+BEFORE=$(ticks)
+sleep 3
+USED=$(($(ticks) - BEFORE))
+[ "$USED" -le 15 ] || fail "an idle window used $USED hundredths of a second in 3 s"
+
+press_with ctrl q
+for _ in $(seq 100); do kill -0 "$EDITOR_PID" 2>/dev/null || break; sleep 0.1; done
+kill -0 "$EDITOR_PID" 2>/dev/null && fail "Ctrl+Q did not leave"
+wait "$EDITOR_PID"
+CODE=$?
+[ "$CODE" -eq 0 ] || fail "the editor ended with $CODE: $(cat "$WORK/editor.out")"
+EDITOR_PID=
+grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
+"$ACENTRIC" validate "$PROJECT" >/dev/null || fail "the saved project is not valid"
+echo "passed: $REGIONS regions and one added, $CAPTURES captures, screenshot $WORK/screenshot.png"
