@@ -35,7 +35,8 @@ Result<Capture> bakeCamera(const RayScene& scene, const LayoutCamera& camera,
                            const ColumnCamera& columnCamera, const BakeSettings& settings, TaskRunner& runner,
                            RayCounts& rays, std::stop_token stop = {});
 
-/// Where captures go. `put` may be called from another thread than bake's caller, one call at a time.
+/// Where captures go. `put` may be called from another thread than bake's caller, one call at a time; `has`
+/// may be called meanwhile.
 class CaptureSink {
  public:
   virtual ~CaptureSink() = default;

@@ -63,8 +63,9 @@ TEST(RayScene, AnEmptySceneIsTraceableAndHoldsNothing) {
 TEST(RayScene, RefusesTrianglesThatNameMissingCorners) {
   SceneBuilder builder;
   builder.floor(builder.material(matte()), 1);
-  builder.lastMesh().triangles[1].z = 17;
-  const auto built = RayScene::build(builder.scene(), EffectPlan{});
+  auto broken = std::make_shared<Scene>(*builder.scene());
+  broken->meshes[0].triangles[1].z = 17;
+  const auto built = RayScene::build(broken, EffectPlan{});
   ASSERT_FALSE(built.has_value());
   EXPECT_EQ(built.error().kind, ErrorKind::malformed);
   EXPECT_NE(built.error().describe().find("mesh 1"), std::string::npos) << built.error().describe();
