@@ -11,7 +11,8 @@ namespace acentric::test {
 
 using Json = nlohmann::json;
 
-inline ProcessResult acentric(std::vector<std::string> arguments, std::chrono::milliseconds limit = std::chrono::minutes(5)) {
+inline ProcessResult acentric(std::vector<std::string> arguments,
+                              std::chrono::milliseconds limit = std::chrono::minutes(5)) {
   arguments.insert(arguments.begin(), ACENTRIC_PROGRAM);
   return runProcess(arguments, limit);
 }
@@ -21,7 +22,8 @@ class SampleProject {
  public:
   explicit SampleProject(const std::string& name) : folder_(name) {
     generated_ = runProcess({ACENTRIC_SAMPLE_GENERATOR, (folder_.path() / "gallery.glb").string()});
-    made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree", "1", "--cell", "2.5"});
+    made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree",
+                      "1", "--cell", "2.5", "--outline", "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5"});
     Json project = read();
     project["bake"]["ambientRays"] = 4;
     project["bake"]["surfaceTexel"] = 0.5;
