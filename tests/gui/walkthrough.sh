@@ -31,7 +31,7 @@ f 3 4 8 7
 f 4 1 5 8
 OBJ
 PROJECT=$WORK/room.acentric.json
-"$ACENTRIC" new "$WORK/room.obj" -o "$PROJECT" --cell 2 --samples-per-degree 1 --outline "-1,-1;1,-1;1,1;-1,1" \
+"$ACENTRIC" new "$WORK/room.obj" -o "$PROJECT" --cell 1.2 --samples-per-degree 1 --outline "-1.8,-1.2;1.8,-1.2;1.8,1.2;-1.8,1.2" \
   >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
 
 start_display
