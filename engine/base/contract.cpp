@@ -21,6 +21,8 @@ ContractHandler setContractHandler(ContractHandler handler) {
   return currentHandler.exchange(handler ? handler : &abortWithMessage);
 }
 
-void contractBroken(const char* what, const std::source_location& where) { currentHandler.load()(what, where); }
+void contractBroken(const char* what, const std::source_location& where) {
+  currentHandler.load()(what, where);
+}
 
 }  // namespace acentric

@@ -30,14 +30,16 @@ tl::unexpected<Error> failErrno(const char* what, const fs::path& path) {
 template <class Container>
 Result<Container> readWhole(const fs::path& path, std::size_t maxBytes) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return fail(ErrorKind::unreadable, "is a folder, not a file", path.string());
+  if (fs::is_directory(path, error))
+    return fail(ErrorKind::unreadable, "is a folder, not a file", path.string());
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return failErrno("cannot be opened for reading", path);
   Container out;
   char buffer[1 << 16];
   while (const std::size_t got = std::fread(buffer, 1, sizeof buffer, file.get())) {
     if (out.size() + got > maxBytes)
-      return fail(ErrorKind::tooLarge, fmt::format("is larger than the limit of {} MiB", maxBytes >> 20), path.string());
+      return fail(ErrorKind::tooLarge, fmt::format("is larger than the limit of {} MiB", maxBytes >> 20),
+                  path.string());
     const std::size_t old = out.size();
     out.resize(old + got);
     std::memcpy(out.data() + old, buffer, got);
@@ -57,7 +59,8 @@ Status flushToDisk(const fs::path& path, int flags) {
 
 fs::path temporaryFor(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  return path.parent_path() / fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), counter++, path.extension().string());
+  return path.parent_path() /
+         fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), counter++, path.extension().string());
 }
 
 }  // namespace
@@ -66,7 +69,9 @@ Result<std::vector<std::byte>> readFile(const fs::path& path, std::size_t maxByt
   return readWhole<std::vector<std::byte>>(path, maxBytes);
 }
 
-Result<std::string> readText(const fs::path& path, std::size_t maxBytes) { return readWhole<std::string>(path, maxBytes); }
+Result<std::string> readText(const fs::path& path, std::size_t maxBytes) {
+  return readWhole<std::string>(path, maxBytes);
+}
 
 Status replaceFileAtomically(const fs::path& path, const std::function<Status(const fs::path&)>& write) {
   std::error_code error;
@@ -89,7 +94,8 @@ Status writeFileAtomically(const fs::path& path, std::span<const std::byte> byte
   return replaceFileAtomically(path, [&](const fs::path& temporary) -> Status {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(temporary.c_str(), "wb"), &std::fclose);
     if (!file) return failErrno("cannot be opened for writing", path);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() || std::fflush(file.get()) != 0)
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
+        std::fflush(file.get()) != 0)
       return failErrno("writing failed", path);
     return {};
   });
@@ -117,7 +123,8 @@ int removeStaleTemporaries(const fs::path& folder) {
 
 fs::path userCacheFolder() {
   if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/') return fs::path(xdg) / "acentric";
-  if (const char* home = std::getenv("HOME"); home && *home == '/') return fs::path(home) / ".cache" / "acentric";
+  if (const char* home = std::getenv("HOME"); home && *home == '/')
+    return fs::path(home) / ".cache" / "acentric";
   return fs::temp_directory_path() / "acentric-cache";
 }
 

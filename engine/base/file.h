@@ -16,7 +16,8 @@ namespace acentric {
 
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
                                         std::size_t maxBytes = std::size_t(8) << 30);
-Result<std::string> readText(const std::filesystem::path& path, std::size_t maxBytes = std::size_t(256) << 20);
+Result<std::string> readText(const std::filesystem::path& path, std::size_t maxBytes = std::size_t(256)
+                                                                                       << 20);
 
 Status writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status writeTextAtomically(const std::filesystem::path& path, std::string_view text);

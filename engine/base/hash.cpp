@@ -20,7 +20,8 @@ Result<ContentKey> ContentKey::fromHex(std::string_view text) {
     return error == std::errc{} && end == part.data() + part.size();
   };
   if (text.size() != 32 || !parse(text.substr(0, 16), key.high) || !parse(text.substr(16), key.low))
-    return fail(ErrorKind::malformed, "a content key has 32 hexadecimal digits, not '" + std::string(text.substr(0, 40)) + "'");
+    return fail(ErrorKind::malformed,
+                "a content key has 32 hexadecimal digits, not '" + std::string(text.substr(0, 40)) + "'");
   return key;
 }
 

@@ -34,8 +34,7 @@ class Hasher {
   Hasher& bytes(const void* data, std::size_t size);
   Hasher& text(std::string_view value);  ///< length first, so that "ab"+"c" differs from "a"+"bc"
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  Hasher& value(T v) {
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> Hasher& value(T v) {
     if constexpr (std::is_floating_point_v<T>)
       if (v == T(0)) v = T(0);  // -0 and +0 are one value
     return bytes(&v, sizeof v);

@@ -6,13 +6,20 @@
 namespace acentric {
 
 LogSink standardErrorLog() {
-  auto logger = std::make_shared<spdlog::logger>("acentric", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  auto logger =
+      std::make_shared<spdlog::logger>("acentric", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_pattern("%H:%M:%S %^%l%$ %v");
   return [logger](LogLevel level, const std::string& message) {
     switch (level) {
-      case LogLevel::info: logger->info(message); break;
-      case LogLevel::warning: logger->warn(message); break;
-      case LogLevel::error: logger->error(message); break;
+      case LogLevel::info:
+        logger->info(message);
+        break;
+      case LogLevel::warning:
+        logger->warn(message);
+        break;
+      case LogLevel::error:
+        logger->error(message);
+        break;
     }
   };
 }

@@ -7,9 +7,9 @@
 namespace acentric {
 
 struct ProgressState {
-  double done = 0;     ///< units finished
-  double total = 0;    ///< units in all; 0 while unknown
-  std::string stage;   ///< "importing", "baking camera 12"
+  double done = 0;    ///< units finished
+  double total = 0;   ///< units in all; 0 while unknown
+  std::string stage;  ///< "importing", "baking camera 12"
 };
 
 using Progress = std::function<void(const ProgressState&)>;

@@ -6,8 +6,7 @@ namespace acentric {
 
 TaskRunner::TaskRunner(int workers) {
   require(workers >= 0 && workers <= 4096, "worker count out of range");
-  for (int i = 0; i < workers; ++i)
-    workers_.emplace_back([this](std::stop_token stop) { workerLoop(stop); });
+  for (int i = 0; i < workers; ++i) workers_.emplace_back([this](std::stop_token stop) { workerLoop(stop); });
 }
 
 TaskRunner::~TaskRunner() {

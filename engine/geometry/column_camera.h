@@ -1,6 +1,6 @@
 #pragma once
-/// Column camera: an image whose columns are vertical half-planes through the centre of projection. A table of
-/// horizontal column directions times a table of row tangents holds pinholes with a vertical image plane,
+/// Column camera: an image whose columns are vertical half-planes through the centre of projection. A table
+/// of horizontal column directions times a table of row tangents holds pinholes with a vertical image plane,
 /// cylinders and spheres alike, and is what list priority in column order needs (McMillan's occlusion-
 /// compatible order; every great circle through the epipole is monotone in azimuth).
 ///

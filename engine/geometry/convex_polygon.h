@@ -21,8 +21,10 @@ struct ConvexPolygon {
   bool containsClosed(const glm::dvec2& point) const;
   /// Each edge moved outwards by `distance` metres, corners mitred. Inwards if negative (may become empty).
   ConvexPolygon grown(double distance) const;
-  /// Distances [enter, leave] along origin + t*direction (unit), t >= 0, inside the polygon; nothing if missed.
-  std::optional<std::pair<double, double>> raySpan(const glm::dvec2& origin, const glm::dvec2& direction) const;
+  /// Distances [enter, leave] along origin + t*direction (unit), t >= 0, inside the polygon; nothing if
+  /// missed.
+  std::optional<std::pair<double, double>> raySpan(const glm::dvec2& origin,
+                                                   const glm::dvec2& direction) const;
   /// Nearest point of the closed polygon.
   glm::dvec2 nearestPoint(const glm::dvec2& point) const;
 };

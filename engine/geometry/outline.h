@@ -2,8 +2,8 @@
 /// A walkable outline in plan: simple polygons and the holes in them, metres.
 
 #include <glm/glm.hpp>
-#include <string_view>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/result.h"

@@ -8,9 +8,9 @@
 namespace acentric {
 
 struct PerspectiveView {
-  glm::dvec3 eye{0};            ///< world, metres
-  double yawRadians = 0;        ///< azimuth of the viewing direction
-  double pitchRadians = 0;      ///< in [-pi/2, pi/2]
+  glm::dvec3 eye{0};                       ///< world, metres
+  double yawRadians = 0;                   ///< azimuth of the viewing direction
+  double pitchRadians = 0;                 ///< in [-pi/2, pi/2]
   double fovRadians = 1.0471975511965976;  ///< horizontal field of view, in (0, pi)
   int width = 960;
   int height = 540;

@@ -57,7 +57,8 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, std::chrono:
   int open = 2;
   bool killed = false;
   while (open > 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(limit - (Clock::now() - begin)).count();
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(limit - (Clock::now() - begin)).count();
     if (left <= 0 && !killed) ::kill(-child, SIGKILL), killed = true;
     ::poll(waits, 2, killed ? 1000 : int(std::max<long>(1, long(left))));
     for (int k = 0; k < 2; ++k) {

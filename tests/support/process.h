@@ -11,7 +11,7 @@
 namespace acentric::test {
 
 struct ProcessResult {
-  int exitCode = -1;   ///< -1 when ended by a signal
+  int exitCode = -1;  ///< -1 when ended by a signal
   int signal = 0;
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
