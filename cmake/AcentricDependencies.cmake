@@ -15,7 +15,6 @@ find_package(CGAL REQUIRED)
 # By pkg-config: Debian's CMake package names tools and an OpenCV folder that other packages bring.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_package(OpenEXR REQUIRED)
-find_package(OpenMesh CONFIG REQUIRED)  # CONFIG: CGAL brings a Find module of the same name
 find_package(assimp REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(embree 3.13 REQUIRED)
