@@ -216,7 +216,10 @@ void LocalResidency::dropGone(const WalkScene& scene) {
   std::erase_if(resident_, [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
     const bool same = found != wanted.end() && found->second && entry.second.owner.lock() == found->second;
-    return !same || entry.second.lightOwner.lock() != scene.surfaceLight;
+    // A light that died reads as null, like none: so whether there was one is kept apart.
+    const bool sameLight =
+        scene.surfaceLight ? entry.second.lightOwner.lock() == scene.surfaceLight : !entry.second.lit;
+    return !same || !sameLight;
   });
 }
 
