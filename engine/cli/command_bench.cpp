@@ -20,20 +20,16 @@ std::string processorName() {
 }  // namespace
 
 Result<Report> runBench(const BenchOptions& options, const Common& common) {
-  const auto size = parseSize(options.size);
-  if (!size) return tl::unexpected(size.error());
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
-  const auto views =
-      viewsAlong(tourOf(*open->layout, open->project.spawn.position, options.frames), *open, *size, 0);
-  if (!views) return tl::unexpected(views.error());
+  const auto walk = openAlong(options.project, {}, options.size, 0, options.frames, common);
+  if (!walk) return tl::unexpected(walk.error());
+  const auto& views = walk->views;
   const auto runner = common.runner();
 
   std::vector<std::unique_ptr<FrameMaker>> makers;
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
     const auto begin = std::chrono::steady_clock::now();
-    auto maker = FrameMaker::create(*open, name, common, *runner);
+    auto maker = FrameMaker::create(walk->open, name, common, *runner);
     if (!maker) return tl::unexpected(maker.error());
     if (makers.empty())
       loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -43,13 +39,13 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   std::vector<std::vector<double>> totals(makers.size()), warps(makers.size());
   std::vector<std::uint64_t> samples(makers.size(), 0);
   for (int repeat = 0; repeat < options.repeats + 1; ++repeat)
-    for (std::size_t v = 0; v < views->size(); ++v)
+    for (std::size_t v = 0; v < views.size(); ++v)
       for (std::size_t m = 0; m < makers.size(); ++m) {
         if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
         if (common.progress)
-          common.progress({double(repeat) * double(views->size()) + double(v),
-                           double(options.repeats + 1) * double(views->size()), "timing"});
-        const auto frame = makers[m]->render((*views)[v]);
+          common.progress({double(repeat) * double(views.size()) + double(v),
+                           double(options.repeats + 1) * double(views.size()), "timing"});
+        const auto frame = makers[m]->render(views[v]);
         if (!frame) return tl::unexpected(frame.error());
         if (repeat == 0) continue;  // warms caches and uploads
         totals[m].push_back(frame->stats.totalSeconds * 1e3);
@@ -59,12 +55,12 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   Report report;
   report.json = {{"version", ACENTRIC_VERSION},  {"processor", processorName()},
                  {"threads", runner->threads()}, {"project", options.project.string()},
-                 {"width", size->width},         {"height", size->height},
-                 {"frames", views->size()},      {"repeats", options.repeats},
+                 {"width", walk->size.width},    {"height", walk->size.height},
+                 {"frames", views.size()},       {"repeats", options.repeats},
                  {"loadSeconds", loadSeconds},   {"renderers", Json::array()}};
-  report.text =
-      fmt::format("{}, {} threads, {}x{}, {} frames x {}; captures loaded in {:.2f} s\n", processorName(),
-                  runner->threads(), size->width, size->height, views->size(), options.repeats, loadSeconds);
+  report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; captures loaded in {:.2f} s\n",
+                            processorName(), runner->threads(), walk->size.width, walk->size.height,
+                            views.size(), options.repeats, loadSeconds);
   for (std::size_t m = 0; m < makers.size(); ++m) {
     const Spread total = spreadOf(totals[m]), warp = spreadOf(warps[m]);
     double warpMs = 0;

@@ -36,17 +36,13 @@ Status writeTriple(const std::filesystem::path& folder, std::size_t index, const
 Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   if (options.renderer == "truth")
     return fail(ErrorKind::invalidArgument, "--renderer truth would compare the truth with itself");
-  const auto size = parseSize(options.size);
-  if (!size) return tl::unexpected(size.error());
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
-  const auto path = pathOrTour(options.path, *open, kTourFrames);
-  if (!path) return tl::unexpected(path.error());
-  const auto all = viewsAlong(*path, *open, *size, options.fovDegrees);
-  if (!all) return tl::unexpected(all.error());
-  const auto views = evenly(*all, options.frames);
+  const auto walk =
+      openAlong(options.project, options.path, options.size, options.fovDegrees, kTourFrames, common);
+  if (!walk) return tl::unexpected(walk.error());
+  const OpenProject& open = walk->open;
+  const auto views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(*open, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(open, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<double> psnr, ssim, holes, milliseconds;
@@ -56,7 +52,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
     if (common.progress) common.progress({double(i), double(views.size()), "measuring"});
     const auto frame = (*maker)->render(views[i]);
     if (!frame) return tl::unexpected(frame.error());
-    const TruthFrame truth = renderTruth(*open->rays, views[i], open->project.bake, open->project.exposure,
+    const TruthFrame truth = renderTruth(*open.rays, views[i], open.project.bake, open.project.exposure,
                                          options.truthSamples, *runner);
     const auto comparison = compare(*frame, truth.colour, truth.rayDistance);
     if (!comparison) return tl::unexpected(comparison.error());
@@ -77,8 +73,8 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   Report report;
   report.json = {{"project", options.project.string()},
                  {"renderer", options.renderer},
-                 {"width", size->width},
-                 {"height", size->height},
+                 {"width", walk->size.width},
+                 {"height", walk->size.height},
                  {"threads", runner->threads()},
                  {"psnr", toJson(p)},
                  {"ssim", toJson(s)},
@@ -92,8 +88,8 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
       "  SSIM       median {:6.4f}      worst {:6.4f}\n"
       "  hole share median {:6.3f} %    worst {:6.3f} %\n"
       "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
-      views.size(), size->width, size->height, options.renderer, runner->threads(), p.median, p.min, s.median,
-      s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
+      views.size(), walk->size.width, walk->size.height, options.renderer, runner->threads(), p.median, p.min,
+      s.median, s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
   return report;
 }
 

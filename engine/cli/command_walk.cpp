@@ -28,35 +28,31 @@ Result<Report> runTour(const TourOptions& options, const Common& common) {
 }
 
 Result<Report> runWalk(const WalkOptions& options, const Common& common) {
-  const auto size = parseSize(options.size);
-  if (!size) return tl::unexpected(size.error());
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
-  const auto path = pathOrTour(options.path, *open, kTourFrames);
-  if (!path) return tl::unexpected(path.error());
-  const auto views = viewsAlong(*path, *open, *size, options.fovDegrees);
-  if (!views) return tl::unexpected(views.error());
+  const auto walk =
+      openAlong(options.project, options.path, options.size, options.fovDegrees, kTourFrames, common);
+  if (!walk) return tl::unexpected(walk.error());
+  const auto& views = walk->views;
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(*open, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->open, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<ColourImage> pictures;
   std::vector<double> milliseconds;
-  std::uint64_t open_pixels = 0;
-  const std::size_t stride = std::max<std::size_t>(1, (views->size() + kSheetPictures - 1) / kSheetPictures);
-  for (std::size_t i = 0; i < views->size(); ++i) {
+  std::uint64_t openPixels = 0;
+  const std::size_t stride = std::max<std::size_t>(1, (views.size() + kSheetPictures - 1) / kSheetPictures);
+  for (std::size_t i = 0; i < views.size(); ++i) {
     if (common.stop.stop_requested())
       return fail(ErrorKind::cancelled, "stopped; the frames written so far are complete",
                   options.output.string());
-    if (common.progress) common.progress({double(i), double(views->size()), "rendering"});
-    auto frame = (*maker)->render((*views)[i]);
+    if (common.progress) common.progress({double(i), double(views.size()), "rendering"});
+    auto frame = (*maker)->render(views[i]);
     if (!frame) return tl::unexpected(frame.error());
     const auto file = options.output / fmt::format("frame_{:05}.png", i);
     if (Status written = writeColourImage(frame->colour, file); !written)
       return tl::unexpected(written.error());
     if (Status there = mustExist(file); !there) return tl::unexpected(there.error());
     milliseconds.push_back(frame->stats.totalSeconds * 1e3);
-    open_pixels += frame->holeCount();
+    openPixels += frame->holeCount();
     if (i % stride == 0) pictures.push_back(std::move(frame->colour));
   }
   const auto sheet = options.output / "contact_sheet.png";
@@ -64,17 +60,18 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
     return tl::unexpected(written.error());
 
   const Spread spread = spreadOf(milliseconds);
-  const double openShare = double(open_pixels) / (double(size->width) * size->height * double(views->size()));
+  const double openShare =
+      double(openPixels) / (double(walk->size.width) * walk->size.height * double(views.size()));
   Report report;
   report.json = {{"folder", options.output.string()},
-                 {"frames", views->size()},
+                 {"frames", views.size()},
                  {"contactSheet", sheet.string()},
                  {"renderer", options.renderer},
                  {"frameMsMedian", spread.median},
                  {"frameMsP99", spread.p99},
                  {"openShare", openShare},
                  {"warnings", (*maker)->loaded().warnings}};
-  report.text = fmt::format("{} frames in {}; contact sheet {}\n", views->size(), options.output.string(),
+  report.text = fmt::format("{} frames in {}; contact sheet {}\n", views.size(), options.output.string(),
                             sheet.string());
   if (!(*maker)->isTruth())
     report.text += fmt::format(

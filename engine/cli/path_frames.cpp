@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 namespace acentric::cli {
+namespace {
 
 Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const OpenProject& open,
                                                 PictureSize size, double fovDegrees) {
@@ -31,9 +32,21 @@ Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const Op
   return views;
 }
 
-Result<CameraPath> pathOrTour(const std::filesystem::path& file, const OpenProject& open, int tourFrames) {
-  if (!file.empty()) return loadPath(file);
-  return tourOf(*open.layout, open.project.spawn.position, tourFrames);
+}  // namespace
+
+Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
+                           const std::string& size, double fovDegrees, int tourFrames, const Common& common) {
+  const auto pictureSize = parseSize(size);
+  if (!pictureSize) return tl::unexpected(pictureSize.error());
+  auto open = openProject(project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  const auto path = pathFile.empty()
+                        ? Result<CameraPath>(tourOf(*open->layout, open->project.spawn.position, tourFrames))
+                        : loadPath(pathFile);
+  if (!path) return tl::unexpected(path.error());
+  auto views = viewsAlong(*path, *open, *pictureSize, fovDegrees);
+  if (!views) return tl::unexpected(views.error());
+  return PathWalk{std::move(*open), *pictureSize, std::move(*views)};
 }
 
 }  // namespace acentric::cli

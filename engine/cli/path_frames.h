@@ -10,12 +10,16 @@
 
 namespace acentric::cli {
 
-/// One view per pose; `fovDegrees` 0 = the project's. Fails, naming the frame, when an eye stands outside
-/// every region.
-Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const OpenProject& open,
-                                                PictureSize size, double fovDegrees);
+/// A project opened for a walk along a path.
+struct PathWalk {
+  OpenProject open;
+  PictureSize size;
+  std::vector<PerspectiveView> views;  ///< one per pose
+};
 
-/// The path in a file, or a tour of so many frames through all regions where no file is named.
-Result<CameraPath> pathOrTour(const std::filesystem::path& file, const OpenProject& open, int tourFrames);
+/// `pathFile` empty = a tour of `tourFrames` through all regions; `fovDegrees` 0 = the project's. Fails,
+/// naming the frame, when an eye stands outside every region.
+Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
+                           const std::string& size, double fovDegrees, int tourFrames, const Common& common);
 
 }  // namespace acentric::cli
