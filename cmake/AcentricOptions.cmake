@@ -38,9 +38,10 @@ function(acentric_library name)
   target_link_libraries(${name} PUBLIC acentric_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
-# acentric_test(NAME LABELS label... LINK dep...): a GoogleTest binary from every *_test.cpp of this folder.
+# acentric_test(NAME LABELS label... LINK dep... [SERIAL]): a GoogleTest binary from every *_test.cpp of this folder.
+# SERIAL tests run alone: those that measure how long something takes.
 function(acentric_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -48,5 +49,5 @@ function(acentric_test name)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE acentric_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+    PROPERTIES RUN_SERIAL ${ARG_SERIAL} TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
 endfunction()
