@@ -76,7 +76,9 @@ void drawLegend() {
 std::string progressText(const Job& job) {
   const ProgressState& progress = job.progress();
   std::string text = progress.stage.empty() ? job.label() : progress.stage;
-  if (progress.total > 1) text += fmt::format(", {:.0f} of {:.0f}", progress.done, progress.total);
+  // Some stages count for themselves.
+  if (progress.total > 1 && text.find(" of ") == std::string::npos)
+    text += fmt::format(", {:.0f} of {:.0f}", progress.done, progress.total);
   return text;
 }
 

@@ -319,6 +319,8 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
                         shown_.stats.totalSeconds * 1000);
   }
+  if (session.walk() && !session.walk()->walk.surfaceLight)
+    text += "   near geometry unlit until a bake ends";
   ImFont* small = context.window.fonts().small;
   ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + 12, low.y + size.y - small->FontSize - 11},
                 ui::palette::text, text.c_str());

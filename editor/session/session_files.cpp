@@ -58,9 +58,9 @@ void Session::opened(Opened opened) {
   const std::size_t regions = opened.open.layout->regions.size();
   const std::size_t cameras = opened.open.layout->cameras.size();
   show(std::move(opened.open));
-  messages_.add(MessageLevel::good,
-                fmt::format("{} {}: {} regions, {} cameras", untitled_ ? "New project from" : "Opened",
-                            built_->scene->name, regions, cameras));
+  const std::string from = untitled_ ? "New project from " + built_->project.scene.filename().string()
+                                     : "Opened " + file_.filename().string();
+  messages_.add(MessageLevel::good, fmt::format("{}: {} regions, {} cameras", from, regions, cameras));
   loadCaptures();
   drawBackdropIfStale();
 }
