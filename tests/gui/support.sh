@@ -20,6 +20,7 @@ stop_all() {
 }
 
 start_display() {
+  rm -f "$WORK/display"  # of an earlier run
   Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp 3>"$WORK/display" 2>"$WORK/xvfb.log" &
   DISPLAY_PID=$!
   for _ in $(seq 100); do [ -s "$WORK/display" ] && break; sleep 0.1; done
