@@ -76,12 +76,15 @@ GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
 
 }  // namespace
 
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name) {
+Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+                                     std::size_t largestBuffer) {
   if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
-  GLint64 largest = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-  const std::size_t mostSamples = std::min<std::size_t>(
-      std::size_t(std::max<GLint64>(largest, 0)) / sizeof(PackedSample), std::size_t(1) << 30);
+  GLint64 driversLargest = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &driversLargest);
+  std::size_t limit = std::size_t(std::max<GLint64>(driversLargest, 0));
+  if (largestBuffer > 0) limit = std::min(limit, largestBuffer);
+  // Vertex numbers are signed.
+  const std::size_t mostSamples = std::min(limit / sizeof(PackedSample), std::size_t(1) << 30);
 
   CaptureBuffers buffers;
   buffers.owner = capture;
@@ -121,7 +124,7 @@ Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const 
     found = resident_.end();
   }
   if (found == resident_.end()) {
-    Result<CaptureBuffers> buffers = uploadCapture(capture, name);
+    Result<CaptureBuffers> buffers = uploadCapture(capture, name, largestBuffer_);
     if (!buffers) return tl::unexpected(buffers.error());
     bytes_ += buffers->bytes;
     found = resident_.emplace(capture.get(), std::move(*buffers)).first;

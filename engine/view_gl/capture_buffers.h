@@ -35,12 +35,15 @@ struct CaptureBuffers {
 };
 
 /// Uploads a capture. Fails on one whose arrays contradict each other, or whose single column is beyond the
-/// limit.
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name);
+/// limit: `largestBuffer` bytes, 0 = what the driver allows.
+Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+                                     std::size_t largestBuffer = 0);
 
 /// What is resident, by the identity of the shared capture.
 class CaptureResidency {
  public:
+  explicit CaptureResidency(std::size_t largestBuffer = 0) : largestBuffer_(largestBuffer) {}
+
   /// The buffers of `capture`, uploaded now if need be. Valid until the next call of dropGone or trim.
   Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name);
   /// Drops the captures that are no longer anywhere in memory or no longer in `scene`.
@@ -51,6 +54,7 @@ class CaptureResidency {
   std::size_t count() const { return resident_.size(); }
 
  private:
+  std::size_t largestBuffer_ = 0;
   std::map<const DisplayCapture*, CaptureBuffers> resident_;
   std::size_t bytes_ = 0;
   std::uint64_t frame_ = 1;

@@ -3,7 +3,9 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
+#include <new>
 
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
@@ -21,6 +23,9 @@ namespace {
 
 /// Captures beyond this leave graphics memory, those unused for longest first.
 constexpr std::size_t kCaptureBudgetBytes = std::size_t(2) << 30;
+
+/// ViewSettings::maxSplatPixels at most.
+constexpr GLfloat kLargestSplat = 64;
 
 /// How far colours spread into a hole, as in view/render.cpp: where images are not loaded yet the gap must
 /// stay visible.
@@ -125,6 +130,15 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create() {
                 "this OpenGL driver lacks GL_ARB_clip_control (in every driver for OpenGL 4.5): update it or "
                 "use a CPU renderer",
                 "OpenGL");
+  std::array<GLfloat, 2> pointSizes{};
+  glGetFloatv(GL_POINT_SIZE_RANGE, pointSizes.data());
+  if (pointSizes[1] < kLargestSplat)
+    return fail(
+        ErrorKind::unsupported,
+        fmt::format(
+            "this OpenGL driver draws points of at most {} pixels, splats need {}: use a CPU renderer",
+            pointSizes[1], kLargestSplat),
+        "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
   std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>()));
@@ -137,7 +151,12 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create() {
 
 Result<FrameStats> GlRenderer::draw(const WalkScene& scene, const PerspectiveView& view,
                                     const ViewSettings& settings) {
-  return impl_->draw(scene, view, settings);
+  try {
+    return impl_->draw(scene, view, settings);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory to hand this view to OpenGL: use smaller captures",
+                "view");
+  }
 }
 
 unsigned GlRenderer::colourTexture() const { return impl_->target.colourCodes(); }

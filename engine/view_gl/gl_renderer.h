@@ -17,14 +17,17 @@ namespace acentric {
 
 class GlRenderer {
  public:
-  /// With the context current; compiles the shaders.
+  /// With the context current, as in every call and for destruction. Compiles the shaders that every walk
+  /// needs; the others when first used.
   static Result<std::unique_ptr<GlRenderer>> create();
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;
 
-  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what is new in `scene`;
-  /// drops what is gone.
+  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what this view
+  /// needs and is not resident yet; drops what is gone from `scene`. The context's state is left as it was,
+  /// whatever it was. Waits until all is drawn, so that the times in the statistics are true; samplesDrawn
+  /// counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
   /// Colour texture of the last draw, row 0 at the bottom (OpenGL), for showing in a window.
   unsigned colourTexture() const;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "engine/view/render.h"
@@ -14,6 +15,8 @@ namespace acentric::test {
 class WithGl : public testing::Test {
  protected:
   void SetUp() override {
+    // Mesa's software driver: no threads of its own, which on a busy machine mostly wait for each other.
+    setenv("LP_NUM_THREADS", "0", 0);
     auto context = HeadlessContext::create();
     if (!context) GTEST_SKIP() << context.error().describe();
     context_ = std::move(*context);

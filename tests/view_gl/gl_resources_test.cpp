@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/view/view_plan.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_state.h"
+#include "engine/view_gl/point_pass.h"
 #include "gl_fixture.h"
 
 namespace acentric {
@@ -68,6 +71,38 @@ TEST_F(GlResources, TrimmingDropsWhatWasUnusedLongest) {
   ASSERT_TRUE(residency.get(c, "c"));
   residency.trim(0);  // what this frame used stays
   EXPECT_EQ(residency.count(), 1u);
+}
+
+TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const WalkScene scene =
+      test::walkScene(test::randomBoxes(3, 40, 3.2), layout, *layout->regionAt({0.1, 0.05}), 2, 2);
+  PerspectiveView view;
+  view.eye = {0.1, 0.05, layout->eyeZ()};
+  view.width = 200, view.height = 120;
+  const auto plan = planView(scene, view, {});
+  ASSERT_TRUE(plan);
+  const auto drawnWith = [&](std::size_t largestBuffer) {
+    const GlStateGuard guard;
+    ProgramCache programs;
+    CaptureResidency captures(largestBuffer);
+    PointPass points(programs, captures);
+    FrameTarget target;
+    FrameStats stats;
+    EXPECT_TRUE(target.resize(view.width, view.height));
+    target.begin();
+    EXPECT_TRUE(points.draw(scene, *plan, view, {}, target, stats));
+    return target.read();
+  };
+  const std::size_t someColumns = 12 * 5000;
+  const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
+  EXPECT_GT(uploadCapture(first, "cut", someColumns)->chunks.size(), 4u);
+  EXPECT_EQ(drawnWith(someColumns).colour.pixels, drawnWith(0).colour.pixels);
+
+  const auto tooSmall = uploadCapture(first, "capture of camera 3", 120);
+  ASSERT_FALSE(tooSmall);
+  EXPECT_EQ(tooSmall.error().kind, ErrorKind::tooLarge);
+  EXPECT_EQ(tooSmall.error().where, "capture of camera 3");
 }
 
 TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
