@@ -94,7 +94,8 @@ Status writeFileAtomically(const fs::path& path, std::span<const std::byte> byte
   return replaceFileAtomically(path, [&](const fs::path& temporary) -> Status {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(temporary.c_str(), "wb"), &std::fclose);
     if (!file) return failErrno("cannot be opened for writing", path);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
+    // fwrite must not see the null pointer of an empty span.
+    if ((!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) ||
         std::fflush(file.get()) != 0)
       return failErrno("writing failed", path);
     return {};

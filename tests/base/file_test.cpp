@@ -29,6 +29,8 @@ TEST_F(FileTest, WritesWhatItReads) {
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "one\ntwo");
   ASSERT_TRUE(writeTextAtomically(folder_ / "a.txt", ""));
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "");
+  ASSERT_TRUE(writeFileAtomically(folder_ / "a.txt", {}));
+  EXPECT_EQ(readText(folder_ / "a.txt").value(), "");
 }
 
 TEST_F(FileTest, AFailedWriteLeavesTheOldFileAndNoTemporary) {
