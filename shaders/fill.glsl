@@ -3,32 +3,42 @@
 // whose inverse depth is within kSameSurface of the smallest.
 const float kSameSurface = 1.3;
 
-vec4 farthestMean(vec4 texels[4], float weights[4]) {
+vec4 farthestMean(vec4 texels[4]) {
   float smallest = 1e30;
   for (int i = 0; i < 4; ++i)
-    if (texels[i].a >= 0.0 && weights[i] > 0.0) smallest = min(smallest, texels[i].a);
+    if (texels[i].a >= 0.0) smallest = min(smallest, texels[i].a);
   vec4 sum = vec4(0.0);
   float total = 0.0;
   for (int i = 0; i < 4; ++i)
     if (texels[i].a >= 0.0 && texels[i].a <= kSameSurface * smallest + 1e-6) {
-      sum += weights[i] * texels[i];
-      total += weights[i];
+      sum += texels[i];
+      total += 1.0;
     }
   return total > 0.0 ? sum / total : vec4(0.0, 0.0, 0.0, -1.0);
 }
 
-// What a coarser level knows about the texel at `at` of the next finer one.
+// What a coarser level knows about the texel at `at` of the next finer one: near what is near, so that one far texel does
+// not spread through all levels; nearer surfaces count for little.
 vec4 fromCoarser(sampler2D coarser, ivec2 at) {
+  const float kNearerSurface = 0.05;
   vec2 position = (vec2(at) + 0.5) * 0.5 - 0.5;
   ivec2 base = ivec2(floor(position));
   vec2 f = position - vec2(base);
   ivec2 limit = textureSize(coarser, 0) - 1;
   vec4 texels[4];
-  float weights[4];
+  float smallest = 1e30;
   for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
-    texels[i] = texelFetch(coarser, clamp(base + offset, ivec2(0), limit), 0);
-    weights[i] = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    texels[i] = texelFetch(coarser, clamp(base + ivec2(i & 1, i >> 1), ivec2(0), limit), 0);
+    if (texels[i].a >= 0.0) smallest = min(smallest, texels[i].a);
   }
-  return farthestMean(texels, weights);
+  vec4 sum = vec4(0.0);
+  float total = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    if (texels[i].a < 0.0) continue;
+    float weight = ((i & 1) == 1 ? f.x : 1.0 - f.x) * ((i >> 1) == 1 ? f.y : 1.0 - f.y);
+    if (texels[i].a > kSameSurface * smallest + 1e-6) weight *= kNearerSurface;
+    sum += weight * texels[i];
+    total += weight;
+  }
+  return total > 0.0 ? sum / total : vec4(0.0, 0.0, 0.0, -1.0);
 }

@@ -32,7 +32,6 @@ void main() {
 #endif
   ivec2 base = 2 * ivec2(gl_FragCoord.xy);
   vec4 texels[4];
-  float weights[4] = float[4](1.0, 1.0, 1.0, 1.0);
   for (int i = 0; i < 4; ++i) texels[i] = finerTexel(min(base + ivec2(i & 1, i >> 1), limit));
-  texel = farthestMean(texels, weights);
+  texel = farthestMean(texels);
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "engine/view/render.h"
 #include "engine/view_gl/gl_renderer.h"
@@ -30,8 +31,12 @@ int main() {
       settings.fillHoles = fill;
       FrameStats best;
       best.totalSeconds = 1e9;
+      double processor =
+          1e9;  // seconds of all threads: on a busy machine the fairer measure of a software driver
       for (int i = 0; i < 6; ++i) {
+        const std::clock_t start = std::clock();
         const auto stats = (*renderer)->draw(scene, view, settings);
+        processor = std::min(processor, double(std::clock() - start) / CLOCKS_PER_SEC);
         if (!stats) return fmt::print("{}\n", stats.error().describe()), 1;
         if (stats->totalSeconds < best.totalSeconds) best = *stats;
       }
@@ -39,8 +44,9 @@ int main() {
       for (int i = 0; i < 6; ++i)
         cpu = std::min(cpu, renderFrame(scene, view, settings, two)->stats.totalSeconds);
       fmt::print(
-          "{} images, {} samples{}: gl {:.1f} ms (warp {:.1f}, fill {:.1f}); list on 2 threads {:.1f} ms\n",
+          "{} images, {} samples{}: gl {:.1f} ms (warp {:.1f}, fill {:.1f}; {:.1f} ms of processor time); ",
           best.images, best.samplesRead, fill ? ", filled" : "", best.totalSeconds * 1e3,
-          best.warpSeconds * 1e3, best.fillSeconds * 1e3, cpu * 1e3);
+          best.warpSeconds * 1e3, best.fillSeconds * 1e3, processor * 1e3);
+      fmt::print("list on 2 threads {:.1f} ms\n", cpu * 1e3);
     }
 }
