@@ -263,8 +263,13 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   const PerspectiveView full = viewAt(context, 1);
   const bool marked = context.state().showHoles;
   if (!stale(context, full) && shown_.holesMarked == marked && (showingGl_ || marked)) return;
-  const auto stats = gl_->draw(session.walk()->walk, full, session.project().view);
-  shown_ = {session.walk(), full, session.project().view, marked, stats ? *stats : FrameStats{}, -1, true};
+  const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
+  const double scale = moving ? resolution_.movingScale() : 1.0;
+  const PerspectiveView view = viewAt(context, scale);
+  const auto stats = gl_->draw(session.walk()->walk, view, session.project().view);
+  shown_ = {session.walk(), view, session.project().view, marked, stats ? *stats : FrameStats{}, -1, true};
+  if (stats) resolution_.measured(scale, stats->totalSeconds);
+  if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
   problem_ = stats ? "" : stats.error().describe();
   if (!stats) return;
   showingGl_ = true;
