@@ -40,8 +40,6 @@ struct KnownFolder {
   std::size_t fewestImported;
   std::set<std::string> refused;  ///< at least these; where `only`, nothing else
   bool only;
-  bool inProcess =
-      false;  ///< parsed here: starting the importer for dozens of sound files takes most of a minute
 };
 
 class SceneFolders : public testing::TestWithParam<KnownFolder> {};
@@ -57,10 +55,7 @@ TEST_P(SceneFolders, EveryModelIsImportedOrRefusedInOneLineThatNamesIt) {
   std::set<std::string> refused;
   for (const fs::path& file : modelsIn(scenesFolder() / GetParam().folder)) {
     const double before = childSeconds();
-    const Result<ScenePtr> scene =
-        GetParam().inProcess
-            ? parseScene(file, {}).map([](Scene&& s) { return std::make_shared<const Scene>(std::move(s)); })
-            : importScene(file, {}, host);
+    const auto scene = importScene(file, {}, host);
     EXPECT_LT(childSeconds() - before, 10) << file;
     if (scene) {
       ++imported;
@@ -98,7 +93,6 @@ INSTANTIATE_TEST_SUITE_P(
                      "Mesh_PrimitiveMode_01.gltf", "Mesh_PrimitiveMode_02.gltf", "Mesh_PrimitiveMode_03.gltf",
                      "Mesh_PrimitiveMode_07.gltf", "Mesh_PrimitiveMode_08.gltf", "Mesh_PrimitiveMode_09.gltf",
                      "Mesh_PrimitiveMode_10.gltf"},
-                    true,
                     true},
         KnownFolder{"gltf_effects/blender_io",
                     20,
