@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ostream>
 #include <set>
 
 #include "engine/scene/effect_plan.h"
@@ -41,6 +42,8 @@ struct KnownFolder {
   std::set<std::string> refused;  ///< at least these; where `only`, nothing else
   bool only;
 };
+
+void PrintTo(const KnownFolder& known, std::ostream* out) { *out << known.folder; }
 
 class SceneFolders : public testing::TestWithParam<KnownFolder> {};
 
@@ -120,6 +123,8 @@ struct KnownScene {
   glm::vec3 min, max;  ///< metres, Z up
   float tolerance;
 };
+
+void PrintTo(const KnownScene& known, std::ostream* out) { *out << known.file; }
 
 class KnownScenes : public testing::TestWithParam<KnownScene> {};
 

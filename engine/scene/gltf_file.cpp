@@ -1,0 +1,189 @@
+#include "engine/scene/gltf_file.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+
+namespace acentric {
+namespace {
+
+constexpr std::array<const char*, 9> kPlayed{
+    "KHR_lights_punctual",        "KHR_texture_transform", "KHR_materials_emissive_strength",
+    "KHR_materials_transmission", "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
+    "EXT_mesh_gpu_instancing",    "KHR_mesh_quantization", "EXT_texture_webp"};
+
+tl::unexpected<Error> malformed(std::string message) {
+  return fail(ErrorKind::malformed, std::move(message));
+}
+
+std::string oneLine(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() > 300 ? text.substr(0, 300) + "..." : text;
+}
+
+/// What tinygltf's callbacks need. Its own reading of files would follow any path.
+struct FileAccess {
+  const ReadContext* context = nullptr;
+  ReportLines* ignored = nullptr;
+  std::map<std::string, std::size_t> bufferBytes;  ///< declared length by URI as tinygltf asks for it
+};
+
+/// tinygltf joins base folder and name; we hand it an empty base folder, and it tries "./name" as well.
+std::string nameOf(const std::string& asked) {
+  return std::filesystem::path(asked).lexically_normal().string();
+}
+
+bool fileExists(const std::string& asked, void* user) {
+  FileAccess& access = *static_cast<FileAccess*>(user);
+  const auto found = access.context->references.find(nameOf(asked));
+  if (!found) access.ignored->add(fmt::format("file {}: {}", nameOf(asked), found.error().message));
+  return found.has_value();
+}
+
+std::string expandNothing(const std::string& path, void*) { return path; }
+
+bool readWholeFile(std::vector<unsigned char>* out, std::string* error, const std::string& asked,
+                   void* user) {
+  FileAccess& access = *static_cast<FileAccess*>(user);
+  const auto bytes = access.context->references.read(nameOf(asked), std::size_t(4) << 30);
+  if (!bytes) {
+    if (error) *error = bytes.error().describe();
+    return false;
+  }
+  std::size_t size = bytes->size();
+  // A buffer file may be longer than the buffer (padding); tinygltf wants it exact.
+  const auto declared = access.bufferBytes.find(nameOf(asked));
+  if (declared != access.bufferBytes.end()) size = std::min(size, declared->second);
+  out->resize(size);
+  if (size > 0) std::memcpy(out->data(), bytes->data(), size);
+  return true;
+}
+
+/// Keeps the bytes of image files and data URIs. Those in buffer views are read later, with bounds checks.
+bool keepImageBytes(tinygltf::Image* image, int, std::string*, std::string*, int, int,
+                    const unsigned char* bytes, int size, void*) {
+  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+std::string percentDecoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    if (text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+        std::isxdigit(static_cast<unsigned char>(text[i + 2]))) {
+      code = unsigned(std::stoi(std::string(text.substr(i + 1, 2)), nullptr, 16));
+      out += char(code);
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+struct GltfText {
+  std::string_view json;
+  bool binary = false;
+};
+
+Result<GltfText> jsonOf(std::span<const std::byte> bytes) {
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (!all.starts_with("glTF")) return GltfText{all, false};
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value;
+    std::memcpy(&value, all.data() + at, sizeof value);
+    return value;
+  };
+  if (all.size() < 20) return malformed("is cut off inside the GLB header");
+  if (word(4) != 2)
+    return fail(ErrorKind::unsupported, fmt::format("is GLB version {}; only version 2 is played", word(4)));
+  const std::size_t length = word(12);
+  if (length > all.size() - 20) return malformed("is cut off inside the GLB's JSON chunk");
+  return GltfText{all.substr(20, length), true};
+}
+
+/// A look at the JSON before tinygltf: syntax with a position, version, required extensions, buffer lengths.
+Status checkJson(std::string_view text, FileAccess& access) {
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    return malformed(fmt::format("is not valid JSON: {}", oneLine(error.what())));
+  }
+  if (!json.is_object()) return malformed("is not a glTF file: its JSON is not an object");
+  const auto asset = json.find("asset");
+  if (asset == json.end() || !asset->is_object() || !asset->contains("version") ||
+      !(*asset)["version"].is_string())
+    return malformed("is not a glTF 2.0 file: asset.version is missing");
+  const auto version = [&](const char* key) {
+    return asset->contains(key) && (*asset)[key].is_string() ? (*asset)[key].get<std::string>()
+                                                             : std::string();
+  };
+  const std::string minVersion = version("minVersion");
+  if (!minVersion.empty() && minVersion != "2.0" && !minVersion.starts_with("1."))
+    return fail(ErrorKind::unsupported, fmt::format("needs glTF {}; version 2.0 is played", minVersion));
+  if (minVersion.empty() && !version("version").starts_with("2."))
+    return fail(ErrorKind::unsupported, fmt::format("is glTF {}; version 2.0 is played", version("version")));
+  if (const auto buffers = json.find("buffers"); buffers != json.end() && buffers->is_array())
+    for (const auto& buffer : *buffers)
+      if (buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string() &&
+          buffer.contains("byteLength") && buffer["byteLength"].is_number_unsigned()) {
+        const std::string uri = buffer["uri"].get<std::string>();
+        if (!uri.starts_with("data:"))
+          access.bufferBytes[nameOf(percentDecoded(uri))] = buffer["byteLength"].get<std::size_t>();
+      }
+  return {};
+}
+
+Status checkExtensions(const tinygltf::Model& model, ReportLines& ignored) {
+  const auto played = [](const std::string& name) {
+    return std::find(kPlayed.begin(), kPlayed.end(), name) != kPlayed.end();
+  };
+  for (const std::string& name : model.extensionsRequired) {
+    if (played(name)) continue;
+    const bool packed = name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression";
+    return fail(ErrorKind::unsupported,
+                fmt::format("requires the extension {}, which is not supported{}", name,
+                            packed ? "; export it without mesh compression" : ""));
+  }
+  for (const std::string& name : model.extensionsUsed)
+    if (!played(name)) ignored.add("extension " + name);
+  return {};
+}
+
+}  // namespace
+
+Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines& ignored) {
+  const auto bytes = readFile(context.path, (std::size_t(1) << 32) - 1);
+  if (!bytes) return tl::unexpected(bytes.error());
+  if (bytes->empty()) return malformed("is empty");
+  const auto text = jsonOf(*bytes);
+  if (!text) return tl::unexpected(text.error());
+  FileAccess access{&context, &ignored, {}};
+  if (auto status = checkJson(text->json, access); !status) return status;
+
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(&keepImageBytes, nullptr);
+  loader.SetFsCallbacks({&fileExists, &expandNothing, &readWholeFile, nullptr, &access});
+  std::string error, warning;
+  context.tell(0, 0, "reading the file");
+  const unsigned int size = unsigned(bytes->size());
+  const bool loaded =
+      text->binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                 reinterpret_cast<const unsigned char*>(bytes->data()), size)
+                   : loader.LoadASCIIFromString(&model, &error, &warning,
+                                                reinterpret_cast<const char*>(bytes->data()), size, "");
+  if (!loaded) return malformed(error.empty() ? "is not a sound glTF file" : oneLine(error));
+  return checkExtensions(model, ignored);
+}
+
+}  // namespace acentric
