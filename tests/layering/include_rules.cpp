@@ -24,6 +24,7 @@ struct Home {
 const std::vector<Home>& homes() {
   static const std::vector<Home> table{
       {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/"}},
+      {"Cairo", {"cairo"}, {"engine/picture/"}},
       {"OpenEXR", {"OpenEXR/", "Imath/", "ImfArray", "Imf"}, {"engine/store/"}},
       {"zstd", {"zstd"}, {"engine/store/", "engine/scene/"}},
       {"tinygltf", {"tiny_gltf", "tinygltf"}, {"engine/scene/"}},
