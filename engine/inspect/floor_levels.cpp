@@ -7,25 +7,52 @@ namespace acentric {
 namespace {
 
 constexpr int kMostSurfaces = 64;  // along one ray: foliage and stacked shelves may have many
+constexpr double kSteepest = 0.5;  // |cosine| of a floor's slope
+
+/// Solids entered less solids left on the way down. A sheet that faces up is entered and never left: below it
+/// only surfaces that face up are floor.
+class Solids {
+ public:
+  void pass(const SurfaceHit& hit) {
+    if (hit.normal.z > 0) ++depth_;
+    if (hit.normal.z < 0) depth_ = std::max(0, depth_ - 1);
+  }
+  bool outside() const { return depth_ == 0; }
+
+ private:
+  int depth_ = 0;
+};
+
+bool isFloor(const SurfaceHit& hit, const Solids& solidsAbove) {
+  if (hit.normal == glm::dvec3(0)) return true;
+  if (std::abs(hit.normal.z) < kSteepest) return false;
+  return hit.normal.z > 0 || solidsAbove.outside();
+}
 
 }  // namespace
 
-FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double headRoom,
-                            const DistanceProbe& probe) {
+FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, const FloorRules& rules,
+                            const SurfaceProbe& probe) {
   FloorLevels levels(std::size_t(grid.columns) * std::size_t(grid.rows));
   const double top = double(bounds.max.z) + 1, bottom = bounds.min.z;
+  const glm::dvec3 down(0, 0, -1);
   // Far enough past a surface that single precision does not meet it again.
   const double skip = std::max(1e-4, 4e-6 * std::max(std::abs(top), std::abs(bottom)));
   for (int y = 0; y < grid.rows; ++y)
     for (int x = 0; x < grid.columns; ++x) {
-      auto& here = levels[std::size_t(y) * std::size_t(grid.columns) + std::size_t(x)];
       double from = top, ceiling = std::numeric_limits<double>::infinity();
+      bool ceilingIsBack = false;
+      Solids solids;
       for (int surface = 0; surface < kMostSurfaces && from > bottom - skip; ++surface) {
-        const double distance = probe({grid.centreOf(x, y), from}, {0, 0, -1});
-        if (!(distance >= 0 && std::isfinite(distance))) break;
-        const double height = from - distance;
-        if (ceiling - height >= headRoom) here.push_back(static_cast<float>(height));
+        const SurfaceHit hit = probe({grid.centreOf(x, y), from}, down);
+        if (!hit.found()) break;
+        const double height = from - hit.distance;
+        if (ceiling - height >= rules.headRoom && (!rules.upwardOnly || isFloor(hit, solids)))
+          levels[grid.index(x, y)].push_back(
+              {static_cast<float>(height), std::isfinite(ceiling), ceilingIsBack});
+        solids.pass(hit);
         ceiling = height;
+        ceilingIsBack = hit.normal.z > 0;
         from = height - skip;
       }
     }
@@ -34,7 +61,8 @@ FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double 
 
 std::optional<double> dominantLevel(const FloorLevels& levels, double tolerance) {
   std::vector<float> heights;
-  for (const auto& here : levels) heights.insert(heights.end(), here.begin(), here.end());
+  for (const auto& here : levels)
+    for (const FloorLevel& level : here) heights.push_back(level.height);
   if (heights.empty()) return std::nullopt;
   std::ranges::sort(heights);
   // How many lie in [heights[k], heights[k] + tolerance].

@@ -1,38 +1,45 @@
 #pragma once
-/// Where a person can stand: found by casting rays down on a grid. The designer may edit the result.
+/// Where a person can stand and walk: found by casting rays on a grid. The designer may edit the result.
 ///
-/// A probe tells distances, not which side of a surface it met, so a closed solid that is higher than the
-/// head room looks like a room from within: where its underside is as large as the real floor, give the floor
-/// height.
+/// Floor is what faces upwards, has the head room, and is not inside a solid. Outside and inside are told by
+/// the sides that surfaces show, as they are wound. A scene whose walls all show their backs to the room (a
+/// shell made to be seen from outside) is then a solid, and nothing is floor in it: only if there is no other
+/// floor at all, sides are ignored.
 
-#include <functional>
-#include <glm/glm.hpp>
+#include <limits>
 
 #include "engine/base/result.h"
 #include "engine/geometry/outline.h"
-#include "engine/scene/scene.h"
+#include "engine/inspect/floor_levels.h"
+#include "engine/inspect/standing.h"
 
 namespace acentric {
 
 struct WalkableOptions {
   double eyeHeight = 1.6;        ///< metres of head room needed = eyeHeight + 0.15
   double floorTolerance = 0.25;  ///< metres: floors within this of the chosen height count
+  double stepHeight = 0.25;      ///< metres: what a foot climbs at once, on the way from place to place
   double wallClearance = 0.2;    ///< metres from obstacles
   double gridStep = 0;           ///< metres; 0 = from the scene's size (about 200 x 200 points)
   double floorHeight = std::numeric_limits<double>::quiet_NaN();  ///< NaN = the height with most
                                                                   ///< upward-facing area at walkable height
+  bool ignoreSides = false;  ///< every surface may be floor, and nothing is the inside of a solid
+
+  Status check() const;
+  FloorRules floorRules() const;
+  StandingRules standingRules() const;
 };
 
 struct WalkableArea {
   double floorHeight = 0;
   Outline outline;  ///< largest connected area, simplified to about one grid step
+  bool ignoredSides = false;
 };
 
-/// Distance along a ray to the nearest surface (infinity = none); origin, unit direction. Injected: inspect
-/// does not trace.
-using DistanceProbe = std::function<double(const glm::dvec3& origin, const glm::dvec3& direction)>;
-
 Result<WalkableArea> findWalkableArea(const Bounds& bounds, const WalkableOptions& options,
-                                      const DistanceProbe& probe);
+                                      const SurfaceProbe& probe);
+
+/// The grid that `options` asks for over the plan of a scene.
+Result<ProbeGrid> layProbeGrid(const Bounds& bounds, const WalkableOptions& options);
 
 }  // namespace acentric

@@ -6,6 +6,7 @@
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/scene_probe.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -19,12 +20,6 @@ double roundTo(double value, double step) { return std::round(value / step) * st
 
 /// Three significant decimals: a value that a person can read and change.
 float tidy(float value) { return std::stof(fmt::format("{:.3g}", value)); }
-
-DistanceProbe probeFor(const RayScene& rays) {
-  return [&rays](const glm::dvec3& origin, const glm::dvec3& direction) -> double {
-    return rays.trace({glm::vec3(origin), glm::vec3(direction)}).distance;
-  };
-}
 
 std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());

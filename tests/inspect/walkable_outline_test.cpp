@@ -99,7 +99,7 @@ TEST(WalkableArea, OfAHouseIsItsFloorAndNotItsRoof) {
 }
 
 TEST(WalkableArea, OfAStreetIsTheGroundBetweenTheHouses) {
-  BoxWorld street{{{{-20, -10, -1}, {20, 10, 0}}}};
+  BoxWorld street{{{{-20, -10, -1}, {20, 10, 0}}}, {}};
   street.boxes.push_back({{-20, 4, 0}, {20, 10, 8}});
   street.boxes.push_back({{-20, -10, 0}, {20, -4, 6}});
   const WalkableArea area = walk(street);
@@ -140,7 +140,7 @@ TEST(WalkableArea, RefusesWhatHasNoFloorWithTheWayOut) {
   bad.wallClearance = -1;
   EXPECT_THAT(refusal(low, bad), HasSubstr("wall clearance"));
   const auto nothing =
-      findWalkableArea(low.bounds(), {}, [](const auto&, const auto&) { return double(NAN); });
+      findWalkableArea(low.bounds(), {}, [](const auto&, const auto&) { return SurfaceHit{NAN}; });
   ASSERT_FALSE(nothing);
   EXPECT_EQ(nothing.error().kind, ErrorKind::notFound);
 }

@@ -1,0 +1,227 @@
+#include "engine/inspect/storeys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace acentric {
+namespace {
+
+constexpr int kMostPlanes = 64;
+constexpr std::size_t kMostLinksPerPair = 4;
+
+/// Spots joined by steps carry the same number.
+std::vector<int> numberParts(const Standing& standing, const std::vector<std::uint8_t>& included) {
+  std::vector<int> part(standing.spots.size(), -1);
+  std::vector<int> open;
+  int parts = 0;
+  for (std::size_t first = 0; first < part.size(); ++first) {
+    if (included[first] == 0 || part[first] >= 0) continue;
+    part[first] = parts;
+    open.assign(1, static_cast<int>(first));
+    while (!open.empty()) {
+      const int spot = open.back();
+      open.pop_back();
+      for (const int next : standing.spots[std::size_t(spot)].next)
+        if (next >= 0 && included[std::size_t(next)] != 0 && part[std::size_t(next)] < 0)
+          part[std::size_t(next)] = parts, open.push_back(next);
+    }
+    ++parts;
+  }
+  return part;
+}
+
+/// Takes the fullest height out of the heights that are left, until what a height holds is too little.
+class HeightQueue {
+ public:
+  HeightQueue(const Standing& standing, double tolerance) : tolerance_(tolerance) {
+    for (const StandingSpot& spot : standing.spots) heights_.push_back(spot.height);
+    std::ranges::sort(heights_);
+  }
+
+  /// Middle of the tolerance's span that holds most; nothing where it holds fewer than `least`.
+  std::optional<double> takeFullest(double least) {
+    std::size_t best = 0, most = 0;
+    for (std::size_t k = 0, end = 0; k < heights_.size(); ++k) {
+      while (end < heights_.size() && heights_[end] <= heights_[k] + tolerance_) ++end;
+      if (end - k > most) best = k, most = end - k;
+    }
+    if (most == 0 || double(most) < least) return std::nullopt;
+    const double middle = heights_[best + most / 2];
+    std::erase_if(heights_, [&](double height) { return std::abs(height - middle) <= tolerance_; });
+    return middle;
+  }
+
+ private:
+  double tolerance_;
+  std::vector<double> heights_;
+};
+
+std::vector<WalkPlane> collectPlanes(const Standing& standing, const StoreyOptions& options) {
+  const double tolerance = options.walkable.floorTolerance;
+  const double cellArea = standing.grid.step * standing.grid.step;
+  std::vector<WalkPlane> planes;
+  std::vector<std::uint8_t> taken(standing.spots.size(), 0);
+  HeightQueue heights(standing, tolerance);
+  std::size_t largest = 0;  // spots
+  const auto least = [&] {
+    return std::max(options.leastArea / cellArea, options.leastShare * double(largest));
+  };
+  // A plane spans the tolerance both ways, twice what the queue counts.
+  while (static_cast<int>(planes.size()) < kMostPlanes) {
+    const auto height = heights.takeFullest(0.5 * least());
+    if (!height) break;
+    for (WalkPlane& plane :
+         planesAt(standing, *height, tolerance, kMostPlanes, static_cast<int>(std::ceil(least())), taken)) {
+      largest = std::max(largest, plane.spots.size());
+      for (const int spot : plane.spots) taken[std::size_t(spot)] = 1;
+      planes.push_back(std::move(plane));
+    }
+  }
+  std::erase_if(planes, [&](const WalkPlane& plane) { return double(plane.spots.size()) < least(); });
+  std::ranges::sort(planes, [](const WalkPlane& a, const WalkPlane& b) {
+    return a.height != b.height ? a.height < b.height : a.spots.size() > b.spots.size();
+  });
+  return planes;
+}
+
+/// Tables and podiums: less than head room above a larger plane, and no way up.
+void dropFurniture(std::vector<WalkPlane>& planes, const Standing& standing, double headRoom) {
+  const std::vector<int> part = numberParts(standing, std::vector<std::uint8_t>(standing.spots.size(), 1));
+  const auto partOf = [&](const WalkPlane& plane) { return part[std::size_t(plane.spots.front())]; };
+  const std::vector<WalkPlane> all = planes;
+  std::erase_if(planes, [&](const WalkPlane& plane) {
+    const auto stepsUpFrom = [&](const WalkPlane& other) { return partOf(other) == partOf(plane); };
+    const auto towersOver = [&](const WalkPlane& other) {
+      return other.spots.size() > plane.spots.size() && plane.height > other.height &&
+             plane.height - other.height < headRoom;
+    };
+    return std::ranges::any_of(all, towersOver) && std::ranges::none_of(all, [&](const WalkPlane& other) {
+             return other.spots.size() > plane.spots.size() && stepsUpFrom(other);
+           });
+  });
+}
+
+class LinkFinder {
+ public:
+  LinkFinder(const std::vector<WalkPlane>& planes, const Standing& standing)
+      : standing_(standing), planeOf_(standing.spots.size(), -1) {
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      for (const int spot : planes[p].spots) planeOf_[std::size_t(spot)] = static_cast<int>(p);
+  }
+
+  std::vector<StoreyLink> find() const {
+    std::map<std::pair<int, int>, std::vector<Way>> ways;
+    for (const auto& [pair, way] : stepsBetween()) ways[pair].push_back(way);
+    for (const Stair& stair : stairs())
+      for (std::size_t a = 0; a < stair.planes.size(); ++a)
+        for (std::size_t b = a + 1; b < stair.planes.size(); ++b)
+          ways[{stair.planes[a], stair.planes[b]}].push_back(stair.way);
+    std::vector<StoreyLink> links;
+    for (auto& [pair, all] : ways) {
+      std::ranges::stable_sort(all, std::ranges::greater(), &Way::spots);
+      if (all.size() > kMostLinksPerPair) all.resize(kMostLinksPerPair);
+      for (const Way& way : all) links.push_back({pair.first, pair.second, way.sum / double(way.spots)});
+    }
+    return links;
+  }
+
+ private:
+  struct Way {
+    glm::dvec2 sum{0};
+    std::size_t spots = 0;
+    void add(const glm::dvec2& at) { sum += at, ++spots; }
+  };
+  struct Stair {
+    Way way;
+    std::vector<int> planes;  ///< in order
+  };
+
+  glm::dvec2 placeOf(std::size_t spot) const {
+    return standing_.grid.centreOf(standing_.spots[spot].x, standing_.spots[spot].y);
+  }
+
+  /// Planes a step apart.
+  std::map<std::pair<int, int>, Way> stepsBetween() const {
+    std::map<std::pair<int, int>, Way> steps;
+    for (std::size_t s = 0; s < planeOf_.size(); ++s)
+      for (const int next : standing_.spots[s].next) {
+        if (planeOf_[s] < 0 || next < 0) continue;
+        const int other = planeOf_[std::size_t(next)];
+        if (other > planeOf_[s]) steps[{planeOf_[s], other}].add(placeOf(s));
+      }
+    return steps;
+  }
+
+  /// Connected spots of no plane, with the planes that they lead to.
+  std::vector<Stair> stairs() const {
+    std::vector<std::uint8_t> between(planeOf_.size());
+    for (std::size_t s = 0; s < planeOf_.size(); ++s) between[s] = planeOf_[s] < 0 ? 1 : 0;
+    const std::vector<int> part = numberParts(standing_, between);
+    std::vector<Stair> found;
+    for (std::size_t s = 0; s < part.size(); ++s) {
+      if (part[s] < 0) continue;
+      if (std::size_t(part[s]) >= found.size()) found.resize(std::size_t(part[s]) + 1);
+      Stair& stair = found[std::size_t(part[s])];
+      stair.way.add(placeOf(s));
+      for (const int next : standing_.spots[s].next)
+        if (next >= 0 && planeOf_[std::size_t(next)] >= 0)
+          stair.planes.push_back(planeOf_[std::size_t(next)]);
+    }
+    for (Stair& stair : found) {
+      std::ranges::sort(stair.planes);
+      const auto repeated = std::ranges::unique(stair.planes);
+      stair.planes.erase(repeated.begin(), repeated.end());
+    }
+    return found;
+  }
+
+  const Standing& standing_;
+  std::vector<int> planeOf_;  ///< per spot; -1 = none
+};
+
+Storeys storeysOn(const Bounds& bounds, const ProbeGrid& grid, const StoreyOptions& options,
+                  const SurfaceProbe& probe) {
+  const FloorLevels levels = findFloorLevels(bounds, grid, options.walkable.floorRules(), probe);
+  const Standing standing = surveyStanding(grid, levels, options.walkable.standingRules(), probe);
+  Storeys storeys;
+  storeys.planes = collectPlanes(standing, options);
+  dropFurniture(storeys.planes, standing, options.walkable.floorRules().headRoom);
+  storeys.links = LinkFinder(storeys.planes, standing).find();
+  storeys.ignoredSides = options.walkable.ignoreSides;
+  return storeys;
+}
+
+}  // namespace
+
+Status StoreyOptions::check() const {
+  if (Status status = walkable.check(); !status) return status;
+  if (!(leastShare >= 0 && leastShare <= 1))
+    return fail(ErrorKind::invalidArgument, "the least share of a storey's area must lie in 0..1", "storeys");
+  if (!(leastArea >= 0 && std::isfinite(leastArea)))
+    return fail(ErrorKind::invalidArgument, "the least area of a storey must be 0 m2 or more", "storeys");
+  return {};
+}
+
+Result<Storeys> findStoreys(const Bounds& bounds, const StoreyOptions& options, const SurfaceProbe& probe) {
+  if (Status status = options.check(); !status) return tl::unexpected(status.error());
+  const Result<ProbeGrid> grid = layProbeGrid(bounds, options.walkable);
+  if (!grid) return tl::unexpected(grid.error());
+  Storeys storeys = storeysOn(bounds, *grid, options, probe);
+  if (storeys.planes.empty() && !options.walkable.ignoreSides) {
+    StoreyOptions anySide = options;
+    anySide.walkable.ignoreSides = true;
+    storeys = storeysOn(bounds, *grid, anySide, probe);
+  }
+  if (storeys.planes.empty())
+    return fail(ErrorKind::notFound,
+                fmt::format("no floor of {:g} m2 has {:.2f} m of room above it; lower the eye height or the "
+                            "least area",
+                            options.leastArea, options.walkable.floorRules().headRoom),
+                "storeys");
+  return storeys;
+}
+
+}  // namespace acentric

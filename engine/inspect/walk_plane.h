@@ -1,0 +1,25 @@
+#pragma once
+/// A level part of the floor on which one can walk about, as an outline: what a layout is laid on.
+
+#include <span>
+#include <vector>
+
+#include "engine/geometry/outline.h"
+#include "engine/inspect/standing.h"
+
+namespace acentric {
+
+struct WalkPlane {
+  double height = 0;        ///< z, metres: the middle one of its floor
+  Outline outline;          ///< one outer loop and its holes, simplified to about one grid step
+  double coveredShare = 0;  ///< of its floor: what lies below a ceiling, a roof or a tree
+  std::vector<int> spots;   ///< into Standing::spots
+};
+
+/// The parts of the floor within `tolerance` metres of a height, each connected by steps that stay within it,
+/// largest first; at most `most`, those of fewer than `leastSpots` left out. `taken`, if not empty, marks
+/// spots that belong to other planes.
+std::vector<WalkPlane> planesAt(const Standing& standing, double height, double tolerance, int most,
+                                int leastSpots = 1, std::span<const std::uint8_t> taken = {});
+
+}  // namespace acentric
