@@ -41,11 +41,11 @@ class HeightQueue {
     std::ranges::sort(heights_);
   }
 
-  /// Middle of the tolerance's span that holds most; nothing where it holds fewer than `least`.
+  /// Median of the span of twice the tolerance that holds most; nothing where it holds fewer than `least`.
   std::optional<double> takeFullest(double least) {
     std::size_t best = 0, most = 0;
     for (std::size_t k = 0, end = 0; k < heights_.size(); ++k) {
-      while (end < heights_.size() && heights_[end] <= heights_[k] + tolerance_) ++end;
+      while (end < heights_.size() && heights_[end] <= heights_[k] + 2 * tolerance_) ++end;
       if (end - k > most) best = k, most = end - k;
     }
     if (most == 0 || double(most) < least) return std::nullopt;
@@ -69,7 +69,7 @@ std::vector<WalkPlane> collectPlanes(const Standing& standing, const StoreyOptio
   const auto least = [&] {
     return std::max(options.leastArea / cellArea, options.leastShare * double(largest));
   };
-  // A plane spans the tolerance both ways, twice what the queue counts.
+  // The span about the median may hold fewer than the fullest span: half as many are worth a look.
   while (static_cast<int>(planes.size()) < kMostPlanes) {
     const auto height = heights.takeFullest(0.5 * least());
     if (!height) break;
