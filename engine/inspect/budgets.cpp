@@ -1,64 +1,90 @@
 #include "engine/inspect/budgets.h"
 
 #include <algorithm>
-
-#include "engine/inspect/triangle_grid.h"
+#include <mutex>
 
 namespace acentric {
 namespace {
 
-PlanBounds boundsOf(const ConvexPolygon& polygon) {
-  PlanBounds bounds;
-  for (const glm::dvec2& corner : polygon.corners) bounds.add(corner);
-  return bounds;
+/// Polygons of former layouts that are remembered beside the present one's, so that undoing is free.
+constexpr std::size_t kRememberedLayouts = 4, kRememberedAtLeast = 4096;
+
+ContentKey keyOf(const ConvexPolygon& polygon) {
+  return Hasher().array(std::span<const glm::dvec2>(polygon.corners)).finish();
 }
-
-/// Counts what clipToPolygon would give, clipping only triangles that may cross the border.
-class Counter {
- public:
-  Counter(const Scene& scene, TriangleGrid& grid) : scene_(scene), grid_(grid) { border_.meshes.resize(1); }
-
-  std::size_t count(const ConvexPolygon& polygon) {
-    Mesh& mesh = border_.meshes.front();
-    mesh.positions.clear();
-    mesh.triangles.clear();
-    std::size_t inside = 0;
-    for (const TriangleGrid::Triangle& triangle : grid_.near(boundsOf(polygon))) {
-      const Mesh& source = scene_.meshes[triangle.mesh];
-      const glm::uvec3& corners = source.triangles[triangle.index];
-      const glm::vec3 a = source.positions[corners.x], b = source.positions[corners.y],
-                      c = source.positions[corners.z];
-      if (polygon.containsClosed(glm::dvec2(a)) && polygon.containsClosed(glm::dvec2(b)) &&
-          polygon.containsClosed(glm::dvec2(c))) {
-        const glm::dvec3 twiceArea = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
-        inside += twiceArea != glm::dvec3(0) ? 1 : 0;
-        continue;
-      }
-      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-      mesh.positions.insert(mesh.positions.end(), {a, b, c});
-      mesh.triangles.emplace_back(first, first + 1, first + 2);
-    }
-    return inside + clipToPolygon(border_, polygon).triangles.size();
-  }
-
- private:
-  const Scene& scene_;
-  TriangleGrid& grid_;
-  Scene border_;  ///< the triangles that may cross the border of the polygon at hand
-};
 
 }  // namespace
 
+std::size_t RegionBudgets::worst() const {
+  return triangles.empty() ? 0 : *std::ranges::max_element(triangles);
+}
+
+std::size_t RegionBudgets::median() const {
+  if (triangles.empty()) return 0;
+  std::vector<std::size_t> sorted = triangles;
+  const auto middle = sorted.begin() + std::ptrdiff_t((sorted.size() - 1) / 2);
+  std::ranges::nth_element(sorted, middle);
+  return *middle;
+}
+
+std::vector<int> RegionBudgets::over(std::size_t limit) const {
+  std::vector<int> found;
+  for (std::size_t r = 0; r < triangles.size(); ++r)
+    if (triangles[r] > limit) found.push_back(static_cast<int>(r));
+  std::ranges::stable_sort(found, std::greater{}, [&](int r) { return triangles[std::size_t(r)]; });
+  return found;
+}
+
+BudgetCounter::BudgetCounter(ScenePtr scene) : tree_(std::move(scene)) {}
+
+Result<RegionBudgets> BudgetCounter::count(const Layout& layout, TaskRunner& runner, const Progress& progress,
+                                           std::stop_token stop) {
+  ++counts_;
+  struct Open {
+    std::size_t region;
+    Known* entry;
+  };
+  RegionBudgets budgets;
+  std::vector<const Known*> entries;
+  std::vector<Open> open;
+  for (std::size_t r = 0; r < layout.regions.size(); ++r) {
+    const auto [at, isNew] = known_.try_emplace(keyOf(layout.regions[r].grown));
+    if (isNew) open.push_back({r, &at->second});
+    at->second.usedIn = counts_;
+    entries.push_back(&at->second);
+  }
+  std::mutex mutex;
+  std::size_t done = 0;
+  std::vector<char> finished(open.size(), 0);
+  runner.parallelFor(open.size(), [&](std::size_t n) {
+    if (stop.stop_requested()) return;
+    open[n].entry->triangles = tree_.countClipped(layout.regions[open[n].region].grown);
+    finished[n] = 1;
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress({double(done), double(open.size()), "counting triangles per region"});
+  });
+  if (done < open.size()) {
+    for (std::size_t n = 0; n < open.size(); ++n)
+      if (!finished[n]) known_.erase(keyOf(layout.regions[open[n].region].grown));
+    return fail(ErrorKind::cancelled, "counting triangles was cancelled");
+  }
+  for (const Known* entry : entries) budgets.triangles.push_back(entry->triangles);
+  budgets.counted = open.size();
+  forgetOld(layout.regions.size());
+  return budgets;
+}
+
+void BudgetCounter::forgetOld(std::size_t regions) {
+  const std::size_t most = std::max(kRememberedLayouts * regions, kRememberedAtLeast);
+  for (std::uint64_t keep = 2; known_.size() > most && keep-- > 0;)
+    std::erase_if(known_, [&](const auto& entry) { return entry.second.usedIn + keep < counts_; });
+}
+
 std::vector<std::size_t> countLocalTriangles(const Scene& scene, const Layout& layout) {
+  const TriangleTree tree(ScenePtr(ScenePtr{}, &scene));
   std::vector<std::size_t> counts;
-  if (layout.regions.empty()) return counts;
-  PlanBounds area;
-  for (const Region& region : layout.regions)
-    for (const glm::dvec2& corner : region.grown.corners) area.add(corner);
-  TriangleGrid grid(scene, area, 0.5 * layout.spec.cellSize);
-  Counter counter(scene, grid);
-  counts.reserve(layout.regions.size());
-  for (const Region& region : layout.regions) counts.push_back(counter.count(region.grown));
+  for (const Region& region : layout.regions) counts.push_back(tree.countClipped(region.grown));
   return counts;
 }
 
