@@ -3,25 +3,12 @@
 #include <algorithm>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/region_report.h"
 #include "engine/inspect/budgets.h"
 #include "engine/measure/statistics.h"
 
 namespace acentric::cli {
 namespace {
-
-const char* nameOfKind(RegionKind kind) {
-  switch (kind) {
-    case RegionKind::ring:
-      return "ring";
-    case RegionKind::gapTriangle:
-      return "gapTriangle";
-    case RegionKind::gapSquare:
-      return "gapSquare";
-    case RegionKind::gapHexagon:
-      return "gapHexagon";
-  }
-  return "ring";
-}
 
 Json effectsJson(const EffectPlan& plan) {
   Json out = Json::array();
@@ -126,14 +113,11 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
     Json regions = Json::array();
     for (std::size_t r = 0; r < layout.regions.size(); ++r) {
       const Region& region = layout.regions[r];
-      const glm::dvec2 centre = region.polygon.centroid();
-      regions.push_back({{"cell", {region.id.i, region.id.j, region.id.slot}},
-                         {"kind", nameOfKind(region.kind)},
-                         {"centre", {centre.x, centre.y}},
-                         {"localTriangles", triangles[r]}});
-      report.text += fmt::format("region   [{}, {}, {}] {:<11} at ({:.2f}, {:.2f}) m: {} local triangles\n",
-                                 region.id.i, region.id.j, region.id.slot, nameOfKind(region.kind), centre.x,
-                                 centre.y, countText(triangles[r]));
+      Json json = toJson(region);
+      json["localTriangles"] = triangles[r];
+      regions.push_back(std::move(json));
+      report.text +=
+          fmt::format("region   {}: {} local triangles\n", placeText(region), countText(triangles[r]));
     }
     report.json["regions"] = std::move(regions);
   }

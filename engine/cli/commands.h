@@ -22,6 +22,12 @@ struct InfoOptions {
 };
 Result<Report> runInfo(const InfoOptions& options, const Common& common);
 
+struct BudgetOptions {
+  std::filesystem::path project, output;
+  std::size_t most = 0;  ///< triangles per region; 0 = no limit
+};
+Result<Report> runBudget(const BudgetOptions& options, const Common& common);
+
 struct BakeOptions {
   std::filesystem::path project;
   std::vector<int> only;

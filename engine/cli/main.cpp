@@ -66,6 +66,16 @@ void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
   c->add_flag("--regions", o.regions, "List every region with its local triangles");
 }
 
+void addBudget(CLI::App& app, Chosen& chosen, BudgetOptions& o) {
+  CLI::App* c = add(app, chosen, "budget", "Count the triangles of each region's local geometry",
+                    "  acentric budget kitchen.acentric.json --max 200000 -o budget.svg\n"
+                    "  acentric budget kitchen.acentric.json --json",
+                    o, runBudget);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--max", o.most, "Triangles that a region may have")->check(CLI::PositiveNumber);
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
 void addBake(CLI::App& app, Chosen& chosen, BakeOptions& o) {
   CLI::App* c = add(
       app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
@@ -209,6 +219,7 @@ int main(int argc, char** argv) {
   Chosen chosen;
   NewOptions newOptions;
   InfoOptions info;
+  BudgetOptions budget;
   BakeOptions bakeOptions;
   RenderOptions render;
   WalkOptions walk;
@@ -218,6 +229,7 @@ int main(int argc, char** argv) {
   BenchOptions bench;
   addNew(app, chosen, newOptions);
   addInfo(app, chosen, info);
+  addBudget(app, chosen, budget);
   addBake(app, chosen, bakeOptions);
   addRender(app, chosen, render);
   addWalk(app, chosen, walk);

@@ -1,0 +1,34 @@
+#include "engine/cli/region_report.h"
+
+#include <fmt/format.h>
+
+namespace acentric::cli {
+
+const char* nameOf(RegionKind kind) {
+  switch (kind) {
+    case RegionKind::ring:
+      return "ring";
+    case RegionKind::gapTriangle:
+      return "gapTriangle";
+    case RegionKind::gapSquare:
+      return "gapSquare";
+    case RegionKind::gapHexagon:
+      return "gapHexagon";
+  }
+  return "ring";
+}
+
+Json toJson(const CellId& id) { return {id.i, id.j, id.slot}; }
+
+Json toJson(const Region& region) {
+  const glm::dvec2 centre = region.polygon.centroid();
+  return {{"cell", toJson(region.id)}, {"kind", nameOf(region.kind)}, {"centre", {centre.x, centre.y}}};
+}
+
+std::string placeText(const Region& region) {
+  const glm::dvec2 centre = region.polygon.centroid();
+  return fmt::format("{} {:<11} at ({:.2f}, {:.2f}) m", toJson(region.id).dump(), nameOf(region.kind),
+                     centre.x, centre.y);
+}
+
+}  // namespace acentric::cli
