@@ -70,6 +70,13 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
   return frame;
 }
 
+ImportOptions importOptions(const std::string& up, double metresPerUnit) {
+  ImportOptions options;
+  options.metresPerUnit = metresPerUnit;
+  options.up = up == "y" ? UpAxis::y : up == "z" ? UpAxis::z : UpAxis::guess;
+  return options;
+}
+
 std::string bytesText(std::uint64_t bytes) {
   if (bytes < 10'000) return fmt::format("{} bytes", bytes);
   if (bytes < 10'000'000) return fmt::format("{:.0f} kB", double(bytes) / 1e3);

@@ -13,6 +13,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/base/task_runner.h"
+#include "engine/inspect/storeys.h"
 #include "engine/pipeline/pipeline.h"
 
 namespace acentric::cli {
@@ -57,12 +58,17 @@ class FrameMaker {
   std::unique_ptr<Gl> gl_;
 };
 
+/// As --up and --metres-per-unit say.
+ImportOptions importOptions(const std::string& up, double metresPerUnit);
+
 /// "12.3 MB", "1,234,567".
 std::string bytesText(std::uint64_t bytes);
 std::string countText(std::uint64_t count);
 Json toJson(const RayCounts& rays);
 Json toJson(const FrameStats& stats);
 Json toJson(const glm::dvec3& v);
+
+Report storeysReport(const Storeys& storeys);
 
 /// Fails with a message unless the file exists and is not empty: nothing is reported as done that is not on
 /// disk.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/cli/commands.h"
+#include "engine/pipeline/scene_storeys.h"
 
 namespace acentric::cli {
 
@@ -19,8 +20,20 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   choices.eyeHeight = options.eyeHeight;
   choices.outline = options.outline;
   choices.samplesPerDegree = options.samplesPerDegree;
-  choices.import.metresPerUnit = options.metresPerUnit;
-  choices.import.up = options.up == "y" ? UpAxis::y : options.up == "z" ? UpAxis::z : UpAxis::guess;
+  choices.import = importOptions(options.up, options.metresPerUnit);
+  if (options.storey == "list") {
+    StoreyOptions storeys;
+    storeys.walkable.eyeHeight = options.eyeHeight;
+    const auto found =
+        findFileStoreys(options.scene, choices.import, storeys, common.host, common.progress, common.stop);
+    if (!found) return tl::unexpected(found.error());
+    return storeysReport(*found);
+  }
+  if (!options.storey.empty()) {
+    const auto storey = parseStoreyChoice(options.storey);
+    if (!storey) return tl::unexpected(storey.error());
+    choices.storey = *storey;
+  }
   const auto runner = common.runner();
   const auto project =
       makeProject(options.scene, options.output, choices, common.host, *runner, common.progress, common.stop);

@@ -12,9 +12,18 @@ struct NewOptions {
   std::filesystem::path scene, output;
   std::string configuration = "b", outline = "auto", up = "guess";
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
+  std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
   bool force = false;
 };
 Result<Report> runNew(const NewOptions& options, const Common& common);
+
+struct StoreysOptions {
+  std::filesystem::path file;  ///< project or model
+  std::string up = "guess";
+  double metresPerUnit = 0, eyeHeight = 1.6, stepHeight = 0.25, gridStep = 0, leastShare = 0.05,
+         leastArea = 2;
+};
+Result<Report> runStoreys(const StoreysOptions& options, const Common& common);
 
 struct InfoOptions {
   std::filesystem::path project;

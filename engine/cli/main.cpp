@@ -54,7 +54,31 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
   c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
+  c->add_option("--storey", o.storey,
+                "Which storey: its number, its height with the unit (3.2m), or list to see them "
+                "(default: the one with most floor)");
   c->add_flag("--force", o.force, "Replace an existing project file");
+}
+
+void addStoreys(CLI::App& app, Chosen& chosen, StoreysOptions& o) {
+  CLI::App* c = add(app, chosen, "storeys",
+                    "List the walk planes found in a scene, and the stairs and ramps between them",
+                    "  acentric storeys house.glb\n"
+                    "  acentric new house.glb -o upstairs.acentric.json --storey 1",
+                    o, runStoreys);
+  c->add_option("file", o.file, "Project file or model file")->required();
+  c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
+  c->add_option("--step-height", o.stepHeight, "Metres that a foot climbs at once")->capture_default_str();
+  c->add_option("--grid", o.gridStep, "Metres between the places looked at (default: from the scene's size)");
+  c->add_option("--least-share", o.leastShare, "Leave out planes of less than this share of the largest one")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  c->add_option("--least-area", o.leastArea, "Leave out planes of fewer square metres")
+      ->capture_default_str();
+  c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of a model (default: guessed)");
+  c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
+      ->check(CLI::IsMember({"guess", "y", "z"}))
+      ->capture_default_str();
 }
 
 void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
@@ -218,6 +242,7 @@ int main(int argc, char** argv) {
 
   Chosen chosen;
   NewOptions newOptions;
+  StoreysOptions storeys;
   InfoOptions info;
   BudgetOptions budget;
   BakeOptions bakeOptions;
@@ -228,6 +253,7 @@ int main(int argc, char** argv) {
   ValidateOptions validate;
   BenchOptions bench;
   addNew(app, chosen, newOptions);
+  addStoreys(app, chosen, storeys);
   addInfo(app, chosen, info);
   addBudget(app, chosen, budget);
   addBake(app, chosen, bakeOptions);

@@ -31,31 +31,35 @@ bool isFloor(const SurfaceHit& hit, const Solids& solidsAbove) {
 
 }  // namespace
 
+std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, const FloorRules& rules,
+                                      const SurfaceProbe& probe) {
+  const double top = double(bounds.max.z) + 1, bottom = bounds.min.z;
+  // Far enough past a surface that single precision does not meet it again.
+  const double skip = std::max(1e-4, 4e-6 * std::max(std::abs(top), std::abs(bottom)));
+  std::vector<FloorLevel> levels;
+  double from = top, ceiling = std::numeric_limits<double>::infinity();
+  bool ceilingIsBack = false;
+  Solids solids;
+  for (int surface = 0; surface < kMostSurfaces && from > bottom - skip; ++surface) {
+    const SurfaceHit hit = probe({place, from}, {0, 0, -1});
+    if (!hit.found()) break;
+    const double height = from - hit.distance;
+    if (ceiling - height >= rules.headRoom && (!rules.upwardOnly || isFloor(hit, solids)))
+      levels.push_back({static_cast<float>(height), std::isfinite(ceiling), ceilingIsBack});
+    solids.pass(hit);
+    ceiling = height;
+    ceilingIsBack = hit.normal.z > 0;
+    from = height - skip;
+  }
+  return levels;
+}
+
 FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, const FloorRules& rules,
                             const SurfaceProbe& probe) {
   FloorLevels levels(std::size_t(grid.columns) * std::size_t(grid.rows));
-  const double top = double(bounds.max.z) + 1, bottom = bounds.min.z;
-  const glm::dvec3 down(0, 0, -1);
-  // Far enough past a surface that single precision does not meet it again.
-  const double skip = std::max(1e-4, 4e-6 * std::max(std::abs(top), std::abs(bottom)));
   for (int y = 0; y < grid.rows; ++y)
-    for (int x = 0; x < grid.columns; ++x) {
-      double from = top, ceiling = std::numeric_limits<double>::infinity();
-      bool ceilingIsBack = false;
-      Solids solids;
-      for (int surface = 0; surface < kMostSurfaces && from > bottom - skip; ++surface) {
-        const SurfaceHit hit = probe({grid.centreOf(x, y), from}, down);
-        if (!hit.found()) break;
-        const double height = from - hit.distance;
-        if (ceiling - height >= rules.headRoom && (!rules.upwardOnly || isFloor(hit, solids)))
-          levels[grid.index(x, y)].push_back(
-              {static_cast<float>(height), std::isfinite(ceiling), ceilingIsBack});
-        solids.pass(hit);
-        ceiling = height;
-        ceilingIsBack = hit.normal.z > 0;
-        from = height - skip;
-      }
-    }
+    for (int x = 0; x < grid.columns; ++x)
+      levels[grid.index(x, y)] = floorLevelsAt(grid.centreOf(x, y), bounds, rules, probe);
   return levels;
 }
 

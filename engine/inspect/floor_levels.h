@@ -33,6 +33,10 @@ struct FloorRules {
   bool upwardOnly = true;
 };
 
+/// At one place of the plan, highest first.
+std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, const FloorRules& rules,
+                                      const SurfaceProbe& probe);
+
 FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, const FloorRules& rules,
                             const SurfaceProbe& probe);
 

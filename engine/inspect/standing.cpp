@@ -24,31 +24,35 @@ std::array<double, 3> probeHeights(double eyeHeight) {
 /// Metres without an obstacle towards +x, +y, -x, -y.
 using FreeWay = std::array<float, 4>;
 
+bool canStandWithin(const glm::dvec2& at, const FloorLevel& level, const StandingRules& rules,
+                    const std::array<double, 3>& heights, const SurfaceProbe& probe, FreeWay& freeWay) {
+  int found = 0, backs = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int d = 0; d < kSides; ++d) {
+    const glm::dvec3 direction(directionOf(kTwoPi * d / kSides), 0);
+    double least = std::numeric_limits<double>::infinity();
+    for (const double above : heights) {
+      const SurfaceHit hit = probe({at, double(level.height) + above}, direction);
+      if (!hit.found()) continue;
+      least = std::min(least, hit.distance);
+      ++found;
+      if (hit.showsBack(direction)) ++backs;
+    }
+    nearest = std::min(nearest, least);
+    if (d % 2 == 0) freeWay[std::size_t(d / 2)] = static_cast<float>(least);
+  }
+  if (nearest < rules.wallClearance) return false;
+  const bool inside = level.coverIsBack && found > kSides && backs >= kInside * found;
+  return !(rules.refuseInside && inside);
+}
+
 class Surveyor {
  public:
   Surveyor(const ProbeGrid& grid, const StandingRules& rules, const SurfaceProbe& probe)
       : grid_(grid), rules_(rules), heights_(probeHeights(rules.eyeHeight)), probe_(probe) {}
 
-  /// False where an obstacle is too near, or everything around shows its back.
   bool canStand(const glm::dvec2& at, const FloorLevel& level, FreeWay& freeWay) const {
-    int found = 0, backs = 0;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int d = 0; d < kSides; ++d) {
-      const glm::dvec3 direction(directionOf(kTwoPi * d / kSides), 0);
-      double least = std::numeric_limits<double>::infinity();
-      for (const double above : heights_) {
-        const SurfaceHit hit = probe_({at, double(level.height) + above}, direction);
-        if (!hit.found()) continue;
-        least = std::min(least, hit.distance);
-        ++found;
-        if (hit.showsBack(direction)) ++backs;
-      }
-      nearest = std::min(nearest, least);
-      if (d % 2 == 0) freeWay[std::size_t(d / 2)] = static_cast<float>(least);
-    }
-    if (nearest < rules_.wallClearance) return false;
-    const bool inside = level.coverIsBack && found > kSides && backs >= kInside * found;
-    return !(rules_.refuseInside && inside);
+    return canStandWithin(at, level, rules_, heights_, probe_, freeWay);
   }
 
   bool canStep(const StandingSpot& from, const StandingSpot& to, float there, float back) const {
@@ -92,6 +96,12 @@ class Surveyor {
 };
 
 }  // namespace
+
+bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRules& rules,
+              const SurfaceProbe& probe) {
+  FreeWay freeWay{};
+  return canStandWithin(place, level, rules, probeHeights(rules.eyeHeight), probe, freeWay);
+}
 
 Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const StandingRules& rules,
                         const SurfaceProbe& probe) {

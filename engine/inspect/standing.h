@@ -30,6 +30,10 @@ struct Standing {
   std::vector<StandingSpot> spots;  ///< row after row, a cell's spots highest first
 };
 
+/// Room for a body between knee and eye, outside of solids. The level has the head room.
+bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRules& rules,
+              const SurfaceProbe& probe);
+
 Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const StandingRules& rules,
                         const SurfaceProbe& probe);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/pipeline.h"
@@ -49,6 +50,18 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
                                   const NewProjectOptions& options) {
   WalkableOptions walkable;
   walkable.eyeHeight = options.eyeHeight;
+  if (options.storey.given()) {
+    if (options.outline != "auto")
+      return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both", options.outline);
+    StoreyOptions storeys;
+    storeys.walkable = walkable;
+    if (options.storey.height) storeys.leastShare = 0;
+    const auto found = findSceneStoreys(rays, storeys);
+    if (!found) return tl::unexpected(found.error());
+    const auto chosen = chooseStorey(*found, options.storey);
+    if (!chosen) return tl::unexpected(chosen.error());
+    return WalkableArea{chosen->height, chosen->outline, found->ignoredSides};
+  }
   if (options.outline == "auto") return findWalkableArea(scene.bounds, walkable, probeFor(rays));
   const auto outline = parseOutline(options.outline);
   if (!outline) return tl::unexpected(outline.error());
@@ -87,45 +100,6 @@ double clearance(const RayScene& rays, const glm::dvec3& eye, double eyeHeight, 
           double(rays.trace({glm::vec3(eye.x, eye.y, eye.z - drop), glm::vec3(d.x, d.y, 0)}).distance));
     }
   return least;
-}
-
-/// How badly the cameras of a layout stand in or at surfaces: such a camera sees the inside of a column, or
-/// half of nothing. Sum over cameras of how much of kCameraRoom each lacks, in [0, cameras].
-double crowding(const RayScene& rays, const Layout& layout) {
-  constexpr double kCameraRoom = 0.4;  // metres
-  double sum = 0;
-  for (const LayoutCamera& camera : layout.cameras) {
-    double least = kCameraRoom;
-    for (int k = 0; k < 12; ++k) {
-      const glm::dvec2 d = directionOf(kTwoPi * k / 12);
-      least = std::min(
-          least,
-          double(rays.trace({glm::vec3(glm::dvec3(camera.position, layout.eyeZ())), glm::vec3(d.x, d.y, 0)})
-                     .distance));
-    }
-    sum += 1 - least / kCameraRoom;
-  }
-  return sum;
-}
-
-/// Moves the lattice, within one cell, to where its cameras stand freest. The middle of the outline wins a
-/// tie.
-LayoutSpec freestPlacement(const RayScene& rays, const LayoutSpec& spec) {
-  constexpr int kSteps = 6;  // each way
-  LayoutSpec best = spec;
-  double bestCrowding = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {
-      LayoutSpec moved = spec;
-      const glm::dvec2 offset = 2 * spec.cellSize * glm::dvec2(i, j) / double(kSteps);
-      moved.latticeOrigin = {roundTo(spec.latticeOrigin.x + offset.x, 0.01),
-                             roundTo(spec.latticeOrigin.y + offset.y, 0.01)};
-      const auto layout = buildLayout(moved);
-      if (!layout || layout->regions.empty()) continue;
-      const double crowded = crowding(rays, *layout);
-      if (crowded < bestCrowding - 1e-9) best = moved, bestCrowding = crowded;
-    }
-  return best;
 }
 
 /// The place nearest to the outline's middle where a person has room; else the roomiest.
@@ -204,7 +178,9 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
   if (options.samplesPerDegree > 0) project.bake.samplesPerDegree = options.samplesPerDegree;
   if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
   if (progress) progress({0, 0, "placing the cells"});
-  spec = freestPlacement(**rays, spec);
+  ShiftOptions shift;
+  shift.crowding.trustSides = !area->ignoredSides;
+  spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(**rays), stop).origin;
   const auto layout = buildLayout(spec);
   if (!layout) return tl::unexpected(layout.error());
   if (layout->regions.empty())

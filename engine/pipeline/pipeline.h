@@ -12,6 +12,7 @@
 #include "engine/bake/truth.h"
 #include "engine/base/task_runner.h"
 #include "engine/pipeline/project.h"
+#include "engine/pipeline/scene_storeys.h"
 #include "engine/store/capture_store.h"
 #include "engine/view/render.h"
 #include "engine/view/walk_scene.h"
@@ -24,6 +25,7 @@ struct NewProjectOptions {
   double cellSize = 0;           ///< metres; 0 = from the walkable area (about 12 rings, 0.8..6 m)
   double eyeHeight = 1.6;        ///< metres
   std::string outline = "auto";  ///< "auto" or parseOutline text
+  StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
 };
 

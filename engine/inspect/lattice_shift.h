@@ -1,0 +1,37 @@
+#pragma once
+/// Moves a lattice, within one of its cells, to where its cameras stand freest: a camera in a column sees its
+/// inside, and one at a wall sees half of nothing.
+
+#include <stop_token>
+
+#include "engine/inspect/surface_probe.h"
+#include "engine/layout/layout.h"
+
+namespace acentric {
+
+struct CrowdingRules {
+  double cameraRoom = 0.4;  ///< metres
+  bool trustSides = true;   ///< a camera around which all shows its back is inside a solid
+};
+
+/// How badly the cameras of a layout stand: each lacks a share of its room, in [0, 1], or counts 2 inside a
+/// solid. Looks level at eye height.
+double crowding(const Layout& layout, const CrowdingRules& rules, const SurfaceProbe& probe);
+
+struct ShiftOptions {
+  CrowdingRules crowding;
+  int steps = 6;           ///< each way over the lattice's cell: steps x steps origins are tried
+  double rounding = 0.01;  ///< metres: origins that a person can read
+};
+
+struct LatticeShift {
+  glm::dvec2 origin{0};          ///< the freest latticeOrigin found
+  double before = 0, after = 0;  ///< crowding
+};
+
+/// The spec's own origin wins a tie, then the first tried. Origins where nothing is placed are passed over.
+/// Stopped: the best so far.
+LatticeShift findFreestOrigin(const LayoutSpec& spec, const ShiftOptions& options, const SurfaceProbe& probe,
+                              std::stop_token stop = {});
+
+}  // namespace acentric

@@ -1,0 +1,239 @@
+#include "engine/inspect/placement_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <map>
+
+#include "engine/inspect/standing.h"
+
+namespace acentric {
+namespace {
+
+constexpr double kTouching = 0.25;       // share of cameraRoom below which a camera sees almost nothing else
+constexpr double kPushStep = 0.05;       // metres
+constexpr double kPushAccuracy = 0.005;  // metres
+constexpr int kPushSides = 24;
+constexpr int kPlacesAcross = 8;  // of a region, where standing room is looked for
+constexpr double kHeadAboveEye = 0.15;
+constexpr double kSeemInside = 0.8;  // share of the centres from which sides are not trusted
+
+std::string wayOf(const glm::dvec3& direction) {
+  if (direction.z > 0.99) return "straight above it";
+  if (direction.z < -0.99) return "straight below it";
+  const double azimuth = degrees(wrapAngle(std::atan2(direction.y, direction.x)));
+  return fmt::format("towards {:.0f} degrees{}", azimuth,
+                     direction.z > 0.1    ? " and up"
+                     : direction.z < -0.1 ? " and down"
+                                          : "");
+}
+
+class Checker {
+ public:
+  Checker(const Layout& layout, const Bounds& bounds, const PlacementRules& rules, const SurfaceProbe& probe,
+          bool trustSides)
+      : layout_(layout), bounds_(bounds), rules_(rules), probe_(probe), trustSides_(trustSides) {}
+
+  std::vector<PlacementFinding> check(const CameraCentre& centre, const Surroundings& around) const {
+    std::vector<PlacementFinding> found;
+    const auto add = [&](PlacementFlaw flaw, Severity severity, std::string reason) {
+      found.push_back({flaw, severity, centre.cameras, -1, centre.position, std::move(reason), {}});
+    };
+    if (trustSides_ && around.inside())
+      add(PlacementFlaw::insideSolid, Severity::error,
+          fmt::format(
+              "it is inside a solid: {} of {} directions meet the back of a surface first, and {} cross "
+              "an odd number of surfaces",
+              around.backs, around.directions, around.odd));
+    if (around.nearest < rules_.cameraRoom)
+      add(PlacementFlaw::tooNear,
+          around.nearest < kTouching * rules_.cameraRoom ? Severity::error : Severity::warning,
+          fmt::format("a surface is {:.2f} m away {}; {:.2f} m are asked for", around.nearest,
+                      wayOf(around.towards), rules_.cameraRoom));
+    const double walkPlane = layout_.spec.floorHeight;
+    if (!around.floor)
+      add(PlacementFlaw::noFloor, Severity::warning, "nothing is below it");
+    else if (*around.floor > walkPlane + rules_.floorTolerance)
+      add(PlacementFlaw::floorTooHigh, Severity::note,
+          fmt::format("what is below it lies {:.2f} m above the walk plane", *around.floor - walkPlane));
+    else if (*around.floor < walkPlane - rules_.floorTolerance)
+      add(PlacementFlaw::floorTooLow, Severity::warning,
+          fmt::format("the floor below it lies {:.2f} m below the walk plane", walkPlane - *around.floor));
+    if (std::ranges::any_of(found, [](const auto& f) { return f.severity != Severity::note; })) {
+      const auto push = smallestPush(centre.position, around);
+      for (PlacementFinding& finding : found)
+        if (finding.severity != Severity::note) finding.push = push;
+    }
+    return found;
+  }
+
+  std::optional<PlacementFinding> checkRegion(int index) const {
+    const Region& region = layout_.regions[std::size_t(index)];
+    glm::dvec2 low = region.polygon.corners.front(), high = low;
+    for (const glm::dvec2& corner : region.polygon.corners)
+      low = glm::min(low, corner), high = glm::max(high, corner);
+    const glm::dvec2 middle = region.polygon.centroid();
+    int looked = 1;
+    if (canStandAt(middle)) return std::nullopt;
+    for (int i = 0; i < kPlacesAcross; ++i)
+      for (int j = 0; j < kPlacesAcross; ++j) {
+        const glm::dvec2 place = low + (high - low) * glm::dvec2(i + 0.5, j + 0.5) / double(kPlacesAcross);
+        if (!region.polygon.containsClosed(place)) continue;
+        ++looked;
+        if (canStandAt(place)) return std::nullopt;
+      }
+    return PlacementFinding{
+        PlacementFlaw::noStandingRoom,
+        Severity::warning,
+        {},
+        index,
+        middle,
+        fmt::format("none of {} places in it has a floor within {:.2f} m of the walk plane, {:.2f} m of head "
+                    "room and {:.2f} m to the sides",
+                    looked, rules_.floorTolerance, layout_.spec.eyeHeight + kHeadAboveEye,
+                    rules_.wallClearance),
+        {}};
+  }
+
+ private:
+  bool canStandAt(const glm::dvec2& place) const {
+    const FloorRules floor{layout_.spec.eyeHeight + kHeadAboveEye, trustSides_};
+    StandingRules standing;
+    standing.eyeHeight = layout_.spec.eyeHeight;
+    standing.wallClearance = rules_.wallClearance;
+    standing.refuseInside = trustSides_;
+    for (const FloorLevel& level : floorLevelsAt(place, bounds_, floor, probe_))
+      if (std::abs(double(level.height) - layout_.spec.floorHeight) <= rules_.floorTolerance &&
+          canStand(place, level, standing, probe_))
+        return true;
+    return false;
+  }
+
+  bool isClear(const glm::dvec2& place) const {
+    const glm::dvec3 eye(place, layout_.eyeZ());
+    if (!hasRoom(eye, rules_.cameraRoom, probe_)) return false;
+    const Surroundings around = lookAround(eye, probe_);
+    if (trustSides_ && around.inside()) return false;
+    return around.floor && *around.floor >= layout_.spec.floorHeight - rules_.floorTolerance;
+  }
+
+  /// Rings of growing radius; within a ring, away from the nearest surface first.
+  std::optional<glm::dvec2> smallestPush(const glm::dvec2& place, const Surroundings& around) const {
+    const double away = std::atan2(-around.towards.y, -around.towards.x);
+    for (double radius = kPushStep; radius <= rules_.mostPush + 1e-9; radius += kPushStep)
+      for (int k = 0; k < kPushSides; ++k) {
+        const int turn = k % 2 == 0 ? k / 2 : -(k + 1) / 2;  // 0, -1, 1, -2, 2 ...
+        const glm::dvec2 direction = directionOf(away + kTwoPi * turn / kPushSides);
+        if (!isClear(place + radius * direction)) continue;
+        double blocked = radius - kPushStep, free = radius;
+        while (free - blocked > kPushAccuracy) {
+          const double middle = 0.5 * (blocked + free);
+          (isClear(place + middle * direction) ? free : blocked) = middle;
+        }
+        return free * direction;
+      }
+    return std::nullopt;
+  }
+
+  const Layout& layout_;
+  const Bounds& bounds_;
+  const PlacementRules& rules_;
+  const SurfaceProbe& probe_;
+  bool trustSides_;
+};
+
+}  // namespace
+
+const char* nameOf(PlacementFlaw flaw) {
+  switch (flaw) {
+    case PlacementFlaw::insideSolid:
+      return "insideSolid";
+    case PlacementFlaw::tooNear:
+      return "tooNear";
+    case PlacementFlaw::noFloor:
+      return "noFloor";
+    case PlacementFlaw::floorTooHigh:
+      return "floorTooHigh";
+    case PlacementFlaw::floorTooLow:
+      return "floorTooLow";
+    case PlacementFlaw::noStandingRoom:
+      return "noStandingRoom";
+  }
+  return "unknown";
+}
+
+const char* nameOf(Severity severity) {
+  switch (severity) {
+    case Severity::note:
+      return "note";
+    case Severity::warning:
+      return "warning";
+    case Severity::error:
+      return "error";
+  }
+  return "unknown";
+}
+
+Status PlacementRules::check() const {
+  for (const auto& [what, value] :
+       {std::pair{"room around a camera", cameraRoom}, std::pair{"floor tolerance", floorTolerance},
+        std::pair{"wall clearance", wallClearance}, std::pair{"farthest push", mostPush}})
+    if (!(value >= 0 && value <= 100))
+      return fail(ErrorKind::invalidArgument,
+                  fmt::format("the {} is {} m; it must lie in 0..100 m", what, value), "placement");
+  return {};
+}
+
+int PlacementReport::count(Severity severity) const {
+  return static_cast<int>(std::ranges::count(findings, severity, &PlacementFinding::severity));
+}
+
+std::vector<CameraCentre> centresOf(const Layout& layout) {
+  std::map<std::pair<double, double>, std::vector<int>> camerasAt;
+  for (std::size_t c = 0; c < layout.cameras.size(); ++c) {
+    const glm::dvec2& at = layout.cameras[c].position;
+    camerasAt[{at.x, at.y}].push_back(static_cast<int>(c));
+  }
+  std::vector<CameraCentre> centres;
+  centres.reserve(camerasAt.size());
+  for (auto& [at, cameras] : camerasAt) centres.push_back({{at.first, at.second}, std::move(cameras)});
+  return centres;
+}
+
+Result<PlacementReport> checkPlacement(const Layout& layout, const Bounds& bounds,
+                                       const PlacementRules& rules, const SurfaceProbe& probe,
+                                       TaskRunner& runner, std::stop_token stop) {
+  if (Status sound = rules.check(); !sound) return tl::unexpected(sound.error());
+  const std::vector<CameraCentre> centres = centresOf(layout);
+  std::vector<Surroundings> around(centres.size());
+  runner.parallelFor(centres.size(), [&](std::size_t c) {
+    if (!stop.stop_requested()) around[c] = lookAround({centres[c].position, layout.eyeZ()}, probe);
+  });
+  const auto inside = std::ranges::count_if(around, &Surroundings::inside);
+  PlacementReport report;
+  report.centres = static_cast<int>(centres.size());
+  report.regions = static_cast<int>(layout.regions.size());
+  report.ignoredSides = inside > 0 && double(inside) >= kSeemInside * double(centres.size());
+
+  const Checker checker(layout, bounds, rules, probe, !report.ignoredSides);
+  std::vector<std::vector<PlacementFinding>> found(centres.size() + layout.regions.size());
+  runner.parallelFor(found.size(), [&](std::size_t k) {
+    if (stop.stop_requested()) return;
+    if (k < centres.size())
+      found[k] = checker.check(centres[k], around[k]);
+    else if (auto finding = checker.checkRegion(static_cast<int>(k - centres.size())))
+      found[k].push_back(std::move(*finding));
+  });
+  if (stop.stop_requested())
+    return fail(ErrorKind::cancelled, "the placement check was stopped", "placement");
+  for (auto& some : found) std::ranges::move(some, std::back_inserter(report.findings));
+  std::ranges::stable_sort(report.findings, [](const PlacementFinding& a, const PlacementFinding& b) {
+    return a.severity != b.severity ? a.severity > b.severity : a.flaw < b.flaw;
+  });
+  return report;
+}
+
+}  // namespace acentric
