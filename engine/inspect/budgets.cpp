@@ -1,6 +1,7 @@
 #include "engine/inspect/budgets.h"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 
 namespace acentric {
@@ -12,6 +13,25 @@ constexpr std::size_t kRememberedLayouts = 4, kRememberedAtLeast = 4096;
 ContentKey keyOf(const ConvexPolygon& polygon) {
   return Hasher().array(std::span<const glm::dvec2>(polygon.corners)).finish();
 }
+
+/// Calls `store(n, count)` for each polygon; returns how many were counted before a stop.
+std::size_t countEach(const TriangleTree& tree, std::size_t count,
+                      const std::function<const ConvexPolygon&(std::size_t)>& polygon,
+                      const std::function<void(std::size_t, std::size_t)>& store, TaskRunner& runner,
+                      const Progress& progress, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::size_t done = 0;
+  runner.parallelFor(count, [&](std::size_t n) {
+    if (stop.stop_requested()) return;
+    store(n, tree.countClipped(polygon(n)));
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress({double(done), double(count), "counting triangles per region"});
+  });
+  return done;
+}
+
+tl::unexpected<Error> cancelled() { return fail(ErrorKind::cancelled, "counting triangles was cancelled"); }
 
 }  // namespace
 
@@ -35,6 +55,18 @@ std::vector<int> RegionBudgets::over(std::size_t limit) const {
   return found;
 }
 
+Result<RegionBudgets> countRegions(const TriangleTree& tree, const Layout& layout, TaskRunner& runner,
+                                   const Progress& progress, std::stop_token stop) {
+  RegionBudgets budgets;
+  const std::size_t regions = layout.regions.size();
+  budgets.triangles.resize(regions);
+  const auto polygon = [&](std::size_t n) -> const ConvexPolygon& { return layout.regions[n].grown; };
+  const auto store = [&](std::size_t n, std::size_t triangles) { budgets.triangles[n] = triangles; };
+  budgets.counted = countEach(tree, regions, polygon, store, runner, progress, stop);
+  if (budgets.counted < regions) return cancelled();
+  return budgets;
+}
+
 BudgetCounter::BudgetCounter(ScenePtr scene) : tree_(std::move(scene)) {}
 
 Result<RegionBudgets> BudgetCounter::count(const Layout& layout, TaskRunner& runner, const Progress& progress,
@@ -53,21 +85,18 @@ Result<RegionBudgets> BudgetCounter::count(const Layout& layout, TaskRunner& run
     at->second.usedIn = counts_;
     entries.push_back(&at->second);
   }
-  std::mutex mutex;
-  std::size_t done = 0;
   std::vector<char> finished(open.size(), 0);
-  runner.parallelFor(open.size(), [&](std::size_t n) {
-    if (stop.stop_requested()) return;
-    open[n].entry->triangles = tree_.countClipped(layout.regions[open[n].region].grown);
+  const auto polygon = [&](std::size_t n) -> const ConvexPolygon& {
+    return layout.regions[open[n].region].grown;
+  };
+  const auto store = [&](std::size_t n, std::size_t triangles) {
+    open[n].entry->triangles = triangles;
     finished[n] = 1;
-    const std::lock_guard lock(mutex);
-    ++done;
-    if (progress) progress({double(done), double(open.size()), "counting triangles per region"});
-  });
-  if (done < open.size()) {
+  };
+  if (countEach(tree_, open.size(), polygon, store, runner, progress, stop) < open.size()) {
     for (std::size_t n = 0; n < open.size(); ++n)
-      if (!finished[n]) known_.erase(keyOf(layout.regions[open[n].region].grown));
-    return fail(ErrorKind::cancelled, "counting triangles was cancelled");
+      if (!finished[n]) known_.erase(keyOf(polygon(n)));
+    return cancelled();
   }
   for (const Known* entry : entries) budgets.triangles.push_back(entry->triangles);
   budgets.counted = open.size();

@@ -25,6 +25,10 @@ struct RegionBudgets {
   std::vector<int> over(std::size_t limit) const;
 };
 
+/// Every region's count, spread over the runner.
+Result<RegionBudgets> countRegions(const TriangleTree& tree, const Layout& layout, TaskRunner& runner,
+                                   const Progress& progress = {}, std::stop_token stop = {});
+
 /// Counts, and remembers by polygon. Not thread-safe itself; it spreads its work over a TaskRunner.
 class BudgetCounter {
  public:
@@ -33,6 +37,7 @@ class BudgetCounter {
   /// Cancelled: what was counted until then is remembered.
   Result<RegionBudgets> count(const Layout& layout, TaskRunner& runner, const Progress& progress = {},
                               std::stop_token stop = {});
+  const TriangleTree& tree() const { return tree_; }
 
  private:
   struct Known {
