@@ -214,4 +214,19 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
   }
 }
 
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+                                        const BakeSettings& settings) {
+  require(wanted.size() == scene.scene().triangleCount(), "surface light is asked for triangle by triangle");
+  if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
+  try {
+    const std::vector<glm::vec3> noViewer;
+    SurfaceLightBaker baker(scene, wanted, noViewer, settings);
+    if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
+    return baker.take();
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for surface light; raise the surface texel",
+                scene.scene().name);
+  }
+}
+
 }  // namespace acentric

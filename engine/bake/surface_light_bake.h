@@ -19,4 +19,9 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
                                       TaskRunner& runner, const Progress& progress = {},
                                       std::stop_token stop = {});
 
+/// Where the samples of each triangle would lie, all of them black: no ray is traced. Fails only when too
+/// large.
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+                                        const BakeSettings& settings);
+
 }  // namespace acentric

@@ -22,6 +22,7 @@ struct StoreysOptions {
   std::string up = "guess";
   double metresPerUnit = 0, eyeHeight = 1.6, stepHeight = 0.25, gridStep = 0, leastShare = 0.05,
          leastArea = 2;
+  bool ignoreSides = false;
 };
 Result<Report> runStoreys(const StoreysOptions& options, const Common& common);
 
@@ -97,5 +98,11 @@ struct BenchOptions {
   int frames = 30, repeats = 3;
 };
 Result<Report> runBench(const BenchOptions& options, const Common& common);
+
+struct EstimateCommandOptions {
+  std::filesystem::path project;
+  double seconds = 2.3;  ///< spent on probing
+};
+Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common);
 
 }  // namespace acentric::cli

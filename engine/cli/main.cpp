@@ -75,6 +75,8 @@ void addStoreys(CLI::App& app, Chosen& chosen, StoreysOptions& o) {
       ->capture_default_str();
   c->add_option("--least-area", o.leastArea, "Leave out planes of fewer square metres")
       ->capture_default_str();
+  c->add_flag("--ignore-sides", o.ignoreSides,
+              "Take surfaces for floor whichever way they face, and no place for the inside of a solid");
   c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of a model (default: guessed)");
   c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
@@ -200,6 +202,18 @@ void addBench(CLI::App& app, Chosen& chosen, BenchOptions& o) {
       ->capture_default_str();
 }
 
+void addEstimate(CLI::App& app, Chosen& chosen, EstimateCommandOptions& o) {
+  CLI::App* c = add(app, chosen, "estimate",
+                    "Tell what a bake will take (samples, bytes, minutes) by baking a little of it",
+                    "  acentric estimate kitchen.acentric.json --threads 2\n"
+                    "  acentric estimate kitchen.acentric.json --seconds 10 --json",
+                    o, runEstimate);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--seconds", o.seconds, "Time to spend; more narrows the error")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+}
+
 int finish(const Result<Report>& result, bool json) {
   finishProgress();
   if (!result) {
@@ -263,6 +277,8 @@ int main(int argc, char** argv) {
   addMeasure(app, chosen, measure);
   addValidate(app, chosen, validate);
   addBench(app, chosen, bench);
+  EstimateCommandOptions estimate;
+  addEstimate(app, chosen, estimate);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

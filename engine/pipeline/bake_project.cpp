@@ -3,8 +3,8 @@
 #include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
+#include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/pipeline.h"
-#include "engine/scene/local_geometry.h"
 
 namespace acentric {
 namespace {
@@ -18,26 +18,6 @@ class StoreSink final : public CaptureSink {
  private:
   const CaptureStore& store_;
 };
-
-/// Which triangles are local geometry of some region, and an eye that sees each.
-struct LocalTriangles {
-  std::vector<std::uint8_t> wanted;
-  std::vector<glm::vec3> viewer;
-};
-
-LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout) {
-  const auto first = scene.firstTriangles();
-  LocalTriangles out{std::vector<std::uint8_t>(first.back(), 0),
-                     std::vector<glm::vec3>(first.back(), glm::vec3(0))};
-  for (const Region& region : layout.regions) {
-    const glm::vec3 eye(glm::dvec3(region.polygon.centroid(), layout.eyeZ()));
-    for (const LocalTriangle& triangle : clipToPolygon(scene, region.grown).triangles) {
-      const std::size_t index = first[triangle.mesh] + triangle.triangle;
-      if (!out.wanted[index]) out.wanted[index] = 1, out.viewer[index] = eye;
-    }
-  }
-  return out;
-}
 
 }  // namespace
 

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/cli/commands.h"
+#include "engine/pipeline/estimate_bake.h"
+
+namespace acentric::cli {
+namespace {
+
+Json toJson(const Figure& figure) {
+  return {{"value", figure.value}, {"relativeError", figure.relativeError}};
+}
+
+std::string timeText(double seconds) {
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.1f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string countOf(const Figure& figure) { return countText(std::uint64_t(std::llround(figure.value))); }
+std::string bytesOf(const Figure& figure) { return bytesText(std::uint64_t(std::llround(figure.value))); }
+double percent(const Figure& figure) { return 100 * figure.relativeError; }
+
+}  // namespace
+
+Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common) {
+  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  if (!open) return tl::unexpected(open.error());
+  std::vector<int> missing;
+  const std::vector<bool> baked = bakedCameras(*open);
+  for (std::size_t c = 0; c < baked.size(); ++c)
+    if (!baked[c]) missing.push_back(int(c));
+
+  EstimateOptions estimating;
+  estimating.captureSeconds = 0.65 * options.seconds;
+  estimating.lightSeconds = 0.35 * options.seconds;
+  const auto runner = common.runner();
+  const auto estimate = estimateProjectBake(*open, {}, estimating, *runner, common.progress, common.stop);
+  if (!estimate) return tl::unexpected(estimate.error());
+  const BakeEstimate& e = *estimate;
+  const double share = baked.empty() ? 0 : double(missing.size()) / double(baked.size());
+
+  Report report;
+  report.json = {{"project", options.project.string()},
+                 {"threads", runner->threads()},
+                 {"cameras", e.cameras},
+                 {"missingCameras", missing.size()},
+                 {"megapixels", e.pixels / 1e6},
+                 {"samples", toJson(e.samples)},
+                 {"rays", toJson(e.rays)},
+                 {"captureBytes", toJson(e.captureBytes)},
+                 {"traceSeconds", toJson(e.traceSeconds)},
+                 {"writeSeconds", toJson(e.writeSeconds)},
+                 {"captureSeconds", toJson(e.captureSeconds)},
+                 {"surfaceLight",
+                  {{"samples", toJson(e.lightSamples)},
+                   {"bytes", toJson(e.lightBytes)},
+                   {"seconds", toJson(e.lightSeconds)}}},
+                 {"bytes", toJson(e.bytes)},
+                 {"seconds", toJson(e.seconds)},
+                 {"probedCameras", e.probedCameras},
+                 {"probeSeconds", e.probeSeconds}};
+  report.text = fmt::format(
+      "{} cameras, {:.1f} Mpixel: {} samples (+-{:.0f} %), {} rays\n"
+      "captures       {:>10} (+-{:.0f} %)   {:>9} (+-{:.0f} %; tracing {}, writing {}, side by side)\n"
+      "surface light  {:>10} (+-{:.0f} %)   {:>9} (+-{:.0f} %; {} samples)\n"
+      "together       {:>10}            {:>9} with {} threads\n"
+      "probed {} cameras in {:.1f} s; {} of {} cameras are missing: about {} for them\n",
+      e.cameras, e.pixels / 1e6, countOf(e.samples), percent(e.samples), countOf(e.rays),
+      bytesOf(e.captureBytes), percent(e.captureBytes), timeText(e.captureSeconds.value),
+      percent(e.captureSeconds), timeText(e.traceSeconds.value), timeText(e.writeSeconds.value),
+      bytesOf(e.lightBytes), percent(e.lightBytes), timeText(e.lightSeconds.value), percent(e.lightSeconds),
+      countOf(e.lightSamples), bytesOf(e.bytes), timeText(e.seconds.value), runner->threads(),
+      e.probedCameras, e.probeSeconds, missing.size(), baked.size(),
+      timeText(share * e.captureSeconds.value));
+  return report;
+}
+
+}  // namespace acentric::cli

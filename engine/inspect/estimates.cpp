@@ -1,0 +1,185 @@
+#include "engine/inspect/estimates.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace acentric {
+namespace {
+
+/// Fewer tell nothing about how cameras differ.
+constexpr std::size_t kFewestProbes = 16;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
+/// probed.
+template <class Probe>
+Figure ratioOf(const std::vector<Probe>& probes, double Probe::*part, double Probe::*whole, double share) {
+  double parts = 0, wholes = 0;
+  for (const Probe& probe : probes) parts += probe.*part, wholes += probe.*whole;
+  if (!(wholes > 0)) return {};
+  const double ratio = parts / wholes;
+  const double n = double(probes.size());
+  if (n < 2 || !(ratio > 0)) return {ratio, n < 2 ? 1.0 : 0.0};
+  double squares = 0;
+  for (const Probe& probe : probes) {
+    const double residual = probe.*part - ratio * (probe.*whole);
+    squares += residual * residual;
+  }
+  const double deviation = std::sqrt(squares / (n - 1) / n) / (wholes / n);
+  return {ratio, deviation * std::sqrt(std::max(0.0, 1 - share)) / ratio};
+}
+
+Figure times(const Figure& figure, double factor) { return {figure.value * factor, figure.relativeError}; }
+
+/// The product; the errors of both add up, as if independent.
+Figure product(const Figure& a, const Figure& b) {
+  return {a.value * b.value, std::hypot(a.relativeError, b.relativeError)};
+}
+
+/// `exact` is known without error.
+Figure sum(const Figure& a, const Figure& b, double exact = 0) {
+  const double value = a.value + b.value + exact;
+  const double error = std::hypot(a.value * a.relativeError, b.value * b.relativeError);
+  return {value, value > 0 ? error / value : 0};
+}
+
+Error stopped() { return {ErrorKind::cancelled, "the estimate was stopped", "estimate"}; }
+
+Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions& options, BakeProber& prober,
+                        const Progress& progress, const std::stop_token& stop, BakeEstimate& estimate) {
+  const auto overhead = prober.captureOverhead();
+  if (!overhead) return tl::unexpected(overhead.error());
+  const std::vector<int> order = spreadOrder(int(pixels.size()));
+  const Stopwatch watch;
+  std::size_t probed = 0;
+  for (; probed < order.size(); ++probed) {
+    const double spent = watch.seconds();
+    if (probed >= kFewestProbes && spent >= options.captureSeconds) break;
+    if (stop.stop_requested()) return tl::unexpected(stopped());
+    if (progress)
+      progress({std::min(spent, options.captureSeconds), options.captureSeconds, "probing cameras"});
+    if (Status done = prober.probeCapture(order[probed]); !done) return done;
+  }
+  const auto probes = prober.finishCaptures();
+  if (!probes) return tl::unexpected(probes.error());
+
+  const double cameras = double(pixels.size()), share = double(probed) / cameras;
+  double probedPixels = 0;
+  for (const CaptureProbe& probe : *probes) probedPixels += probe.pixels;
+  const double seenShare = std::min(share, probedPixels / estimate.pixels);
+  const auto ratio = [&](double CaptureProbe::*part, double CaptureProbe::*whole) {
+    return ratioOf(*probes, part, whole, seenShare);
+  };
+  estimate.probedCameras = int(probed);
+  estimate.samples = times(ratio(&CaptureProbe::samples, &CaptureProbe::pixels), estimate.pixels);
+  estimate.rays = times(ratio(&CaptureProbe::rays, &CaptureProbe::pixels), estimate.pixels);
+  estimate.traceSeconds =
+      sum(times(ratio(&CaptureProbe::traceSeconds, &CaptureProbe::pixels), estimate.pixels), {},
+          cameras * overhead->traceSeconds);
+  estimate.writeSeconds =
+      sum(product(ratio(&CaptureProbe::writeSeconds, &CaptureProbe::writtenSamples), estimate.samples), {},
+          cameras * overhead->writeSeconds);
+  estimate.captureBytes =
+      sum(product(ratio(&CaptureProbe::bytes, &CaptureProbe::writtenSamples), estimate.samples), {},
+          cameras * overhead->bytes);
+  // One camera is written while the next is traced: the slower of the two sets the pace, and the other adds
+  // its first or last camera.
+  const bool tracing = estimate.traceSeconds.value >= estimate.writeSeconds.value;
+  const Figure& slower = tracing ? estimate.traceSeconds : estimate.writeSeconds;
+  const Figure& faster = tracing ? estimate.writeSeconds : estimate.traceSeconds;
+  estimate.captureSeconds = sum(slower, times(faster, 1 / cameras));
+  return {};
+}
+
+Status estimateLight(const EstimateOptions& options, BakeProber& prober, const Progress& progress,
+                     const std::stop_token& stop, BakeEstimate& estimate) {
+  if (progress) progress({0, 0, "finding local geometry"});
+  const auto overhead = prober.lightOverhead();
+  if (!overhead) return tl::unexpected(overhead.error());
+  const std::vector<double>& samples = overhead->samplesOfKind;
+  std::vector<std::vector<LightProbe>> probes(samples.size());
+  std::vector<bool> exhausted(samples.size(), false);
+  const Stopwatch watch;
+  for (int round = 0; round < 2 || watch.seconds() < options.lightSeconds; ++round) {
+    for (std::size_t kind = 0; kind < samples.size(); ++kind) {
+      if (exhausted[kind]) continue;
+      if (stop.stop_requested()) return tl::unexpected(stopped());
+      if (progress)
+        progress({std::min(watch.seconds(), options.lightSeconds), options.lightSeconds,
+                  "probing light on surfaces"});
+      const auto probe = prober.probeLight(int(kind));
+      if (!probe) return tl::unexpected(probe.error());
+      exhausted[kind] = probe->samples == 0;
+      if (!exhausted[kind]) probes[kind].push_back(*probe);
+    }
+    if (std::ranges::find(exhausted, false) == exhausted.end()) break;
+  }
+  estimate.lightBytes = {overhead->bytes, 0};
+  estimate.lightSeconds = {overhead->seconds, 0};
+  for (std::size_t kind = 0; kind < samples.size(); ++kind) {
+    double probed = 0;
+    for (const LightProbe& probe : probes[kind]) probed += probe.samples;
+    const double share = samples[kind] > 0 ? probed / samples[kind] : 1;
+    const auto whole = [&](double LightProbe::*part) {
+      return times(ratioOf(probes[kind], part, &LightProbe::samples, share), samples[kind]);
+    };
+    estimate.lightSamples.value += samples[kind];
+    estimate.lightBytes = sum(estimate.lightBytes, whole(&LightProbe::bytes));
+    estimate.lightSeconds = sum(estimate.lightSeconds, whole(&LightProbe::seconds));
+  }
+  return {};
+}
+
+}  // namespace
+
+Status EstimateOptions::check() const {
+  for (const double seconds : {captureSeconds, lightSeconds})
+    if (!(seconds >= 0 && seconds <= 3600))
+      return fail(ErrorKind::invalidArgument, "time for probing must lie in 0..3600 s", "estimate");
+  return {};
+}
+
+std::vector<int> spreadOrder(int count) {
+  // The multiples of the golden ratio, modulo 1, ranked: every beginning is spread as evenly as can be.
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::pair<double, int>> places;
+  for (int i = 0; i < count; ++i) places.emplace_back(std::fmod((i + 0.5) * kGolden, 1.0), i);
+  std::ranges::sort(places);
+  std::vector<int> order(places.size());
+  for (std::size_t rank = 0; rank < places.size(); ++rank)
+    order[std::size_t(places[rank].second)] = static_cast<int>(rank);
+  return order;
+}
+
+Result<BakeEstimate> estimateBake(const std::vector<double>& pixels, const EstimateOptions& options,
+                                  BakeProber& prober, const Progress& progress, std::stop_token stop) {
+  if (Status sound = options.check(); !sound) return tl::unexpected(sound.error());
+  const Stopwatch watch;
+  BakeEstimate estimate;
+  estimate.cameras = int(pixels.size());
+  estimate.pixels = std::accumulate(pixels.begin(), pixels.end(), 0.0);
+  if (!pixels.empty())
+    if (Status done = estimateCaptures(pixels, options, prober, progress, stop, estimate); !done)
+      return tl::unexpected(done.error());
+  if (options.surfaceLight)
+    if (Status done = estimateLight(options, prober, progress, stop, estimate); !done)
+      return tl::unexpected(done.error());
+  estimate.bytes = sum(estimate.captureBytes, estimate.lightBytes);
+  estimate.seconds = sum(estimate.captureSeconds, estimate.lightSeconds);
+  estimate.probeSeconds = watch.seconds();
+  return estimate;
+}
+
+}  // namespace acentric

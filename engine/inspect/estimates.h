@@ -1,0 +1,93 @@
+#pragma once
+/// What a bake will take, told before it is run: cameras, megapixels, samples, rays, bytes and seconds.
+/// Nothing is assumed about the machine or the scene: a spread of cameras is probed for a second or so, by
+/// the very routines of the bake, and the rates found are carried over to all of them.
+///
+/// Each figure comes with its standard error: cameras differ, and a probe sees some of them. Probing is
+/// injected, since inspect neither traces nor writes; engine/pipeline wires it.
+
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include "engine/base/progress.h"
+#include "engine/base/result.h"
+
+namespace acentric {
+
+/// What a capture costs however few samples it has.
+struct CaptureOverhead {
+  double traceSeconds = 0, writeSeconds = 0;
+  double bytes = 0;
+};
+
+/// What part of one camera's capture cost, beyond the overhead.
+struct CaptureProbe {
+  double pixels = 0;   ///< traced
+  double samples = 0;  ///< that came of it
+  double rays = 0;     ///< of all purposes
+  double traceSeconds = 0;
+  double writtenSamples = 0;  ///< encoded and written, of which the next two
+  double bytes = 0;
+  double writeSeconds = 0;
+};
+
+/// What part of the surfaces' own light cost, beyond the overhead.
+struct LightProbe {
+  double samples = 0, bytes = 0, seconds = 0;
+};
+struct LightOverhead {
+  double bytes = 0, seconds = 0;
+  /// Samples by kind of triangle, exactly. Small triangles lie where much is in the way of the light, large
+  /// ones on bare walls: each kind has rates of its own.
+  std::vector<double> samplesOfKind;
+};
+
+/// Bakes in small. Writing goes on behind the tracing, as in a bake, so that both are measured while they
+/// compete for the processors.
+class BakeProber {
+ public:
+  virtual ~BakeProber() = default;
+  virtual Result<CaptureOverhead> captureOverhead() = 0;
+  virtual Status probeCapture(int camera) = 0;
+  /// Waits until all is written: one entry per probed camera, in order.
+  virtual Result<std::vector<CaptureProbe>> finishCaptures() = 0;
+  virtual Result<LightOverhead> lightOverhead() = 0;
+  /// Another part each time; nothing probed once all of that kind has been.
+  virtual Result<LightProbe> probeLight(int kind) = 0;
+};
+
+struct EstimateOptions {
+  double captureSeconds = 1.5;  ///< spent on probing captures; a few cameras are probed however long it takes
+  double lightSeconds = 0.8;    ///< the same for surface light
+  bool surfaceLight = true;
+  Status check() const;
+};
+
+struct Figure {
+  double value = 0;
+  double relativeError = 0;  ///< one standard deviation over the value, as far as the probes tell
+};
+
+struct BakeEstimate {
+  int cameras = 0;
+  double pixels = 0;
+  Figure samples, rays;
+  Figure captureBytes;
+  Figure traceSeconds, writeSeconds;  ///< they overlap ...
+  Figure captureSeconds;              ///< ... in this
+  Figure lightSamples, lightBytes, lightSeconds;
+  Figure bytes, seconds;  ///< captures and surface light
+  int probedCameras = 0;
+  double probeSeconds = 0;  ///< that the estimate itself took
+};
+
+/// Cameras in an order of which every beginning is spread evenly over [0, count).
+std::vector<int> spreadOrder(int count);
+
+/// `pixels[i]`: of camera i. An empty list: there is nothing to bake but the light.
+Result<BakeEstimate> estimateBake(const std::vector<double>& pixels, const EstimateOptions& options,
+                                  BakeProber& prober, const Progress& progress = {},
+                                  std::stop_token stop = {});
+
+}  // namespace acentric

@@ -1,0 +1,336 @@
+#include "engine/pipeline/estimate_bake.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "engine/bake/capture_writer.h"
+#include "engine/bake/surface_light_bake.h"
+#include "engine/base/file.h"
+#include "engine/pipeline/local_triangles.h"
+
+namespace acentric {
+namespace fs = std::filesystem;
+namespace {
+
+/// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
+/// files pack into one block: smaller blocks pack better.
+constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 70000;
+constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
+constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A folder that goes with its owner.
+class TrialFolder {
+ public:
+  static Result<TrialFolder> make(const fs::path& preferred) {
+    std::error_code error;
+    for (const fs::path& parent : {preferred, fs::temp_directory_path(error)}) {
+      std::string name =
+          (parent / fmt::format("{}{}-estimate-XXXXXX", kTemporaryPrefix, ::getpid())).string();
+      if (::mkdtemp(name.data()) != nullptr) return TrialFolder(name);
+    }
+    return fail(ErrorKind::unreadable, "no folder for trial files can be made here, nor a temporary one",
+                preferred.string());
+  }
+  TrialFolder(TrialFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  TrialFolder& operator=(TrialFolder&&) = delete;
+  ~TrialFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  explicit TrialFolder(fs::path path) : path_(std::move(path)) {}
+  fs::path path_;
+};
+
+/// Which of a trial capture's two files has the size that the whole capture's would have in proportion: with
+/// rows left out the rows of the EXR stay as they are, with columns left out the columns of the pack.
+enum class Thinned : std::uint64_t { not_at_all, columns, rows };
+
+struct Written {
+  std::size_t trial = 0;
+  Thinned thinned = Thinned::not_at_all;
+  double samples = 0, seconds = 0, exrBytes = 0, packBytes = 0;
+};
+
+/// Encodes and writes as the store does, measures, and removes.
+class TrialSink final : public CaptureSink {
+ public:
+  explicit TrialSink(fs::path folder) : folder_(std::move(folder)) {}
+
+  bool has(const ContentKey&) const override { return false; }
+  Status put(const ContentKey& key, const Capture& capture) override {
+    const fs::path exr = folder_ / "trial.exr", pack = folder_ / "trial.pack";
+    const Stopwatch watch;
+    if (Status done = writeCaptureExr(capture, key, exr); !done) return done;
+    if (Status done = writeCapturePack(capture, key, pack); !done) return done;
+    const double seconds = watch.seconds();
+    written_.push_back({key.low, Thinned(key.high), double(capture.sampleCount()), seconds,
+                        double(fs::file_size(exr)), double(fs::file_size(pack))});
+    fs::remove(exr);
+    fs::remove(pack);
+    return {};
+  }
+  const std::vector<Written>& written() const { return written_; }
+
+ private:
+  fs::path folder_;
+  std::vector<Written> written_;
+};
+
+double total(const RayCounts& rays) {
+  return double(rays.primary + rays.shadow + rays.ambient + rays.mirror);
+}
+
+/// Triangles that get about as many samples each.
+class TriangleKind {
+ public:
+  void add(std::size_t triangle, double samples) {
+    triangles_.push_back(triangle);
+    last_.push_back(this->samples() + samples);
+    taken_.push_back(0);
+  }
+  double samples() const { return last_.empty() ? 0 : last_.back(); }
+
+  /// Triangles not handed out before, of `wanted` samples or more: short runs of neighbours, begun at places
+  /// spread evenly over all the samples.
+  std::vector<std::size_t> next(double wanted) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double mostRuns = 4 * samples() / kLightRunSamples + 16;
+    std::vector<std::size_t> chosen;
+    for (double found = 0; found < wanted && double(runs_) < mostRuns; ++runs_) {
+      const double place = std::fmod((double(runs_) + 0.5) * kGolden, 1.0) * samples();
+      auto at = std::size_t(std::ranges::upper_bound(last_, place) - last_.begin());
+      for (double run = 0; run < kLightRunSamples && at < taken_.size() && taken_[at] == 0; ++at) {
+        taken_[at] = 1;
+        chosen.push_back(triangles_[at]);
+        const double count = last_[at] - (at > 0 ? last_[at - 1] : 0);
+        run += count, found += count;
+      }
+    }
+    return chosen;
+  }
+
+ private:
+  std::vector<std::size_t> triangles_;
+  std::vector<double> last_;  ///< samples of the triangles up to and with each
+  std::vector<std::uint8_t> taken_;
+  std::size_t runs_ = 0;
+};
+
+constexpr std::size_t kKinds = 3;
+std::size_t kindOf(double samples) { return samples < 100 ? 0 : samples < 1000 ? 1 : 2; }
+
+class ProjectProber final : public BakeProber {
+ public:
+  ProjectProber(const OpenProject& open, const std::vector<int>& cameras, TaskRunner& runner,
+                std::stop_token stop, const TrialFolder& folder)
+      : open_(open),
+        cameras_(cameras),
+        runner_(runner),
+        stop_(std::move(stop)),
+        lightFile_(folder.path() / "trial.light"),
+        sink_(folder.path()) {}
+
+  ColumnCamera columnsOf(int camera) const {
+    return columnCameraFor(layoutCamera(camera), open_.layout->eyeZ(), open_.project.layout.nearBand,
+                           open_.scene->bounds, open_.plan.on(Effect::sky), open_.project.bake);
+  }
+
+  Result<CaptureOverhead> captureOverhead() override {
+    ColumnCamera one = columnsOf(0);
+    one.columns = one.rows = 1;
+    constexpr int kRepeats = 3;  // the first also warms up
+    for (int n = 0; n < kRepeats; ++n) {
+      const Stopwatch watch;
+      RayCounts rays;
+      const auto capture =
+          bakeCamera(*open_.rays, layoutCamera(0), one, open_.project.bake, runner_, rays, stop_);
+      if (!capture) return tl::unexpected(capture.error());
+      overhead_.traceSeconds = watch.seconds();
+      TrialSink sink(lightFile_.parent_path());
+      if (Status done = sink.put({}, *capture); !done) return tl::unexpected(done.error());
+      smallest_ = sink.written().front();
+    }
+    overhead_.writeSeconds = smallest_.seconds;
+    overhead_.bytes = smallest_.exrBytes + smallest_.packBytes;
+    return overhead_;
+  }
+
+  Status probeCapture(int camera) override {
+    if (!writer_) writer_.emplace(sink_);
+    const ColumnCamera whole = columnsOf(camera);
+    const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads());
+    const double thinning = double(whole.columns) * whole.rows / wanted;
+    probes_.push_back({});
+    if (thinning < 2) return traceTrial(camera, whole, Thinned::not_at_all);
+    ColumnCamera fewColumns = whole, fewRows = whole;
+    const int evenly = kColumnsPerThread * runner_.threads();
+    fewColumns.columns =
+        std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
+    fewRows.rows = std::clamp(int(std::lround(whole.rows / thinning)), 1, whole.rows);
+    if (Status done = traceTrial(camera, fewColumns, Thinned::columns); !done) return done;
+    return traceTrial(camera, fewRows, Thinned::rows);
+  }
+
+  Result<std::vector<CaptureProbe>> finishCaptures() override {
+    if (writer_)
+      if (Status done = writer_->finish(); !done) return tl::unexpected(done.error());
+    std::vector<double> bytesPerSample(probes_.size(), 0);
+    for (const Written& written : sink_.written()) {
+      CaptureProbe& probe = probes_[written.trial];
+      probe.writtenSamples += written.samples;
+      probe.writeSeconds += std::max(0.0, written.seconds - overhead_.writeSeconds);
+      if (!(written.samples > 0)) continue;
+      double bytes = 0;
+      if (written.thinned != Thinned::columns) bytes += written.exrBytes - smallest_.exrBytes;
+      if (written.thinned != Thinned::rows) bytes += written.packBytes - smallest_.packBytes;
+      bytesPerSample[written.trial] += std::max(0.0, bytes) / written.samples;
+    }
+    for (std::size_t trial = 0; trial < probes_.size(); ++trial)
+      probes_[trial].bytes = bytesPerSample[trial] * probes_[trial].writtenSamples;
+    return probes_;
+  }
+
+  Result<LightOverhead> lightOverhead() override {
+    const Stopwatch finding;
+    local_ = localTrianglesOf(*open_.scene, *open_.layout);
+    const double findingSeconds = finding.seconds();
+    const auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
+    if (!layout) return tl::unexpected(layout.error());
+    LightOverhead overhead;
+    for (std::size_t t = 0; t < local_.wanted.size(); ++t)
+      if (const double samples = double(layout->firstSample[t + 1] - layout->firstSample[t]); samples > 0)
+        kinds_[kindOf(samples)].add(t, samples);
+    for (const TriangleKind& kind : kinds_) overhead.samplesOfKind.push_back(kind.samples());
+    // The tables that a file of light has however dark it is, and the time they take.
+    const auto dark = writeLight(*layout);
+    if (!dark) return tl::unexpected(dark.error());
+    const auto nothing = bakeLight({});
+    if (!nothing) return tl::unexpected(nothing.error());
+    nothingSeconds_ = nothing->seconds;
+    overhead.bytes = dark->bytes;
+    overhead.seconds = findingSeconds + dark->seconds + nothing->seconds;
+    return overhead;
+  }
+
+  Result<LightProbe> probeLight(int kind) override {
+    const std::vector<std::size_t> chosen = kinds_[std::size_t(kind)].next(kLightSamples);
+    if (chosen.empty()) return LightProbe{};
+    auto probe = bakeLight(chosen);
+    if (probe) probe->seconds = std::max(0.0, probe->seconds - nothingSeconds_);
+    return probe;
+  }
+
+ private:
+  const LayoutCamera& layoutCamera(int camera) const {
+    return open_.layout->cameras[std::size_t(cameras_[std::size_t(camera)])];
+  }
+
+  Status traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
+    RayCounts rays;
+    const Stopwatch watch;
+    auto capture =
+        bakeCamera(*open_.rays, layoutCamera(camera), columns, open_.project.bake, runner_, rays, stop_);
+    const double seconds = watch.seconds();
+    if (!capture) return tl::unexpected(capture.error());
+    CaptureProbe& probe = probes_.back();
+    probe.pixels += double(columns.columns) * columns.rows;
+    probe.samples += double(capture->sampleCount());
+    probe.rays += total(rays);
+    probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
+    return writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(*capture));
+  }
+
+  struct LightFile {
+    double bytes = 0, seconds = 0;
+  };
+  Result<LightFile> writeLight(const SurfaceLight& light) const {
+    const Stopwatch watch;
+    if (Status done = writeSurfaceLight(light, {}, lightFile_); !done) return tl::unexpected(done.error());
+    return LightFile{double(fs::file_size(lightFile_)), watch.seconds()};
+  }
+
+  /// Bytes: of the light itself, without the tables.
+  Result<LightProbe> bakeLight(const std::vector<std::size_t>& triangles) const {
+    std::vector<std::uint8_t> wanted(local_.wanted.size(), 0);
+    for (const std::size_t t : triangles) wanted[t] = 1;
+    const Stopwatch watch;
+    auto light = bakeSurfaceLight(*open_.rays, wanted, local_.viewer, open_.project.bake, runner_, {}, stop_);
+    if (!light) return tl::unexpected(light.error());
+    const auto lit = writeLight(*light);
+    if (!lit) return tl::unexpected(lit.error());
+    LightProbe probe{double(light->light.size()), 0, watch.seconds()};
+    std::ranges::fill(light->light, HalfColour(0));
+    const auto dark = writeLight(*light);
+    if (!dark) return tl::unexpected(dark.error());
+    probe.bytes = std::max(0.0, lit->bytes - dark->bytes);
+    return probe;
+  }
+
+  const OpenProject& open_;
+  const std::vector<int>& cameras_;
+  TaskRunner& runner_;
+  std::stop_token stop_;
+  fs::path lightFile_;
+  TrialSink sink_;
+  std::optional<CaptureWriter> writer_;
+  CaptureOverhead overhead_;
+  Written smallest_;
+  std::vector<CaptureProbe> probes_;
+  LocalTriangles local_;
+  std::array<TriangleKind, kKinds> kinds_;
+  double nothingSeconds_ = 0;  ///< of baking no light at all
+};
+
+}  // namespace
+
+Result<BakeEstimate> estimateProjectBake(const OpenProject& open, const std::vector<int>& cameras,
+                                         const EstimateOptions& options, TaskRunner& runner,
+                                         const Progress& progress, std::stop_token stop) {
+  std::vector<int> which = cameras;
+  if (which.empty())
+    for (std::size_t c = 0; c < open.layout->cameras.size(); ++c) which.push_back(int(c));
+  for (const int camera : which)
+    if (camera < 0 || camera >= int(open.layout->cameras.size()))
+      return fail(ErrorKind::invalidArgument, fmt::format("there is no camera {}; the layout has {}", camera,
+                                                          open.layout->cameras.size()));
+  const auto folder = TrialFolder::make(fs::absolute(open.file).parent_path());
+  if (!folder) return tl::unexpected(folder.error());
+  try {
+    ProjectProber prober(open, which, runner, stop, *folder);
+    std::vector<double> pixels;
+    for (std::size_t c = 0; c < which.size(); ++c) {
+      const ColumnCamera columns = prober.columnsOf(int(c));
+      pixels.push_back(double(columns.columns) * columns.rows);
+    }
+    return estimateBake(pixels, options, prober, progress, stop);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for an estimate; lower the samples per degree",
+                open.file.string());
+  } catch (const fs::filesystem_error& error) {
+    return fail(ErrorKind::unreadable, error.what(), folder->path().string());
+  }
+}
+
+}  // namespace acentric

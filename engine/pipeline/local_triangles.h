@@ -1,0 +1,21 @@
+#pragma once
+/// Which triangles of the scene some region draws as local geometry: those get light of their own.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/layout/layout.h"
+#include "engine/scene/scene.h"
+
+namespace acentric {
+
+/// By scene-wide triangle number.
+struct LocalTriangles {
+  std::vector<std::uint8_t> wanted;
+  std::vector<glm::vec3> viewer;  ///< an eye in the first region (in layout order) that draws the triangle
+};
+
+LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout);
+
+}  // namespace acentric

@@ -1,0 +1,190 @@
+#include "engine/inspect/estimates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace acentric {
+namespace {
+
+/// A bake whose costs are known by heart: each camera has its own, as real ones do.
+class KnownBake final : public BakeProber {
+ public:
+  struct Camera {
+    double pixels, samplesPerPixel, secondsPerPixel, bytesPerSample;
+  };
+  std::vector<Camera> cameras;
+  CaptureOverhead overhead{0.002, 0.004, 900};
+  double writeSecondsPerSample = 1e-7;
+  std::vector<double> lightSamples{5e5, 2e5}, lightSecondsPerSample{4e-6, 1e-6};
+  double probedShare = 0.1;  ///< of each camera, and of each kind of triangle
+  std::vector<int> probed;
+  std::vector<int> lightProbes = std::vector<int>(2, 0);
+
+  static KnownBake random(int count, unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> vary(0.6, 1.4);
+    KnownBake bake;
+    for (int i = 0; i < count; ++i)
+      bake.cameras.push_back({1e5, 1.1 * vary(engine), 1e-6 * vary(engine), 7 * vary(engine)});
+    return bake;
+  }
+
+  std::vector<double> pixels() const {
+    std::vector<double> all;
+    for (const Camera& camera : cameras) all.push_back(camera.pixels);
+    return all;
+  }
+  template <class Part>
+  double total(const Part& part) const {
+    return std::accumulate(cameras.begin(), cameras.end(), 0.0,
+                           [&](double sum, const Camera& camera) { return sum + part(camera); });
+  }
+  double samples() const {
+    return total([](const Camera& c) { return c.pixels * c.samplesPerPixel; });
+  }
+  double bytes() const {
+    return total(
+        [&](const Camera& c) { return overhead.bytes + c.pixels * c.samplesPerPixel * c.bytesPerSample; });
+  }
+  double traceSeconds() const {
+    return total([&](const Camera& c) { return overhead.traceSeconds + c.pixels * c.secondsPerPixel; });
+  }
+
+  Result<CaptureOverhead> captureOverhead() override { return overhead; }
+  Status probeCapture(int camera) override {
+    probed.push_back(camera);
+    return {};
+  }
+  Result<std::vector<CaptureProbe>> finishCaptures() override {
+    std::vector<CaptureProbe> probes;
+    for (const int number : probed) {
+      const Camera& c = cameras[std::size_t(number)];
+      CaptureProbe probe;
+      probe.pixels = probedShare * c.pixels;
+      probe.samples = probe.writtenSamples = probe.pixels * c.samplesPerPixel;
+      probe.rays = 5 * probe.pixels;
+      probe.traceSeconds = probe.pixels * c.secondsPerPixel;
+      probe.bytes = probe.samples * c.bytesPerSample;
+      probe.writeSeconds = probe.samples * writeSecondsPerSample;
+      probes.push_back(probe);
+    }
+    return probes;
+  }
+  Result<LightOverhead> lightOverhead() override { return LightOverhead{1e5, 0.5, lightSamples}; }
+  Result<LightProbe> probeLight(int kind) override {
+    const auto k = std::size_t(kind);
+    if (lightProbes[k] * probedShare >= 1) return LightProbe{};
+    ++lightProbes[k];
+    const double samples = probedShare * lightSamples[k];
+    return LightProbe{samples, 3 * samples, samples * lightSecondsPerSample[k]};
+  }
+};
+
+EstimateOptions brief() {
+  EstimateOptions options;
+  options.captureSeconds = options.lightSeconds = 0;
+  return options;
+}
+
+TEST(Estimates, OfEveryCameraProbedWholeAreExact) {
+  KnownBake bake = KnownBake::random(12, 1);
+  bake.probedShare = 1;
+  const auto estimate = estimateBake(bake.pixels(), {60, 60, true}, bake);
+  ASSERT_TRUE(estimate) << estimate.error().describe();
+  EXPECT_EQ(estimate->cameras, 12);
+  EXPECT_EQ(estimate->probedCameras, 12);
+  EXPECT_NEAR(estimate->samples.value / bake.samples(), 1, 1e-9);
+  EXPECT_NEAR(estimate->captureBytes.value / bake.bytes(), 1, 1e-9);
+  EXPECT_NEAR(estimate->traceSeconds.value / bake.traceSeconds(), 1, 1e-9);
+  EXPECT_NEAR(estimate->rays.value, 5 * estimate->pixels, 1e-3);
+  EXPECT_EQ(estimate->samples.relativeError, 0);
+  EXPECT_NEAR(estimate->lightSamples.value, 7e5, 1e-6);
+  EXPECT_NEAR(estimate->lightBytes.value, 1e5 + 3 * 7e5, 1e-3);
+  EXPECT_NEAR(estimate->lightSeconds.value, 0.5 + 5e5 * 4e-6 + 2e5 * 1e-6, 1e-9);
+  EXPECT_NEAR(estimate->bytes.value, estimate->captureBytes.value + estimate->lightBytes.value, 1e-3);
+}
+
+TEST(Estimates, OfAFewCamerasLieWithinTheErrorTheyState) {
+  // Over many scenes the true value lies within two standard errors nineteen times in twenty, or so.
+  int within = 0, trials = 0;
+  double worst = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    KnownBake bake = KnownBake::random(150, seed);
+    const auto estimate = estimateBake(bake.pixels(), brief(), bake);
+    ASSERT_TRUE(estimate);
+    EXPECT_LT(estimate->probedCameras, 40);
+    const std::pair<Figure, double> checks[] = {{estimate->samples, bake.samples()},
+                                                {estimate->captureBytes, bake.bytes()},
+                                                {estimate->traceSeconds, bake.traceSeconds()}};
+    for (const auto& [figure, truth] : checks) {
+      const double error = std::abs(figure.value / truth - 1);
+      ++trials;
+      within += error <= 2 * figure.relativeError ? 1 : 0;
+      worst = std::max(worst, error);
+    }
+  }
+  EXPECT_GT(double(within) / trials, 0.9);
+  EXPECT_LT(worst, 0.25);
+}
+
+TEST(Estimates, TakeTheSlowerOfTracingAndWritingForTheTime) {
+  KnownBake tracing = KnownBake::random(50, 3), writing = tracing;
+  writing.writeSecondsPerSample = 1e-5;
+  const auto traced = estimateBake(tracing.pixels(), brief(), tracing);
+  const auto written = estimateBake(writing.pixels(), brief(), writing);
+  ASSERT_TRUE(traced && written);
+  EXPECT_GT(traced->traceSeconds.value, traced->writeSeconds.value);
+  EXPECT_NEAR(traced->captureSeconds.value, traced->traceSeconds.value + traced->writeSeconds.value / 50,
+              1e-9);
+  EXPECT_GT(written->writeSeconds.value, written->traceSeconds.value);
+  EXPECT_NEAR(written->captureSeconds.value, written->writeSeconds.value + written->traceSeconds.value / 50,
+              1e-9);
+}
+
+TEST(Estimates, GiveEachKindOfTriangleItsOwnRate) {
+  KnownBake bake = KnownBake::random(5, 4);
+  const auto estimate = estimateBake({}, brief(), bake);
+  ASSERT_TRUE(estimate);
+  EXPECT_EQ(estimate->cameras, 0);
+  EXPECT_EQ(estimate->captureBytes.value, 0);
+  EXPECT_NEAR(estimate->seconds.value, 0.5 + 5e5 * 4e-6 + 2e5 * 1e-6, 1e-9);
+  EstimateOptions none = brief();
+  none.surfaceLight = false;
+  EXPECT_EQ(estimateBake({}, none, bake)->seconds.value, 0);
+}
+
+TEST(Estimates, StopAndRefuse) {
+  KnownBake bake = KnownBake::random(30, 5);
+  std::stop_source source;
+  source.request_stop();
+  const auto stopped = estimateBake(bake.pixels(), brief(), bake, {}, source.get_token());
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
+  EXPECT_FALSE(estimateBake(bake.pixels(), {-1, 0, true}, bake));
+  EXPECT_FALSE(estimateBake(bake.pixels(), {NAN, 0, true}, bake));
+}
+
+TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
+  EXPECT_TRUE(spreadOrder(0).empty());
+  for (const int count : {1, 2, 7, 100, 644}) {
+    std::vector<int> order = spreadOrder(count);
+    if (count >= 100)
+      for (const int first : {8, 16, 40}) {
+        std::vector<int> chosen(order.begin(), order.begin() + first);
+        std::ranges::sort(chosen);
+        int widest = std::max(chosen.front(), count - 1 - chosen.back());
+        for (int k = 1; k < first; ++k)
+          widest = std::max(widest, chosen[std::size_t(k)] - chosen[std::size_t(k) - 1]);
+        EXPECT_LT(widest, 2.7 * count / first) << count << " " << first;
+      }
+    std::ranges::sort(order);
+    for (int k = 0; k < count; ++k) EXPECT_EQ(order[std::size_t(k)], k);
+  }
+}
+
+}  // namespace
+}  // namespace acentric
