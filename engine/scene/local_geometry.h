@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
 #include "engine/geometry/convex_polygon.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/surface_light.h"
 
 namespace acentric {
 
@@ -19,14 +21,26 @@ struct LocalVertex {
 
 struct LocalTriangle {
   glm::uvec3 vertices;     ///< into LocalGeometry::vertices
-  std::uint32_t mesh;      ///< Scene mesh
+  std::uint32_t mesh;      ///< Scene mesh, or LocalSurfaces mesh
   std::uint32_t triangle;  ///< within that mesh
+};
+
+/// Meshes that replace the scene's for one region, with their own light: what simplification makes.
+struct LocalSurfaces {
+  std::vector<Mesh> meshes;  ///< of the scene's materials
+  SurfaceLight light;        ///< triangles numbered through the meshes in order; empty: not baked
 };
 
 struct LocalGeometry {
   ConvexPolygon polygon;  ///< what it was clipped to
   std::vector<LocalVertex> vertices;
   std::vector<LocalTriangle> triangles;
+  std::shared_ptr<const LocalSurfaces>
+      surfaces;  ///< what the triangles are parts of; null: the scene's meshes
+
+  const std::vector<Mesh>& meshes(const Scene& scene) const {
+    return surfaces ? surfaces->meshes : scene.meshes;
+  }
 };
 
 LocalGeometry clipToPolygon(const Scene& scene, const ConvexPolygon& polygon);

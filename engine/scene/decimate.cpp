@@ -1,0 +1,250 @@
+#include "engine/scene/decimate.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "engine/scene/triangle_bvh.h"
+
+namespace acentric {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
+  VertexTraits {
+    std::uint32_t input = 0;  ///< vertex of the input
+    double drift = 0;         ///< metres: how far collapses into this vertex have moved the surface
+  };
+  FaceTraits {
+    std::uint32_t input = 0;  ///< triangle of the input
+  };
+};
+using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using Vertex = HalfEdgeMesh::VertexHandle;
+
+/// Places where one vertex may stand in several sheets; more of them get triangles apart.
+constexpr std::size_t kSheets = 4;
+/// Triangles may turn by so much in one collapse: cosine of 60 degrees.
+constexpr double kLeastCosine = 0.5;
+constexpr float kColourTolerance = 6.0f / 255;
+constexpr std::size_t kCollapsesBetweenLooks = 1024;
+
+glm::dvec3 toGlm(const OpenMesh::Vec3d& v) { return {v[0], v[1], v[2]}; }
+
+/// The quadric's priority for collapses that keep the surface, and what is painted on it, within the
+/// tolerance; no others.
+class GuardedQuadric : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
+ public:
+  using Quadric = OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh>;
+  using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
+  using Handle = OpenMesh::Decimater::ModHandleT<GuardedQuadric>;
+  using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<HalfEdgeMesh>;
+
+  explicit GuardedQuadric(HalfEdgeMesh& mesh) : Quadric(mesh) {}
+  const std::string& name() const override { return name_; }
+  void guard(const DecimationMesh& input, double tolerance) { input_ = &input, tolerance_ = tolerance; }
+
+  float collapse_priority(const CollapseInfo& collapse) override {
+    const float priority = Quadric::collapse_priority(collapse);
+    if (priority < 0 || !(movementOf(collapse) <= tolerance_)) return float(Base::ILLEGAL_COLLAPSE);
+    return priority;
+  }
+  void preprocess_collapse(const CollapseInfo& collapse) override { movement_ = movementOf(collapse); }
+  void postprocess_collapse(const CollapseInfo& collapse) override {
+    Quadric::postprocess_collapse(collapse);
+    double& drift = Base::mesh().data(collapse.v1).drift;
+    drift = std::max(drift, movement_);
+  }
+
+ private:
+  struct Landing {
+    double distance = std::numeric_limits<double>::infinity();
+    glm::dvec2 weights{0};
+    Vertex corners[3];
+  };
+
+  /// Metres that the collapse moves the vertex's surroundings, with what earlier collapses moved; infinity if
+  /// it folds the surface over.
+  double movementOf(const CollapseInfo& collapse) {
+    const HalfEdgeMesh& mesh = Base::mesh();
+    const glm::dvec3 from = toGlm(collapse.p0), to = toGlm(collapse.p1);
+    Landing landing;
+    for (const auto edge : mesh.voh_range(collapse.v0)) {
+      if (!edge.face().is_valid()) continue;
+      const Vertex a = edge.to(), b = edge.next().to();
+      if (a == collapse.v1 || b == collapse.v1) continue;
+      const glm::dvec3 pa = toGlm(mesh.point(a)), pb = toGlm(mesh.point(b));
+      const glm::dvec3 before = glm::cross(pa - from, pb - from), after = glm::cross(pa - to, pb - to);
+      const double lengths = glm::length(before) * glm::length(after);
+      if (!(lengths > 0) || glm::dot(before, after) < kLeastCosine * lengths)
+        return std::numeric_limits<double>::infinity();
+      const std::array<glm::dvec3, 3> triangle{to, pa, pb};
+      const glm::dvec2 weights = nearestOnTriangle(triangle, from);
+      const double distance = glm::distance(pointOn(triangle, weights), from);
+      if (distance < landing.distance) landing = {distance, weights, {collapse.v1, a, b}};
+    }
+    if (!std::isfinite(landing.distance)) return landing.distance;
+    return mesh.data(collapse.v0).drift + std::max(landing.distance, paintMovement(collapse.v0, landing));
+  }
+
+  /// Metres that texture coordinates slide at the vertex; infinity if vertex colours change visibly.
+  double paintMovement(Vertex v0, const Landing& landing) {
+    const auto inputOf = [&](Vertex v) { return std::size_t(Base::mesh().data(v).input); };
+    const auto blend = [&](const auto& values) {
+      return values[inputOf(landing.corners[0])] * float(1 - landing.weights.x - landing.weights.y) +
+             values[inputOf(landing.corners[1])] * float(landing.weights.x) +
+             values[inputOf(landing.corners[2])] * float(landing.weights.y);
+    };
+    if (!input_->colours.empty()) {
+      const glm::vec4 change = glm::abs(blend(input_->colours) - input_->colours[inputOf(v0)]);
+      if (std::max({change.x, change.y, change.z, change.w}) > kColourTolerance)
+        return std::numeric_limits<double>::infinity();
+    }
+    if (input_->uv.empty()) return 0;
+    const glm::dvec2 change(blend(input_->uv) - input_->uv[inputOf(v0)]);
+    const double slide = glm::length(change);
+    return slide < 1e-6 ? 0 : slide * metresPerUv(v0);
+  }
+
+  double metresPerUv(Vertex v0) {
+    const HalfEdgeMesh& mesh = Base::mesh();
+    double area = 0, uvArea = 0;
+    for (const auto edge : mesh.voh_range(v0)) {
+      if (!edge.face().is_valid()) continue;
+      const Vertex a = edge.to(), b = edge.next().to();
+      const glm::dvec3 p = toGlm(mesh.point(v0));
+      area += glm::length(glm::cross(toGlm(mesh.point(a)) - p, toGlm(mesh.point(b)) - p));
+      const auto uv = [&](Vertex v) { return glm::dvec2(input_->uv[mesh.data(v).input]); };
+      const glm::dvec2 u = uv(a) - uv(v0), w = uv(b) - uv(v0);
+      uvArea += std::abs(u.x * w.y - u.y * w.x);
+    }
+    return uvArea > 0 ? std::sqrt(area / uvArea) : std::numeric_limits<double>::infinity();
+  }
+
+  const std::string name_ = "GuardedQuadric";
+  const DecimationMesh* input_ = nullptr;
+  double tolerance_ = 0, movement_ = 0;
+};
+
+class StopObserver : public OpenMesh::Decimater::Observer {
+ public:
+  explicit StopObserver(std::stop_token stop) : Observer(kCollapsesBetweenLooks), stop_(std::move(stop)) {}
+  void notify(std::size_t) override {}
+  bool abort() const override { return stop_.stop_requested(); }
+
+ private:
+  std::stop_token stop_;
+};
+
+class Builder {
+ public:
+  explicit Builder(const DecimationMesh& input) : input_(input), sheets_(input.positions.size()) {}
+
+  /// Returns the triangles that needed copies of vertices.
+  std::size_t build(HalfEdgeMesh& mesh) {
+    std::size_t split = 0;
+    for (std::size_t t = 0; t < input_.triangles.size(); ++t) {
+      std::size_t sheet = 0;
+      HalfEdgeMesh::FaceHandle face;
+      for (; !face.is_valid() && sheet < kSheets; ++sheet) face = addFace(mesh, t, sheet);
+      if (!face.is_valid()) face = addApart(mesh, t);
+      if (sheet > 1) ++split;
+      mesh.data(face).input = std::uint32_t(t);
+    }
+    for (const auto vertex : mesh.vertices())
+      if (copies_.size() > mesh.data(vertex).input && copies_[mesh.data(vertex).input] > 1)
+        mesh.status(vertex).set_locked(true);
+    for (const auto vertex : mesh.vertices())
+      if (vertex.is_boundary()) mesh.status(vertex).set_locked(true);
+    return split;
+  }
+
+ private:
+  Vertex makeVertex(HalfEdgeMesh& mesh, std::uint32_t input) {
+    const glm::vec3& p = input_.positions[input];
+    const Vertex made = mesh.add_vertex({double(p.x), double(p.y), double(p.z)});
+    mesh.data(made).input = input;
+    copies_.resize(input_.positions.size());
+    ++copies_[input];
+    return made;
+  }
+
+  HalfEdgeMesh::FaceHandle addFace(HalfEdgeMesh& mesh, std::size_t triangle, std::size_t sheet) {
+    Vertex corners[3];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t input = input_.triangles[triangle][k];
+      Vertex& vertex = sheets_[input][sheet];
+      if (!vertex.is_valid()) vertex = makeVertex(mesh, input);
+      corners[k] = vertex;
+    }
+    return mesh.add_face(corners[0], corners[1], corners[2]);
+  }
+
+  HalfEdgeMesh::FaceHandle addApart(HalfEdgeMesh& mesh, std::size_t triangle) {
+    const glm::uvec3& t = input_.triangles[triangle];
+    return mesh.add_face(makeVertex(mesh, t.x), makeVertex(mesh, t.y), makeVertex(mesh, t.z));
+  }
+
+  const DecimationMesh& input_;
+  std::vector<std::array<Vertex, kSheets>> sheets_;  ///< by input vertex; invalid: not there yet
+  std::vector<std::uint32_t> copies_;                ///< by input vertex
+};
+
+/// OpenMesh writes of complex edges to the error stream; they are expected here, and counted.
+void quietOpenMesh() {
+  static std::once_flag once;
+  std::call_once(once, [] { omerr().disable(); });
+}
+
+Decimation collect(const HalfEdgeMesh& mesh, const DecimationMesh& input) {
+  Decimation out;
+  for (const auto face : mesh.faces()) {
+    DecimatedTriangle triangle;
+    int k = 0;
+    for (const auto vertex : mesh.fv_range(face)) triangle.vertices[k++] = mesh.data(vertex).input;
+    // As in the input, up to where it begins.
+    const std::uint32_t from = mesh.data(face).input;
+    glm::uvec3 turned = triangle.vertices;
+    for (int turn = 0; turn < 3; ++turn, turned = {turned.y, turned.z, turned.x})
+      if (turned == input.triangles[from]) triangle = {turned, from};
+    out.triangles.push_back(triangle);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Decimation> decimate(const DecimationMesh& input, const DecimationOptions& options,
+                            std::stop_token stop) {
+  quietOpenMesh();
+  try {
+    HalfEdgeMesh mesh;
+    const std::size_t split = Builder(input).build(mesh);
+    OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(mesh);
+    OpenMesh::Decimater::ModHandleT<GuardedQuadric> module;
+    decimater.add(module);
+    decimater.module(module).guard(input, options.tolerance);
+    StopObserver observer(stop);
+    decimater.set_observer(&observer);
+    if (!decimater.initialize()) return fail(ErrorKind::internal, "the mesh decimater could not be set up");
+    decimater.decimate_to_faces(0, options.mostTriangles);
+    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "simplifying was cancelled");
+    Decimation out = collect(mesh, input);
+    out.split = split;
+    return out;
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "there is not enough memory to simplify the region's geometry");
+  } catch (const std::exception& problem) {
+    return fail(ErrorKind::internal, problem.what(), "mesh decimation");
+  }
+}
+
+}  // namespace acentric

@@ -1,0 +1,49 @@
+#pragma once
+/// Quadric edge collapse (Garland and Heckbert) of an indexed triangle mesh, by OpenMesh. A vertex collapses
+/// into a neighbour, so every vertex that is left is one of the input's, with all its attributes. Borders of
+/// the mesh stay as they are: whatever the caller keeps apart by separate vertices (materials, texture seams,
+/// the rim of a cut) has its border there, and does not move.
+///
+/// Meshes that are not manifold are split where they are not: a triangle that OpenMesh cannot join gets
+/// copies of its vertices, and every vertex that has copies is held in place. No triangle is lost.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace acentric {
+
+struct DecimationMesh {
+  std::vector<glm::vec3> positions;  ///< metres
+  std::vector<glm::vec2> uv;         ///< empty, or by vertex
+  std::vector<glm::vec4> colours;    ///< empty, or by vertex, in [0, 1]
+  std::vector<glm::uvec3> triangles;
+};
+
+struct DecimationOptions {
+  std::size_t mostTriangles = 0;  ///< stop at so many
+  /// Metres that a collapse may move the surface, or what is painted on it, in all.
+  double tolerance = 0.005;
+};
+
+struct DecimatedTriangle {
+  static constexpr std::uint32_t kChanged = 0xffffffff;
+  glm::uvec3 vertices{0};             ///< of the input
+  std::uint32_t original = kChanged;  ///< the input's triangle that this one still is
+};
+
+struct Decimation {
+  std::vector<DecimatedTriangle> triangles;
+  std::size_t split = 0;  ///< triangles that needed vertices of their own
+};
+
+/// Indices must be valid and triangles have three different corners. Fails only when cancelled or out of
+/// memory.
+Result<Decimation> decimate(const DecimationMesh& mesh, const DecimationOptions& options,
+                            std::stop_token stop = {});
+
+}  // namespace acentric
