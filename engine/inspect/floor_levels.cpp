@@ -9,8 +9,7 @@ namespace {
 constexpr int kMostSurfaces = 64;  // along one ray: foliage and stacked shelves may have many
 constexpr double kSteepest = 0.5;  // |cosine| of a floor's slope
 
-/// Solids entered less solids left on the way down. A sheet that faces up is entered and never left: below it
-/// only surfaces that face up are floor.
+/// Solids entered less solids left on the way down. A sheet that faces up is entered and never left.
 class Solids {
  public:
   void pass(const SurfaceHit& hit) {
@@ -23,15 +22,13 @@ class Solids {
   int depth_ = 0;
 };
 
-bool isFloor(const SurfaceHit& hit, const Solids& solidsAbove) {
-  if (hit.normal == glm::dvec3(0)) return true;
-  if (std::abs(hit.normal.z) < kSteepest) return false;
-  return hit.normal.z > 0 || solidsAbove.outside();
+bool isSteep(const SurfaceHit& hit) {
+  return hit.normal != glm::dvec3(0) && std::abs(hit.normal.z) < kSteepest;
 }
 
 }  // namespace
 
-std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, const FloorRules& rules,
+std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, double headRoom,
                                       const SurfaceProbe& probe) {
   const double top = double(bounds.max.z) + 1, bottom = bounds.min.z;
   // Far enough past a surface that single precision does not meet it again.
@@ -44,8 +41,11 @@ std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bou
     const SurfaceHit hit = probe({place, from}, {0, 0, -1});
     if (!hit.found()) break;
     const double height = from - hit.distance;
-    if (ceiling - height >= rules.headRoom && (!rules.upwardOnly || isFloor(hit, solids)))
-      levels.push_back({static_cast<float>(height), std::isfinite(ceiling), ceilingIsBack});
+    if (ceiling - height >= headRoom && !isSteep(hit)) {
+      const bool faceDown = hit.normal.z < 0;
+      levels.push_back({static_cast<float>(height), std::isfinite(ceiling), faceDown,
+                        ceilingIsBack || (faceDown && !solids.outside())});
+    }
     solids.pass(hit);
     ceiling = height;
     ceilingIsBack = hit.normal.z > 0;
@@ -54,19 +54,16 @@ std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bou
   return levels;
 }
 
-FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, const FloorRules& rules,
+FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double headRoom,
                             const SurfaceProbe& probe) {
   FloorLevels levels(std::size_t(grid.columns) * std::size_t(grid.rows));
   for (int y = 0; y < grid.rows; ++y)
     for (int x = 0; x < grid.columns; ++x)
-      levels[grid.index(x, y)] = floorLevelsAt(grid.centreOf(x, y), bounds, rules, probe);
+      levels[grid.index(x, y)] = floorLevelsAt(grid.centreOf(x, y), bounds, headRoom, probe);
   return levels;
 }
 
-std::optional<double> dominantLevel(const FloorLevels& levels, double tolerance) {
-  std::vector<float> heights;
-  for (const auto& here : levels)
-    for (const FloorLevel& level : here) heights.push_back(level.height);
+std::optional<double> dominantHeight(std::vector<float> heights, double tolerance) {
   if (heights.empty()) return std::nullopt;
   std::ranges::sort(heights);
   // How many lie in [heights[k], heights[k] + tolerance].

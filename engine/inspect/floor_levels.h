@@ -18,30 +18,27 @@ struct ProbeGrid {
 };
 
 struct FloorLevel {
-  float height = 0;          ///< z, metres
-  bool covered = false;      ///< something is above
-  bool coverIsBack = false;  ///< ... and shows its back to who stands here: a solid's top, from within
+  float height = 0;       ///< z, metres
+  bool covered = false;   ///< something is above
+  bool faceDown = false;  ///< as wound: a solid's underside, or a sheet wound the other way
+  /// The surface above shows its back to who stands here, or this one faces down and fewer solids were left
+  /// than entered above it. Only what is around can tell: see canStand.
+  bool maybeInside = false;
 };
 
 /// Levels per grid cell that have the head room, highest first.
 using FloorLevels = std::vector<std::vector<FloorLevel>>;
 
-struct FloorRules {
-  double headRoom = 1.75;  ///< metres
-  /// Only surfaces less steep than 60 degrees that face upwards. A surface that faces down is still a floor
-  /// where no solid was entered above it: sheets are wound either way. False: every surface is a floor.
-  bool upwardOnly = true;
-};
-
-/// At one place of the plan, highest first.
-std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, const FloorRules& rules,
+/// Surfaces less steep than 60 degrees at one place of the plan, highest first. Either side may face up:
+/// models have floors of sheets wound the other way.
+std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bounds, double headRoom,
                                       const SurfaceProbe& probe);
 
-FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, const FloorRules& rules,
+FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double headRoom,
                             const SurfaceProbe& probe);
 
 /// The height with most floor, but a lower one is preferred that has at least 60 % as much: a house's roof is
-/// larger than its floor. Nothing if there is no floor at all.
-std::optional<double> dominantLevel(const FloorLevels& levels, double tolerance);
+/// larger than its floor. Nothing if there are no heights.
+std::optional<double> dominantHeight(std::vector<float> heights, double tolerance);
 
 }  // namespace acentric

@@ -100,12 +100,12 @@ class Checker {
 
  private:
   bool canStandAt(const glm::dvec2& place) const {
-    const FloorRules floor{layout_.spec.eyeHeight + kHeadAboveEye, trustSides_};
+    const double headRoom = layout_.spec.eyeHeight + kHeadAboveEye;
     StandingRules standing;
     standing.eyeHeight = layout_.spec.eyeHeight;
     standing.wallClearance = rules_.wallClearance;
     standing.refuseInside = trustSides_;
-    for (const FloorLevel& level : floorLevelsAt(place, bounds_, floor, probe_))
+    for (const FloorLevel& level : floorLevelsAt(place, bounds_, headRoom, probe_))
       if (std::abs(double(level.height) - layout_.spec.floorHeight) <= rules_.floorTolerance &&
           canStand(place, level, standing, probe_))
         return true;

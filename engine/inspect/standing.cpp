@@ -24,8 +24,16 @@ std::array<double, 3> probeHeights(double eyeHeight) {
 /// Metres without an obstacle towards +x, +y, -x, -y.
 using FreeWay = std::array<float, 4>;
 
-bool canStandWithin(const glm::dvec2& at, const FloorLevel& level, const StandingRules& rules,
-                    const std::array<double, 3>& heights, const SurfaceProbe& probe, FreeWay& freeWay) {
+/// What is around a place to stand.
+struct Body {
+  bool fits = false;
+  bool seemsInside = false;
+  FreeWay freeWay{};
+};
+
+Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRules& rules,
+                const std::array<double, 3>& heights, const SurfaceProbe& probe) {
+  Body body;
   int found = 0, backs = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < kSides; ++d) {
@@ -39,11 +47,12 @@ bool canStandWithin(const glm::dvec2& at, const FloorLevel& level, const Standin
       if (hit.showsBack(direction)) ++backs;
     }
     nearest = std::min(nearest, least);
-    if (d % 2 == 0) freeWay[std::size_t(d / 2)] = static_cast<float>(least);
+    if (d % 2 == 0) body.freeWay[std::size_t(d / 2)] = static_cast<float>(least);
   }
-  if (nearest < rules.wallClearance) return false;
-  const bool inside = level.coverIsBack && found > kSides && backs >= kInside * found;
-  return !(rules.refuseInside && inside);
+  body.fits = nearest >= rules.wallClearance;
+  const bool open = found <= kSides;  // hardly anything around tells anything
+  body.seemsInside = level.maybeInside && (open ? level.faceDown : backs >= kInside * found);
+  return body;
 }
 
 class Surveyor {
@@ -51,8 +60,8 @@ class Surveyor {
   Surveyor(const ProbeGrid& grid, const StandingRules& rules, const SurfaceProbe& probe)
       : grid_(grid), rules_(rules), heights_(probeHeights(rules.eyeHeight)), probe_(probe) {}
 
-  bool canStand(const glm::dvec2& at, const FloorLevel& level, FreeWay& freeWay) const {
-    return canStandWithin(at, level, rules_, heights_, probe_, freeWay);
+  Body feel(const glm::dvec2& at, const FloorLevel& level) const {
+    return feelAround(at, level, rules_, heights_, probe_);
   }
 
   bool canStep(const StandingSpot& from, const StandingSpot& to, float there, float back) const {
@@ -95,12 +104,53 @@ class Surveyor {
   const SurfaceProbe& probe_;
 };
 
+/// Takes the parts out that are inside solids.
+void dropInsides(Standing& standing) {
+  const std::vector<int> part = numberParts(standing, std::vector<std::uint8_t>(standing.spots.size(), 1));
+  std::vector<int> vote;  // per part: spots that seem inside, less the others
+  for (std::size_t s = 0; s < part.size(); ++s) {
+    if (std::size_t(part[s]) >= vote.size()) vote.resize(std::size_t(part[s]) + 1, 0);
+    vote[std::size_t(part[s])] += standing.spots[s].seemsInside ? 1 : -1;
+  }
+  std::vector<int> newIndex(part.size(), -1);
+  std::vector<StandingSpot> kept;
+  for (std::size_t s = 0; s < part.size(); ++s) {
+    if (vote[std::size_t(part[s])] > 0) continue;
+    newIndex[s] = static_cast<int>(kept.size());
+    kept.push_back(standing.spots[s]);
+  }
+  for (StandingSpot& spot : kept)
+    for (int& next : spot.next)
+      if (next >= 0) next = newIndex[std::size_t(next)];
+  standing.spots = std::move(kept);
+}
+
 }  // namespace
+
+std::vector<int> numberParts(const Standing& standing, const std::vector<std::uint8_t>& included) {
+  std::vector<int> part(standing.spots.size(), -1);
+  std::vector<int> open;
+  int parts = 0;
+  for (std::size_t first = 0; first < part.size(); ++first) {
+    if (included[first] == 0 || part[first] >= 0) continue;
+    part[first] = parts;
+    open.assign(1, static_cast<int>(first));
+    while (!open.empty()) {
+      const int spot = open.back();
+      open.pop_back();
+      for (const int next : standing.spots[std::size_t(spot)].next)
+        if (next >= 0 && included[std::size_t(next)] != 0 && part[std::size_t(next)] < 0)
+          part[std::size_t(next)] = parts, open.push_back(next);
+    }
+    ++parts;
+  }
+  return part;
+}
 
 bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRules& rules,
               const SurfaceProbe& probe) {
-  FreeWay freeWay{};
-  return canStandWithin(place, level, rules, probeHeights(rules.eyeHeight), probe, freeWay);
+  const Body body = feelAround(place, level, rules, probeHeights(rules.eyeHeight), probe);
+  return body.fits && !(rules.refuseInside && body.seemsInside);
 }
 
 Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const StandingRules& rules,
@@ -113,10 +163,10 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t cell = grid.index(x, y);
       for (const FloorLevel& level : levels[cell]) {
-        FreeWay freeWay{};
-        if (!surveyor.canStand(grid.centreOf(x, y), level, freeWay)) continue;
-        standing.spots.push_back({x, y, level.height, level.covered});
-        freeWays.push_back(freeWay);
+        const Body body = surveyor.feel(grid.centreOf(x, y), level);
+        if (!body.fits) continue;
+        standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside});
+        freeWays.push_back(body.freeWay);
       }
       firstOfCell[cell + 1] = static_cast<int>(standing.spots.size());
     }
@@ -145,6 +195,7 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
       neighbour.next[side + 2] = static_cast<int>(s);
     }
   }
+  if (rules.refuseInside) dropInsides(standing);
   return standing;
 }
 

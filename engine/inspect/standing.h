@@ -14,13 +14,17 @@ struct StandingRules {
   double eyeHeight = 1.6;      ///< metres
   double wallClearance = 0.2;  ///< metres from obstacles between knee and eye
   double stepHeight = 0.25;    ///< metres: what a foot climbs at once
-  bool refuseInside = true;    ///< no spot where all around shows its back: inside a solid
+  /// No spots inside a solid. A spot seems to be inside where all around shows its back; a part of the floor
+  /// that is walked about without passing a surface is inside where most of its spots seem so. (Models are
+  /// often wound the other way in places, and one does not walk out of a solid.)
+  bool refuseInside = true;
 };
 
 struct StandingSpot {
   int x = 0, y = 0;  ///< grid cell
   float height = 0;  ///< of the floor, z, metres
   bool covered = false;
+  bool seemsInside = false;  ///< of a solid
   /// Spots a step away towards +x, +y, -x, -y; -1 = none. If a leads to b, b leads back to a.
   std::array<int, 4> next{-1, -1, -1, -1};
 };
@@ -30,7 +34,10 @@ struct Standing {
   std::vector<StandingSpot> spots;  ///< row after row, a cell's spots highest first
 };
 
-/// Room for a body between knee and eye, outside of solids. The level has the head room.
+/// Spots joined by steps carry the same number, from 0 on; -1 for those not included.
+std::vector<int> numberParts(const Standing& standing, const std::vector<std::uint8_t>& included);
+
+/// Room for a body between knee and eye, and no seeming to be inside a solid. The level has the head room.
 bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRules& rules,
               const SurfaceProbe& probe);
 

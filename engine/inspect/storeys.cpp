@@ -12,27 +12,6 @@ namespace {
 constexpr int kMostPlanes = 64;
 constexpr std::size_t kMostLinksPerPair = 4;
 
-/// Spots joined by steps carry the same number.
-std::vector<int> numberParts(const Standing& standing, const std::vector<std::uint8_t>& included) {
-  std::vector<int> part(standing.spots.size(), -1);
-  std::vector<int> open;
-  int parts = 0;
-  for (std::size_t first = 0; first < part.size(); ++first) {
-    if (included[first] == 0 || part[first] >= 0) continue;
-    part[first] = parts;
-    open.assign(1, static_cast<int>(first));
-    while (!open.empty()) {
-      const int spot = open.back();
-      open.pop_back();
-      for (const int next : standing.spots[std::size_t(spot)].next)
-        if (next >= 0 && included[std::size_t(next)] != 0 && part[std::size_t(next)] < 0)
-          part[std::size_t(next)] = parts, open.push_back(next);
-    }
-    ++parts;
-  }
-  return part;
-}
-
 /// Takes the fullest height out of the heights that are left, until what a height holds is too little.
 class HeightQueue {
  public:
@@ -184,11 +163,11 @@ class LinkFinder {
 
 Storeys storeysOn(const Bounds& bounds, const ProbeGrid& grid, const StoreyOptions& options,
                   const SurfaceProbe& probe) {
-  const FloorLevels levels = findFloorLevels(bounds, grid, options.walkable.floorRules(), probe);
+  const FloorLevels levels = findFloorLevels(bounds, grid, options.walkable.headRoom(), probe);
   const Standing standing = surveyStanding(grid, levels, options.walkable.standingRules(), probe);
   Storeys storeys;
   storeys.planes = collectPlanes(standing, options);
-  dropFurniture(storeys.planes, standing, options.walkable.floorRules().headRoom);
+  dropFurniture(storeys.planes, standing, options.walkable.headRoom());
   storeys.links = LinkFinder(storeys.planes, standing).find();
   storeys.ignoredSides = options.walkable.ignoreSides;
   return storeys;
@@ -219,7 +198,7 @@ Result<Storeys> findStoreys(const Bounds& bounds, const StoreyOptions& options, 
     return fail(ErrorKind::notFound,
                 fmt::format("no floor of {:g} m2 has {:.2f} m of room above it; lower the eye height or the "
                             "least area",
-                            options.leastArea, options.walkable.floorRules().headRoom),
+                            options.leastArea, options.walkable.headRoom()),
                 "storeys");
   return storeys;
 }

@@ -31,22 +31,27 @@ tl::unexpected<Error> none(const std::string& what) {
 
 Result<WalkableArea> findArea(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& options,
                               const SurfaceProbe& probe) {
-  FloorLevels levels = findFloorLevels(bounds, grid, options.floorRules(), probe);
+  FloorLevels levels = findFloorLevels(bounds, grid, options.headRoom(), probe);
   std::optional<double> height = options.floorHeight;
-  if (std::isnan(options.floorHeight)) height = dominantLevel(levels, options.floorTolerance);
-  if (!height)
-    return none(fmt::format("no surface has {:.2f} m of room above it", options.floorRules().headRoom));
-
-  for (auto& here : levels)
-    std::erase_if(here, [&](const FloorLevel& level) {
-      return std::abs(double(level.height) - *height) > options.floorTolerance;
-    });
+  if (!std::isnan(options.floorHeight))
+    for (auto& here : levels)
+      std::erase_if(here, [&](const FloorLevel& level) {
+        return std::abs(double(level.height) - options.floorHeight) > options.floorTolerance;
+      });
   const Standing standing = surveyStanding(grid, levels, options.standingRules(), probe);
+  if (std::isnan(options.floorHeight)) {
+    std::vector<float> heights;
+    for (const StandingSpot& spot : standing.spots) heights.push_back(spot.height);
+    height = dominantHeight(std::move(heights), options.floorTolerance);
+  }
+  if (!height)
+    return none(fmt::format("no surface has {:.2f} m of room above it and {:.2f} m to the sides",
+                            options.headRoom(), options.wallClearance));
   std::vector<WalkPlane> planes = planesAt(standing, *height, options.floorTolerance, 1);
   if (planes.empty())
     return none(
         fmt::format("no place at height {:.2f} m has {:.2f} m of room above it and {:.2f} m to the sides",
-                    *height, options.floorRules().headRoom, options.wallClearance));
+                    *height, options.headRoom(), options.wallClearance));
   return WalkableArea{*height, std::move(planes.front().outline), options.ignoreSides};
 }
 
@@ -63,7 +68,7 @@ Status WalkableOptions::check() const {
   return {};
 }
 
-FloorRules WalkableOptions::floorRules() const { return {eyeHeight + kHeadAboveEye, !ignoreSides}; }
+double WalkableOptions::headRoom() const { return eyeHeight + kHeadAboveEye; }
 
 StandingRules WalkableOptions::standingRules() const {
   return {eyeHeight, wallClearance, stepHeight, !ignoreSides};

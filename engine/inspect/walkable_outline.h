@@ -26,7 +26,7 @@ struct WalkableOptions {
   bool ignoreSides = false;  ///< every surface may be floor, and nothing is the inside of a solid
 
   Status check() const;
-  FloorRules floorRules() const;
+  double headRoom() const;  ///< metres
   StandingRules standingRules() const;
 };
 
