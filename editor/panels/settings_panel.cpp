@@ -19,9 +19,7 @@ void drawConfiguration(PanelContext& context) {
   std::vector<ui::Choice> choices;
   for (int i = 0; i <= int(Configuration::g); ++i) {
     const auto configuration = Configuration(i);
-    const bool supported = isSupported(configuration);
-    choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)),
-                       supported ? "" : "This version does not lay it yet.", supported,
+    choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)), "", true,
                        nameOf(configuration)});
   }
   int index = int(project.layout.configuration);

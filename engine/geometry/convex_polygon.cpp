@@ -68,11 +68,13 @@ glm::dvec2 ConvexPolygon::centroid() const {
   return corners[0] + sum / (3 * twice);
 }
 
-bool ConvexPolygon::contains(const glm::dvec2& point) const {
+bool ConvexPolygon::contains(const glm::dvec2& point) const { return containsHalfOpen(corners, point); }
+
+bool containsHalfOpen(std::span<const glm::dvec2> corners, const glm::dvec2& point) {
   // A point on the border is decided as if it were moved by an infinitely small step to +x, and by a still
   // smaller one to +y: the moved point lies on no border, so exactly one polygon of a tessellation holds it.
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const glm::dvec2 &a = corners[k], &b = after(corners, k);
+    const glm::dvec2 &a = corners[k], &b = corners[k + 1 < corners.size() ? k + 1 : 0];
     const int side = orientation(a, b, point);
     if (side < 0) return false;
     if (side == 0 && !(b.y < a.y || (b.y == a.y && b.x > a.x))) return false;

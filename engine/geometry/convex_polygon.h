@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct ConvexPolygon {
   /// Nearest point of the closed polygon.
   glm::dvec2 nearestPoint(const glm::dvec2& point) const;
 };
+
+/// ConvexPolygon::contains for corners kept elsewhere.
+bool containsHalfOpen(std::span<const glm::dvec2> corners, const glm::dvec2& point);
 
 /// Do the closed polygons share a point?
 bool overlap(const ConvexPolygon& a, const ConvexPolygon& b);

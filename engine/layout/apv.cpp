@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/layout/layout.h"
+
 namespace acentric {
 namespace {
 
@@ -44,6 +46,8 @@ Status Apv::check() const {
 
 int Apv::cameraCount() const { return static_cast<int>(std::lround(360 / fovDegrees)); }
 
+int Apv::subCameras() const { return static_cast<int>(std::ceil(fovDegrees / 60 - 1e-9)); }
+
 ConvexPolygon polygonOf(const Apv& apv) {
   ConvexPolygon polygon;
   if (apv.traditional()) return polygon;
@@ -63,6 +67,24 @@ Cover coverOf(const Apv& apv) {
       cover.pieces.push_back({static_cast<int>(i), here, {before, here}, {here, behind}});
     else  // from -e[i-1] to -e[i]
       cover.pieces.push_back({static_cast<int>(i), here, {here, before}, {behind, here}});
+  }
+  return cover;
+}
+
+Cover captureCoverOf(const Apv& apv) {
+  const Cover whole = coverOf(apv);
+  const int parts = apv.subCameras();
+  if (parts == 1) return whole;
+  Cover cover{whole.hand, {}, 0};
+  for (const Piece& piece : whole.pieces) {
+    const glm::dvec2 low = piece.low.direction();
+    const double step = radians(apv.fovDegrees) / parts;
+    const auto border = [&](int part) {
+      return BorderLine{piece.apex, piece.apex + rotated(low, part * step)};
+    };
+    for (int part = 0; part < parts; ++part)
+      cover.pieces.push_back({piece.camera * parts + part, piece.apex, part == 0 ? piece.low : border(part),
+                              part + 1 == parts ? piece.high : border(part + 1)});
   }
   return cover;
 }

@@ -1,11 +1,19 @@
 #pragma once
 /// One acentric panorama view APV(o, d, v, c) (paper section 2, apv.md section 1): n = 360 / v cameras whose
 /// centres of projection are the corners of a regular n-gon, and whose sectors tile the plane outside it
-/// exactly once. With d = 0 it is a traditional panorama view.
+/// exactly once. With d = 0 it is a traditional panorama view (TPV).
 
-#include "engine/layout/layout.h"
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "engine/base/result.h"
+#include "engine/geometry/convex_polygon.h"
 
 namespace acentric {
+
+struct Cover;
+
+enum class Hand : std::uint8_t { counterClockwise, clockwise };
 
 struct Apv {
   glm::dvec2 centre{0};     ///< o, plan, metres
@@ -17,6 +25,9 @@ struct Apv {
   Status check() const;
   int cameraCount() const;  ///< n
   bool traditional() const { return offset == glm::dvec2(0); }
+  /// Cameras wider than 60 degrees are captured by this many equal sub-cameras.
+  int subCameras() const;
+  bool operator==(const Apv&) const = default;
 };
 
 /// Corners P_i = o + R(i v) d, counter-clockwise; none for a traditional panorama.
@@ -24,5 +35,7 @@ ConvexPolygon polygonOf(const Apv& apv);
 
 /// The sectors, counter-clockwise by centre of projection; Piece::camera is the camera's number i.
 Cover coverOf(const Apv& apv);
+/// The same by sub-cameras: Piece::camera is i * subCameras() + part, parts counter-clockwise.
+Cover captureCoverOf(const Apv& apv);
 
 }  // namespace acentric

@@ -1,6 +1,8 @@
 #include "engine/layout/gap_order.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "engine/layout/azimuth_order.h"
 
@@ -12,16 +14,51 @@ struct Arc {
   glm::dvec2 from, to;
 };
 
-/// The eye lies in the wedge's mirror image at its apex: rays end in the wedge exactly if they point into it.
-Arc wedgeArc(const Piece& piece) { return {piece.low.direction(), piece.high.direction()}; }
+/// The gap's corners and the two directions in which its sides are continued beyond each.
+class Gap {
+ public:
+  explicit Gap(const ConvexPolygon& polygon) : polygon_(polygon), count_(static_cast<int>(polygon.size())) {}
+  int count() const { return count_; }
+  const glm::dvec2& corner(int k) const {
+    return polygon_.corners[std::size_t(((k % count_) + count_) % count_)];
+  }
 
-/// Rays cross a strip exactly if they leave through its edge.
-Arc stripArc(const Piece& piece, const glm::dvec2& eye) {
-  Arc arc{piece.low.to - eye, piece.high.to - eye};
-  if (arc.from == glm::dvec2(0)) arc.from = piece.low.direction();  // the eye at the edge's end
-  if (arc.to == glm::dvec2(0)) arc.to = piece.high.direction();
-  return arc;
-}
+  /// Rays cross a strip exactly if they leave through its edge.
+  Arc stripArc(int edge, const glm::dvec2& eye) const {
+    Arc arc{corner(edge) - eye, corner(edge + 1) - eye};
+    if (arc.from == glm::dvec2(0)) arc.from = corner(edge) - corner(edge - 1);  // the eye at the edge's end
+    if (arc.to == glm::dvec2(0)) arc.to = corner(edge + 1) - corner(edge + 2);
+    return arc;
+  }
+
+  /// A wedge, or a sub-camera's part of one, is convex and the eye is not in it: its arc is the hull of the
+  /// directions to its corners and of those in which it goes on for ever.
+  Arc wedgeArc(int k, const Piece& piece, const glm::dvec2& eye) const {
+    std::array<glm::dvec2, 4> directions{corner(k) - eye, piece.low.direction(), piece.high.direction(),
+                                         glm::dvec2(0)};
+    if (piece.clip) {
+      // Cut off beyond the tip of the strip beside it: there it goes on along the cut, not along the sector's
+      // border. The tip lies an edge's length beyond the corner.
+      const int behind = piece.clip->side.left ? k + 1 : k - 1;
+      directions[piece.clip->side.left ? 1 : 2] = piece.clip->side.line.direction();
+      directions[3] = 2.0 * corner(k) - corner(behind) - eye;
+    }
+    Arc arc{piece.low.direction(), piece.low.direction()};
+    bool any = false;
+    for (const glm::dvec2& direction : directions) {
+      if (direction == glm::dvec2(0)) continue;
+      if (!any) arc = {direction, direction};
+      any = true;
+      if (turn(arc.from, direction) < 0) arc.from = direction;
+      if (turn(arc.to, direction) > 0) arc.to = direction;
+    }
+    return arc;
+  }
+
+ private:
+  const ConvexPolygon& polygon_;
+  int count_;
+};
 
 bool meets(const Arc& arc, const ViewSector& sector) {
   const double width = sector.azimuths.width;
@@ -35,14 +72,33 @@ bool meets(const Arc& arc, const ViewSector& sector) {
 
 }  // namespace
 
-std::vector<OrderedPiece> orderGap(const Cover& cover, const ViewSector& sector) {
-  std::vector<OrderedPiece> ordered;
-  for (std::size_t k = 0; k < cover.pieces.size(); ++k) {
-    const Piece& piece = cover.pieces[k];
-    const bool wedge = k < std::size_t(cover.wedges);
-    if (meets(wedge ? wedgeArc(piece) : stripArc(piece, sector.eye), sector))
-      ordered.push_back({piece.camera, sector});
+std::vector<OrderedPiece> orderGap(const ConvexPolygon& gap, const Cover& cover, const ViewSector& sector) {
+  const Gap corners(gap);
+  const int wedges = cover.wedges;
+  const int parts = std::max(1, wedges / corners.count());
+  struct Wedge {
+    double away;  ///< from the eye's side of the gap, radians around the gap's middle
+    OrderedPiece piece;
+  };
+  std::vector<Wedge> visible;
+  const glm::dvec2 middle = gap.centroid(), eyeSide = sector.eye - middle;
+  for (int w = 0; w < wedges; ++w) {
+    const Piece& piece = cover.pieces[std::size_t(w)];
+    const int k = w / parts;
+    if (!meets(corners.wedgeArc(k, piece, sector.eye), sector)) continue;
+    // The parts of a wedge lie on either side of the line from the middle through its corner.
+    const double turned = ((w % parts + 0.5) / parts - 0.5) * kTwoPi / corners.count();
+    const glm::dvec2 out = corners.corner(k) - middle;
+    const double azimuth = std::atan2(out.y, out.x) + turned;
+    const double away = std::abs(std::remainder(azimuth - std::atan2(eyeSide.y, eyeSide.x), kTwoPi));
+    visible.push_back({away, {piece.camera, sector, piece.clip}});
   }
+  std::ranges::stable_sort(visible, std::ranges::greater{}, &Wedge::away);
+  std::vector<OrderedPiece> ordered;
+  for (Wedge& wedge : visible) ordered.push_back(std::move(wedge.piece));
+  for (std::size_t k = std::size_t(wedges); k < cover.pieces.size(); ++k)
+    if (meets(corners.stripArc(static_cast<int>(k) - wedges, sector.eye), sector))
+      ordered.push_back({cover.pieces[k].camera, sector, cover.pieces[k].clip});
   return ordered;
 }
 

@@ -25,12 +25,14 @@ struct LatticeTable {
   glm::dvec2 stepI{0}, stepJ{0};          ///< from a cell to the next
   std::vector<glm::dvec2> cornerOffsets;  ///< from the cell's ring centre, by corner number
   std::vector<RegionTemplate> regions;    ///< by slot; slot 0 is a ring around the cell's origin
+  /// Can regions be split? Then the one corner of a cell at (i, j) / 2^level is the corner of all levels.
+  bool splits() const { return cornerOffsets.size() == 1; }
   int apvSteps = 0;                       ///< the configuration's field of view v
   int cameraSteps = 0;                    ///< of a stored camera; divides apvSteps, at most 4 (60 degrees)
   double cellArea = 0;                    ///< of a unit cell, in squared edge lengths
 };
 
-/// Nothing for configurations that cannot be laid out yet.
+/// Nothing for a value that is none of a to g.
 const LatticeTable* latticeTable(Configuration configuration);
 
 }  // namespace acentric

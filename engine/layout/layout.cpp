@@ -1,7 +1,5 @@
 #include "engine/layout/layout.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,13 +9,14 @@
 #include "engine/layout/lattice.h"
 #include "engine/layout/placement.h"
 #include "engine/layout/point_inside.h"
+#include "engine/layout/region_index.h"
 
 namespace acentric {
 namespace {
 
-/// The cameras that the placed regions need, in order of their ids.
-std::vector<LayoutCamera> collectCameras(const Lattice& lattice, const std::vector<CellId>& cells,
-                                         double nearBand) {
+/// The cameras of the placed lattice regions, in order of their ids.
+std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vector<CellId>& cells,
+                                         const LayoutSpec& spec) {
   std::vector<CameraId> ids;
   for (const CellId& cell : cells)
     for (const CoverTemplate& cover : lattice.coversOf(cell.slot))
@@ -30,21 +29,71 @@ std::vector<LayoutCamera> collectCameras(const Lattice& lattice, const std::vect
   cameras.reserve(ids.size());
   for (const CameraId& id : ids) {
     LayoutCamera camera{id,
-                        lattice.cornerPosition(id.i, id.j, id.corner),
+                        lattice.cornerPosition(id.i, id.j, id.corner, id.level),
                         lattice.azimuthOf(id.direction),
                         lattice.cameraFov(),
                         {}};
-    for (const CellId& cell : lattice.servedBy(id))
-      camera.served.push_back(lattice.polygonOf(cell).grown(nearBand));
+    for (const CellId& cell : lattice.servedBy(id, spec.split))
+      camera.served.push_back(lattice.polygonOf(cell).grown(spec.nearBand));
     cameras.push_back(std::move(camera));
   }
   return cameras;
+}
+
+/// Lattice regions (placed or not) that come within `reach` of a point.
+std::vector<ConvexPolygon> regionsAround(const Lattice& lattice, const glm::dvec2& point, double reach) {
+  std::vector<ConvexPolygon> around;
+  Outline box;
+  box.loops = {{point - reach, {point.x + reach, point.y - reach}, point + reach,
+                {point.x - reach, point.y + reach}}};
+  for (const CellId& cell : cellsOverlapping(box, lattice, std::size_t(kMaxRegions))) {
+    ConvexPolygon polygon = lattice.polygonOf(cell);
+    if (glm::distance(polygon.nearestPoint(point), point) <= reach) around.push_back(std::move(polygon));
+  }
+  return around;
+}
+
+/// A free APV serves its own polygon. A free panorama has none: it helps the regions around it.
+void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, std::vector<LayoutCamera>& cameras) {
+  for (const auto& [number, apv] : spec.freeApvs) {
+    std::vector<ConvexPolygon> served;
+    if (apv.traditional())
+      served = regionsAround(lattice, apv.centre, panoramaReach(spec));
+    else
+      served.push_back(polygonOf(apv));
+    for (ConvexPolygon& polygon : served) polygon = polygon.grown(spec.nearBand);
+    for (const Piece& piece : captureCoverOf(apv).pieces) {
+      const glm::dvec2 low = piece.low.direction();
+      cameras.push_back({{number, 0, kFreeCorner, piece.camera},
+                         piece.apex,
+                         wrapAngle(std::atan2(low.y, low.x)),
+                         radians(apv.fovDegrees) / apv.subCameras(),
+                         served});
+    }
+  }
 }
 
 int cameraIndex(const std::vector<LayoutCamera>& cameras, const CameraId& id) {
   const auto found = std::ranges::lower_bound(cameras, id, {}, &LayoutCamera::id);
   require(found != cameras.end() && found->id == id, "every camera of a placed region was collected");
   return static_cast<int>(found - cameras.begin());
+}
+
+Cover makeCover(const Lattice& lattice, const CellId& id, const ConvexPolygon& polygon,
+                const CoverTemplate& coverTemplate, const std::vector<LayoutCamera>& cameras) {
+  Cover cover{coverTemplate.hand, {}, coverTemplate.wedges};
+  cover.pieces.reserve(coverTemplate.pieces.size());
+  for (const PieceTemplate& piece : coverTemplate.pieces) {
+    cover.pieces.push_back({cameraIndex(cameras, lattice.cameraOf(id, piece)),
+                            polygon.corners[std::size_t(piece.apex)], lattice.lineOf(polygon, piece.low),
+                            lattice.lineOf(polygon, piece.high)});
+    if (!piece.clip) continue;
+    Clip clip{{lattice.lineOf(polygon, piece.clip->line), piece.clip->left}};
+    if (piece.clip->claim)
+      clip.claim = HalfPlane{lattice.lineOf(polygon, *piece.clip->claim), !piece.clip->left};
+    cover.pieces.back().clip = clip;
+  }
+  return cover;
 }
 
 Region makeRegion(const Lattice& lattice, const CellId& id, double nearBand,
@@ -54,16 +103,53 @@ Region makeRegion(const Lattice& lattice, const CellId& id, double nearBand,
   region.kind = lattice.kindOf(id.slot);
   region.polygon = lattice.polygonOf(id);
   region.grown = region.polygon.grown(nearBand);
-  for (const CoverTemplate& coverTemplate : lattice.coversOf(id.slot)) {
-    Cover cover{coverTemplate.hand, {}, coverTemplate.wedges};
-    cover.pieces.reserve(coverTemplate.pieces.size());
-    for (const PieceTemplate& piece : coverTemplate.pieces)
-      cover.pieces.push_back(
-          {cameraIndex(cameras, lattice.cameraOf(id, piece)), region.polygon.corners[std::size_t(piece.apex)],
-           lattice.lineOf(region.polygon, piece.low), lattice.lineOf(region.polygon, piece.high)});
-    region.covers.push_back(std::move(cover));
-  }
+  for (const CoverTemplate& cover : lattice.coversOf(id.slot))
+    region.covers.push_back(makeCover(lattice, id, region.polygon, cover, cameras));
   return region;
+}
+
+/// The cover of a free APV with its cameras' places in the layout.
+Cover freeCover(int number, const Apv& apv, const std::vector<LayoutCamera>& cameras) {
+  Cover cover = captureCoverOf(apv);
+  for (Piece& piece : cover.pieces)
+    piece.camera = cameraIndex(cameras, {number, 0, kFreeCorner, piece.camera});
+  return cover;
+}
+
+Region freeRegion(int number, const Apv& apv, double nearBand, const std::vector<LayoutCamera>& cameras) {
+  Region region;
+  region.id = {number, 0, kFreeSlot};
+  region.polygon = polygonOf(apv);
+  region.grown = region.polygon.grown(nearBand);
+  region.covers = {freeCover(number, apv, cameras)};
+  return region;
+}
+
+/// The panorama of all cameras at a corner, counter-clockwise; nothing if one of them is not placed.
+std::optional<Cover> cornerPanorama(const Layout& layout, const Lattice& lattice, CameraId id) {
+  Cover cover;
+  for (int direction = id.direction % lattice.cameraSteps(); direction < 24;
+       direction += lattice.cameraSteps()) {
+    id.direction = direction;
+    const std::optional<int> camera = layout.findCamera(id);
+    if (!camera) return std::nullopt;
+    const glm::dvec2 apex = layout.cameras[std::size_t(*camera)].position;
+    const auto border = [&](int steps) {
+      return BorderLine{apex, apex + layout.spec.cellSize * directionOf(lattice.azimuthOf(steps % 24))};
+    };
+    cover.pieces.push_back({*camera, apex, border(direction), border(direction + lattice.cameraSteps())});
+  }
+  return cover;
+}
+
+void addLeafCells(const Lattice& lattice, const std::set<CellId>& split, const CellId& id, std::size_t limit,
+                  std::vector<LatticeCell>& cells) {
+  if (cells.size() >= limit) return;
+  if (!split.contains(id)) {
+    cells.push_back({id, lattice.kindOf(id.slot), lattice.polygonOf(id)});
+    return;
+  }
+  for (const CellId& child : lattice.childrenOf(id)) addLeafCells(lattice, split, child, limit, cells);
 }
 
 /// The lattice of a spec whose size is sane; plan queries are asked of specs that are being edited.
@@ -74,22 +160,53 @@ std::optional<Lattice> latticeFor(const LayoutSpec& spec) {
 
 }  // namespace
 
+bool HalfPlane::holds(const glm::dvec2& point) const {
+  const int side = orientation(line.from, line.to, point);
+  return left ? side >= 0 : side < 0;
+}
+
 bool Piece::holds(const glm::dvec2& point) const {
-  return orientation(low.from, low.to, point) >= 0 && orientation(high.from, high.to, point) < 0;
+  return orientation(low.from, low.to, point) >= 0 && orientation(high.from, high.to, point) < 0 &&
+         (!clip || clip->holds(point));
 }
 
 std::optional<int> Layout::findRegion(const CellId& id) const {
-  const auto found = std::ranges::lower_bound(regions, id, {}, &Region::id);
-  if (found == regions.end() || found->id != id) return std::nullopt;
+  if (index) return index->find(id);
+  const auto found = std::ranges::find(regions, id, &Region::id);
+  if (found == regions.end()) return std::nullopt;
   return static_cast<int>(found - regions.begin());
 }
 
+std::optional<int> Layout::findCamera(const CameraId& id) const {
+  const auto found = std::ranges::lower_bound(cameras, id, {}, &LayoutCamera::id);
+  if (found == cameras.end() || found->id != id) return std::nullopt;
+  return static_cast<int>(found - cameras.begin());
+}
+
 std::optional<int> Layout::regionAt(const glm::dvec2& point) const {
-  const std::optional<Lattice> lattice = latticeFor(spec);
-  if (!lattice || !std::isfinite(point.x) || !std::isfinite(point.y)) return std::nullopt;
-  const std::optional<int> index = findRegion(lattice->cellAt(point));
-  if (!index || !regions[std::size_t(*index)].polygon.contains(point)) return std::nullopt;
-  return index;
+  return index ? index->regionAt(point) : std::nullopt;
+}
+
+std::vector<Cover> Layout::panoramasFor(int region) const {
+  require(region >= 0 && std::size_t(region) < regions.size(), "the region exists");
+  std::vector<Cover> covers;
+  if (!index) return covers;
+  const Region& home = regions[std::size_t(region)];
+  const Lattice& lattice = index->lattice();
+  if (home.id.slot != kFreeSlot && lattice.panoramas()) {
+    std::set<CameraId> corners;  // each once, by its first camera
+    for (const Piece& piece : home.covers.front().pieces) {
+      CameraId id = cameras[std::size_t(piece.camera)].id;
+      id.direction %= lattice.cameraSteps();
+      if (!corners.insert(id).second) continue;
+      if (auto cover = cornerPanorama(*this, lattice, id)) covers.push_back(std::move(*cover));
+    }
+  }
+  for (const auto& [number, apv] : spec.freeApvs)
+    if (apv.traditional() &&
+        glm::distance(home.polygon.nearestPoint(apv.centre), apv.centre) <= panoramaReach(spec))
+      covers.push_back(freeCover(number, apv, cameras));
+  return covers;
 }
 
 Layout::Nearest Layout::nearestRegion(const glm::dvec2& point) const {
@@ -99,8 +216,9 @@ Layout::Nearest Layout::nearestRegion(const glm::dvec2& point) const {
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const ConvexPolygon& polygon = regions[r].polygon;
-    if (glm::distance(point, polygon.corners[0]) - 2.5 * spec.cellSize > best)
-      continue;  // wider than any region
+    // No corner is farther from another than the sum of the edges between them.
+    const double most = double(polygon.size()) * glm::distance(polygon.corners[0], polygon.corners[1]);
+    if (glm::distance(point, polygon.corners[0]) - 0.5 * most > best) continue;
     const double distance = glm::distance(point, polygon.nearestPoint(point));
     if (distance < best) best = distance, nearest.region = static_cast<int>(r);
   }
@@ -114,26 +232,28 @@ Layout::Nearest Layout::nearestRegion(const glm::dvec2& point) const {
 Result<Layout> buildLayout(const LayoutSpec& spec) {
   if (Status status = spec.check(); !status) return tl::unexpected(status.error());
   const std::optional<Lattice> lattice = Lattice::of(spec);
-  if (!lattice)
-    return fail(ErrorKind::unsupported,
-                fmt::format("configuration {} ({}) cannot be laid out yet; choose b or e",
-                            nameOf(spec.configuration), describe(spec.configuration)),
-                "layout");
+  require(lattice.has_value(), "a checked configuration has a lattice");
   const Result<std::vector<CellId>> cells = placedCells(spec, *lattice);
   if (!cells) return tl::unexpected(cells.error());
   Layout layout;
   layout.spec = spec;
-  layout.cameras = collectCameras(*lattice, *cells, spec.nearBand);
-  layout.regions.reserve(cells->size());
+  layout.cameras = latticeCameras(*lattice, *cells, spec);
+  addFreeCameras(spec, *lattice, layout.cameras);
+  std::ranges::sort(layout.cameras, {}, &LayoutCamera::id);
+  layout.regions.reserve(cells->size() + spec.freeApvs.size());
   for (const CellId& id : *cells)
     layout.regions.push_back(makeRegion(*lattice, id, spec.nearBand, layout.cameras));
+  for (const auto& [number, apv] : spec.freeApvs)
+    if (!apv.traditional())
+      layout.regions.push_back(freeRegion(number, apv, spec.nearBand, layout.cameras));
+  layout.index = std::make_shared<const RegionIndex>(spec, *lattice, layout.regions);
   return layout;
 }
 
 LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point) {
   const std::optional<Lattice> lattice = latticeFor(spec);
   if (!lattice) return {};
-  const CellId id = lattice->cellAt(point);
+  const CellId id = lattice->leafAt(point, spec.split);
   return {id, lattice->kindOf(id.slot), lattice->polygonOf(id)};
 }
 
@@ -150,8 +270,7 @@ std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, 
   if (!std::isfinite(min.x + min.y + max.x + max.y)) return cells;
   const Outline box{{{min, {max.x, min.y}, max, {min.x, max.y}}}};
   for (const CellId& id : cellsOverlapping(box, *lattice, std::size_t(limit)))
-    if (cells.size() < std::size_t(limit))
-      cells.push_back({id, lattice->kindOf(id.slot), lattice->polygonOf(id)});
+    addLeafCells(*lattice, spec.split, id, std::size_t(limit), cells);
   return cells;
 }
 

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,16 +17,18 @@
 
 namespace acentric {
 
-enum class Hand : std::uint8_t { counterClockwise, clockwise };
 enum class RegionKind : std::uint8_t { ring, gapTriangle, gapSquare, gapHexagon };
 
 /// Integer identity of a capture camera: a lattice corner and its low border's direction in 15-degree steps
-/// relative to the lattice.
+/// relative to the lattice. A corner has the lowest level at which it is one, so that regions of different
+/// sizes share its cameras. For camera k of free APV n: {n, 0, kFreeCorner, k}.
 struct CameraId {
   int i = 0, j = 0, corner = 0;  ///< corner numbers the distinct corners of a lattice cell
   int direction = 0;             ///< 0..23
+  int level = 0;                 ///< of the lattice of 2^level times smaller cells
   auto operator<=>(const CameraId&) const = default;
 };
+inline constexpr int kFreeCorner = -1;
 
 /// A capture camera: at most 60 degrees; wider lattice cameras are several of these at one corner.
 struct LayoutCamera {
@@ -34,7 +37,8 @@ struct LayoutCamera {
   double lowAzimuth = 0;   ///< sector [low, low + fov), half-open
   double fovRadians = 0;
   /// Plan polygons, each grown by the near band, of all the regions of the full lattice that this camera
-  /// serves, placed or not (so that a camera's pixels do not depend on which neighbours are placed).
+  /// serves, placed or not (so that a camera's pixels do not depend on which neighbours are placed; they do
+  /// depend on which are split).
   std::vector<ConvexPolygon> served;
 };
 
@@ -46,12 +50,30 @@ struct BorderLine {
   glm::dvec2 direction() const { return to - from; }
 };
 
-/// One piece of a cover: all of the camera's sector that lies outside the region.
+/// One side of a line: with `left`, points left of it and on it; else those right of it.
+struct HalfPlane {
+  BorderLine line;
+  bool left = true;
+  bool holds(const glm::dvec2& point) const;  ///< exact
+};
+
+/// Where the sectors of a gap's cameras overlap, the part that is one piece's.
+struct Clip {
+  HalfPlane side;
+  /// The neighbour's claim: `side` decides only between points that it holds too. Three lines that meet in one
+  /// point never quite do after rounding; this way nothing is lost between them.
+  std::optional<HalfPlane> claim = std::nullopt;
+  bool holds(const glm::dvec2& point) const { return (claim && !claim->holds(point)) || side.holds(point); }
+};
+
+/// One piece of a cover: what of the camera's sector lies outside the region, within `clip`.
 struct Piece {
   int camera = 0;        ///< into Layout::cameras
   glm::dvec2 apex{0};    ///< the camera's position
-  BorderLine low, high;  ///< half-open: points on `low` belong to the piece. An edge strip's lines end at the
-                         ///< edge's ends.
+  BorderLine low, high;  ///< of the camera's sector; half-open: points on `low` belong to it
+  /// Gap squares and hexagons. `side` holds the sector's beginning at the apex, so a ray from the apex leaves
+  /// the piece once, or never.
+  std::optional<Clip> clip = std::nullopt;
 
   /// Does the piece's sector hold the point? (exact; only meaningful outside the region)
   bool holds(const glm::dvec2& point) const;
@@ -60,7 +82,8 @@ struct Piece {
 /// Pieces that tile the outside of a region exactly once, as seen from any eye in it.
 /// A ring's pieces are in ring order (counter-clockwise by centre of projection).
 struct Cover {
-  Hand hand = Hand::counterClockwise;  ///< rings; gaps have one cover, hand unused
+  Hand hand = Hand::counterClockwise;  ///< of gap squares and hexagons: their strips are seen from the corner
+                                       ///< at the right (counter-clockwise) or left; gap triangles: unused
   std::vector<Piece> pieces;
   /// Gap regions: pieces [0, wedges) are corner wedges, the rest edge strips (wedges are farther).
   int wedges = 0;
@@ -71,16 +94,21 @@ struct Region {
   RegionKind kind = RegionKind::ring;
   ConvexPolygon polygon;      ///< counter-clockwise
   ConvexPolygon grown;        ///< by the near band
-  std::vector<Cover> covers;  ///< ring: [counterClockwise, clockwise]; gap: [0]
+  /// Rings, gap squares and hexagons: [counterClockwise, clockwise]; gap triangles and free APVs: [0].
+  std::vector<Cover> covers;
 };
+
+class RegionIndex;
 
 struct Layout {
   LayoutSpec spec;
   std::vector<Region> regions;
   std::vector<LayoutCamera> cameras;  ///< those that some placed region needs, sorted by id
+  std::shared_ptr<const RegionIndex> index;  ///< made by buildLayout: which region holds a point
 
   double eyeZ() const { return spec.floorHeight + spec.eyeHeight; }
-  /// Region that holds a point (exactly one on shared borders); nothing outside all.
+  /// Region that holds a point (exactly one on shared borders; of overlapping free APVs the one with the
+  /// lowest number); nothing outside all.
   std::optional<int> regionAt(const glm::dvec2& point) const;
   /// Nearest placed region and the nearest point in it.
   struct Nearest {
@@ -89,12 +117,19 @@ struct Layout {
   };
   Nearest nearestRegion(const glm::dvec2& point) const;
   std::optional<int> findRegion(const CellId& id) const;
+  std::optional<int> findCamera(const CameraId& id) const;
+  /// Traditional panoramas that can fill what a region's own cover leaves open: at its corners where the
+  /// cameras look all round (c, e, g), and free ones that serve it. Nearest first is not implied.
+  std::vector<Cover> panoramasFor(int region) const;
 };
 
 Result<Layout> buildLayout(const LayoutSpec& spec);
 
-/// Address and outline of the lattice region that holds a point, placed or not (for adding and dragging
-/// cells).
+/// How far from a free panorama a region may lie that it helps, metres.
+inline double panoramaReach(const LayoutSpec& spec) { return spec.cellSize; }
+
+/// Address and outline of the lattice region that holds a point, placed or not (for adding, dragging and
+/// splitting cells); of split regions, the smallest.
 struct LatticeCell {
   CellId id;
   RegionKind kind;

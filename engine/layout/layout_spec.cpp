@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
 #include "engine/layout/lattice.h"
 #include "engine/layout/region_limit.h"
@@ -56,20 +57,48 @@ Status checkOutline(const Outline& outline) {
   return {};
 }
 
-Status checkCells(const char* what, const std::set<CellId>& cells, const std::optional<Lattice>& lattice) {
+std::string describe(const CellId& id) {
+  return id.level == 0 ? fmt::format("({}, {}, {})", id.i, id.j, id.slot)
+                       : fmt::format("({}, {}, {}, level {})", id.i, id.j, id.slot, id.level);
+}
+
+Status checkCells(const char* what, const std::set<CellId>& cells, const LayoutSpec& spec,
+                  const Lattice& lattice, bool needsParent) {
+  const Configuration configuration = spec.configuration;
   for (const CellId& id : cells) {
     const bool far =
         std::abs(std::int64_t(id.i)) > kMaxCellIndex || std::abs(std::int64_t(id.j)) > kMaxCellIndex;
-    if (far || id.slot < 0 || (lattice && id.slot >= lattice->slots()))
+    const bool level = id.level == 0 || (canSplit(configuration) && id.level > 0 && id.level <= kMaxLevel);
+    if (far || !level || id.slot < 0 || id.slot >= lattice.slots())
       return refuse(
-          fmt::format("the {} region ({}, {}, {}) does not exist in this configuration; take it off the list",
-                      what, id.i, id.j, id.slot));
-    if (!lattice) continue;
-    for (const glm::dvec2& corner : lattice->polygonOf(id).corners)
+          fmt::format("the {} region {} does not exist in configuration {}; take it off the list", what,
+                      describe(id), nameOf(configuration)));
+    for (const glm::dvec2& corner : lattice.polygonOf(id).corners)
       if (!(std::abs(corner.x) <= 2 * kMaxCoordinate && std::abs(corner.y) <= 2 * kMaxCoordinate))
-        return refuse(
-            fmt::format("the {} region ({}, {}, {}) lies farther than {} m out; take it off the list", what,
-                        id.i, id.j, id.slot, 2 * kMaxCoordinate));
+        return refuse(fmt::format("the {} region {} lies farther than {} m out; take it off the list", what,
+                                  describe(id), 2 * kMaxCoordinate));
+    // Regions of different sizes must not overlap.
+    if (id.level > 0 && needsParent && !spec.split.contains(lattice.parentOf(id)))
+      return refuse(fmt::format("the {} region {} is part of {}, which is not split; split that, or take this "
+                                "off the list",
+                                what, describe(id), describe(lattice.parentOf(id))));
+  }
+  return {};
+}
+
+Status checkFreeApvs(const LayoutSpec& spec) {
+  if (spec.freeApvs.size() > std::size_t(kMaxFreeApvs))
+    return refuse(fmt::format("{} free APVs, at most {} can be", spec.freeApvs.size(), kMaxFreeApvs));
+  for (const auto& [number, apv] : spec.freeApvs) {
+    if (Status status = apv.check(); !status)
+      return refuse(fmt::format("free APV {}: {}", number, status.error().message));
+    if (!(std::abs(apv.centre.x) <= kMaxCoordinate && std::abs(apv.centre.y) <= kMaxCoordinate))
+      return refuse(fmt::format("free APV {} lies farther than {} m out", number, kMaxCoordinate));
+    const double radius = glm::length(apv.offset);
+    if (!apv.traditional() && !(radius >= 0.01 && radius <= 1000))
+      return refuse(fmt::format("free APV {} has an offset of {} m; it must be 0 (a traditional panorama) or "
+                                "lie in 0.01..1000",
+                                number, radius));
   }
   return {};
 }
@@ -95,7 +124,10 @@ Result<Configuration> parseConfiguration(std::string_view name) {
       fmt::format("there is no configuration '{}'; choose one of a, b, c, d, e, f, g", name.substr(0, 40)));
 }
 
-bool isSupported(Configuration configuration) { return latticeTable(configuration) != nullptr; }
+bool canSplit(Configuration configuration) {
+  const LatticeTable* table = latticeTable(configuration);
+  return table != nullptr && table->splits();
+}
 
 Status LayoutSpec::check() const {
   if (std::string_view(nameOf(configuration)) == "?") return refuse("the configuration is not one of a to g");
@@ -109,13 +141,24 @@ Status LayoutSpec::check() const {
         checkRange("the near band in metres", nearBand, 0, 1000), checkOutline(outline)})
     if (!status) return status;
   const std::optional<Lattice> lattice = Lattice::of(*this);
-  if (Status status = checkCells("added", added, lattice); !status) return status;
-  if (Status status = checkCells("removed", removed, lattice); !status) return status;
+  require(lattice.has_value(), "a named configuration has a lattice");
+  if (!split.empty() && !canSplit(configuration))
+    return refuse(fmt::format("regions of configuration {} cannot be split; only those of e and g can",
+                              nameOf(configuration)));
+  for (const Status& status :
+       {checkCells("added", added, *this, *lattice, true),
+        checkCells("removed", removed, *this, *lattice, false),
+        checkCells("split", split, *this, *lattice, true), checkFreeApvs(*this)})
+    if (!status) return status;
+  for (const CellId& id : split)
+    if (id.level >= kMaxLevel)
+      return refuse(fmt::format("the region {} is split once more than {} times", describe(id), kMaxLevel));
+  if (split.size() > std::size_t(kMaxRegions))
+    return refuse(fmt::format("{} regions are split; at most {} can be", split.size(), kMaxRegions));
   if (added.size() > std::size_t(kMaxRegions) || removed.size() > std::size_t(kMaxRegions))
     return refuse(fmt::format(
         "{} regions are added and {} removed one by one; at most {} of each can be. Edit the outline instead",
         added.size(), removed.size(), kMaxRegions));
-  if (!lattice) return {};
   // By area, without counting: buildLayout counts exactly, and refuses what this just lets through.
   const double byArea = outline.area() / lattice->meanRegionArea() - double(removed.size());
   if (byArea > 1.1 * kMaxRegions) return tooManyRegions(byArea, cellSize);
@@ -134,9 +177,14 @@ void LayoutSpec::addTo(Hasher& hasher) const {
     hasher.value(std::uint64_t(loop.size()));
     for (const glm::dvec2& point : loop) hasher.value(point.x).value(point.y);
   }
-  for (const auto* cells : {&added, &removed}) {
+  for (const auto* cells : {&added, &removed, &split}) {
     hasher.value(std::uint64_t(cells->size()));
-    for (const CellId& id : *cells) hasher.value(id.i).value(id.j).value(id.slot);
+    for (const CellId& id : *cells) hasher.value(id.i).value(id.j).value(id.slot).value(id.level);
+  }
+  hasher.value(std::uint64_t(freeApvs.size()));
+  for (const auto& [number, apv] : freeApvs) {
+    hasher.value(number).value(apv.centre.x).value(apv.centre.y).value(apv.offset.x).value(apv.offset.y);
+    hasher.value(apv.fovDegrees).value(apv.hand);
   }
 }
 

@@ -4,12 +4,14 @@
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <set>
 #include <string_view>
 
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
 #include "engine/geometry/outline.h"
+#include "engine/layout/apv.h"
 
 namespace acentric {
 
@@ -18,13 +20,21 @@ enum class Configuration : std::uint8_t { a, b, c, d, e, f, g };
 const char* nameOf(Configuration configuration);    ///< "a" ... "g"
 const char* describe(Configuration configuration);  ///< "60° cameras, hexagons and triangles (3.6.3.6)"
 Result<Configuration> parseConfiguration(std::string_view name);
-bool isSupported(Configuration configuration);  ///< by buildLayout, today
+/// Can single cells be split into four of half the size? (e and g: a full panorama stands at each corner)
+bool canSplit(Configuration configuration);
 
 /// Integer address of a region in the lattice. `slot` numbers the regions of one lattice cell (0 = ring).
 struct CellId {
   int i = 0, j = 0, slot = 0;
+  int level = 0;  ///< of the lattice of 2^level times smaller cells
   auto operator<=>(const CellId&) const = default;
 };
+
+/// The region of free APV `number` has the address {number, 0, kFreeSlot}.
+inline constexpr int kFreeSlot = -1;
+/// Cells are split at most this often.
+inline constexpr int kMaxLevel = 6;
+inline constexpr int kMaxFreeApvs = 1000;
 
 struct LayoutSpec {
   Configuration configuration = Configuration::b;
@@ -37,12 +47,14 @@ struct LayoutSpec {
   Outline outline;           ///< every region that overlaps it is placed ...
   std::set<CellId> added;    ///< ... and these ...
   std::set<CellId> removed;  ///< ... but not these
+  std::set<CellId> split;    ///< regions that give way to four of half the size (which may be split again)
+  std::map<int, Apv> freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
 
   Status check() const;  ///< finite, cellSize in [0.05, 1000], no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;
   bool operator==(const LayoutSpec&) const = default;
 };
 
-inline constexpr int kMaxRegions = 20000;
+inline constexpr int kMaxRegions = 250'000;
 
 }  // namespace acentric

@@ -60,7 +60,7 @@ std::vector<int> cullTriangleAsInPaper(const Cover& gap, const ViewSector& view)
   require(gap.pieces.size() == 6 && gap.wedges == 3, "Fig. 10 is about the gap triangle");
   const Borders eye = bordersOf(view);
   const auto exterior = [&](int k) -> const Piece& { return gap.pieces[std::size_t(k % 3)]; };
-  const auto interior = [&](int k) -> const Piece& { return gap.pieces[std::size_t(3 + k % 3)]; };
+  const auto interior = [&](int k) -> const Piece& { return gap.pieces[std::size_t(3 + (k + 1) % 3)]; };
 
   const glm::dvec2 looking = directionOf(view.azimuths.low + 0.5 * view.azimuths.width);
   int chosen = 0;

@@ -61,6 +61,26 @@ std::vector<CellId> cellsOverlapping(const Outline& outline, const Lattice& latt
   return found;
 }
 
+namespace {
+
+/// The regions that a placed one gives way to, by its splits: all parts of one that was added by hand, else
+/// those that overlap the outline.
+void addLeaves(const CellId& cell, bool byHand, const LayoutSpec& spec, const Lattice& lattice,
+               std::vector<CellId>& leaves) {
+  if (spec.removed.contains(cell)) return;
+  if (!spec.split.contains(cell)) {
+    leaves.push_back(cell);
+    return;
+  }
+  for (const CellId& child : lattice.childrenOf(cell)) {
+    const bool childByHand = byHand || spec.added.contains(child);
+    if (childByHand || spec.outline.overlaps(lattice.polygonOf(child)))
+      addLeaves(child, childByHand, spec, lattice, leaves);
+  }
+}
+
+}  // namespace
+
 Result<std::vector<CellId>> placedCells(const LayoutSpec& spec, const Lattice& lattice) {
   const std::size_t limit = std::size_t(kMaxRegions) + spec.removed.size();
   std::vector<CellId> cells = cellsOverlapping(spec.outline, lattice, limit);
@@ -72,9 +92,13 @@ Result<std::vector<CellId>> placedCells(const LayoutSpec& spec, const Lattice& l
     const double estimate = spec.outline.area() / lattice.meanRegionArea() + perimeter / spec.cellSize;
     return tooManyRegions(std::max(estimate, double(cells.size())), spec.cellSize);
   }
-  std::vector<CellId> placed;
-  std::ranges::set_union(cells, spec.added, std::back_inserter(placed));
-  std::erase_if(placed, [&](const CellId& id) { return spec.removed.contains(id); });
+  std::vector<CellId> whole, placed;
+  // Parts that were added by hand within a whole that is not placed stand for themselves.
+  std::ranges::set_union(cells, spec.added, std::back_inserter(whole));
+  for (const CellId& cell : whole) addLeaves(cell, spec.added.contains(cell), spec, lattice, placed);
+  std::ranges::sort(placed);
+  const auto repeats = std::ranges::unique(placed);
+  placed.erase(repeats.begin(), repeats.end());
   if (placed.size() > std::size_t(kMaxRegions)) return tooManyRegions(double(placed.size()), spec.cellSize);
   return placed;
 }

@@ -136,10 +136,6 @@ std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
 Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
                             const Progress& progress, std::stop_token stop) {
-  if (!isSupported(options.configuration))
-    return fail(ErrorKind::unsupported,
-                fmt::format("configuration {} is not built by this version; choose b or e",
-                            nameOf(options.configuration)));
   if (!(options.eyeHeight > 0 && options.eyeHeight <= 1000))
     return fail(ErrorKind::invalidArgument, "eye height must lie in (0, 1000] metres");
   std::error_code error;

@@ -8,6 +8,7 @@
 
 namespace acentric {
 namespace {
+using test::kAllConfigurations;
 using test::makeLayout;
 using test::Placing;
 using test::Random;
@@ -18,7 +19,7 @@ int holders(const Cover& cover, const glm::dvec2& point) {
 }
 
 class CoverOf : public testing::TestWithParam<Configuration> {};
-INSTANTIATE_TEST_SUITE_P(Configurations, CoverOf, testing::Values(Configuration::b, Configuration::e),
+INSTANTIATE_TEST_SUITE_P(Configurations, CoverOf, testing::ValuesIn(kAllConfigurations),
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 const Placing kPlacings[] = {{2, {0, 0}, 0},         {0.05, {0.3, -0.2}, 0.3}, {1000, {10, 20}, 1.1},
@@ -74,7 +75,7 @@ TEST_P(CoverOf, ACamerasSectorIsWhatThePieceHolds) {
           const double inside = random(1e-9, 1 - 1e-9);
           const glm::dvec2 far =
               camera.position + 50.0 * directionOf(camera.lowAzimuth + inside * camera.fovRadians);
-          EXPECT_TRUE(piece.holds(far));
+          EXPECT_EQ(piece.holds(far), !piece.clip || piece.clip->holds(far));
           const double outside = random(1 + 1e-9, kTwoPi / camera.fovRadians - 1e-9);
           EXPECT_FALSE(piece.holds(camera.position +
                                    50.0 * directionOf(camera.lowAzimuth + outside * camera.fovRadians)));
@@ -82,9 +83,10 @@ TEST_P(CoverOf, ACamerasSectorIsWhatThePieceHolds) {
       }
 }
 
-TEST_P(CoverOf, NeighboursProvideTheOtherHand) {
+TEST_P(CoverOf, TheOtherHandIsTheNeighboursExceptInAAndC) {
   // "Auto": the clockwise cameras at each corner are counter-clockwise cameras of neighbours.
-  const Layout layout = makeLayout(GetParam(), {}, 4);
+  const bool automatic = GetParam() != Configuration::a && GetParam() != Configuration::c;
+  const Layout layout = makeLayout(GetParam(), {}, 6);
   std::set<int> counterClockwise;
   for (const Region& region : layout.regions)
     if (region.kind == RegionKind::ring) {
@@ -93,14 +95,48 @@ TEST_P(CoverOf, NeighboursProvideTheOtherHand) {
     }
   int inner = 0;
   for (const Region& region : layout.regions) {
-    if (region.kind != RegionKind::ring || glm::length(region.polygon.centroid()) > 4) continue;
+    if (region.kind != RegionKind::ring || glm::length(region.polygon.centroid()) > 6) continue;
     ++inner;
     ASSERT_EQ(region.covers.size(), 2u);
     EXPECT_EQ(region.covers[0].hand, Hand::counterClockwise);
     EXPECT_EQ(region.covers[1].hand, Hand::clockwise);
-    for (const Piece& piece : region.covers[1].pieces) EXPECT_TRUE(counterClockwise.contains(piece.camera));
+    for (const Piece& piece : region.covers[1].pieces)
+      EXPECT_EQ(counterClockwise.contains(piece.camera), automatic);
   }
   EXPECT_GT(inner, 3);
+}
+
+TEST(CoverOfAGap, EveryPointOutsideIsHeldByTheGapsOwnCornersAsOftenAsTheConfigurationSays) {
+  // By all the cameras that stand at the gap's corners: once in b, twice in a and d, 3 times in g, 4 in f.
+  for (const auto& [configuration, times] :
+       {std::pair{Configuration::a, 2}, std::pair{Configuration::b, 1}, std::pair{Configuration::d, 2},
+        std::pair{Configuration::f, 4}, std::pair{Configuration::g, 3}}) {
+    const Layout layout = makeLayout(configuration, {2, {0.1, 0.2}, 0.3}, 4);
+    Random random(5);
+    int gaps = 0, points = 0;
+    for (const Region& gap : layout.regions) {
+      if (gap.kind == RegionKind::ring || glm::length(gap.polygon.centroid()) > 4) continue;
+      ++gaps;
+      std::set<int> cameras;
+      for (const LayoutCamera& camera : layout.cameras)
+        for (const glm::dvec2& corner : gap.polygon.corners)
+          if (camera.position == corner)
+            cameras.insert(static_cast<int>(&camera - layout.cameras.data()));
+      for (int n = 0; n < 4000; ++n) {
+        const glm::dvec2 point = gap.polygon.centroid() + glm::dvec2(random(-30, 30), random(-30, 30));
+        if (gap.polygon.containsClosed(point)) continue;
+        const auto held = std::ranges::count_if(cameras, [&](int c) {
+          const LayoutCamera& camera = layout.cameras[std::size_t(c)];
+          const glm::dvec2 to = point - camera.position;
+          return wrapAngle(std::atan2(to.y, to.x) - camera.lowAzimuth) < camera.fovRadians;
+        });
+        ASSERT_EQ(held, times) << nameOf(configuration);
+        ++points;
+      }
+    }
+    EXPECT_GT(gaps, 2);
+    EXPECT_GT(points, 8000);
+  }
 }
 
 TEST(CoverOfAGap, GapTrianglesHaveThreeWedgesAndThreeStripsOfSixCameras) {
@@ -118,21 +154,23 @@ TEST(CoverOfAGap, GapTrianglesHaveThreeWedgesAndThreeStripsOfSixCameras) {
   EXPECT_GT(triangles, 2);
 }
 
-TEST(Cameras, EachKagomeCornerHasTwoAndEachSquareCornerEight) {
-  for (const auto& [configuration, expected] :
-       {std::pair{Configuration::b, 2}, std::pair{Configuration::e, 8}}) {
-    const Layout layout = makeLayout(configuration, {}, 3);
+TEST(Cameras, StandAtEachCornerAsTheConfigurationSays) {
+  // Captured cameras are at most 60 degrees wide: 8 for the panorama of e, 6 for that of g, 4 where two of 90
+  // or 120 degrees stand (d, f).
+  constexpr int kExpected[] = {4, 2, 6, 4, 8, 4, 6};
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {}, 5);
     std::map<std::tuple<int, int, int>, int> perCorner;
     for (const LayoutCamera& camera : layout.cameras)
       ++perCorner[{camera.id.i, camera.id.j, camera.id.corner}];
     int most = 0;
     for (const auto& [corner, count] : perCorner) most = std::max(most, count);
-    EXPECT_EQ(most, expected);
+    EXPECT_EQ(most, kExpected[int(configuration)]) << nameOf(configuration);
   }
 }
 
 TEST(Cameras, AreSortedUniqueAndIndependentOfTheNeighboursPlaced) {
-  for (const Configuration configuration : {Configuration::b, Configuration::e}) {
+  for (const Configuration configuration : kAllConfigurations) {
     const Layout many = makeLayout(configuration, {2, {3, 1}, 0.4}, 4);
     EXPECT_TRUE(std::ranges::is_sorted(many.cameras, std::ranges::less_equal{}, &LayoutCamera::id));
     for (std::size_t k = 1; k < many.cameras.size(); ++k)

@@ -10,6 +10,7 @@
 namespace acentric {
 namespace {
 using test::crossedAlongRay;
+using test::kAllConfigurations;
 using test::makeLayout;
 using test::Placing;
 using test::Random;
@@ -57,7 +58,7 @@ int expectPaintedOrder(const Layout& layout, int r, const Cover& cover, const Vi
 }
 
 class DrawingOrderOf : public testing::TestWithParam<Configuration> {};
-INSTANTIATE_TEST_SUITE_P(Configurations, DrawingOrderOf, testing::Values(Configuration::b, Configuration::e),
+INSTANTIATE_TEST_SUITE_P(Configurations, DrawingOrderOf, testing::ValuesIn(kAllConfigurations),
                          [](const auto& test) { return std::string(nameOf(test.param)); });
 
 TEST_P(DrawingOrderOf, RaysCrossPiecesInPaintedOrderForEveryWidth) {

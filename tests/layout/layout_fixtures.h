@@ -17,6 +17,10 @@ struct Placing {
   double rotation = 0;
 };
 
+inline constexpr Configuration kAllConfigurations[] = {
+    Configuration::a, Configuration::b, Configuration::c, Configuration::d,
+    Configuration::e, Configuration::f, Configuration::g};
+
 /// Everything that touches a box of about `halfCells` cells around the lattice's origin.
 inline Layout makeLayout(Configuration configuration, const Placing& placing = {}, double halfCells = 1.6) {
   LayoutSpec spec;
@@ -74,6 +78,7 @@ inline std::vector<int> crossedAlongRay(const Region& region, const Cover& cover
   for (const Piece& piece : cover.pieces) {
     stopAt(piece.low.from, piece.low.to);
     stopAt(piece.high.from, piece.high.to);
+    if (piece.clip) stopAt(piece.clip->side.line.from, piece.clip->side.line.to);
   }
   if (const auto span = region.polygon.raySpan(eye, direction)) leave = span->second;
   stops.push_back(leave);

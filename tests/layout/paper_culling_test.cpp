@@ -18,7 +18,7 @@ std::vector<int> cameras(const std::vector<OrderedPiece>& ordered) {
 
 TEST(PaperCulling, InARingAgreesWithTheGenericOrder) {
   Random random(21);
-  for (const Configuration configuration : {Configuration::b, Configuration::e}) {
+  for (const Configuration configuration : test::kAllConfigurations) {
     const Layout layout = makeLayout(configuration);
     for (int n = 0; n < 5000; ++n) {
       const int r = random.index(layout.regions.size());
