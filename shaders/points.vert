@@ -1,4 +1,4 @@
-// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, LAYERED; for captures with clear samples,
+// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
 // OPAQUE (draws the others) and CLEAR (draws these, one rank at a time).
 //
 // A sample of column direction c, row tangent t and inverse horizontal distance w lies, seen from the eye, along
@@ -19,7 +19,7 @@ struct Column {
   uvec4 parts;         // samples [x, y) lie above the pivot row, [y, z) below; w: 1 = draw towards the pivot, 0 = away
   vec2 inPlan;         // c
   float footInverse;   // samples of a larger inverse distance lie before the foot of the perpendicular from the eye
-  float unused;
+  float leastInverse;  // of a clipped piece: farther samples are another's
 };
 
 layout(std430, binding = 0) readonly buffer Samples { Sample samples[]; };
@@ -99,6 +99,9 @@ void main() {
   gl_PointSize = 1.0;
   gl_Position = kOutside;
   if (w > column.inPicture.w || !(q.z > 0.0)) return;
+#ifdef CLIP_TO_PIECE
+  if (w < column.leastInverse) return;
+#endif
 #ifdef OPAQUE
   if (colour.a < 1.0) return;
 #endif

@@ -21,8 +21,9 @@ struct BorderTemplate {
 
 struct ClipTemplate {
   BorderTemplate line;
-  bool left = true;                     ///< HalfPlane::left
-  std::optional<BorderTemplate> claim;  ///< the neighbour's: its left side, if `left` is false; else its right
+  bool left = true;  ///< HalfPlane::left
+  std::optional<BorderTemplate>
+      claim;  ///< the neighbour's: its left side, if `left` is false; else its right
 };
 
 struct PieceTemplate {

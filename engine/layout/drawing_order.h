@@ -23,12 +23,13 @@ struct OrderedPiece {
   std::optional<Clip> clip = std::nullopt;  ///< the piece's: samples outside it are not drawn
 };
 
-/// Hand to use in a ring, or for the strips of a gap square or hexagon: counter-clockwise when the polygon's centre lies left of the viewing ray (paper
-/// Fig. 8).
+/// Hand to use in a ring, or for the strips of a gap square or hexagon: counter-clockwise when the polygon's
+/// centre lies left of the viewing ray (paper Fig. 8).
 Hand preferredHand(const Region& region, const glm::dvec2& eye, double viewAzimuth);
 
-/// Visible pieces of one of the region's covers, or of a panorama (Layout::panoramasFor), back to front. For an eye inside the region and any width; views wider than one linear
-/// order serves are split, and each part's pieces follow in order (parts do not overlap on the picture).
+/// Visible pieces of one of the region's covers, or of a panorama (Layout::panoramasFor), back to front. For
+/// an eye inside the region and any width; views wider than one linear order serves are split, and each
+/// part's pieces follow in order (parts do not overlap on the picture).
 std::vector<OrderedPiece> visiblePieces(const Layout& layout, int region, const Cover& cover,
                                         const ViewSector& sector);
 

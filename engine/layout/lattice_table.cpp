@@ -48,7 +48,8 @@ LatticeTable hexagons() {
   table.stepI = {1.5, kHigh};
   table.stepJ = {0, 2 * kHigh};
   table.cornerOffsets = {{1, 0}, {0.5, kHigh}};
-  table.regions = {{RegionKind::ring, {{0, 0, 0}, {0, 0, 1}, {-1, 1, 0}, {-1, 0, 1}, {-1, 0, 0}, {0, -1, 1}}}};
+  table.regions = {
+      {RegionKind::ring, {{0, 0, 0}, {0, 0, 1}, {-1, 1, 0}, {-1, 0, 1}, {-1, 0, 0}, {0, -1, 1}}}};
   table.apvSteps = 4;
   table.cameraSteps = 4;
   table.cellArea = 3 * kHigh;

@@ -27,9 +27,9 @@ struct LatticeTable {
   std::vector<RegionTemplate> regions;    ///< by slot; slot 0 is a ring around the cell's origin
   /// Can regions be split? Then the one corner of a cell at (i, j) / 2^level is the corner of all levels.
   bool splits() const { return cornerOffsets.size() == 1; }
-  int apvSteps = 0;                       ///< the configuration's field of view v
-  int cameraSteps = 0;                    ///< of a stored camera; divides apvSteps, at most 4 (60 degrees)
-  double cellArea = 0;                    ///< of a unit cell, in squared edge lengths
+  int apvSteps = 0;     ///< the configuration's field of view v
+  int cameraSteps = 0;  ///< of a stored camera; divides apvSteps, at most 4 (60 degrees)
+  double cellArea = 0;  ///< of a unit cell, in squared edge lengths
 };
 
 /// Nothing for a value that is none of a to g.

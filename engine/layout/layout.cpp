@@ -44,8 +44,8 @@ std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vect
 std::vector<ConvexPolygon> regionsAround(const Lattice& lattice, const glm::dvec2& point, double reach) {
   std::vector<ConvexPolygon> around;
   Outline box;
-  box.loops = {{point - reach, {point.x + reach, point.y - reach}, point + reach,
-                {point.x - reach, point.y + reach}}};
+  box.loops = {
+      {point - reach, {point.x + reach, point.y - reach}, point + reach, {point.x - reach, point.y + reach}}};
   for (const CellId& cell : cellsOverlapping(box, lattice, std::size_t(kMaxRegions))) {
     ConvexPolygon polygon = lattice.polygonOf(cell);
     if (glm::distance(polygon.nearestPoint(point), point) <= reach) around.push_back(std::move(polygon));
@@ -244,8 +244,7 @@ Result<Layout> buildLayout(const LayoutSpec& spec) {
   for (const CellId& id : *cells)
     layout.regions.push_back(makeRegion(*lattice, id, spec.nearBand, layout.cameras));
   for (const auto& [number, apv] : spec.freeApvs)
-    if (!apv.traditional())
-      layout.regions.push_back(freeRegion(number, apv, spec.nearBand, layout.cameras));
+    if (!apv.traditional()) layout.regions.push_back(freeRegion(number, apv, spec.nearBand, layout.cameras));
   layout.index = std::make_shared<const RegionIndex>(spec, *lattice, layout.regions);
   return layout;
 }

@@ -60,8 +60,8 @@ struct HalfPlane {
 /// Where the sectors of a gap's cameras overlap, the part that is one piece's.
 struct Clip {
   HalfPlane side;
-  /// The neighbour's claim: `side` decides only between points that it holds too. Three lines that meet in one
-  /// point never quite do after rounding; this way nothing is lost between them.
+  /// The neighbour's claim: `side` decides only between points that it holds too. Three lines that meet in
+  /// one point never quite do after rounding; this way nothing is lost between them.
   std::optional<HalfPlane> claim = std::nullopt;
   bool holds(const glm::dvec2& point) const { return (claim && !claim->holds(point)) || side.holds(point); }
 };
@@ -92,8 +92,8 @@ struct Cover {
 struct Region {
   CellId id;
   RegionKind kind = RegionKind::ring;
-  ConvexPolygon polygon;      ///< counter-clockwise
-  ConvexPolygon grown;        ///< by the near band
+  ConvexPolygon polygon;  ///< counter-clockwise
+  ConvexPolygon grown;    ///< by the near band
   /// Rings, gap squares and hexagons: [counterClockwise, clockwise]; gap triangles and free APVs: [0].
   std::vector<Cover> covers;
 };
@@ -103,7 +103,7 @@ class RegionIndex;
 struct Layout {
   LayoutSpec spec;
   std::vector<Region> regions;
-  std::vector<LayoutCamera> cameras;  ///< those that some placed region needs, sorted by id
+  std::vector<LayoutCamera> cameras;         ///< those that some placed region needs, sorted by id
   std::shared_ptr<const RegionIndex> index;  ///< made by buildLayout: which region holds a point
 
   double eyeZ() const { return spec.floorHeight + spec.eyeHeight; }

@@ -70,18 +70,18 @@ Status checkCells(const char* what, const std::set<CellId>& cells, const LayoutS
         std::abs(std::int64_t(id.i)) > kMaxCellIndex || std::abs(std::int64_t(id.j)) > kMaxCellIndex;
     const bool level = id.level == 0 || (canSplit(configuration) && id.level > 0 && id.level <= kMaxLevel);
     if (far || !level || id.slot < 0 || id.slot >= lattice.slots())
-      return refuse(
-          fmt::format("the {} region {} does not exist in configuration {}; take it off the list", what,
-                      describe(id), nameOf(configuration)));
+      return refuse(fmt::format("the {} region {} does not exist in configuration {}; take it off the list",
+                                what, describe(id), nameOf(configuration)));
     for (const glm::dvec2& corner : lattice.polygonOf(id).corners)
       if (!(std::abs(corner.x) <= 2 * kMaxCoordinate && std::abs(corner.y) <= 2 * kMaxCoordinate))
         return refuse(fmt::format("the {} region {} lies farther than {} m out; take it off the list", what,
                                   describe(id), 2 * kMaxCoordinate));
     // Regions of different sizes must not overlap.
     if (id.level > 0 && needsParent && !spec.split.contains(lattice.parentOf(id)))
-      return refuse(fmt::format("the {} region {} is part of {}, which is not split; split that, or take this "
-                                "off the list",
-                                what, describe(id), describe(lattice.parentOf(id))));
+      return refuse(
+          fmt::format("the {} region {} is part of {}, which is not split; split that, or take this "
+                      "off the list",
+                      what, describe(id), describe(lattice.parentOf(id))));
   }
   return {};
 }
@@ -96,9 +96,10 @@ Status checkFreeApvs(const LayoutSpec& spec) {
       return refuse(fmt::format("free APV {} lies farther than {} m out", number, kMaxCoordinate));
     const double radius = glm::length(apv.offset);
     if (!apv.traditional() && !(radius >= 0.01 && radius <= 1000))
-      return refuse(fmt::format("free APV {} has an offset of {} m; it must be 0 (a traditional panorama) or "
-                                "lie in 0.01..1000",
-                                number, radius));
+      return refuse(
+          fmt::format("free APV {} has an offset of {} m; it must be 0 (a traditional panorama) or "
+                      "lie in 0.01..1000",
+                      number, radius));
   }
   return {};
 }
@@ -145,10 +146,9 @@ Status LayoutSpec::check() const {
   if (!split.empty() && !canSplit(configuration))
     return refuse(fmt::format("regions of configuration {} cannot be split; only those of e and g can",
                               nameOf(configuration)));
-  for (const Status& status :
-       {checkCells("added", added, *this, *lattice, true),
-        checkCells("removed", removed, *this, *lattice, false),
-        checkCells("split", split, *this, *lattice, true), checkFreeApvs(*this)})
+  for (const Status& status : {checkCells("added", added, *this, *lattice, true),
+                               checkCells("removed", removed, *this, *lattice, false),
+                               checkCells("split", split, *this, *lattice, true), checkFreeApvs(*this)})
     if (!status) return status;
   for (const CellId& id : split)
     if (id.level >= kMaxLevel)

@@ -48,7 +48,8 @@ struct LayoutSpec {
   std::set<CellId> added;    ///< ... and these ...
   std::set<CellId> removed;  ///< ... but not these
   std::set<CellId> split;    ///< regions that give way to four of half the size (which may be split again)
-  std::map<int, Apv> freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
+  std::map<int, Apv>
+      freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
 
   Status check() const;  ///< finite, cellSize in [0.05, 1000], no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;

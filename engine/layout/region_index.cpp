@@ -21,8 +21,8 @@ RegionIndex::RegionIndex(const LayoutSpec& spec, const Lattice& lattice, const s
     places_.emplace(regions[r].id, static_cast<int>(r));
     if (regions[r].id.slot != kFreeSlot) continue;
     const Apv& apv = spec.freeApvs.at(regions[r].id.i);
-    free_.push_back({static_cast<int>(r), apv.centre, glm::length(apv.offset) * (1 + 1e-9),
-                     regions[r].polygon});
+    free_.push_back(
+        {static_cast<int>(r), apv.centre, glm::length(apv.offset) * (1 + 1e-9), regions[r].polygon});
   }
 }
 

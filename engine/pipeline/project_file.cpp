@@ -45,13 +45,39 @@ glm::dvec2 pointFrom(const Json& json) { return {json[0].get<double>(), json[1].
 
 Json toJson(const std::set<CellId>& cells) {
   Json out = Json::array();
-  for (const CellId& cell : cells) out.push_back({cell.i, cell.j, cell.slot});
+  for (const CellId& cell : cells) {
+    Json address{cell.i, cell.j, cell.slot};
+    if (cell.level != 0) address.push_back(cell.level);
+    out.push_back(std::move(address));
+  }
   return out;
 }
 
 std::set<CellId> cellsFrom(const Json& json) {
   std::set<CellId> out;
-  for (const Json& cell : json) out.insert({cell[0].get<int>(), cell[1].get<int>(), cell[2].get<int>()});
+  for (const Json& cell : json)
+    out.insert({cell[0].get<int>(), cell[1].get<int>(), cell[2].get<int>(),
+                cell.size() > 3 ? cell[3].get<int>() : 0});
+  return out;
+}
+
+Json toJson(const std::map<int, Apv>& apvs) {
+  Json out = Json::array();
+  for (const auto& [number, apv] : apvs)
+    out.push_back({{"number", number},
+                   {"centre", toJson(apv.centre)},
+                   {"offset", toJson(apv.offset)},
+                   {"cameras", apv.cameraCount()},
+                   {"hand", apv.hand == Hand::clockwise ? "clockwise" : "counterClockwise"}});
+  return out;
+}
+
+std::map<int, Apv> apvsFrom(const Json& json) {
+  std::map<int, Apv> out;
+  for (const Json& apv : json)
+    out[apv.at("number").get<int>()] = {
+        pointFrom(apv.at("centre")), pointFrom(apv.at("offset")), 360.0 / apv.at("cameras").get<int>(),
+        apv.value("hand", "counterClockwise") == "clockwise" ? Hand::clockwise : Hand::counterClockwise};
   return out;
 }
 
@@ -75,7 +101,9 @@ Json toJson(const LayoutSpec& spec) {
           {"nearBand", spec.nearBand},
           {"outline", toJson(spec.outline)},
           {"added", toJson(spec.added)},
-          {"removed", toJson(spec.removed)}};
+          {"removed", toJson(spec.removed)},
+          {"split", toJson(spec.split)},
+          {"freeApvs", toJson(spec.freeApvs)}};
 }
 
 template <class T>
@@ -101,6 +129,8 @@ LayoutSpec layoutFrom(const Json& json) {
     }
   if (json.contains("added")) spec.added = cellsFrom(json["added"]);
   if (json.contains("removed")) spec.removed = cellsFrom(json["removed"]);
+  if (json.contains("split")) spec.split = cellsFrom(json["split"]);
+  if (json.contains("freeApvs")) spec.freeApvs = apvsFrom(json["freeApvs"]);
   return spec;
 }
 

@@ -29,15 +29,27 @@ std::vector<float> largestInverseDistances(const DisplayCapture& capture, const 
   return limits;
 }
 
+/// Where each column's ray leaves the piece; 0 where it never does (the sky is then the piece's).
+std::vector<float> leastInverseDistances(const DisplayCapture& capture, const Clip& clip) {
+  std::vector<float> limits(static_cast<std::size_t>(capture.camera.columns), 0.0f);
+  const glm::dvec2 centre(capture.camera.centreOfProjection), along = clip.side.line.direction();
+  const double away = cross(along, centre - clip.side.line.from);  // > 0: the centre lies left
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const double rate = cross(along, capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    const double distance = -away / rate;
+    if (clip.side.left ? rate < 0 : rate > 0)
+      limits[k] = distance > 0 ? static_cast<float>((1 - kBorderSlack) / distance) : kInfinity;
+  }
+  return limits;
+}
+
 std::vector<char> visibleColumns(const DisplayCapture& capture, const PieceDraw& piece,
                                  const FrustumPlanes& planes) {
   const TangentRange rows{capture.camera.tangentAt(capture.camera.rows - 0.5), capture.camera.tangentAt(0.5)};
   std::vector<char> visible(static_cast<std::size_t>(capture.camera.columns), 0);
   for (std::size_t k = 0; k < visible.size(); ++k) {
-    const glm::vec2 range = capture.columnRange[k];
-    const glm::dvec2 used(range.x, std::min(range.y, piece.maxInverseDistance[k]));
     visible[k] = visibleTangents(planes, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
-                                 used, rows)
+                                 glm::dvec2(drawnRange(capture, piece, k)), rows)
                      .has_value();
   }
   return visible;
@@ -52,8 +64,8 @@ bool mostlyBeforeFoot(const DisplayCapture& capture, const PieceDraw& piece) {
       const std::size_t column = static_cast<std::size_t>(k);
       const RowOrder order =
           rowOrder(glm::dvec2(capture.columnDirection[column]), -glm::dvec3(piece.baseline));
-      const glm::vec2 range = capture.columnRange[column];
-      before += 0.5f * (range.x + std::min(range.y, piece.maxInverseDistance[column])) > order.footInverse;
+      const glm::vec2 range = drawnRange(capture, piece, column);
+      before += 0.5f * (range.x + range.y) > order.footInverse;
       ++all;
     }
   return 2 * before > all;
@@ -104,6 +116,7 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
       piece.secondary = secondary;
       piece.baseline = glm::vec3(capture.camera.centreOfProjection - view.eye);
       piece.maxInverseDistance = largestInverseDistances(capture, region.grown);
+      if (ordered.clip) piece.minInverseDistance = leastInverseDistances(capture, *ordered.clip);
       const ColumnOrder order =
           columnOrder(capture.camera, eye - glm::dvec2(capture.camera.centreOfProjection));
       piece.epipoleColumn = order.epipoleColumn;
@@ -115,9 +128,11 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
   };
 
   const Cover& chosen = chooseCover(region, sector);
-  if (settings.secondaryCover)
+  if (settings.secondaryCover) {
+    for (const Cover& panorama : layout.panoramasFor(plan.region)) addCover(panorama, true);
     for (const Cover& cover : region.covers)
       if (&cover != &chosen) addCover(cover, true);
+  }
   addCover(chosen, false);
   plan.missingImages = static_cast<int>(missing.size());
   return plan;

@@ -1,8 +1,9 @@
 #pragma once
 /// What a frame draws, decided once for all renderers: pieces back to front, and per column of each capture
 /// the largest inverse distance that this region needs from it (nearer samples lie inside the grown region,
-/// where local geometry is drawn).
+/// where local geometry is drawn), and the least (farther ones lie outside the piece, in another's).
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/geometry/perspective_view.h"
@@ -27,11 +28,19 @@ struct PieceDraw {
   bool secondary = false;                 ///< the other hand, painted behind
   std::vector<ColumnRun> runs;            ///< after culling columns that cannot fall on the picture
   std::vector<float> maxInverseDistance;  ///< per column of the capture; infinity = all
+  std::vector<float> minInverseDistance;  ///< the same for a piece that is clipped; else empty
   glm::vec3 baseline{0};                  ///< b = P - E, metres
   bool nearestFirst =
       false;  ///< within a pixel, draw samples in stored order (eye on the far side), else reversed
   int epipoleColumn = -1;  ///< column that holds the epipole, -1 = none
 };
+
+/// Of column k's samples, the inverse distances that the piece draws.
+inline glm::vec2 drawnRange(const DisplayCapture& capture, const PieceDraw& piece, std::size_t k) {
+  const glm::vec2 range = capture.columnRange[k];
+  return {piece.minInverseDistance.empty() ? range.x : std::max(range.x, piece.minInverseDistance[k]),
+          std::min(range.y, piece.maxInverseDistance[k])};
+}
 
 struct ViewPlan {
   int region = -1;

@@ -111,10 +111,9 @@ class BandWarp {
                   PaintMode mode, std::uint32_t slot, int index) {
     const std::size_t k = static_cast<std::size_t>(index);
     const glm::dvec2 direction(capture.columnDirection[k]);
-    const glm::vec2 range = capture.columnRange[k];
+    const glm::vec2 range = drawnRange(capture, piece, k);
     const auto tangents = visibleTangents(
-        planes_, direction, glm::dvec3(piece.baseline),
-        glm::dvec2(range.x, std::min(range.y, piece.maxInverseDistance[k])),
+        planes_, direction, glm::dvec3(piece.baseline), glm::dvec2(range),
         {static_cast<double>(capture.rowTangent.back()), static_cast<double>(capture.rowTangent.front())});
     if (!tangents) return;
     const auto [begin, end] = samplesBetween(capture, k, *tangents);
@@ -122,6 +121,7 @@ class BandWarp {
 
     axes_.project(glm::dvec3(direction, 0), column.a);
     column.maxInverseDistance = piece.maxInverseDistance[k];
+    column.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
     const std::uint16_t* row = capture.row.data() + begin;
     const float* inverseDistance = capture.inverseDistance.data() + begin;
@@ -146,7 +146,7 @@ class BandWarp {
   int projectVisible(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
                      std::size_t k, std::size_t begin, std::size_t end) {
     const std::size_t start = capture.columnStart[k];
-    const double limit = piece.maxInverseDistance[k];
+    const glm::vec2 drawn = drawnRange(capture, piece, k);
     int count = 0;
     std::size_t from = begin;  // of the run of visible blocks that is being gathered
     const auto flush = [&](std::size_t to) {
@@ -164,7 +164,7 @@ class BandWarp {
       const TangentRange tangents{static_cast<double>(capture.rowTangent[capture.row[last - 1]]),
                                   static_cast<double>(capture.rowTangent[capture.row[first]])};
       if (mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
-                       {range.x, std::min(range.y, limit)}, tangents))
+                       {std::max(range.x, double(drawn.x)), std::min(range.y, double(drawn.y))}, tangents))
         continue;
       flush(first);
       from = last;

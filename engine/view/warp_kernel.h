@@ -33,6 +33,7 @@ enum class PartTest : std::int32_t {
 struct ProjectColumn {
   float a[3], z[3], b[3];
   float maxInverseDistance;  ///< nearer samples are dropped
+  float minInverseDistance;  ///< farther ones too; 0: none
   float footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
   float maxSide;
   float centreX, centreY;       ///< picture centre, pixels

@@ -31,6 +31,7 @@ inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const s
   const F t = B::gather(rowTangent, row);
   const F qz = B::set(c.a[2]) + t * B::set(c.z[2]) + w * B::set(c.b[2]);
   M accepted = B::less(B::set(0), qz) & B::notLess(B::set(c.maxInverseDistance), w);
+  if (c.minInverseDistance > 0) accepted = accepted & B::notLess(w, B::set(c.minInverseDistance));
   if (c.partTest != PartTest::none) accepted = accepted & insidePart<B>(c, w);
   if (!B::any(accepted)) return 0;
 

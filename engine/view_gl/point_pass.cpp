@@ -62,7 +62,7 @@ class ColumnPlanner {
     const std::size_t k = std::size_t(column);
     const glm::vec2 direction = capture_.columnDirection[k];
     const float most = std::min(piece_.maxInverseDistance[k], std::numeric_limits<float>::max());
-    const glm::dvec2 range(capture_.columnRange[k].x, std::min(capture_.columnRange[k].y, most));
+    const glm::dvec2 range(drawnRange(capture_, piece_, k));
     const auto tangents =
         visibleTangents(planes_, glm::dvec2(direction), glm::dvec3(piece_.baseline), range, all_);
     if (!tangents) return false;
@@ -79,7 +79,7 @@ class ColumnPlanner {
                            order.inwards ? 1 : 0);
     out.inPlan = direction;
     out.footInverse = order.footInverse;
-    out.unused = 0;
+    out.leastInverse = piece_.minInverseDistance.empty() ? 0.0f : piece_.minInverseDistance[k];
     return true;
   }
 
@@ -166,6 +166,7 @@ Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   Defines defines;
   if (piece.splat()) defines.push_back("SPLAT");
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
+  if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
   if (piece.capture.layered) defines.push_back("LAYERED");
   if (piece.capture.blended) defines.push_back(samples);
   const Result<GlProgram*> found = programs_.get("points.vert", "points.frag", defines);

@@ -18,7 +18,7 @@ struct ColumnPlan {
       parts;  ///< samples above the pivot row [x, y), below [y, z), within the chunk; w: towards the pivot
   glm::vec2 inPlan;  ///< c
   float footInverse;
-  float unused;
+  float leastInverse;  ///< of a clipped piece; else 0
 };
 static_assert(sizeof(ColumnPlan) == 48, "the shader reads a stride of 48 bytes");
 

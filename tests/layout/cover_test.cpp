@@ -120,8 +120,7 @@ TEST(CoverOfAGap, EveryPointOutsideIsHeldByTheGapsOwnCornersAsOftenAsTheConfigur
       std::set<int> cameras;
       for (const LayoutCamera& camera : layout.cameras)
         for (const glm::dvec2& corner : gap.polygon.corners)
-          if (camera.position == corner)
-            cameras.insert(static_cast<int>(&camera - layout.cameras.data()));
+          if (camera.position == corner) cameras.insert(static_cast<int>(&camera - layout.cameras.data()));
       for (int n = 0; n < 4000; ++n) {
         const glm::dvec2 point = gap.polygon.centroid() + glm::dvec2(random(-30, 30), random(-30, 30));
         if (gap.polygon.containsClosed(point)) continue;

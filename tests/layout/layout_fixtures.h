@@ -17,9 +17,9 @@ struct Placing {
   double rotation = 0;
 };
 
-inline constexpr Configuration kAllConfigurations[] = {
-    Configuration::a, Configuration::b, Configuration::c, Configuration::d,
-    Configuration::e, Configuration::f, Configuration::g};
+inline constexpr Configuration kAllConfigurations[] = {Configuration::a, Configuration::b, Configuration::c,
+                                                       Configuration::d, Configuration::e, Configuration::f,
+                                                       Configuration::g};
 
 /// Everything that touches a box of about `halfCells` cells around the lattice's origin.
 inline Layout makeLayout(Configuration configuration, const Placing& placing = {}, double halfCells = 1.6) {
