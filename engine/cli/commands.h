@@ -38,6 +38,14 @@ struct BudgetOptions {
 };
 Result<Report> runBudget(const BudgetOptions& options, const Common& common);
 
+struct FitCommandOptions {
+  std::filesystem::path project, output;
+  std::size_t most = 0;  ///< triangles per region
+  double leastCell = 0.3;
+  bool rotate = false, shift = false, apply = false;
+};
+Result<Report> runFit(const FitCommandOptions& options, const Common& common);
+
 struct BakeOptions {
   std::filesystem::path project;
   std::vector<int> only;

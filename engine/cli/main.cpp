@@ -102,6 +102,22 @@ void addBudget(CLI::App& app, Chosen& chosen, BudgetOptions& o) {
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 
+void addFit(CLI::App& app, Chosen& chosen, FitCommandOptions& o) {
+  CLI::App* c = add(app, chosen, "fit", "Find the largest cells whose regions keep to a number of triangles",
+                    "  acentric fit kitchen.acentric.json --max 200000 --rotate -o fit.svg\n"
+                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --apply",
+                    o, runFit);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
+  c->add_option("--min-cell", o.leastCell, "Smallest cells to try, metres")
+      ->check(CLI::Range(0.05, 1000.0))
+      ->capture_default_str();
+  c->add_flag("--rotate", o.rotate, "Try turned lattices as well");
+  c->add_flag("--shift", o.shift, "Try shifted lattices as well");
+  c->add_flag("--apply", o.apply, "Write the cells found to the project file");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
 void addBake(CLI::App& app, Chosen& chosen, BakeOptions& o) {
   CLI::App* c = add(
       app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
@@ -259,6 +275,7 @@ int main(int argc, char** argv) {
   StoreysOptions storeys;
   InfoOptions info;
   BudgetOptions budget;
+  FitCommandOptions fit;
   BakeOptions bakeOptions;
   RenderOptions render;
   WalkOptions walk;
@@ -270,6 +287,7 @@ int main(int argc, char** argv) {
   addStoreys(app, chosen, storeys);
   addInfo(app, chosen, info);
   addBudget(app, chosen, budget);
+  addFit(app, chosen, fit);
   addBake(app, chosen, bakeOptions);
   addRender(app, chosen, render);
   addWalk(app, chosen, walk);

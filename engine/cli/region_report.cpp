@@ -18,7 +18,11 @@ const char* nameOf(RegionKind kind) {
   return "ring";
 }
 
-Json toJson(const CellId& id) { return {id.i, id.j, id.slot}; }
+Json toJson(const CellId& id) {
+  Json address = {id.i, id.j, id.slot};
+  if (id.level != 0) address.push_back(id.level);
+  return address;
+}
 
 Json toJson(const Region& region) {
   const glm::dvec2 centre = region.polygon.centroid();

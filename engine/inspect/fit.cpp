@@ -49,6 +49,7 @@ class Fitter {
       : base_(spec), tree_(tree), options_(options), runner_(runner), progress_(progress), stop_(stop) {
     base_.added.clear();
     base_.removed.clear();
+    base_.split.clear();
     symmetry_ = symmetryOf(base_);
     total_ = options.sizes;
   }
@@ -183,7 +184,7 @@ Result<FitResult> fitToBudget(const LayoutSpec& spec, const TriangleTree& tree, 
   if (spec.outline.empty())
     return fail(ErrorKind::invalidArgument, "there is no walkable outline to lay cells over: draw one first");
   auto result = Fitter(spec, tree, options, runner, progress, stop).run();
-  if (result) result->droppedEdits = spec.added.size() + spec.removed.size();
+  if (result) result->droppedEdits = spec.added.size() + spec.removed.size() + spec.split.size();
   return result;
 }
 

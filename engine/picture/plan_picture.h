@@ -34,15 +34,15 @@ struct PlanScale {
   std::string unit;   ///< after each number in the legend; may be empty
   double low = 0, high = 1;
   bool logarithmic = false;            ///< low > 0
-  std::optional<double> limit;         ///< a line across the legend's bar ...
-  std::string limitLabel;              ///< ... and what it is: "budget"
+  std::optional<double> limit{};       ///< a line across the legend's bar ...
+  std::string limitLabel{};            ///< ... and what it is: "budget"
   double shareOf(double value) const;  ///< in [0, 1]
 };
 
 struct PlanPolygon {
   std::vector<glm::dvec2> corners;
-  std::optional<double> value;  ///< fill by PlanPicture::scale
-  std::optional<Rgba8> fill;    ///< else this; else none
+  std::optional<double> value{};  ///< fill by PlanPicture::scale
+  std::optional<Rgba8> fill{};    ///< else this; else none
   Rgba8 stroke{255, 255, 255, 255};
   double strokeWidth = 0.8;
   bool marked = false;  ///< drawn last, with a heavy border in the alarm colour
