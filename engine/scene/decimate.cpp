@@ -21,10 +21,11 @@ struct Traits : OpenMesh::DefaultTraits {
   FaceAttributes(OpenMesh::Attributes::Status);
   VertexTraits {
     std::uint32_t input = 0;  ///< vertex of the input
-    double drift = 0;         ///< metres: how far collapses into this vertex have moved the surface
   };
   FaceTraits {
     std::uint32_t input = 0;  ///< triangle of the input
+    std::vector<std::uint32_t>
+        stoodHere;  ///< vertices of the input that were taken away and lie nearest to it
   };
 };
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
@@ -40,7 +41,7 @@ constexpr std::size_t kCollapsesBetweenLooks = 1024;
 glm::dvec3 toGlm(const OpenMesh::Vec3d& v) { return {v[0], v[1], v[2]}; }
 
 /// The quadric's priority for collapses that keep the surface, and what is painted on it, within the
-/// tolerance; no others.
+/// tolerance of every vertex taken away so far; no others.
 class GuardedQuadric : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
  public:
   using Quadric = OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh>;
@@ -52,86 +53,104 @@ class GuardedQuadric : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
   const std::string& name() const override { return name_; }
   void guard(const DecimationMesh& input, double tolerance) { input_ = &input, tolerance_ = tolerance; }
 
+  /// The decimater asks for all of a vertex's collapses in a row and takes the least: whoever is not less
+  /// than an allowed one before it need not be looked at closely.
   float collapse_priority(const CollapseInfo& collapse) override {
     const float priority = Quadric::collapse_priority(collapse);
-    if (priority < 0 || !(movementOf(collapse) <= tolerance_)) return float(Base::ILLEGAL_COLLAPSE);
-    return priority;
+    if (priority < 0) return priority;
+    if (collapse.v0 != asked_) asked_ = collapse.v0, leastAllowed_ = std::numeric_limits<float>::max();
+    if (priority >= leastAllowed_) return priority;
+    if (!land(collapse)) return float(Base::ILLEGAL_COLLAPSE);
+    return leastAllowed_ = priority;
   }
-  void preprocess_collapse(const CollapseInfo& collapse) override { movement_ = movementOf(collapse); }
+  void preprocess_collapse(const CollapseInfo& collapse) override { land(collapse); }
   void postprocess_collapse(const CollapseInfo& collapse) override {
     Quadric::postprocess_collapse(collapse);
-    double& drift = Base::mesh().data(collapse.v1).drift;
-    drift = std::max(drift, movement_);
+    for (const Fan& fan : fans_) Base::mesh().data(fan.face).stoodHere.clear();
+    for (const Landing& landing : landings_)
+      Base::mesh().data(landing.face).stoodHere.push_back(landing.vertex);
+    asked_ = Vertex();
   }
 
  private:
+  /// A triangle around the vertex, as it will be after the collapse.
+  struct Fan {
+    HalfEdgeMesh::FaceHandle face;
+    std::array<glm::dvec3, 3> corners;
+    std::array<std::uint32_t, 3> inputs;
+  };
   struct Landing {
-    double distance = std::numeric_limits<double>::infinity();
-    glm::dvec2 weights{0};
-    Vertex corners[3];
+    std::uint32_t vertex = 0;
+    HalfEdgeMesh::FaceHandle face;
   };
 
-  /// Metres that the collapse moves the vertex's surroundings, with what earlier collapses moved; infinity if
-  /// it folds the surface over.
-  double movementOf(const CollapseInfo& collapse) {
-    const HalfEdgeMesh& mesh = Base::mesh();
+  /// Finds where on the new triangles everything lands that stood on the old ones. False if that is too far,
+  /// or the surface folds over.
+  bool land(const CollapseInfo& collapse) {
+    HalfEdgeMesh& mesh = Base::mesh();
     const glm::dvec3 from = toGlm(collapse.p0), to = toGlm(collapse.p1);
-    Landing landing;
+    fans_.clear(), landings_.clear(), landing_.assign(1, mesh.data(collapse.v0).input);
     for (const auto edge : mesh.voh_range(collapse.v0)) {
       if (!edge.face().is_valid()) continue;
+      const auto& stood = mesh.data(edge.face()).stoodHere;
+      landing_.insert(landing_.end(), stood.begin(), stood.end());
       const Vertex a = edge.to(), b = edge.next().to();
       if (a == collapse.v1 || b == collapse.v1) continue;
       const glm::dvec3 pa = toGlm(mesh.point(a)), pb = toGlm(mesh.point(b));
       const glm::dvec3 before = glm::cross(pa - from, pb - from), after = glm::cross(pa - to, pb - to);
       const double lengths = glm::length(before) * glm::length(after);
-      if (!(lengths > 0) || glm::dot(before, after) < kLeastCosine * lengths)
-        return std::numeric_limits<double>::infinity();
-      const std::array<glm::dvec3, 3> triangle{to, pa, pb};
-      const glm::dvec2 weights = nearestOnTriangle(triangle, from);
-      const double distance = glm::distance(pointOn(triangle, weights), from);
-      if (distance < landing.distance) landing = {distance, weights, {collapse.v1, a, b}};
+      if (!(lengths > 0) || glm::dot(before, after) < kLeastCosine * lengths) return false;
+      fans_.push_back({edge.face(),
+                       {to, pa, pb},
+                       {mesh.data(collapse.v1).input, mesh.data(a).input, mesh.data(b).input}});
     }
-    if (!std::isfinite(landing.distance)) return landing.distance;
-    return mesh.data(collapse.v0).drift + std::max(landing.distance, paintMovement(collapse.v0, landing));
+    return std::ranges::all_of(landing_, [&](std::uint32_t vertex) { return landOne(vertex); });
   }
 
-  /// Metres that texture coordinates slide at the vertex; infinity if vertex colours change visibly.
-  double paintMovement(Vertex v0, const Landing& landing) {
-    const auto inputOf = [&](Vertex v) { return std::size_t(Base::mesh().data(v).input); };
+  bool landOne(std::uint32_t vertex) {
+    const glm::dvec3 point(input_->positions[vertex]);
+    double least = std::numeric_limits<double>::infinity();
+    const Fan* nearest = nullptr;
+    glm::dvec2 weights(0);
+    for (const Fan& fan : fans_) {
+      const glm::dvec2 at = nearestOnTriangle(fan.corners, point);
+      const glm::dvec3 offset = pointOn(fan.corners, at) - point;
+      if (const double d = glm::dot(offset, offset); d < least) least = d, nearest = &fan, weights = at;
+    }
+    if (nearest == nullptr || least > tolerance_ * tolerance_ || !paintFits(vertex, *nearest, weights))
+      return false;
+    landings_.push_back({vertex, nearest->face});
+    return true;
+  }
+
+  /// Does what is painted on the vertex still lie there, within the tolerance?
+  bool paintFits(std::uint32_t vertex, const Fan& fan, const glm::dvec2& weights) const {
     const auto blend = [&](const auto& values) {
-      return values[inputOf(landing.corners[0])] * float(1 - landing.weights.x - landing.weights.y) +
-             values[inputOf(landing.corners[1])] * float(landing.weights.x) +
-             values[inputOf(landing.corners[2])] * float(landing.weights.y);
+      return values[fan.inputs[0]] * float(1 - weights.x - weights.y) +
+             values[fan.inputs[1]] * float(weights.x) + values[fan.inputs[2]] * float(weights.y);
     };
     if (!input_->colours.empty()) {
-      const glm::vec4 change = glm::abs(blend(input_->colours) - input_->colours[inputOf(v0)]);
-      if (std::max({change.x, change.y, change.z, change.w}) > kColourTolerance)
-        return std::numeric_limits<double>::infinity();
+      const glm::vec4 change = glm::abs(blend(input_->colours) - input_->colours[vertex]);
+      if (std::max({change.x, change.y, change.z, change.w}) > kColourTolerance) return false;
     }
-    if (input_->uv.empty()) return 0;
-    const glm::dvec2 change(blend(input_->uv) - input_->uv[inputOf(v0)]);
-    const double slide = glm::length(change);
-    return slide < 1e-6 ? 0 : slide * metresPerUv(v0);
-  }
-
-  double metresPerUv(Vertex v0) {
-    const HalfEdgeMesh& mesh = Base::mesh();
-    double area = 0, uvArea = 0;
-    for (const auto edge : mesh.voh_range(v0)) {
-      if (!edge.face().is_valid()) continue;
-      const Vertex a = edge.to(), b = edge.next().to();
-      const glm::dvec3 p = toGlm(mesh.point(v0));
-      area += glm::length(glm::cross(toGlm(mesh.point(a)) - p, toGlm(mesh.point(b)) - p));
-      const auto uv = [&](Vertex v) { return glm::dvec2(input_->uv[mesh.data(v).input]); };
-      const glm::dvec2 u = uv(a) - uv(v0), w = uv(b) - uv(v0);
-      uvArea += std::abs(u.x * w.y - u.y * w.x);
-    }
-    return uvArea > 0 ? std::sqrt(area / uvArea) : std::numeric_limits<double>::infinity();
+    if (input_->uv.empty()) return true;
+    const double slide = glm::length(glm::dvec2(blend(input_->uv) - input_->uv[vertex]));
+    if (slide < 1e-6) return true;
+    const glm::dvec2 u(input_->uv[fan.inputs[1]] - input_->uv[fan.inputs[0]]),
+        v(input_->uv[fan.inputs[2]] - input_->uv[fan.inputs[0]]);
+    const double area =
+        glm::length(glm::cross(fan.corners[1] - fan.corners[0], fan.corners[2] - fan.corners[0]));
+    return slide * std::sqrt(area) <= tolerance_ * std::sqrt(std::abs(u.x * v.y - u.y * v.x));
   }
 
   const std::string name_ = "GuardedQuadric";
   const DecimationMesh* input_ = nullptr;
-  double tolerance_ = 0, movement_ = 0;
+  double tolerance_ = 0;
+  Vertex asked_;
+  float leastAllowed_ = 0;
+  std::vector<Fan> fans_;  ///< of the collapse looked at last
+  std::vector<Landing> landings_;
+  std::vector<std::uint32_t> landing_;
 };
 
 class StopObserver : public OpenMesh::Decimater::Observer {

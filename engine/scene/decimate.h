@@ -26,7 +26,7 @@ struct DecimationMesh {
 
 struct DecimationOptions {
   std::size_t mostTriangles = 0;  ///< stop at so many
-  /// Metres that a collapse may move the surface, or what is painted on it, in all.
+  /// Metres that a vertex taken away may lie from what is left, and what is painted on it from its place.
   double tolerance = 0.005;
 };
 

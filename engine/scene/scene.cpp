@@ -63,7 +63,9 @@ std::size_t Scene::triangleCount() const {
   return count;
 }
 
-std::vector<std::uint32_t> Scene::firstTriangles() const {
+std::vector<std::uint32_t> Scene::firstTriangles() const { return firstTrianglesOf(meshes); }
+
+std::vector<std::uint32_t> firstTrianglesOf(const std::vector<Mesh>& meshes) {
   std::vector<std::uint32_t> first;
   first.reserve(meshes.size() + 1);
   std::size_t next = 0;

@@ -128,6 +128,9 @@ struct Scene {
   std::vector<std::uint32_t> firstTriangles() const;
 };
 
+/// Numbers of the meshes' first triangles when all are numbered in order; meshes.size() + 1 entries.
+std::vector<std::uint32_t> firstTrianglesOf(const std::vector<Mesh>& meshes);
+
 using ScenePtr = std::shared_ptr<const Scene>;
 
 /// Hash of everything in `scene` that can change a pixel: geometry, colours, images, lights, sky, origin.

@@ -42,6 +42,7 @@ glm::vec3 normalTowards(const Mesh& mesh, const LocalPoint& point, const glm::ve
 
 LocalShading::LocalShading(const WalkScene& scene)
     : scene_(scene.scene.get()),
+      meshes_(&scene_->meshes),
       light_(scene.surfaceLight != nullptr && !scene.surfaceLight->empty() ? scene.surfaceLight.get()
                                                                            : nullptr),
       exposure_(scene.exposure),
@@ -62,6 +63,13 @@ LocalShading::LocalShading(const WalkScene& scene)
   }
 }
 
+LocalShading::LocalShading(const WalkScene& scene, const LocalGeometry& local) : LocalShading(scene) {
+  if (!local.surfaces) return;
+  meshes_ = &local.surfaces->meshes;
+  light_ = local.surfaces->light.empty() ? nullptr : &local.surfaces->light;
+  firstTriangles_ = firstTrianglesOf(*meshes_);
+}
+
 glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& mesh,
                                      const LocalPoint& point) const {
   glm::vec4 colour = material.material->baseColour;
@@ -79,11 +87,11 @@ glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& 
 
 bool LocalShading::survivesMask(const LocalPoint& point) const {
   const LocalMaterial& material = materialOf(point.mesh);
-  return baseColourAt(material, scene_->meshes[point.mesh], point).a >= material.material->alphaCutoff;
+  return baseColourAt(material, (*meshes_)[point.mesh], point).a >= material.material->alphaCutoff;
 }
 
 Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) const {
-  const Mesh& mesh = scene_->meshes[point.mesh];
+  const Mesh& mesh = (*meshes_)[point.mesh];
   const LocalMaterial& material = materialOf(point.mesh);
   const glm::vec4 base = baseColourAt(material, mesh, point);
 

@@ -34,10 +34,13 @@ struct LocalPoint {
 
 class LocalShading {
  public:
+  /// For points of the scene's meshes.
   explicit LocalShading(const WalkScene& scene);
+  /// For points of `local`: of the surfaces that it has of its own, if any. Refers to both.
+  LocalShading(const WalkScene& scene, const LocalGeometry& local);
 
   const LocalMaterial& materialOf(std::uint32_t mesh) const {
-    return materials_[static_cast<std::size_t>(scene_->meshes[mesh].material)];
+    return materials_[static_cast<std::size_t>((*meshes_)[mesh].material)];
   }
   /// Does an alpha-tested surface exist at this point?
   bool survivesMask(const LocalPoint& point) const;
@@ -48,6 +51,7 @@ class LocalShading {
   glm::vec4 baseColourAt(const LocalMaterial& material, const Mesh& mesh, const LocalPoint& point) const;
 
   const Scene* scene_;
+  const std::vector<Mesh>* meshes_;
   const SurfaceLight* light_;
   float exposure_;
   std::vector<LocalMaterial> materials_;       ///< by scene material

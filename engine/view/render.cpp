@@ -94,7 +94,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     return frame;
   }
   const Stopwatch localTime;
-  const LocalShading shading(scene);
+  const LocalShading shading(scene, *local);
   const LocalRaster raster(*local, shading, view, runner);
   raster.drawOpaque(frame, inverseZDepth, runner);
   fill();  // after the opaque geometry, which closes most holes, and before glass, which needs something

@@ -17,8 +17,11 @@ constexpr std::uint32_t kHasBack = 1u << 16;
 /// Everything that the shader and we index by must exist; local geometry comes from our own clipping, but of
 /// a scene that may have been exchanged since.
 bool fits(const Scene& scene, const LocalGeometry& geometry) {
+  const std::vector<Mesh>& meshes = geometry.meshes(scene);
+  for (const Mesh& mesh : meshes)
+    if (mesh.material < 0 || std::size_t(mesh.material) >= scene.materials.size()) return false;
   return std::all_of(geometry.triangles.begin(), geometry.triangles.end(), [&](const LocalTriangle& t) {
-    return t.mesh < scene.meshes.size() && t.triangle < scene.meshes[t.mesh].triangles.size() &&
+    return t.mesh < meshes.size() && t.triangle < meshes[t.mesh].triangles.size() &&
            std::max({t.vertices.x, t.vertices.y, t.vertices.z}) < geometry.vertices.size();
   });
 }
@@ -65,8 +68,8 @@ glm::vec3 normalAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2&
 /// Copies the light of source triangles into one compact array, each triangle once.
 class LightGatherer {
  public:
-  LightGatherer(const Scene& scene, const SurfaceLight* light)
-      : light_(light), firstTriangles_(scene.firstTriangles()) {}
+  LightGatherer(const std::vector<Mesh>& meshes, const SurfaceLight* light)
+      : light_(light), firstTriangles_(firstTrianglesOf(meshes)) {}
 
   struct Place {
     std::uint32_t first = 0, resolution = 0;
@@ -135,12 +138,14 @@ Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const
   LocalBuffers buffers;
   buffers.owner = geometry;
   buffers.lightOwner = light;
-  buffers.lit = light != nullptr && !light->empty();
+  const std::vector<Mesh>& meshes = geometry->meshes(scene);
+  const SurfaceLight* const ownLight = geometry->surfaces ? &geometry->surfaces->light : light.get();
+  buffers.lit = ownLight != nullptr && !ownLight->empty();
 
   if (!geometry->polygon.corners.empty()) buffers.origin = glm::dvec3(geometry->polygon.corners.front(), 0);
   std::vector<LocalTriangle> triangles = geometry->triangles;
   const auto key = [&](const LocalTriangle& t) {
-    const Mesh& mesh = scene.meshes[t.mesh];
+    const Mesh& mesh = meshes[t.mesh];
     const Material& material = scene.materials[std::size_t(mesh.material)];
     return std::make_tuple(canBeClear(material), mesh.material, !mesh.colours.empty(),
                            hasCoordinates(mesh, material.baseColourTexture),
@@ -149,12 +154,12 @@ Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const LocalTriangle& a, const LocalTriangle& b) { return key(a) < key(b); });
 
-  LightGatherer gatherer(scene, buffers.lit ? light.get() : nullptr);
+  LightGatherer gatherer(meshes, buffers.lit ? ownLight : nullptr);
   std::vector<LocalGpuVertex> vertices;
   vertices.reserve(3 * triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
     const LocalTriangle& triangle = triangles[n];
-    const Mesh& mesh = scene.meshes[triangle.mesh];
+    const Mesh& mesh = meshes[triangle.mesh];
     const Material& material = scene.materials[std::size_t(mesh.material)];
     const glm::uvec3 source = mesh.triangles[triangle.triangle];
     const LightGatherer::Place place = gatherer.place(triangle);
@@ -216,10 +221,11 @@ void LocalResidency::dropGone(const WalkScene& scene) {
   std::erase_if(resident_, [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
     const bool same = found != wanted.end() && found->second && entry.second.owner.lock() == found->second;
+    if (!same || found->second->surfaces) return !same;  // surfaces of its own bring their light
     // A light that died reads as null, like none: so whether there was one is kept apart.
     const bool sameLight =
         scene.surfaceLight ? entry.second.lightOwner.lock() == scene.surfaceLight : !entry.second.lit;
-    return !same || !sameLight;
+    return !sameLight;
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "engine/scene/simplify.h"
 #include "local_scene.h"
 
 namespace acentric {
@@ -194,6 +195,88 @@ TEST(LocalRaster, BlendsGlassFarToNearAndOnlyInFrontOfWhatIsOpaque) {
   EXPECT_EQ(picture.frame.colour.at(110, 75),
             blendOver(encodeForDisplay({0.5f, 0.02f, 0.02f}, 1, 0.5f), behind));
   EXPECT_EQ(picture.frame.source.at(110, 75), kSourceLocal);
+}
+
+/// A wavy textured sheet under the eye's view, with light that varies along it.
+WalkScene wavySheet() {
+  LocalSceneBuilder builder;
+  const int material = builder.material({1, 1, 1, 1});
+  ColourImage image(16, 16);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) image.at(x, y) = {40 + 12 * x, 30 + 10 * y, 120, 255};
+  builder.scene().images.push_back(std::make_shared<const ColourImage>(image));
+  builder.scene().textures.push_back({"slopes", 0});
+  builder.at(material).baseColourTexture.texture = 0;
+  Mesh mesh;
+  mesh.material = material;
+  constexpr int kQuads = 60;
+  for (int y = 0; y <= kQuads; ++y)
+    for (int x = 0; x <= kQuads; ++x) {
+      const float u = float(x) / kQuads, v = float(y) / kQuads;
+      mesh.positions.emplace_back(1 + 3 * u, 3 * v - 1.5f, 0.1f * std::sin(5 * u) * std::cos(4 * v));
+      mesh.normals.emplace_back(0, 0, 1);
+      mesh.uv[0].emplace_back(0.1f + 0.8f * u, 0.1f + 0.8f * v);
+    }
+  for (std::uint32_t y = 0; y < kQuads; ++y)
+    for (std::uint32_t x = 0; x < kQuads; ++x) {
+      const std::uint32_t a = y * (kQuads + 1) + x, b = a + kQuads + 1;
+      mesh.triangles.emplace_back(a, a + 1, b + 1);
+      mesh.triangles.emplace_back(a, b + 1, b);
+    }
+  builder.scene().meshes.push_back(mesh);
+  WalkScene walk = builder.build(2.7);
+  SurfaceLight light;
+  for (const glm::uvec3& t : mesh.triangles) {
+    light.firstSample.push_back(std::uint32_t(light.light.size()));
+    light.resolution.push_back(1);
+    light.hasBack.push_back(0);
+    for (const int corner : {0, 2, 1})
+      light.light.push_back(packColour(glm::vec4(glm::vec3(0.3f + 0.2f * mesh.positions[t[corner]].x), 1)));
+  }
+  light.firstSample.push_back(std::uint32_t(light.light.size()));
+  walk.surfaceLight = std::make_shared<const SurfaceLight>(std::move(light));
+  return walk;
+}
+
+PerspectiveView overTheSheet() {
+  PerspectiveView view;
+  view.eye = {0, 0.2, 1.2};
+  view.pitchRadians = -0.45;
+  view.width = 320, view.height = 200;
+  return view;
+}
+
+TEST(LocalRaster, DrawsSurfacesOfARegionsOwnExactlyAsTheScenesWhereTheyAreTheSame) {
+  WalkScene walk = wavySheet();
+  const auto full = drawLocal(walk, overTheSheet());
+  const auto kept = simplify(*walk.scene, *walk.local[0], {.mostTriangles = 1 << 20, .maxError = 0.01});
+  ASSERT_TRUE(kept.has_value());
+  ASSERT_EQ(kept->report.after, kept->report.before);
+  walk.local[0] = std::make_shared<const LocalGeometry>(withLight(*kept, *walk.surfaceLight));
+  const auto own = drawLocal(walk, overTheSheet());
+  EXPECT_EQ(own.frame.colour.pixels, full.frame.colour.pixels);
+  EXPECT_EQ(own.inverseZDepth.pixels, full.inverseZDepth.pixels);
+}
+
+TEST(LocalRaster, DrawsSimplifiedSurfacesWithTheirTextureAndLight) {
+  WalkScene walk = wavySheet();
+  const auto full = drawLocal(walk, overTheSheet());
+  const auto simplified = simplify(*walk.scene, *walk.local[0], {.mostTriangles = 0, .maxError = 0.004});
+  ASSERT_TRUE(simplified.has_value());
+  ASSERT_LT(simplified->report.after, simplified->report.before / 3);
+  walk.local[0] = std::make_shared<const LocalGeometry>(withLight(*simplified, *walk.surfaceLight));
+  const auto own = drawLocal(walk, overTheSheet());
+  double sum = 0;
+  std::size_t seen = 0;
+  for (std::size_t n = 0; n < full.frame.colour.pixels.size(); ++n) {
+    if (full.frame.source.pixels[n] != kSourceLocal) continue;
+    ++seen;
+    EXPECT_EQ(own.frame.source.pixels[n], kSourceLocal);
+    const glm::vec3 change = glm::vec3(own.frame.colour.pixels[n]) - glm::vec3(full.frame.colour.pixels[n]);
+    sum += (std::abs(change.x) + std::abs(change.y) + std::abs(change.z)) / 3;
+  }
+  ASSERT_GT(seen, 5000u);
+  EXPECT_LT(sum / double(seen), 2.0) << "8-bit codes, mean";
 }
 
 TEST(LocalRaster, IsTheSameForAnyThreadCount) {

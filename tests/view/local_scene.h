@@ -61,7 +61,7 @@ inline LocalPicture drawLocal(const WalkScene& walk, const PerspectiveView& view
       Image<PixelSource>(view.width, view.height, background.a == 0 ? kSourceHole : PixelSource(1));
   picture.inverseZDepth = FloatImage(view.width, view.height, 0.0f);
   TaskRunner runner(workers);
-  const LocalShading shading(walk);
+  const LocalShading shading(walk, *walk.local[0]);
   const LocalRaster raster(*walk.local[0], shading, view, runner);
   raster.drawOpaque(picture.frame, picture.inverseZDepth, runner);
   raster.drawClear(picture.frame, picture.inverseZDepth, runner);

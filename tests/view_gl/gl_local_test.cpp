@@ -209,6 +209,34 @@ TEST_F(GlLocal, HidesWhatLiesBehindAndCoversTheBackgroundHoweverNear) {
   EXPECT_LE(test::differingSources(onCpu(scene, view(), {}), gl), 0.002);
 }
 
+TEST_F(GlLocal, DrawsSurfacesOfARegionsOwnAsTheCpuDoes) {
+  LocalSceneBuilder builder;
+  const int wall = builder.material({0.9f, 0.6f, 0.3f, 1}), floor = builder.material({0.2f, 0.5f, 0.8f, 1});
+  wallAndFloor(builder, wall, floor);
+  WalkScene scene = walk(builder);
+  for (auto& local : scene.local) {
+    if (!local) continue;
+    LocalGeometry own = *local;
+    auto surfaces = std::make_shared<LocalSurfaces>();
+    surfaces->meshes = {scene.scene->meshes[1], scene.scene->meshes[0]};  // numbered in another way
+    for (LocalTriangle& triangle : own.triangles) triangle.mesh = 1 - triangle.mesh;
+    for (std::uint32_t t = 0; t < 4; ++t) {
+      surfaces->light.firstSample.push_back(3 * t);
+      surfaces->light.resolution.push_back(1);
+      surfaces->light.hasBack.push_back(0);
+      for (int n = 0; n < 3; ++n)
+        surfaces->light.light.push_back(
+            packColour(glm::vec4(0.1f + 0.2f * float(t), 0.3f * float(n), 0.5f, 1)));
+    }
+    surfaces->light.firstSample.push_back(12);
+    own.surfaces = std::move(surfaces);
+    local = std::make_shared<const LocalGeometry>(std::move(own));
+  }
+  expectLikeCpu(scene, view(), 2, 0.01);
+  EXPECT_TRUE(hasVariant("SURFACE_LIGHT"));
+  expectLikeCpu(scene, view(), 2, 0.01);  // and once more from what is resident
+}
+
 TEST_F(GlLocal, FollowsAnExchangedLight) {
   LocalSceneBuilder builder;
   wallAndFloor(builder, builder.material({0.6f, 0.5f, 0.4f, 1}), builder.material({0.3f, 0.3f, 0.3f, 1}));

@@ -1,0 +1,433 @@
+#include "engine/scene/simplify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <random>
+#include <unordered_map>
+
+#include "engine/base/contract.h"
+#include "engine/scene/decimate.h"
+#include "engine/scene/triangle_bvh.h"
+
+namespace acentric {
+namespace {
+
+constexpr int kAttempts = 3;
+constexpr std::size_t kSurfaceSamples = 20000;
+constexpr double kMaxLightResolution = 64;
+/// Light samples look for their place a little inside the triangle: at a corner several surfaces meet.
+constexpr float kInset = 0.02f;
+
+struct SourceTriangle {
+  std::uint32_t mesh = 0, triangle = 0;
+};
+
+bool isWhole(const LocalGeometry& full, const LocalTriangle& t) {
+  return full.vertices[t.vertices.x].barycentric == glm::vec2(0, 0) &&
+         full.vertices[t.vertices.y].barycentric == glm::vec2(1, 0) &&
+         full.vertices[t.vertices.z].barycentric == glm::vec2(0, 1);
+}
+
+/// All that shading reads of a vertex; vertices that are alike in it are one.
+struct VertexKey {
+  std::uint32_t mesh = 0;
+  std::array<float, 10> values{};  ///< position, two texture coordinates, normal where it is seen
+  glm::u8vec4 colour{0};
+  bool operator==(const VertexKey&) const = default;
+};
+
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::uint64_t hash = key.mesh;
+    const auto mix = [&](std::uint32_t v) { hash = (hash ^ v) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29; };
+    for (const float value : key.values) mix(std::bit_cast<std::uint32_t>(value + 0.0f));
+    mix(std::bit_cast<std::uint32_t>(key.colour));
+    return std::size_t(hash);
+  }
+};
+
+VertexKey keyOf(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex) {
+  const Mesh& m = scene.meshes[mesh];
+  const Material& material = scene.materials[std::size_t(m.material)];
+  VertexKey key;
+  key.mesh = mesh;
+  const glm::vec3& p = m.positions[vertex];
+  std::size_t at = 0;
+  const auto add = [&](float value) { key.values[at++] = value == 0 ? 0.0f : value; };  // -0 is 0
+  add(p.x), add(p.y), add(p.z);
+  for (const auto& uv : m.uv) {
+    const bool used = !uv.empty() && (material.baseColourTexture.used() || material.emissiveTexture.used());
+    add(used ? uv[vertex].x : 0), add(used ? uv[vertex].y : 0);
+  }
+  // Only glass shows its normals; the light of the others is baked.
+  if (material.transmission > 0 && !m.normals.empty())
+    for (int axis = 0; axis < 3; ++axis) add(m.normals[vertex][axis]);
+  if (!m.colours.empty()) key.colour = m.colours[vertex];
+  return key;
+}
+
+/// The whole triangles as one mesh for decimation, and where its vertices come from.
+struct Welded {
+  DecimationMesh mesh;
+  std::vector<SourceTriangle> triangleSource;
+  std::vector<SourceTriangle> vertexSource;  ///< .triangle is the vertex within the mesh
+};
+
+const std::vector<glm::vec2>* paintedUv(const Scene& scene, const Mesh& mesh) {
+  const Material& material = scene.materials[std::size_t(mesh.material)];
+  for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
+    if (use->used() && !mesh.uv[use->uvSet == 1 ? 1 : 0].empty()) return &mesh.uv[use->uvSet == 1 ? 1 : 0];
+  return nullptr;
+}
+
+class Welder {
+ public:
+  explicit Welder(const Scene& scene) : scene_(scene), known_(scene.meshes.size()) {}
+
+  /// Not if welding leaves the triangle without three corners.
+  bool add(const LocalTriangle& t) {
+    const glm::uvec3& corners = scene_.meshes[t.mesh].triangles[t.triangle];
+    const glm::uvec3 welded(vertex(t.mesh, corners.x), vertex(t.mesh, corners.y), vertex(t.mesh, corners.z));
+    if (welded.x == welded.y || welded.y == welded.z || welded.z == welded.x) return false;
+    out.mesh.triangles.push_back(welded);
+    out.triangleSource.push_back({t.mesh, t.triangle});
+    return true;
+  }
+
+  Welded out;
+
+ private:
+  std::uint32_t vertex(std::uint32_t mesh, std::uint32_t index) {
+    const Mesh& source = scene_.meshes[mesh];
+    if (known_[mesh].empty()) known_[mesh].assign(source.positions.size(), TriangleBvh::kNone);
+    std::uint32_t& known = known_[mesh][index];
+    if (known != TriangleBvh::kNone) return known;
+    const auto [at, isNew] =
+        alike_.try_emplace(keyOf(scene_, mesh, index), std::uint32_t(out.vertexSource.size()));
+    if (isNew) {
+      out.vertexSource.push_back({mesh, index});
+      out.mesh.positions.push_back(source.positions[index]);
+      const auto* uv = paintedUv(scene_, source);
+      out.mesh.uv.push_back(uv ? (*uv)[index] : glm::vec2(0));
+      out.mesh.colours.push_back(source.colours.empty() ? glm::vec4(1)
+                                                        : glm::vec4(source.colours[index]) / 255.0f);
+    }
+    return known = at->second;
+  }
+
+  const Scene& scene_;
+  std::vector<std::vector<std::uint32_t>> known_;  ///< by mesh and vertex
+  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> alike_;
+};
+
+TriangleBvh treeOf(const DecimationMesh& mesh, const std::vector<glm::uvec3>& triangles) {
+  std::vector<TriangleBvh::Corners> corners;
+  corners.reserve(triangles.size());
+  for (const glm::uvec3& t : triangles)
+    corners.push_back({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]});
+  return TriangleBvh(std::move(corners));
+}
+
+/// How far two surfaces lie apart, by samples on each.
+class Distances {
+ public:
+  void add(double distance) { max = std::max(max, distance), sum_ += distance, ++count; }
+  double mean() const { return count == 0 ? 0 : sum_ / double(count); }
+  double max = 0;
+  std::size_t count = 0;
+
+ private:
+  double sum_ = 0;
+};
+
+/// Random points on the triangles, as many per area everywhere; always the same ones.
+void sampleSurface(const DecimationMesh& mesh, const std::vector<glm::uvec3>& triangles,
+                   const TriangleBvh& other, Distances& distances) {
+  std::vector<double> upTo;
+  double area = 0;
+  for (const glm::uvec3& t : triangles) {
+    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    upTo.push_back(area += 0.5 * glm::length(glm::cross(b - a, c - a)));
+  }
+  if (!(area > 0)) return;
+  std::mt19937 engine(20240);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (std::size_t n = 0; n < kSurfaceSamples; ++n) {
+    const double at = area * (double(n) + share(engine)) / double(kSurfaceSamples);
+    const auto t =
+        std::min(std::size_t(std::ranges::upper_bound(upTo, at) - upTo.begin()), triangles.size() - 1);
+    const double u = std::sqrt(share(engine)), v = share(engine);
+    const glm::uvec3& corners = triangles[t];
+    distances.add(
+        other
+            .nearest(pointOn({glm::dvec3(mesh.positions[corners.x]), glm::dvec3(mesh.positions[corners.y]),
+                              glm::dvec3(mesh.positions[corners.z])},
+                             {u * (1 - v), u * v}))
+            .distance);
+  }
+}
+
+Distances measure(const Welded& welded, const TriangleBvh& before, const Decimation& after) {
+  Distances distances;
+  std::vector<glm::uvec3> triangles;
+  std::vector<bool> left(welded.mesh.positions.size(), false);
+  for (const DecimatedTriangle& t : after.triangles) {
+    triangles.push_back(t.vertices);
+    for (int k = 0; k < 3; ++k) left[t.vertices[k]] = true;
+  }
+  const TriangleBvh tree = treeOf(welded.mesh, triangles);
+  // Where a vertex was taken away the distance is largest.
+  for (std::size_t v = 0; v < left.size(); ++v)
+    if (!left[v]) distances.add(tree.nearest(glm::dvec3(welded.mesh.positions[v])).distance);
+  sampleSurface(welded.mesh, welded.mesh.triangles, tree, distances);
+  sampleSurface(welded.mesh, triangles, before, distances);
+  return distances;
+}
+
+/// Puts the result together: meshes of the vertices that are left, and where the light comes from.
+class Assembler {
+ public:
+  Assembler(const Scene& scene, const LocalGeometry& full, const SimplifyOptions& options)
+      : scene_(scene),
+        full_(full),
+        options_(options),
+        ownMesh_(scene.meshes.size(), TriangleBvh::kNone),
+        ownVertex_(scene.meshes.size()),
+        firstTriangles_(scene.firstTriangles()) {
+    out.polygon = full.polygon;
+  }
+
+  /// A triangle of the full geometry, as it is.
+  void keep(const LocalTriangle& t) {
+    const glm::uvec3& corners = scene_.meshes[t.mesh].triangles[t.triangle];
+    const auto first = std::uint32_t(out.vertices.size());
+    for (int k = 0; k < 3; ++k) out.vertices.push_back(full_.vertices[t.vertices[k]]);
+    place(t.mesh, corners, first, {firstTriangles_[t.mesh] + t.triangle, 0, {}});
+  }
+
+  /// A triangle after decimation.
+  void add(const DecimatedTriangle& t, const Welded& welded, const TriangleBvh& before) {
+    const std::uint32_t mesh = welded.vertexSource[t.vertices.x].mesh;
+    glm::uvec3 corners;
+    for (int k = 0; k < 3; ++k) corners[k] = welded.vertexSource[t.vertices[k]].triangle;
+    Light light;
+    if (t.original != DecimatedTriangle::kChanged) {
+      const SourceTriangle& source = welded.triangleSource[t.original];
+      corners = scene_.meshes[mesh].triangles[source.triangle];
+      light.from = firstTriangles_[mesh] + source.triangle;
+    } else {
+      light = resample(t, welded, before);
+    }
+    const auto first = std::uint32_t(out.vertices.size());
+    constexpr glm::vec2 kWeights[3]{{0, 0}, {1, 0}, {0, 1}};
+    for (int k = 0; k < 3; ++k)
+      out.vertices.push_back({scene_.meshes[mesh].positions[corners[k]], kWeights[k]});
+    place(mesh, corners, first, std::move(light));
+  }
+
+  /// Numbers the light through the meshes in order.
+  void finish() {
+    for (std::vector<Light>& lights : lights_)
+      for (Light& light : lights) {
+        out.lightFrom.push_back(light.from);
+        out.lightResolution.push_back(light.resolution);
+        out.lightPlaces.insert(out.lightPlaces.end(), light.places.begin(), light.places.end());
+      }
+  }
+
+  SimplifiedLocal out;
+
+ private:
+  struct Light {
+    std::uint32_t from = SimplifiedLocal::kResampled;
+    std::uint16_t resolution = 0;
+    std::vector<SurfacePlace> places;
+  };
+
+  void place(std::uint32_t sceneMesh, const glm::uvec3& corners, std::uint32_t firstVertex, Light light) {
+    std::uint32_t& own = ownMesh_[sceneMesh];
+    const Mesh& source = scene_.meshes[sceneMesh];
+    if (own == TriangleBvh::kNone) {
+      own = std::uint32_t(out.meshes.size());
+      out.meshes.emplace_back();
+      out.meshes.back().name = source.name;
+      out.meshes.back().material = source.material;
+      lights_.emplace_back();
+      ownVertex_[sceneMesh].assign(source.positions.size(), TriangleBvh::kNone);
+    }
+    glm::uvec3 triangle;
+    for (int k = 0; k < 3; ++k) triangle[k] = vertex(sceneMesh, corners[k], out.meshes[own]);
+    out.triangles.push_back({{firstVertex, firstVertex + 1, firstVertex + 2},
+                             own,
+                             std::uint32_t(out.meshes[own].triangles.size())});
+    out.meshes[own].triangles.push_back(triangle);
+    lights_[own].push_back(std::move(light));
+  }
+
+  std::uint32_t vertex(std::uint32_t sceneMesh, std::uint32_t index, Mesh& mesh) {
+    std::uint32_t& own = ownVertex_[sceneMesh][index];
+    if (own != TriangleBvh::kNone) return own;
+    const Mesh& source = scene_.meshes[sceneMesh];
+    own = std::uint32_t(mesh.positions.size());
+    const auto copy = [&](auto& to, const auto& from) {
+      if (!from.empty()) to.push_back(from[index]);
+    };
+    copy(mesh.positions, source.positions);
+    copy(mesh.normals, source.normals);
+    copy(mesh.tangents, source.tangents);
+    copy(mesh.uv[0], source.uv[0]);
+    copy(mesh.uv[1], source.uv[1]);
+    copy(mesh.colours, source.colours);
+    return own;
+  }
+
+  /// Each light sample takes the light of the nearest place on the same mesh that faces the same way.
+  Light resample(const DecimatedTriangle& t, const Welded& welded, const TriangleBvh& before) const {
+    const std::array<glm::dvec3, 3> corners{welded.mesh.positions[t.vertices.x],
+                                            welded.mesh.positions[t.vertices.y],
+                                            welded.mesh.positions[t.vertices.z]};
+    const glm::dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double longest =
+        std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
+                  glm::distance(corners[2], corners[0])});
+    const double size = std::min(longest, 4 * std::sqrt(0.5 * glm::length(cross)));  // needles need fewer
+    Light light;
+    light.resolution =
+        std::uint16_t(std::clamp(std::ceil(size / options_.lightTexel), 1.0, kMaxLightResolution));
+    const std::uint32_t mesh = welded.vertexSource[t.vertices.x].mesh;
+    const auto sameMesh = [&](std::uint32_t n) { return welded.triangleSource[n].mesh == mesh; };
+    const auto sameWay = [&](std::uint32_t n) {
+      if (!sameMesh(n)) return false;
+      const auto& c = before.triangle(n);
+      return glm::dot(glm::cross(glm::dvec3(c[1] - c[0]), glm::dvec3(c[2] - c[0])), cross) > 0;
+    };
+    const std::uint32_t r = light.resolution;
+    for (std::uint32_t i = 0; i <= r; ++i)
+      for (std::uint32_t j = 0; i + j <= r; ++j) {
+        const glm::vec2 at = glm::mix(glm::vec2(float(i), float(j)) / float(r), glm::vec2(1.0f / 3), kInset);
+        const glm::dvec3 point = pointOn(corners, at);
+        TriangleBvh::Nearest found = before.nearest(point, 2 * longest, sameWay);
+        if (!found.found()) found = before.nearest(point, std::numeric_limits<double>::infinity(), sameMesh);
+        const SourceTriangle& source = welded.triangleSource[found.triangle];
+        light.places.push_back({firstTriangles_[source.mesh] + source.triangle, glm::vec2(found.weights)});
+      }
+    return light;
+  }
+
+  const Scene& scene_;
+  const LocalGeometry& full_;
+  const SimplifyOptions& options_;
+  std::vector<std::uint32_t> ownMesh_;
+  std::vector<std::vector<std::uint32_t>> ownVertex_;
+  std::vector<std::uint32_t> firstTriangles_;
+  std::vector<std::vector<Light>> lights_;  ///< by own mesh
+};
+
+/// Decimates; where the measured error is larger than allowed, again with less tolerance.
+Result<Decimation> decimateWithin(const Welded& welded, const TriangleBvh& before, std::size_t mostTriangles,
+                                  double maxError, SimplifyReport& report, const std::stop_token& stop) {
+  DecimationOptions options{mostTriangles, maxError};
+  for (int attempt = 1;; ++attempt) {
+    auto decimated = decimate(welded.mesh, options, stop);
+    if (!decimated) return decimated;
+    const Distances distances = measure(welded, before, *decimated);
+    report.maxError = distances.max;
+    report.meanError = distances.mean();
+    report.errorSamples = distances.count;
+    report.split = decimated->split;
+    report.withinError = distances.max <= maxError;
+    if (report.withinError || attempt == kAttempts) return decimated;
+    options.tolerance *= 0.8 * maxError / distances.max;
+  }
+}
+
+}  // namespace
+
+Status SimplifyOptions::check() const {
+  if (!(maxError > 0 && maxError <= 10))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("simplifying needs an error above 0 and up to 10 m, not {:g}", maxError));
+  if (!(lightTexel > 0)) return fail(ErrorKind::invalidArgument, "light samples must be some distance apart");
+  return {};
+}
+
+Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
+                                 const SimplifyOptions& options, std::stop_token stop) {
+  if (auto sound = options.check(); !sound) return tl::unexpected(sound.error());
+  require(!full.surfaces, "what is simplified was clipped from the scene");
+  const auto start = std::chrono::steady_clock::now();
+  Welder welder(scene);
+  std::vector<const LocalTriangle*> kept;
+  for (const LocalTriangle& t : full.triangles)
+    if (!isWhole(full, t) || !welder.add(t)) kept.push_back(&t);
+  const Welded& welded = welder.out;
+  const TriangleBvh before = treeOf(welded.mesh, welded.mesh.triangles);
+
+  SimplifyReport report;
+  report.before = full.triangles.size();
+  report.rim = kept.size();
+  const std::size_t most = options.mostTriangles > kept.size() ? options.mostTriangles - kept.size() : 0;
+  const auto decimated = decimateWithin(welded, before, most, options.maxError, report, stop);
+  if (!decimated) return tl::unexpected(decimated.error());
+
+  Assembler assembler(scene, full, options);
+  for (const LocalTriangle* t : kept) assembler.keep(*t);
+  for (std::size_t n = 0; n < decimated->triangles.size(); ++n) {
+    if (n % 4096 == 0 && stop.stop_requested())
+      return fail(ErrorKind::cancelled, "simplifying was cancelled");
+    assembler.add(decimated->triangles[n], welded, before);
+  }
+  assembler.finish();
+  report.after = assembler.out.triangles.size();
+  report.withinBudget = options.mostTriangles == 0 || report.after <= options.mostTriangles;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  assembler.out.report = report;
+  return std::move(assembler.out);
+}
+
+LocalGeometry withLight(const SimplifiedLocal& simplified, const SurfaceLight& sceneLight) {
+  LocalGeometry local;
+  local.polygon = simplified.polygon;
+  local.vertices = simplified.vertices;
+  local.triangles = simplified.triangles;
+  auto surfaces = std::make_shared<LocalSurfaces>();
+  surfaces->meshes = simplified.meshes;
+  if (!sceneLight.empty()) {
+    SurfaceLight& light = surfaces->light;
+    std::size_t place = 0;
+    for (std::size_t t = 0; t < simplified.lightFrom.size(); ++t) {
+      light.firstSample.push_back(std::uint32_t(light.light.size()));
+      const std::uint32_t from = simplified.lightFrom[t];
+      if (from != SimplifiedLocal::kResampled) {
+        light.resolution.push_back(sceneLight.resolution[from]);
+        light.hasBack.push_back(sceneLight.hasBack[from]);
+        light.light.insert(light.light.end(), sceneLight.light.begin() + sceneLight.firstSample[from],
+                           sceneLight.light.begin() + sceneLight.firstSample[from + 1]);
+        continue;
+      }
+      const std::uint16_t resolution = simplified.lightResolution[t];
+      const std::size_t count = surfaceSampleCount(resolution);
+      const SurfacePlace* const places = simplified.lightPlaces.data() + place;
+      place += count;
+      const bool back = sceneLight.hasBack[places[0].sceneTriangle] != 0;
+      light.resolution.push_back(resolution);
+      light.hasBack.push_back(back ? 1 : 0);
+      for (int side = 0; side < (back ? 2 : 1); ++side)
+        for (std::size_t n = 0; n < count; ++n)
+          light.light.push_back(packColour(
+              glm::vec4(sceneLight.at(places[n].sceneTriangle, places[n].barycentric,
+                                      side == 1 && sceneLight.hasBack[places[n].sceneTriangle] != 0),
+                        1)));
+    }
+    light.firstSample.push_back(std::uint32_t(light.light.size()));
+  }
+  local.surfaces = std::move(surfaces);
+  return local;
+}
+
+}  // namespace acentric
