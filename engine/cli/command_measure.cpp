@@ -10,16 +10,6 @@
 namespace acentric::cli {
 namespace {
 
-/// `count` entries, evenly chosen, first and last included.
-template <class T>
-std::vector<T> evenly(const std::vector<T>& all, int count) {
-  if (count <= 0 || std::size_t(count) >= all.size()) return all;
-  std::vector<T> chosen;
-  for (int i = 0; i < count; ++i)
-    chosen.push_back(all[std::size_t(i) * (all.size() - 1) / std::size_t(std::max(count - 1, 1))]);
-  return chosen;
-}
-
 Json toJson(const Spread& spread) {
   return {{"min", spread.min}, {"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
 }

@@ -230,6 +230,42 @@ void addEstimate(CLI::App& app, Chosen& chosen, EstimateCommandOptions& o) {
       ->capture_default_str();
 }
 
+void addCoverage(CLI::App& app, Chosen& chosen, CoverageOptions& o) {
+  CLI::App* c = add(
+      app, chosen, "coverage",
+      "Show how densely the cameras sample the plan and the surfaces, and which surfaces would be holes",
+      "  acentric coverage kitchen.acentric.json --plan -o plan.svg\n"
+      "  acentric coverage kitchen.acentric.json --surfaces --points 50000 -o surfaces.png --csv points.csv\n"
+      "  acentric coverage kitchen.acentric.json --path tour.json --correlate --json",
+      o, runCoverage);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
+  c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
+  c->add_flag("--correlate", o.correlate,
+              "Along a path, compare predicted holes with those of rendered frames (needs a bake)");
+  c->add_option("--points", o.points, "Points on the surfaces")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  c->add_option("--eyes", o.eyesPerRegion, "Places to stand that are tried in each region")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  c->add_option("--grid", o.grid, "Points of the plan along its longer side")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
+  c->add_option("--reach", o.reach, "In the plan, only cameras within so many metres (0 = any distance)")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  c->add_option("--path", o.path, "Camera path (JSON; default: a tour)");
+  c->add_option("--frames", o.frames, "Frames of the path that are compared, evenly chosen (0 = all)")
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360)");
+  c->add_option("--renderer", o.renderer, "Renderer of compared frames: list, scalar, zbuffer or gl")
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+      ->capture_default_str();
+  c->add_option("--csv", o.csv, "File for every point's (or cell's, or frame's) figures");
+  c->add_option("-o,--output", o.output, "Picture to write (.svg or .png)");
+}
+
 int finish(const Result<Report>& result, bool json) {
   finishProgress();
   if (!result) {
@@ -295,6 +331,8 @@ int main(int argc, char** argv) {
   addMeasure(app, chosen, measure);
   addValidate(app, chosen, validate);
   addBench(app, chosen, bench);
+  CoverageOptions coverage;
+  addCoverage(app, chosen, coverage);
   EstimateCommandOptions estimate;
   addEstimate(app, chosen, estimate);
   try {

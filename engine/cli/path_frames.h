@@ -22,4 +22,14 @@ struct PathWalk {
 Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
                            const std::string& size, double fovDegrees, int tourFrames, const Common& common);
 
+/// `count` entries, evenly chosen, first and last included.
+template <class T>
+std::vector<T> evenly(const std::vector<T>& all, int count) {
+  if (count <= 0 || std::size_t(count) >= all.size()) return all;
+  std::vector<T> chosen;
+  for (int i = 0; i < count; ++i)
+    chosen.push_back(all[std::size_t(i) * (all.size() - 1) / std::size_t(std::max(count - 1, 1))]);
+  return chosen;
+}
+
 }  // namespace acentric::cli

@@ -33,11 +33,17 @@ Result<Comparison> compare(const Frame& frame, const ColourImage& truth, const F
                 "comparison");
   if (truth.empty())
     return fail(ErrorKind::invalidArgument, "an empty picture cannot be compared", "comparison");
-  std::size_t holes = 0;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i)
-    holes += std::isfinite(truthDistance.pixels[i]) && !isReal(frame.source.pixels[i]) ? 1 : 0;
   return Comparison{psnrOf(frame.colour, truth), ssimOf(frame.colour, truth),
-                    static_cast<double>(holes) / static_cast<double>(truth.pixels.size())};
+                    holeShareOf(frame, truthDistance)};
+}
+
+double holeShareOf(const Frame& frame, const FloatImage& truthDistance) {
+  require(sameSize(frame.source, truthDistance), "a frame and a truth of one size are compared");
+  if (truthDistance.empty()) return 0;
+  std::size_t holes = 0;
+  for (std::size_t i = 0; i < truthDistance.pixels.size(); ++i)
+    holes += std::isfinite(truthDistance.pixels[i]) && !isReal(frame.source.pixels[i]) ? 1 : 0;
+  return static_cast<double>(holes) / static_cast<double>(truthDistance.pixels.size());
 }
 
 double psnrOf(const ColourImage& a, const ColourImage& b) {

@@ -18,6 +18,9 @@ struct Comparison {
 /// Same sizes. `truthDistance`: metres, infinity where the truth has no surface.
 Result<Comparison> compare(const Frame& frame, const ColourImage& truth, const FloatImage& truthDistance);
 
+/// Pixels without real sample where the truth has a surface, of all pixels. Same sizes.
+double holeShareOf(const Frame& frame, const FloatImage& truthDistance);
+
 /// Both need pictures of one size. Alpha is not looked at.
 double psnrOf(const ColourImage& a, const ColourImage& b);
 double ssimOf(const ColourImage& a, const ColourImage& b);

@@ -1,0 +1,60 @@
+#pragma once
+/// Sampling coverage of a project (engine/inspect/surface_coverage.h, view_holes.h), wired to the ray tracer,
+/// the bake's cameras and the renderers.
+
+#include <functional>
+#include <memory>
+
+#include "engine/inspect/surface_coverage.h"
+#include "engine/inspect/view_holes.h"
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric {
+
+/// Opaque surfaces as a bake under the ray scene's effect plan takes them. Keeps `rays` alive.
+std::unique_ptr<OpaqueTracer> opaqueTracerFor(RayScenePtr rays);
+
+/// What the captures of a project would hold. Keeps what it refers to alive; immutable.
+class ProjectReach {
+ public:
+  explicit ProjectReach(const OpenProject& open);
+  const CaptureReach& operator*() const { return reach_; }
+
+ private:
+  std::shared_ptr<const Layout> layout_;
+  std::unique_ptr<OpaqueTracer> tracer_;
+  CaptureReach reach_;
+};
+
+/// As the project's frames are drawn.
+ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings);
+/// For a display so many pixels wide with the project's field of view.
+SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int displayWidth);
+
+/// One frame: holes foretold, and holes rendered.
+struct HoleSample {
+  PerspectiveView view;
+  double missed = 0, open = 0, expected = 0;  ///< ViewHoles
+  double measured = 0;                        ///< hole share of the frame
+  int missingImages = 0;
+  /// Pixels: open in the frame, more likely open than not by prediction, and both.
+  std::uint64_t holes = 0, predicted = 0, both = 0;
+};
+
+struct Correlation {
+  double pearson = 0, spearman = 0;  ///< NaN where a series does not vary
+};
+
+struct HoleCorrelation {
+  std::vector<HoleSample> frames;
+  Correlation missed, open, expected;  ///< each against `measured`
+};
+
+/// `render`: the frame of a view, with the project's captures.
+Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vector<PerspectiveView>& views,
+                                       const ViewHoleOptions& options,
+                                       const std::function<Result<Frame>(const PerspectiveView&)>& render,
+                                       TaskRunner& runner, const Progress& progress = {},
+                                       std::stop_token stop = {});
+
+}  // namespace acentric

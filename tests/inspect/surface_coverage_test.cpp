@@ -1,0 +1,382 @@
+#include "engine/inspect/surface_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/inspect/view_holes.h"
+#include "tests/inspect/box_tracer.h"
+#include "tests/layout/layout_fixtures.h"
+
+namespace acentric {
+namespace {
+using test::Box;
+using test::BoxTracer;
+
+/// A layout of little cells in a world of boxes.
+class World {
+ public:
+  World(std::vector<Box> boxes, Configuration configuration, double halfCells = 1.2)
+      : tracer(std::move(boxes)), scene(test::sceneOf(tracer.boxes())) {
+    layout = test::makeLayout(configuration, {1.5, {0.1, -0.05}, 0.3}, halfCells);
+    for (const LayoutCamera& camera : layout.cameras) {
+      ColumnCamera column;
+      column.centreOfProjection = glm::dvec3(camera.position, layout.eyeZ());
+      column.lowAzimuth = camera.lowAzimuth;
+      column.fovRadians = camera.fovRadians;
+      column.topElevation = radians(68);
+      column.bottomElevation = radians(-58);
+      column.columns = 480, column.rows = 900;
+      columns.push_back(column);
+    }
+  }
+  CaptureReach reach(int maxLayers = 8) const { return {layout, columns, maxLayers, tracer}; }
+
+  BoxTracer tracer;
+  ScenePtr scene;
+  Layout layout;
+  std::vector<ColumnCamera> columns;
+};
+
+const Box kRoom[] = {{{-9, -9, -0.2}, {9, 9, 0}}, {{-9, -9, 4}, {9, 9, 4.2}},  {{-9.2, -9, 0}, {-9, 9, 4}},
+                     {{9, -9, 0}, {9.2, 9, 4}},   {{-9, -9.2, 0}, {9, -9, 4}}, {{-9, 9, 0}, {9, 9.2, 4}}};
+
+std::vector<Box> emptyRoom() { return {std::begin(kRoom), std::end(kRoom)}; }
+std::vector<Box> furnishedRoom() {
+  std::vector<Box> boxes = emptyRoom();
+  boxes.push_back({{4.6, -1, 0}, {5.0, 1, 3}});         // a screen
+  boxes.push_back({{-6, 4.5, 0}, {-5, 5.5, 4}});        // a pillar
+  boxes.push_back({{-1, -6.5, 0}, {1.5, -6, 1.1}});     // a counter
+  boxes.push_back({{5.6, 4.4, 1.2}, {6.2, 5.2, 1.9}});  // a thing in the air
+  return boxes;
+}
+
+/// What the bake's march along the ray to a point would keep: from each region's exit on, the first surface.
+bool heldSlowly(const World& world, int camera, const glm::dvec3& point, int maxLayers) {
+  const ColumnCamera& columns = world.columns[std::size_t(camera)];
+  const glm::dvec3 offset = point - columns.centreOfProjection, direction = glm::normalize(offset);
+  const double flat = glm::length(glm::dvec2(direction));
+  const double elevation = std::asin(direction.z);
+  if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
+  std::set<double> exits;
+  for (const ConvexPolygon& polygon : world.layout.cameras[std::size_t(camera)].served) {
+    const auto span = polygon.raySpan(glm::dvec2(columns.centreOfProjection), glm::dvec2(direction) / flat);
+    exits.insert(span ? span->second / flat : 0);
+  }
+  std::set<double> kept;
+  double from = *exits.begin();
+  while (int(kept.size()) < maxLayers) {
+    const OpaqueHit hit = world.tracer.trace(columns.centreOfProjection, direction, from, 1e9);
+    if (!hit.found()) break;
+    kept.insert(hit.distance);
+    const auto next = exits.upper_bound(hit.distance * (1 - 1e-9));
+    if (next == exits.end()) break;
+    from = *next;
+  }
+  const double distance = glm::length(offset);
+  return std::ranges::any_of(kept, [&](double d) { return std::abs(d - distance) < 1e-4 * distance; });
+}
+
+TEST(CaptureReach, HoldsWhatTheMarchOfTheBakeWouldKeep) {
+  for (const int maxLayers : {8, 1}) {
+    const World world(furnishedRoom(), Configuration::b);
+    const CaptureReach reach = world.reach(maxLayers);
+    const SurfacePoints points(world.scene);
+    int held = 0, checked = 0;
+    for (std::uint64_t n = 0; n < 400; ++n) {
+      const glm::dvec3 point = points.at(n).position;
+      for (std::size_t c = 0; c < world.columns.size(); c += 3) {
+        const bool expected = heldSlowly(world, int(c), point, maxLayers);
+        EXPECT_EQ(reach.holds(int(c), point), expected) << "point " << n << " camera " << c;
+        held += expected ? 1 : 0;
+        ++checked;
+      }
+    }
+    EXPECT_GT(held, checked / 20);
+    EXPECT_LT(held, checked * 19 / 20);
+  }
+}
+
+TEST(CaptureReach, HoldsTheSkyWhereNothingIsBeyondTheRegions) {
+  const World world({{{-9, -9, -0.2}, {9, 9, 0}}, {{8, -9, 0}, {8.2, 9, 3}}}, Configuration::b);
+  const CaptureReach reach = world.reach();
+  for (std::size_t c = 0; c < world.columns.size(); ++c) {
+    const double elevation = std::atan2(3 - world.layout.eyeZ(), 8 - world.columns[c].centreOfProjection.x);
+    const auto towards = [&](double up) { return glm::dvec3(std::cos(up), 0, std::sin(up)); };
+    EXPECT_TRUE(reach.holdsSky(int(c), towards(elevation + 0.05))) << "over the wall";
+    EXPECT_FALSE(reach.holdsSky(int(c), towards(0.01))) << "through the wall";
+    EXPECT_FALSE(reach.holdsSky(int(c), towards(radians(69)))) << "above the camera's rows";
+    EXPECT_TRUE(reach.holdsSky(int(c), glm::dvec3(-1, 0, 0)));
+  }
+}
+
+TEST(StandingEyes, LieWithinTheirRegionsAndTheOutline) {
+  LayoutSpec spec;
+  spec.cellSize = 1.5;
+  spec.outline.loops = {{{0, 0}, {5, 0}, {5, 3}, {0, 3}}, {{2, 1}, {3, 1}, {3, 2}, {2, 2}}};
+  spec.added = {{-4, 0, 0}};
+  const Layout layout = buildLayout(spec).value();
+  const auto eyes = standingEyes(layout, {9, 0.4, 0.1});
+  ASSERT_EQ(eyes.size(), layout.regions.size());
+  std::size_t placed = 0;
+  for (std::size_t r = 0; r < eyes.size(); ++r) {
+    const Region& region = layout.regions[r];
+    for (const glm::dvec3& eye : eyes[r]) {
+      EXPECT_TRUE(region.polygon.contains(glm::dvec2(eye)));
+      EXPECT_TRUE(spec.outline.contains(glm::dvec2(eye)) || spec.added.contains(region.id));
+      EXPECT_GE(eye.z, layout.eyeZ() - 0.4);
+      EXPECT_LE(eye.z, layout.eyeZ() + 0.1);
+    }
+    placed += eyes[r].size() == 9 ? 1 : 0;
+  }
+  EXPECT_GT(placed, eyes.size() / 2);
+  EXPECT_EQ(eyes[std::size_t(*layout.findRegion({-4, 0, 0}))].size(), 9u);
+}
+
+TEST(SurfacePoints, AreSpreadByArea) {
+  const ScenePtr scene = test::sceneOf({{{0, 0, 0}, {1, 1, 1}}, {{5, 0, 0}, {8, 2, 1}}});
+  const SurfacePoints points(scene);
+  EXPECT_NEAR(points.area(), 6 + 2 * (6 + 3 + 2), 1e-5);
+  for (const int count : {100, 2000}) {
+    int onFirst = 0, up = 0;
+    for (int n = 0; n < count; ++n) {
+      const SurfacePoint point = points.at(std::uint64_t(n));
+      onFirst += point.mesh == 0 ? 1 : 0;
+      up += point.normal.z > 0.5 ? 1 : 0;
+      const Box box = point.mesh == 0 ? Box{{0, 0, 0}, {1, 1, 1}} : Box{{5, 0, 0}, {8, 2, 1}};
+      const glm::dvec3 off = glm::min(glm::abs(point.position - box.min), glm::abs(point.position - box.max));
+      EXPECT_NEAR(std::min(off.x, std::min(off.y, off.z)), 0, 1e-6) << "on a side of the box";
+    }
+    EXPECT_NEAR(double(onFirst) / count, 6.0 / 28, 2.5 / count + 0.01);
+    EXPECT_NEAR(double(up) / count, 7.0 / 28, 2.5 / count + 0.01);
+  }
+}
+
+TEST(SurfaceCoverage, OfAnEmptyRoomMissesNothing) {
+  for (const Configuration configuration : {Configuration::b, Configuration::e, Configuration::f}) {
+    const World world(emptyRoom(), configuration);
+    SurfaceCoverageOptions options;
+    options.points = 400;
+    options.eyes.perRegion = 4;
+    TaskRunner runner(1);
+    const auto coverage = measureSurfaceCoverage(world.scene, world.reach(), options, runner);
+    ASSERT_TRUE(coverage) << coverage.error().describe();
+    EXPECT_TRUE((*coverage)->complete);
+    EXPECT_EQ((*coverage)->points.size(), 400u);
+    const CoverageSummary& all = (*coverage)->all;
+    EXPECT_GT(all.seen, 100u);
+    EXPECT_EQ(all.ofClass[std::size_t(SurfaceClass::neverSampled)], 0u);
+    EXPECT_EQ(all.eyesMissing, 0u);
+    for (const PointCoverage& point : (*coverage)->points)
+      EXPECT_EQ(point.surfaceClass == SurfaceClass::unseen, point.eyesSeeing == 0);
+  }
+}
+
+TEST(SurfaceCoverage, AgreesWithAskingEveryRegionEyeAndCoverOneByOne) {
+  for (const bool everyCover : {true, false}) {
+    const World world(furnishedRoom(), Configuration::b);
+    const CaptureReach reach = world.reach();
+    SurfaceCoverageOptions options;
+    options.everyCover = everyCover;
+    options.eyes = {5, 0.3, 0.1};
+    const SurfaceJudge judge(reach, options);
+    const SurfacePoints points(world.scene);
+    std::map<SurfaceClass, int> seen;
+    int missed = 0;
+    for (std::uint64_t n = 0; n < 500; ++n) {
+      const SurfacePoint point = points.at(n);
+      const glm::dvec2 place(point.position);
+      std::vector<std::uint32_t> seenFrom, missedFrom;
+      std::uint32_t eyesSeeing = 0, eyesMissing = 0;
+      for (std::uint32_t r = 0; r < world.layout.regions.size(); ++r) {
+        const Region& region = world.layout.regions[r];
+        bool sees = false, misses = false;
+        for (const glm::dvec3& eye : judge.eyes()[r]) {
+          const glm::dvec3 way = point.position - eye;
+          const double distance = glm::length(way);
+          if (world.tracer.trace(eye, way / distance, 0, distance * (1 - 6e-5)).found()) continue;
+          sees = true;
+          ++eyesSeeing;
+          if (region.grown.containsClosed(place)) continue;
+          bool held = false;
+          for (const Cover& cover : region.covers) {
+            const Hand facing = preferredHand(region, glm::dvec2(eye), std::atan2(way.y, way.x));
+            if (!everyCover && region.covers.size() > 1 && cover.hand != facing) continue;
+            for (const Piece& piece : cover.pieces)
+              held = held || (piece.holds(place) && heldSlowly(world, piece.camera, point.position, 8));
+          }
+          if (!held) misses = true, ++eyesMissing;
+        }
+        if (sees) seenFrom.push_back(r);
+        if (misses) missedFrom.push_back(r);
+      }
+      const PointCoverage found = judge.judge(point);
+      EXPECT_EQ(found.seenFrom, seenFrom) << n;
+      EXPECT_EQ(found.missedFrom, missedFrom) << n;
+      EXPECT_EQ(found.eyesSeeing, eyesSeeing);
+      EXPECT_EQ(found.eyesMissing, eyesMissing);
+      missed += missedFrom.empty() ? 0 : 1;
+      ++seen[found.surfaceClass];
+      if (found.camera < 0) continue;
+      EXPECT_GT(found.samplesPerMetre, 0);
+      EXPECT_GT(found.pixelsPerMetre, 0);
+      EXPECT_TRUE(reach.holds(found.camera, point.position));
+      EXPECT_FALSE(world.layout.regions[std::size_t(found.nearestRegion)].grown.containsClosed(place));
+    }
+    EXPECT_GT(missed, 5) << "the furniture hides something from some camera";
+    EXPECT_GT(seen[SurfaceClass::unseen], 5);
+    EXPECT_GT(seen[SurfaceClass::under] + seen[SurfaceClass::fine] + seen[SurfaceClass::over], 50);
+  }
+}
+
+TEST(SurfaceCoverage, ShowsEvenBeginningsOfWhatItEndsWith) {
+  const World world(furnishedRoom(), Configuration::b);
+  SurfaceCoverageOptions options;
+  options.points = 600;
+  options.eyes.perRegion = 3;
+  options.firstSeconds = options.laterSeconds = 0;
+  std::vector<SurfaceCoveragePtr> shown;
+  TaskRunner runner(1), alone;
+  const CaptureReach reach = world.reach();
+  const auto final = measureSurfaceCoverage(world.scene, reach, options, runner,
+                                            [&](const SurfaceCoveragePtr& s) { shown.push_back(s); });
+  const auto again = measureSurfaceCoverage(world.scene, reach, options, alone);
+  ASSERT_TRUE(final && again);
+  ASSERT_GE(shown.size(), 2u);
+  EXPECT_EQ(shown.back(), *final);
+  EXPECT_TRUE(shown.back()->complete);
+  for (std::size_t s = 0; s < shown.size(); ++s) {
+    EXPECT_GT(shown[s]->points.size(), s > 0 ? shown[s - 1]->points.size() : 0);
+    EXPECT_EQ(shown[s]->all.points, shown[s]->points.size());
+    for (std::size_t k = 0; k < shown[s]->points.size(); ++k)
+      EXPECT_EQ(shown[s]->points[k].surfaceClass, (*again)->points[k].surfaceClass);
+  }
+  // Sums over meshes, materials, regions and bins are sums over points.
+  const SurfaceCoverage& c = **final;
+  std::uint64_t byMesh = 0, byMaterial = 0, seen = 0, missed = 0, pairs = 0, misses = 0, sampled = 0;
+  for (const CoverageSummary& summary : c.byMesh) byMesh += summary.points;
+  for (const CoverageSummary& summary : c.byMaterial) byMaterial += summary.points;
+  for (const std::uint64_t n : c.seenByRegion) seen += n;
+  for (const std::uint64_t n : c.missedByRegion) missed += n;
+  for (const std::uint64_t n : c.byRatio) sampled += n;
+  for (const PointCoverage& point : c.points)
+    pairs += point.seenFrom.size(), misses += point.missedFrom.size();
+  EXPECT_EQ(byMesh, 600u);
+  EXPECT_EQ(byMaterial, 600u);
+  EXPECT_EQ(seen, pairs);
+  EXPECT_EQ(missed, misses);
+  double shares = 0;
+  for (int k = 1; k < kSurfaceClasses; ++k) shares += c.all.share(SurfaceClass(k));
+  EXPECT_NEAR(shares, 1, 1e-12);
+  EXPECT_EQ(sampled, c.all.ofClass[3] + c.all.ofClass[4] + c.all.ofClass[5]);
+}
+
+TEST(SurfaceCoverage, StopsAndRefuses) {
+  const World world(emptyRoom(), Configuration::b);
+  TaskRunner runner;
+  std::stop_source source;
+  SurfaceCoverageOptions options;
+  options.points = 100000;
+  options.firstSeconds = 0;
+  const auto stopped = measureSurfaceCoverage(
+      world.scene, world.reach(), options, runner, [&](const SurfaceCoveragePtr&) { source.request_stop(); },
+      source.get_token());
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
+  options.points = 0;
+  EXPECT_FALSE(measureSurfaceCoverage(world.scene, world.reach(), options, runner));
+  options.points = 10, options.focalPixels = NAN;
+  EXPECT_FALSE(measureSurfaceCoverage(world.scene, world.reach(), options, runner));
+  options.focalPixels = 100, options.eyes.lower = -1;
+  EXPECT_FALSE(measureSurfaceCoverage(world.scene, world.reach(), options, runner));
+  const auto nothing =
+      measureSurfaceCoverage(std::make_shared<Scene>(), world.reach(), SurfaceCoverageOptions{}, runner);
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().kind, ErrorKind::notFound);
+}
+
+TEST(SurfaceCoverage, CountsSamplesPerPixelInHalfOctaves) {
+  EXPECT_EQ(ratioBin(0), 0);
+  EXPECT_EQ(ratioBin(NAN), 0);
+  EXPECT_EQ(ratioBin(1e300), kRatioBins - 1);
+  EXPECT_EQ(ratioBin(std::numeric_limits<double>::infinity()), kRatioBins - 1);
+  for (int bin = 1; bin < kRatioBins; ++bin) {
+    EXPECT_EQ(ratioBin(ratioBinStart(bin) * 1.001), bin);
+    EXPECT_EQ(ratioBin(ratioBinStart(bin) * 0.999), bin - 1);
+  }
+  EXPECT_NEAR(ratioBinStart(1), 0.125, 1e-12);
+  EXPECT_NEAR(ratioBinStart(kRatioBins - 1), 5.65685, 1e-5);
+}
+
+PerspectiveView viewFrom(const Layout& layout, const glm::dvec2& place, double yaw) {
+  PerspectiveView view;
+  view.eye = glm::dvec3(place, layout.eyeZ());
+  view.yawRadians = yaw;
+  view.width = 96, view.height = 54;
+  return view;
+}
+
+TEST(ViewHoles, AreNoneInAnEmptyRoomAndFindNothingBehindWalls) {
+  const World world(emptyRoom(), Configuration::b);
+  TaskRunner runner(1);
+  for (int k = 0; k < 8; ++k) {
+    const auto holes =
+        predictHoles(world.reach(), viewFrom(world.layout, {0.2, 0.3}, kTwoPi * k / 8), {}, runner);
+    ASSERT_TRUE(holes);
+    EXPECT_EQ(holes->missed, 0);
+    EXPECT_EQ(holes->open, 0);
+    EXPECT_LT(holes->expected, 0.02) << "splats part at the far ends of floor and ceiling alone";
+    for (const float distance : holes->rayDistance.pixels) EXPECT_TRUE(std::isfinite(distance));
+  }
+}
+
+TEST(ViewHoles, AreTheSharesOfPixelsWhoseSurfaceNoDrawnCoverHolds) {
+  const World world(furnishedRoom(), Configuration::b);
+  const CaptureReach reach = world.reach();
+  TaskRunner runner(1);
+  double sum = 0, less = 0;
+  test::Random random(4);
+  for (int k = 0; k < 14; ++k) {
+    const glm::dvec2 place =
+        random.within(world.layout.regions[std::size_t(random.index(world.layout.regions.size()))].polygon);
+    const PerspectiveView view = viewFrom(world.layout, place, random(0, kTwoPi));
+    const Region& region =
+        world.layout.regions[std::size_t(world.layout.regionAt(glm::dvec2(view.eye)).value())];
+    int missed = 0;
+    for (int y = 0; y < view.height; ++y)
+      for (int x = 0; x < view.width; ++x) {
+        const glm::dvec3 direction = view.rayThrough(x + 0.5, y + 0.5);
+        const OpaqueHit hit = world.tracer.trace(view.eye, direction, 0, 1e9);
+        const glm::dvec3 point = view.eye + hit.distance * direction;
+        if (!hit.found() || region.grown.containsClosed(glm::dvec2(point))) continue;
+        bool held = false;
+        for (const Cover& cover : region.covers)
+          for (const Piece& piece : cover.pieces)
+            held = held || (piece.holds(glm::dvec2(point)) && heldSlowly(world, piece.camera, point, 8));
+        missed += held ? 0 : 1;
+      }
+    const auto all = predictHoles(reach, view, {}, runner);
+    ViewHoleOptions chosenOnly;
+    chosenOnly.everyCover = false;
+    const auto chosen = predictHoles(reach, view, chosenOnly, runner);
+    ASSERT_TRUE(all && chosen);
+    EXPECT_NEAR(all->missed, double(missed) / (view.width * view.height), 1e-9);
+    EXPECT_LE(all->open, all->missed + 1e-12);
+    EXPECT_GE(all->expected, all->open - 1e-3);
+    EXPECT_GE(chosen->missed, all->missed);
+    sum += all->missed, less += chosen->missed;
+  }
+  EXPECT_GT(sum, 0) << "the furniture opens a hole in some view";
+  EXPECT_GT(less, sum) << "the other hand closes some";
+}
+
+TEST(ViewHoles, RefuseAnEyeOutsideEveryRegion) {
+  const World world(emptyRoom(), Configuration::b);
+  TaskRunner runner;
+  EXPECT_FALSE(predictHoles(world.reach(), viewFrom(world.layout, {100, 0}, 0), {}, runner));
+}
+
+}  // namespace
+}  // namespace acentric
