@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <span>
 #include <unordered_map>
 
 #include "engine/base/contract.h"
@@ -198,9 +199,7 @@ class Assembler {
         options_(options),
         ownMesh_(scene.meshes.size(), TriangleBvh::kNone),
         ownVertex_(scene.meshes.size()),
-        firstTriangles_(scene.firstTriangles()) {
-    out.polygon = full.polygon;
-  }
+        firstTriangles_(scene.firstTriangles()) {}
 
   /// A triangle of the full geometry, as it is.
   void keep(const LocalTriangle& t) {
@@ -251,14 +250,11 @@ class Assembler {
 
   void place(std::uint32_t sceneMesh, const glm::uvec3& corners, std::uint32_t firstVertex, Light light) {
     std::uint32_t& own = ownMesh_[sceneMesh];
-    const Mesh& source = scene_.meshes[sceneMesh];
     if (own == TriangleBvh::kNone) {
       own = std::uint32_t(out.meshes.size());
-      out.meshes.emplace_back();
-      out.meshes.back().name = source.name;
-      out.meshes.back().material = source.material;
+      out.meshes.push_back({sceneMesh, {}, {}});
       lights_.emplace_back();
-      ownVertex_[sceneMesh].assign(source.positions.size(), TriangleBvh::kNone);
+      ownVertex_[sceneMesh].assign(scene_.meshes[sceneMesh].positions.size(), TriangleBvh::kNone);
     }
     glm::uvec3 triangle;
     for (int k = 0; k < 3; ++k) triangle[k] = vertex(sceneMesh, corners[k], out.meshes[own]);
@@ -269,20 +265,12 @@ class Assembler {
     lights_[own].push_back(std::move(light));
   }
 
-  std::uint32_t vertex(std::uint32_t sceneMesh, std::uint32_t index, Mesh& mesh) {
+  std::uint32_t vertex(std::uint32_t sceneMesh, std::uint32_t index, SimplifiedMesh& mesh) {
     std::uint32_t& own = ownVertex_[sceneMesh][index];
-    if (own != TriangleBvh::kNone) return own;
-    const Mesh& source = scene_.meshes[sceneMesh];
-    own = std::uint32_t(mesh.positions.size());
-    const auto copy = [&](auto& to, const auto& from) {
-      if (!from.empty()) to.push_back(from[index]);
-    };
-    copy(mesh.positions, source.positions);
-    copy(mesh.normals, source.normals);
-    copy(mesh.tangents, source.tangents);
-    copy(mesh.uv[0], source.uv[0]);
-    copy(mesh.uv[1], source.uv[1]);
-    copy(mesh.colours, source.colours);
+    if (own == TriangleBvh::kNone) {
+      own = std::uint32_t(mesh.sceneVertices.size());
+      mesh.sceneVertices.push_back(index);
+    }
     return own;
   }
 
@@ -390,42 +378,104 @@ Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
   return std::move(assembler.out);
 }
 
-LocalGeometry withLight(const SimplifiedLocal& simplified, const SurfaceLight& sceneLight) {
-  LocalGeometry local;
-  local.polygon = simplified.polygon;
-  local.vertices = simplified.vertices;
-  local.triangles = simplified.triangles;
-  auto surfaces = std::make_shared<LocalSurfaces>();
-  surfaces->meshes = simplified.meshes;
-  if (!sceneLight.empty()) {
-    SurfaceLight& light = surfaces->light;
-    std::size_t place = 0;
-    for (std::size_t t = 0; t < simplified.lightFrom.size(); ++t) {
-      light.firstSample.push_back(std::uint32_t(light.light.size()));
-      const std::uint32_t from = simplified.lightFrom[t];
-      if (from != SimplifiedLocal::kResampled) {
-        light.resolution.push_back(sceneLight.resolution[from]);
-        light.hasBack.push_back(sceneLight.hasBack[from]);
-        light.light.insert(light.light.end(), sceneLight.light.begin() + sceneLight.firstSample[from],
-                           sceneLight.light.begin() + sceneLight.firstSample[from + 1]);
-        continue;
-      }
-      const std::uint16_t resolution = simplified.lightResolution[t];
-      const std::size_t count = surfaceSampleCount(resolution);
-      const SurfacePlace* const places = simplified.lightPlaces.data() + place;
-      place += count;
-      const bool back = sceneLight.hasBack[places[0].sceneTriangle] != 0;
-      light.resolution.push_back(resolution);
-      light.hasBack.push_back(back ? 1 : 0);
-      for (int side = 0; side < (back ? 2 : 1); ++side)
-        for (std::size_t n = 0; n < count; ++n)
-          light.light.push_back(packColour(
-              glm::vec4(sceneLight.at(places[n].sceneTriangle, places[n].barycentric,
-                                      side == 1 && sceneLight.hasBack[places[n].sceneTriangle] != 0),
-                        1)));
-    }
+namespace {
+
+Mesh meshOf(const SimplifiedMesh& simplified, const Scene& scene) {
+  const Mesh& source = scene.meshes[simplified.sceneMesh];
+  Mesh mesh;
+  mesh.name = source.name;
+  mesh.material = source.material;
+  mesh.triangles = simplified.triangles;
+  const auto take = [&](auto& to, const auto& from) {
+    if (from.empty()) return;
+    to.reserve(simplified.sceneVertices.size());
+    for (const std::uint32_t vertex : simplified.sceneVertices) to.push_back(from[vertex]);
+  };
+  take(mesh.positions, source.positions);
+  take(mesh.normals, source.normals);
+  take(mesh.tangents, source.tangents);
+  take(mesh.uv[0], source.uv[0]);
+  take(mesh.uv[1], source.uv[1]);
+  take(mesh.colours, source.colours);
+  return mesh;
+}
+
+SurfaceLight lightOf(const SimplifiedLocal& simplified, const SurfaceLight& sceneLight) {
+  SurfaceLight light;
+  const SurfacePlace* places = simplified.lightPlaces.data();
+  for (std::size_t t = 0; t < simplified.lightFrom.size(); ++t) {
     light.firstSample.push_back(std::uint32_t(light.light.size()));
+    const std::uint32_t from = simplified.lightFrom[t];
+    if (from != SimplifiedLocal::kResampled) {
+      light.resolution.push_back(sceneLight.resolution[from]);
+      light.hasBack.push_back(sceneLight.hasBack[from]);
+      light.light.insert(light.light.end(), sceneLight.light.begin() + sceneLight.firstSample[from],
+                         sceneLight.light.begin() + sceneLight.firstSample[from + 1]);
+      continue;
+    }
+    const std::uint16_t resolution = simplified.lightResolution[t];
+    const std::span<const SurfacePlace> mine(places, surfaceSampleCount(resolution));
+    places += mine.size();
+    const bool back = sceneLight.hasBack[mine[0].sceneTriangle] != 0;
+    light.resolution.push_back(resolution);
+    light.hasBack.push_back(back ? 1 : 0);
+    for (const bool behind : {false, true})
+      for (const SurfacePlace& place : mine)
+        if (back || !behind)
+          light.light.push_back(
+              packColour(glm::vec4(sceneLight.at(place.sceneTriangle, place.barycentric,
+                                                 behind && sceneLight.hasBack[place.sceneTriangle] != 0),
+                                   1)));
   }
+  light.firstSample.push_back(std::uint32_t(light.light.size()));
+  return light;
+}
+
+}  // namespace
+
+Status SimplifiedLocal::check(const Scene& scene) const {
+  const auto wrong = [](const char* what) {
+    return fail(ErrorKind::malformed, std::string("simplified geometry does not fit the scene: ") + what);
+  };
+  const std::size_t sceneTriangles = scene.triangleCount();
+  std::size_t ownTriangles = 0, places = 0;
+  for (const SimplifiedMesh& mesh : meshes) {
+    if (mesh.sceneMesh >= scene.meshes.size()) return wrong("a mesh");
+    for (const std::uint32_t vertex : mesh.sceneVertices)
+      if (vertex >= scene.meshes[mesh.sceneMesh].positions.size()) return wrong("a vertex");
+    for (const glm::uvec3& t : mesh.triangles)
+      if (std::max({t.x, t.y, t.z}) >= mesh.sceneVertices.size()) return wrong("a corner");
+    ownTriangles += mesh.triangles.size();
+  }
+  for (const LocalTriangle& t : triangles)
+    if (t.mesh >= meshes.size() || t.triangle >= meshes[t.mesh].triangles.size() ||
+        std::max({t.vertices.x, t.vertices.y, t.vertices.z}) >= vertices.size())
+      return wrong("a triangle");
+  if (lightFrom.size() != ownTriangles || lightResolution.size() != ownTriangles) return wrong("its light");
+  for (std::size_t t = 0; t < ownTriangles; ++t) {
+    if (lightFrom[t] != kResampled && lightFrom[t] >= sceneTriangles) return wrong("a triangle's light");
+    if (lightFrom[t] == kResampled && (lightResolution[t] < 1 || lightResolution[t] > kMaxLightResolution))
+      return wrong("a light's resolution");
+    places += lightFrom[t] == kResampled ? surfaceSampleCount(lightResolution[t]) : 0;
+  }
+  if (places != lightPlaces.size()) return wrong("the number of light samples");
+  for (const SurfacePlace& place : lightPlaces)
+    if (place.sceneTriangle >= sceneTriangles || !(place.barycentric.x >= 0 && place.barycentric.x <= 1) ||
+        !(place.barycentric.y >= 0 && place.barycentric.y <= 1))
+      return wrong("a light's place");
+  for (const LocalVertex& vertex : vertices)
+    if (!std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z + vertex.barycentric.x +
+                       vertex.barycentric.y))
+      return wrong("a position");
+  return {};
+}
+
+LocalGeometry localGeometryOf(const SimplifiedLocal& simplified, const Scene& scene,
+                              const ConvexPolygon& polygon, const SurfaceLight* sceneLight) {
+  LocalGeometry local{polygon, simplified.vertices, simplified.triangles, nullptr};
+  auto surfaces = std::make_shared<LocalSurfaces>();
+  for (const SimplifiedMesh& mesh : simplified.meshes) surfaces->meshes.push_back(meshOf(mesh, scene));
+  if (sceneLight != nullptr && !sceneLight->empty()) surfaces->light = lightOf(simplified, *sceneLight);
   local.surfaces = std::move(surfaces);
   return local;
 }

@@ -41,11 +41,17 @@ struct SimplifyReport {
   double seconds = 0;
 };
 
+/// Triangles of one scene mesh's vertices.
+struct SimplifiedMesh {
+  std::uint32_t sceneMesh = 0;
+  std::vector<std::uint32_t> sceneVertices;  ///< of that mesh
+  std::vector<glm::uvec3> triangles;         ///< into sceneVertices
+};
+
 struct SimplifiedLocal {
-  ConvexPolygon polygon;
   std::vector<LocalVertex> vertices;
   std::vector<LocalTriangle> triangles;  ///< of `meshes`
-  std::vector<Mesh> meshes;
+  std::vector<SimplifiedMesh> meshes;
   /// By triangle through the meshes in order: the scene triangle whose light it takes as it is, or
   /// kResampled.
   std::vector<std::uint32_t> lightFrom;
@@ -54,6 +60,9 @@ struct SimplifiedLocal {
   SimplifyReport report;
 
   static constexpr std::uint32_t kResampled = 0xffffffff;
+
+  /// Does every number in it name something of this scene? For what comes from a file.
+  Status check(const Scene& scene) const;
 };
 
 /// `full` is clipped from `scene`. Fails when cancelled or out of memory; a budget or an error that cannot be
@@ -61,7 +70,8 @@ struct SimplifiedLocal {
 Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
                                  const SimplifyOptions& options, std::stop_token stop = {});
 
-/// Ready to draw, with light taken from the scene's (may be empty: not baked).
-LocalGeometry withLight(const SimplifiedLocal& simplified, const SurfaceLight& sceneLight);
+/// Ready to draw, with light taken from the scene's (null or empty: not baked).
+LocalGeometry localGeometryOf(const SimplifiedLocal& simplified, const Scene& scene,
+                              const ConvexPolygon& polygon, const SurfaceLight* sceneLight);
 
 }  // namespace acentric

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <random>
@@ -165,9 +166,10 @@ TEST(Simplify, KeepsMaterialBordersAndTextureSeams) {
   ASSERT_TRUE(simplified.has_value());
   EXPECT_LT(simplified->report.after, full.triangles.size() / 2);
   ASSERT_EQ(simplified->meshes.size(), 2u);
+  const LocalGeometry own = localGeometryOf(*simplified, scene, full.polygon, nullptr);
   std::size_t onBorder = 0, onSeam = 0;
   for (const LocalTriangle& t : simplified->triangles) {
-    const Mesh& mesh = simplified->meshes[t.mesh];
+    const Mesh& mesh = own.surfaces->meshes[t.mesh];
     float low = 9, high = -9, uvOffset = 0;
     for (int k = 0; k < 3; ++k) {
       const glm::vec3& p = simplified->vertices[t.vertices[k]].position;
@@ -191,7 +193,8 @@ TEST(Simplify, KeepsMaterialBordersAndTextureSeams) {
 
 TEST(Simplify, TexturesDoNotSlideFurtherThanTheError) {
   Mesh mesh = sheet(40, [](double, double) { return 0.0; });
-  for (glm::vec2& uv : mesh.uv[0]) uv.x += 0.15f * std::sin(4 * uv.x) * std::cos(4 * uv.y);  // flat, but painted unevenly
+  for (glm::vec2& uv : mesh.uv[0])
+    uv.x += 0.15f * std::sin(4 * uv.x) * std::cos(4 * uv.y);  // flat, but painted unevenly
   Scene scene = sceneOf({mesh});
   scene.materials[0].baseColourTexture.texture = 0;
   const LocalGeometry full = clipToPolygon(scene, square(3));
@@ -200,9 +203,10 @@ TEST(Simplify, TexturesDoNotSlideFurtherThanTheError) {
   ASSERT_TRUE(simplified.has_value());
   EXPECT_LT(simplified->report.after, full.triangles.size() / 2);
   EXPECT_GT(simplified->report.after, 300u) << "it is not painted like a flat sheet";
+  const LocalGeometry local = localGeometryOf(*simplified, scene, full.polygon, nullptr);
   double worst = 0;
   for (const LocalTriangle& t : simplified->triangles) {
-    const Mesh& own = simplified->meshes[t.mesh];
+    const Mesh& own = local.surfaces->meshes[t.mesh];
     glm::dvec2 p(0), uv(0);
     for (int k = 0; k < 3; ++k) {
       p += glm::dvec2(simplified->vertices[t.vertices[k]].position) / 3.0;
@@ -255,7 +259,7 @@ TEST(Simplify, GivesTrianglesTheLightOfThePlaceTheyCover) {
   const auto simplified = simplify(scene, full, {.mostTriangles = 0, .maxError = 0.01, .lightTexel = 0.1});
   ASSERT_TRUE(simplified.has_value());
   ASSERT_LT(simplified->report.after, full.triangles.size() / 2);
-  const LocalGeometry local = withLight(*simplified, light);
+  const LocalGeometry local = localGeometryOf(*simplified, scene, full.polygon, &light);
   ASSERT_TRUE(local.surfaces);
   const SurfaceLight& own = local.surfaces->light;
   ASSERT_EQ(own.firstSample.size(), local.triangles.size() + 1);
@@ -275,7 +279,8 @@ TEST(Simplify, GivesTrianglesTheLightOfThePlaceTheyCover) {
     }
     ++number;
   }
-  EXPECT_TRUE(withLight(*simplified, {}).surfaces->light.empty()) << "nothing baked yet";
+  EXPECT_TRUE(localGeometryOf(*simplified, scene, full.polygon, nullptr).surfaces->light.empty())
+      << "nothing baked yet";
 }
 
 TEST(Simplify, IsTheSameEachTimeAndStopsWhenAsked) {
@@ -298,6 +303,30 @@ TEST(Simplify, IsTheSameEachTimeAndStopsWhenAsked) {
   const auto nothing = simplify(scene, clipToPolygon(scene, {{{5, 5}, {6, 5}, {5, 6}}}), options);
   ASSERT_TRUE(nothing.has_value());
   EXPECT_TRUE(nothing->triangles.empty());
+}
+
+TEST(Simplify, IsCheckedAgainstItsScene) {
+  const Scene scene = sceneOf({sheet(20, bump)});
+  const LocalGeometry full = clipToPolygon(scene, square(0.83));
+  const SimplifiedLocal sound = simplify(scene, full, {.mostTriangles = 0, .maxError = 0.01}).value();
+  EXPECT_TRUE(sound.check(scene).has_value());
+  const std::vector<std::function<void(SimplifiedLocal&)>> breakages{
+      [](SimplifiedLocal& s) { s.meshes[0].sceneMesh = 1; },
+      [](SimplifiedLocal& s) { s.meshes[0].sceneVertices[3] = 441; },
+      [](SimplifiedLocal& s) { s.meshes[0].triangles[2].y = 99999; },
+      [](SimplifiedLocal& s) { s.triangles[1].triangle = 99999; },
+      [](SimplifiedLocal& s) { s.triangles[1].vertices.z = 99999; },
+      [](SimplifiedLocal& s) { s.lightFrom.pop_back(); },
+      [](SimplifiedLocal& s) { s.lightFrom[0] = 800; },
+      [](SimplifiedLocal& s) { s.lightPlaces.pop_back(); },
+      [](SimplifiedLocal& s) { s.lightPlaces[0].sceneTriangle = 800; },
+      [](SimplifiedLocal& s) { s.lightPlaces[0].barycentric.x = std::nanf(""); },
+      [](SimplifiedLocal& s) { s.vertices[0].position.x = std::nanf(""); }};
+  for (std::size_t n = 0; n < breakages.size(); ++n) {
+    SimplifiedLocal broken = sound;
+    breakages[n](broken);
+    EXPECT_FALSE(broken.check(scene).has_value()) << n;
+  }
 }
 
 TEST(TriangleBvh, FindsTheNearestPointThatASearchOfAllFinds) {

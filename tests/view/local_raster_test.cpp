@@ -252,7 +252,8 @@ TEST(LocalRaster, DrawsSurfacesOfARegionsOwnExactlyAsTheScenesWhereTheyAreTheSam
   const auto kept = simplify(*walk.scene, *walk.local[0], {.mostTriangles = 1 << 20, .maxError = 0.01});
   ASSERT_TRUE(kept.has_value());
   ASSERT_EQ(kept->report.after, kept->report.before);
-  walk.local[0] = std::make_shared<const LocalGeometry>(withLight(*kept, *walk.surfaceLight));
+  walk.local[0] =
+      std::make_shared<const LocalGeometry>(localGeometryOf(*kept, *walk.scene, {}, walk.surfaceLight.get()));
   const auto own = drawLocal(walk, overTheSheet());
   EXPECT_EQ(own.frame.colour.pixels, full.frame.colour.pixels);
   EXPECT_EQ(own.inverseZDepth.pixels, full.inverseZDepth.pixels);
@@ -264,7 +265,8 @@ TEST(LocalRaster, DrawsSimplifiedSurfacesWithTheirTextureAndLight) {
   const auto simplified = simplify(*walk.scene, *walk.local[0], {.mostTriangles = 0, .maxError = 0.004});
   ASSERT_TRUE(simplified.has_value());
   ASSERT_LT(simplified->report.after, simplified->report.before / 3);
-  walk.local[0] = std::make_shared<const LocalGeometry>(withLight(*simplified, *walk.surfaceLight));
+  walk.local[0] = std::make_shared<const LocalGeometry>(
+      localGeometryOf(*simplified, *walk.scene, {}, walk.surfaceLight.get()));
   const auto own = drawLocal(walk, overTheSheet());
   double sum = 0;
   std::size_t seen = 0;
