@@ -20,7 +20,7 @@
 
 namespace acentric {
 
-enum class BlockFileKind : std::uint32_t { capture = 1, surfaceLight = 2 };
+enum class BlockFileKind : std::uint32_t { capture = 1, surfaceLight = 2, simplifiedLocal = 3 };
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;

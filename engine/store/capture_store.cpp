@@ -18,6 +18,8 @@ constexpr const char* kPackExtension = ".pack";
 constexpr const char* kDamagedExtension = ".damaged";
 constexpr const char* kLightExtension = ".light";
 constexpr std::string_view kLightPrefix = "surface-";
+constexpr const char* kSimplifiedExtension = ".local";
+constexpr std::string_view kSimplifiedPrefix = "simplified-";
 
 fs::path exrOf(const fs::path& folder, const ContentKey& key) {
   return folder / (key.toHex() + kExrExtension);
@@ -27,6 +29,10 @@ fs::path packOf(const fs::path& folder, const ContentKey& key) {
 }
 fs::path lightOf(const fs::path& folder, const ContentKey& key) {
   return folder / (std::string(kLightPrefix) + key.toHex() + kLightExtension);
+}
+
+fs::path simplifiedOf(const fs::path& folder, const ContentKey& key) {
+  return folder / (std::string(kSimplifiedPrefix) + key.toHex() + kSimplifiedExtension);
 }
 
 bool isFile(const fs::path& path) {
@@ -54,13 +60,31 @@ Result<Keyed<Value>> expectKey(Result<Keyed<Value>>&& read, const ContentKey& ke
   return std::move(read);
 }
 
-/// The key in the name of a capture's or a surface light's file (also of one set aside).
+/// What one file holds as a whole; set aside if damaged.
+template <class Value>
+Result<Value> getWhole(const ContentKey& key, const fs::path& path,
+                       Result<Keyed<Value>> (*readKeyed)(const fs::path&)) {
+  if (!isFile(path)) return fail(ErrorKind::notFound, "is not baked", path.string());
+  auto whole = expectKey(readKeyed(path), key, path);
+  if (!whole &&
+      (whole.error().kind == ErrorKind::malformed || whole.error().kind == ErrorKind::unsupported)) {
+    setAside(path);
+    return fail(ErrorKind::malformed,
+                "is damaged and was set aside as *.damaged; bake again (" + whole.error().message + ")",
+                path.string());
+  }
+  return withoutKey(std::move(whole));
+}
+
+/// The key in the name of one of the store's files (also of one set aside).
 std::optional<ContentKey> keyInName(const fs::path& path) {
   fs::path name = path.filename();
   if (name.extension() == kDamagedExtension) name = name.stem();
   std::string stem = name.stem().string();
   if (name.extension() == kLightExtension && stem.starts_with(kLightPrefix))
     stem.erase(0, kLightPrefix.size());
+  else if (name.extension() == kSimplifiedExtension && stem.starts_with(kSimplifiedPrefix))
+    stem.erase(0, kSimplifiedPrefix.size());
   else if (name.extension() != kExrExtension && name.extension() != kPackExtension)
     return std::nullopt;
   const auto key = ContentKey::fromHex(stem);
@@ -119,21 +143,22 @@ Status CaptureStore::putSurfaceLight(const ContentKey& key, const SurfaceLight& 
 }
 
 Result<SurfaceLight> CaptureStore::getSurfaceLight(const ContentKey& key) const {
-  const fs::path path = lightOf(folder_, key);
-  if (!isFile(path)) return fail(ErrorKind::notFound, "is not baked", path.string());
-  auto light = expectKey(readKeyedSurfaceLight(path), key, path);
-  if (!light &&
-      (light.error().kind == ErrorKind::malformed || light.error().kind == ErrorKind::unsupported)) {
-    setAside(path);
-    return fail(ErrorKind::malformed,
-                "is damaged and was set aside as *.damaged; bake again (" + light.error().message + ")",
-                path.string());
-  }
-  return withoutKey(std::move(light));
+  return getWhole(key, lightOf(folder_, key), readKeyedSurfaceLight);
+}
+
+bool CaptureStore::hasSimplified(const ContentKey& key) const { return isFile(simplifiedOf(folder_, key)); }
+
+Status CaptureStore::putSimplified(const ContentKey& key, const SimplifiedLocal& simplified) const {
+  return writeSimplified(simplified, key, simplifiedOf(folder_, key));
+}
+
+Result<SimplifiedLocal> CaptureStore::getSimplified(const ContentKey& key) const {
+  return getWhole(key, simplifiedOf(folder_, key), readKeyedSimplified);
 }
 
 std::uint64_t CaptureStore::bytesOf(const ContentKey& key) const {
-  return sizeOf(exrOf(folder_, key)) + sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key));
+  return sizeOf(exrOf(folder_, key)) + sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key)) +
+         sizeOf(simplifiedOf(folder_, key));
 }
 
 std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {

@@ -11,6 +11,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
 #include "engine/image/capture.h"
+#include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
 
 namespace acentric {
@@ -23,6 +24,11 @@ Result<Capture> readCapturePack(const std::filesystem::path& path);
 
 Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path);
 Result<SurfaceLight> readSurfaceLight(const std::filesystem::path& path);
+
+Status writeSimplified(const SimplifiedLocal& simplified, const ContentKey& key,
+                       const std::filesystem::path& path);
+/// Numbers are not checked against the scene: SimplifiedLocal::check does.
+Result<SimplifiedLocal> readSimplified(const std::filesystem::path& path);
 
 class CaptureStore {
  public:
@@ -41,9 +47,13 @@ class CaptureStore {
   Status putSurfaceLight(const ContentKey& key, const SurfaceLight& light) const;
   Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
 
+  bool hasSimplified(const ContentKey& key) const;
+  Status putSimplified(const ContentKey& key, const SimplifiedLocal& simplified) const;
+  Result<SimplifiedLocal> getSimplified(const ContentKey& key) const;
+
   std::uint64_t bytesOf(const ContentKey& key) const;
-  /// Deletes captures and surface light whose key is not in `keep`, and what was set aside; returns bytes
-  /// freed.
+  /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set
+  /// aside; returns bytes freed.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:

@@ -3,6 +3,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/image/capture.h"
+#include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
 
 namespace acentric {
@@ -16,6 +17,7 @@ struct Keyed {
 Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path);
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
+Result<Keyed<SimplifiedLocal>> readKeyedSimplified(const std::filesystem::path& path);
 
 /// The value alone.
 template <class Value>
