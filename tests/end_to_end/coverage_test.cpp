@@ -1,0 +1,90 @@
+/// The coverage command, as a user types it.
+
+#include <gtest/gtest.h>
+
+#include "tests/end_to_end/sample_project.h"
+
+namespace acentric::test {
+namespace {
+
+class CoverageTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { project = new SampleProject("coverage"); }
+  static void TearDownTestSuite() { delete project; }
+  void SetUp() override { ASSERT_EQ(project->made().exitCode, 0) << project->made().errors; }
+  std::string path(const char* name) const { return (project->folder() / name).string(); }
+  static std::size_t lines(const std::string& file) {
+    std::ifstream in(file);
+    return std::size_t(std::count(std::istreambuf_iterator<char>(in), {}, '\n'));
+  }
+  static inline SampleProject* project = nullptr;
+};
+
+TEST_F(CoverageTest, OfThePlanHasEachCoverHoldThePlaneOnce) {
+  const auto run = acentric({"coverage", project->file(), "--plan", "--grid", "128", "-o", path("plan.svg"),
+                             "--csv", path("plan.csv"), "--json"});
+  ASSERT_EQ(run.exitCode, 0) << run.errors;
+  const Json report = Json::parse(run.output);
+  double sum = 0;
+  for (const Json& share : report["byCount"]) sum += share.get<double>();
+  EXPECT_NEAR(sum, 1, 1e-9);
+  ASSERT_EQ(report["kinds"].size(), 2u);  // rings and gap triangles
+  for (const Json& kind : report["kinds"]) EXPECT_EQ(kind["coverHoldsOnce"].get<double>(), 1);
+  EXPECT_GT(report["mean"].get<double>(), 1);
+  EXPECT_TRUE(std::filesystem::exists(path("plan.svg")));
+  const Json& grid = report["grid"];
+  EXPECT_EQ(lines(path("plan.csv")),
+            1 + grid["columns"].get<std::size_t>() * grid["rows"].get<std::size_t>());
+}
+
+TEST_F(CoverageTest, OfTheSurfacesAddsUp) {
+  const auto run = acentric({"coverage", project->file(), "--surfaces", "--points", "500", "--eyes", "3",
+                             "-o", path("surfaces.png"), "--csv", path("surfaces.csv"), "--json"});
+  ASSERT_EQ(run.exitCode, 0) << run.errors;
+  const Json report = Json::parse(run.output);
+  EXPECT_EQ(report["points"].get<int>(), 500);
+  double sum = 0;
+  for (const auto& [name, share] : report["all"]["shares"].items()) sum += share.get<double>();
+  EXPECT_NEAR(sum, 1, 1e-9);
+  // A bake this coarse samples almost every surface less densely than the display shows it.
+  EXPECT_GT(report["all"]["shares"]["under"].get<double>(), 0.5);
+  EXPECT_EQ(lines(path("surfaces.csv")), 501u);
+  EXPECT_TRUE(std::filesystem::exists(path("surfaces.png")));
+}
+
+TEST_F(CoverageTest, ForetellsTheHolesOfRenderedFrames) {
+  const auto baked = acentric({"bake", project->file(), "--json"});
+  ASSERT_EQ(baked.exitCode, 0) << baked.errors;
+  const auto run = acentric({"coverage", project->file(), "--correlate", "--frames", "12", "--size", "160x90",
+                             "--csv", path("holes.csv"), "--json"});
+  ASSERT_EQ(run.exitCode, 0) << run.errors;
+  const Json report = Json::parse(run.output);
+  EXPECT_EQ(report["frames"].size(), 12u);
+  EXPECT_EQ(lines(path("holes.csv")), 13u);
+  EXPECT_GT(report["expected"]["pearson"].get<double>(), 0.7);
+  EXPECT_GT(report["expected"]["spearman"].get<double>(), 0.6);
+}
+
+TEST_F(CoverageTest, SaysWhatIsWrong) {
+  struct Case {
+    std::vector<std::string> arguments;
+    int exitCode;
+    const char* said;
+  };
+  const std::vector<Case> cases = {
+      {{"coverage", path("none.acentric.json"), "--plan"}, 1, "none.acentric.json"},
+      {{"coverage", project->file(), "--plan", "--surfaces"}, 1, "--plan"},
+      {{"coverage", project->file(), "--correlate", "-o", path("x.png")}, 1, "--csv"},
+      {{"coverage", project->file(), "--plan", "-o", path("x.txt")}, 1, "x.txt"},
+      {{"coverage", project->file(), "--points", "0"}, 2, "--points"},
+  };
+  for (const Case& c : cases) {
+    const auto result = acentric(c.arguments);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.said << ": " << result.errors;
+    EXPECT_NE((result.errors + result.output).find(c.said), std::string::npos)
+        << c.said << " not in: " << result.errors;
+  }
+}
+
+}  // namespace
+}  // namespace acentric::test
