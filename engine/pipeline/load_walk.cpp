@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -5,6 +7,7 @@
 
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/simplified_regions.h"
 #include "engine/scene/local_geometry.h"
 
 namespace acentric {
@@ -21,6 +24,20 @@ std::map<ContentKey, CapturePtr> capturesOf(const LoadedWalk* former, float expo
   return known;
 }
 
+/// What `former` has for a region of the same polygon.
+LocalPtr formerLocal(const OpenProject& open, const LoadedWalk* former, const Region& region) {
+  if (!former || former->walk.scene != open.scene || !former->walk.layout) return nullptr;
+  const auto old = former->walk.layout->findRegion(region.id);
+  if (!old || former->walk.layout->regions[std::size_t(*old)].grown.corners != region.grown.corners)
+    return nullptr;
+  const LocalPtr& local = former->walk.local[std::size_t(*old)];
+  // Simplified geometry carries the light it was made with.
+  const bool sameBudget = former->budget == open.project.budget;
+  const bool sameLight =
+      former->surfaceLightKey == open.surfaceLightKey && former->walk.surfaceLight != nullptr;
+  return local && (local->surfaces ? sameBudget && sameLight : sameBudget) ? local : nullptr;
+}
+
 /// Clips the scene to each region that `former` did not clip alike.
 std::vector<LocalPtr> localGeometryFor(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
                                        std::stop_token stop) {
@@ -28,14 +45,76 @@ std::vector<LocalPtr> localGeometryFor(const OpenProject& open, const LoadedWalk
   std::vector<LocalPtr> local(regions.size());
   runner.parallelFor(regions.size(), [&](std::size_t r) {
     if (stop.stop_requested()) return;
-    if (former && former->walk.scene == open.scene && former->walk.layout)
-      if (const auto old = former->walk.layout->findRegion(regions[r].id);
-          old && former->walk.layout->regions[std::size_t(*old)].grown.corners == regions[r].grown.corners)
-        local[r] = former->walk.local[std::size_t(*old)];
+    local[r] = formerLocal(open, former, regions[r]);
     if (!local[r])
       local[r] = std::make_shared<const LocalGeometry>(clipToPolygon(*open.scene, regions[r].grown));
   });
   return local;
+}
+
+/// Simplifies the regions above the budget. Says so in `loaded`; a region that cannot be simplified stays
+/// whole.
+void simplifyOverBudget(const OpenProject& open, const LoadedWalk* former, LoadedWalk& loaded,
+                        TaskRunner& runner, const Progress& progress, const std::stop_token& stop) {
+  loaded.budget = open.project.budget;
+  std::vector<std::size_t> over;
+  for (std::size_t r = 0; r < loaded.walk.local.size(); ++r) {
+    const LocalPtr& local = loaded.walk.local[r];
+    if (!local || !open.project.budget.simplifies()) continue;
+    if (local->surfaces) {
+      const int old = *former->walk.layout->findRegion(open.layout->regions[r].id);
+      const auto known = std::ranges::find(former->simplified, old, &LoadedWalk::Simplified::region);
+      if (known != former->simplified.end())
+        loaded.simplified.push_back({int(r), known->report, known->fromStore});
+    } else if (local->triangles.size() > std::size_t(open.project.budget.trianglesPerRegion)) {
+      over.push_back(r);
+    }
+  }
+  if (over.empty()) return;
+  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  if (!store) {
+    loaded.warnings.push_back("local geometry above the budget was not simplified: " +
+                              store.error().describe());
+    return;
+  }
+  std::mutex mutex;
+  double done = 0;
+  runner.parallelFor(over.size(), [&](std::size_t n) {
+    if (stop.stop_requested()) return;
+    const std::size_t r = over[n];
+    auto made = simplifiedRegion(open, int(r), loaded.walk.local[r], loaded.walk.surfaceLight, *store, stop);
+    const std::lock_guard lock(mutex);
+    if (made) {
+      loaded.walk.local[r] = made->geometry;
+      loaded.simplified.push_back({int(r), made->report, made->fromStore});
+      if (made->notKept) loaded.warnings.push_back(made->notKept->describe());
+    } else if (made.error().kind != ErrorKind::cancelled) {
+      loaded.warnings.push_back("a region above the budget was not simplified: " + made.error().describe());
+    }
+    if (progress) progress({++done, double(over.size()), "simplifying regions above the triangle budget"});
+  });
+  std::ranges::sort(loaded.simplified, {}, &LoadedWalk::Simplified::region);
+}
+
+/// One line: never a walk through simplified geometry without a word.
+void reportSimplified(LoadedWalk& loaded) {
+  std::size_t before = 0, after = 0, above = 0, beyond = 0;
+  double error = 0;
+  for (const LoadedWalk::Simplified& s : loaded.simplified) {
+    before += s.report.before, after += s.report.after;
+    above += s.report.withinBudget ? 0 : 1, beyond += s.report.withinError ? 0 : 1;
+    error = std::max(error, s.report.maxError);
+  }
+  if (loaded.simplified.empty()) return;
+  std::string line = fmt::format(
+      "the local geometry of {} regions is simplified: {} triangles became {}, the surfaces lie at most "
+      "{:.2g} mm "
+      "apart",
+      loaded.simplified.size(), before, after, 1e3 * error);
+  if (above > 0)
+    line += fmt::format("; {} of them are still above the budget, because the error allows no more", above);
+  if (beyond > 0) line += fmt::format("; {} of them exceed the error", beyond);
+  loaded.warnings.push_back(std::move(line));
 }
 
 }  // namespace
@@ -85,7 +164,9 @@ Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, T
     }
   }
   walk.local = localGeometryFor(open, former, runner, stop);
+  simplifyOverBudget(open, former, loaded, runner, progress, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "loading was cancelled", open.file.string());
+  reportSimplified(loaded);
   loaded.missing = int(std::count(walk.captures.begin(), walk.captures.end(), nullptr));
   return loaded;
 }

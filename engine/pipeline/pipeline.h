@@ -13,6 +13,7 @@
 #include "engine/base/task_runner.h"
 #include "engine/pipeline/project.h"
 #include "engine/pipeline/scene_storeys.h"
+#include "engine/scene/simplify.h"
 #include "engine/store/capture_store.h"
 #include "engine/view/render.h"
 #include "engine/view/walk_scene.h"
@@ -86,6 +87,14 @@ struct LoadedWalk {
   ContentKey surfaceLightKey;
   std::vector<std::string> warnings;
   int missing = 0;  ///< cameras not on disk
+  /// Regions whose local geometry is simplified, because it is above the project's budget.
+  struct Simplified {
+    int region = 0;
+    SimplifyReport report;
+    bool fromStore = false;  ///< else it was made just now
+  };
+  std::vector<Simplified> simplified;
+  TriangleBudget budget;  ///< that walk.local keeps to
 };
 Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});

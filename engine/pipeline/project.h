@@ -21,12 +21,24 @@ struct Spawn {
   bool operator==(const Spawn&) const = default;
 };
 
+/// How many triangles a region's local geometry may have, and what is done where it has more.
+struct TriangleBudget {
+  int trianglesPerRegion = 0;     ///< 0 = no limit
+  double maxErrorMetres = 0.005;  ///< that simplified surfaces may lie from the scene's
+  bool simplify = false;          ///< simplify regions above the limit; else they are only reported
+
+  Status check() const;
+  bool simplifies() const { return simplify && trianglesPerRegion > 0; }
+  bool operator==(const TriangleBudget&) const = default;
+};
+
 struct Project {
   std::filesystem::path scene;  ///< relative to the project file's folder
   ImportOptions import;
   EffectOverrides effects;
   LayoutSpec layout;
   BakeSettings bake;
+  TriangleBudget budget;
   ViewSettings view;
   double fovDegrees = 60;  ///< of the walk
   float exposure = 1;

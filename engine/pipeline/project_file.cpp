@@ -169,6 +169,11 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "surfaceTexel", project.bake.surfaceTexel);
     read(json["bake"], "maxLayers", project.bake.maxLayers);
   }
+  if (json.contains("budget")) {
+    read(json["budget"], "trianglesPerRegion", project.budget.trianglesPerRegion);
+    read(json["budget"], "maxErrorMetres", project.budget.maxErrorMetres);
+    read(json["budget"], "simplify", project.budget.simplify);
+  }
   if (json.contains("view")) readView(json["view"], project);
   if (json.contains("spawn")) {
     project.spawn.position = pointFrom(json["spawn"].at("position"));
@@ -232,12 +237,20 @@ Status checkSchema(const Json& json, const std::string& where) {
 
 }  // namespace
 
+Status TriangleBudget::check() const {
+  if (trianglesPerRegion < 0)
+    return fail(ErrorKind::malformed, "/budget/trianglesPerRegion: must be 0 (no limit) or more");
+  if (!(maxErrorMetres > 0 && maxErrorMetres <= 10))
+    return fail(ErrorKind::malformed, "/budget/maxErrorMetres: must lie above 0 and up to 10");
+  return {};
+}
+
 Status Project::check() const {
   if (scene.empty()) return fail(ErrorKind::malformed, "/scene: names no model file");
   if (scene.is_absolute())
     return fail(ErrorKind::malformed,
                 "/scene: must be relative to the project file's folder, not " + scene.string());
-  for (const Status& part : {import.check(), layout.check(), bake.check(), view.check()})
+  for (const Status& part : {import.check(), layout.check(), bake.check(), budget.check(), view.check()})
     if (!part) return part;
   if (!(fovDegrees >= 1 && fovDegrees <= 179))
     return fail(ErrorKind::malformed, "/view/fovDegrees: must lie in 1..179");
@@ -268,6 +281,10 @@ std::string formatProject(const Project& project) {
         {"ambientRadius", project.bake.ambientRadius},
         {"surfaceTexel", project.bake.surfaceTexel},
         {"maxLayers", project.bake.maxLayers}}},
+      {"budget",
+       {{"trianglesPerRegion", project.budget.trianglesPerRegion},
+        {"maxErrorMetres", project.budget.maxErrorMetres},
+        {"simplify", project.budget.simplify}}},
       {"view",
        {{"renderer", nameOf(project.view.renderer)},
         {"reconstruction", nameOf(project.view.reconstruction)},

@@ -27,6 +27,7 @@ Project everythingSet() {
   project.layout.added = {{1, -2, 0}, {4, 5, 0}};
   project.layout.removed = {{0, 0, 0}};
   project.bake = {12.5, 24, 1.5, 0.02, 4};
+  project.budget = {150000, 0.0025, true};
   project.view.renderer = Renderer::zbuffer;
   project.view.reconstruction = Reconstruction::point;
   project.view.maxSplatPixels = 7;
