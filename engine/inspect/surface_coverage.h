@@ -55,10 +55,10 @@ struct PointCoverage {
 struct SurfaceCoverageOptions {
   int points = 20000;
   EyeOptions eyes;
-  double focalPixels = 1000;   ///< of the walk's display
-  bool everyCover = true;      ///< panoramas too; false: only the cover of the paper's choice of hand
-  double firstSeconds = 0.15;  ///< after which the first snapshot is shown
-  double laterSeconds = 0.5;   ///< between the others
+  double focalPixels = 1000;  ///< of the walk's display
+  bool everyCover = true;     ///< panoramas too; false: only the cover of the paper's choice of hand
+  double firstSeconds = 0.1;  ///< after which the first snapshot is shown
+  double laterSeconds = 0.5;  ///< between the others
   Status check() const;
 };
 
