@@ -40,6 +40,7 @@ PlanPicture pictureOf(const PlanCoverage& coverage, const CoverageShares& shares
   const PlanGrid& grid = coverage.grid;
   PlanPicture picture = acentric::pictureOf(layout, "Cameras that hold each point");
   for (PlanPolygon& polygon : picture.polygons) polygon.fill.reset();
+  std::erase_if(picture.legend, [](const LegendEntry& e) { return e.swatch == LegendSwatch::area; });
   std::uint16_t most = 1;
   for (const std::uint16_t count : coverage.counts)
     if (count != kNotCounted) most = std::max(most, count);
