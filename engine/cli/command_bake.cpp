@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/cli/commands.h"
+#include "engine/pipeline/simplified_regions.h"
 
 namespace acentric::cli {
 namespace {
@@ -46,6 +47,7 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
     if (!store) return tl::unexpected(store.error());
     std::vector<ContentKey> used = open->keys;
     used.push_back(open->surfaceLightKey);
+    std::ranges::copy(simplifiedKeys(*open), std::back_inserter(used));
     freed = store->prune(used);
   }
 

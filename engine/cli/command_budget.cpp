@@ -26,6 +26,8 @@ Result<Report> runBudget(const BudgetOptions& options, const Common& common) {
   const auto budgets = counter.count(layout, *runner, common.progress, common.stop);
   if (!budgets) return tl::unexpected(budgets.error());
   std::optional<std::size_t> limit;
+  if (open->project.budget.trianglesPerRegion > 0)
+    limit = std::size_t(open->project.budget.trianglesPerRegion);
   if (options.most > 0) limit = options.most;
 
   Json regions = Json::array();

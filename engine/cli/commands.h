@@ -34,7 +34,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common);
 
 struct BudgetOptions {
   std::filesystem::path project, output;
-  std::size_t most = 0;  ///< triangles per region; 0 = no limit
+  std::size_t most = 0;  ///< triangles per region; 0 = the project's limit, if any
 };
 Result<Report> runBudget(const BudgetOptions& options, const Common& common);
 
@@ -42,7 +42,8 @@ struct FitCommandOptions {
   std::filesystem::path project, output;
   std::size_t most = 0;  ///< triangles per region
   double leastCell = 0.3;
-  bool rotate = false, shift = false, apply = false;
+  double maxError = 0.005;  ///< metres, of simplified regions
+  bool rotate = false, shift = false, simplify = false, apply = false;
 };
 Result<Report> runFit(const FitCommandOptions& options, const Common& common);
 

@@ -98,14 +98,15 @@ void addBudget(CLI::App& app, Chosen& chosen, BudgetOptions& o) {
                     "  acentric budget kitchen.acentric.json --json",
                     o, runBudget);
   c->add_option("project", o.project, "Project file")->required();
-  c->add_option("--max", o.most, "Triangles that a region may have")->check(CLI::PositiveNumber);
+  c->add_option("--max", o.most, "Triangles that a region may have (default: the project's budget)")
+      ->check(CLI::PositiveNumber);
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 
 void addFit(CLI::App& app, Chosen& chosen, FitCommandOptions& o) {
   CLI::App* c = add(app, chosen, "fit", "Find the largest cells whose regions keep to a number of triangles",
                     "  acentric fit kitchen.acentric.json --max 200000 --rotate -o fit.svg\n"
-                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --apply",
+                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --simplify --apply",
                     o, runFit);
   c->add_option("project", o.project, "Project file")->required();
   c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
@@ -114,7 +115,12 @@ void addFit(CLI::App& app, Chosen& chosen, FitCommandOptions& o) {
       ->capture_default_str();
   c->add_flag("--rotate", o.rotate, "Try turned lattices as well");
   c->add_flag("--shift", o.shift, "Try shifted lattices as well");
-  c->add_flag("--apply", o.apply, "Write the cells found to the project file");
+  c->add_flag("--simplify", o.simplify,
+              "Where no cells fit, keep the project's and simplify the regions that exceed the number");
+  c->add_option("--max-error", o.maxError, "Metres that simplified surfaces may lie from the scene's")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->capture_default_str();
+  c->add_flag("--apply", o.apply, "Write the cells found, or the simplification, to the project file");
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 

@@ -12,7 +12,8 @@ namespace acentric {
 
 /// Of one region's simplified geometry: everything that can change it.
 ContentKey simplifiedKey(const OpenProject& open, const Region& region);
-/// Of all regions above the budget that are in `store`, for pruning; none when the project does not simplify.
+/// Of all regions, for pruning: what is in the store under other keys is no longer used. None when the
+/// project does not simplify.
 std::vector<ContentKey> simplifiedKeys(const OpenProject& open);
 
 struct SimplifiedRegion {

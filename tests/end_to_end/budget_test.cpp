@@ -9,7 +9,13 @@ namespace {
 
 class BudgetCommandTest : public testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(project.made().exitCode, 0) << project.made().errors; }
+  static void SetUpTestSuite() { made = new SampleProject("budget"), asMade = made->read(); }
+  static void TearDownTestSuite() { delete made; }
+  BudgetCommandTest() : project(*made) {}
+  void SetUp() override {
+    ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+    project.write(asMade);
+  }
   Json report(std::vector<std::string> arguments, int exitCode = 0) {
     arguments.push_back("--json");
     const auto result = acentric(arguments);
@@ -18,7 +24,9 @@ class BudgetCommandTest : public testing::Test {
   }
   std::string path(const char* name) const { return (project.folder() / name).string(); }
 
-  SampleProject project{"budget"};
+  static inline SampleProject* made = nullptr;
+  static inline Json asMade;
+  SampleProject& project;
 };
 
 TEST_F(BudgetCommandTest, CountsEveryRegionAndNamesThoseOverTheBudget) {
@@ -53,6 +61,41 @@ TEST_F(BudgetCommandTest, FitsCellsAndWritesThemOnlyWhenAsked) {
   const Json after = report({"budget", project.file(), "--max", limit});
   EXPECT_EQ(after["most"], fitted["most"]);
   EXPECT_EQ(after["over"].size(), 0u);
+}
+
+TEST_F(BudgetCommandTest, SimplifiesWhatNoCellsCanFitOnceAndSaysSoInEveryWalk) {
+  const Json counted = report({"budget", project.file()});
+  const int most = counted["most"].get<int>() * 3 / 4;
+  const std::vector<std::string> fit{
+      "fit",         project.file(), "--max",  std::to_string(most), "--min-cell", "6", "--simplify",
+      "--max-error", "0.05",         "--apply"};
+  const Json first = report(fit);
+  ASSERT_FALSE(first["satisfied"].get<bool>());
+  ASSERT_GE(first["simplified"].size(), 1u);
+  for (const Json& region : first["simplified"]) {
+    EXPECT_FALSE(region["fromStore"].get<bool>());
+    const Json& made = region["report"];
+    EXPECT_GT(made["before"].get<int>(), most);
+    EXPECT_LE(made["after"].get<int>(), most);
+    EXPECT_TRUE(made["withinBudget"].get<bool>());
+    EXPECT_LE(made["maxErrorMetres"].get<double>(), 0.05);
+    EXPECT_GT(made["comparedFrames"].get<int>(), 8);
+    EXPECT_GT(made["psnr"].get<double>(), 25);
+  }
+  const Json written = project.read();
+  EXPECT_EQ(written["budget"],
+            (Json{{"trianglesPerRegion", most}, {"maxErrorMetres", 0.05}, {"simplify", true}}));
+  EXPECT_EQ(written["layout"]["cellSize"], 2.5) << "the cells stay";
+  EXPECT_EQ(report({"budget", project.file()})["limit"], most) << "the project's own";
+  for (const Json& region : report(fit)["simplified"]) EXPECT_TRUE(region["fromStore"].get<bool>());
+
+  // A walk takes it from the store, and says so.
+  ASSERT_EQ(acentric({"bake", project.file(), "--only", "0", "--prune"}).exitCode, 0);
+  const Json rendered = report({"render", project.file(), "--size", "160x90", "-o", path("view.png")});
+  ASSERT_EQ(rendered["warnings"].size(), 1u);
+  EXPECT_NE(rendered["warnings"][0].get<std::string>().find("simplified"), std::string::npos);
+  for (const Json& region : report(fit)["simplified"])
+    EXPECT_TRUE(region["fromStore"].get<bool>()) << "pruning kept it";
 }
 
 TEST_F(BudgetCommandTest, SaysWhereNothingFits) {
