@@ -74,13 +74,13 @@ TEST_F(BudgetCommandTest, SimplifiesWhatNoCellsCanFitOnceAndSaysSoInEveryWalk) {
   ASSERT_GE(first["simplified"].size(), 1u);
   for (const Json& region : first["simplified"]) {
     EXPECT_FALSE(region["fromStore"].get<bool>());
-    const Json& made = region["report"];
-    EXPECT_GT(made["before"].get<int>(), most);
-    EXPECT_LE(made["after"].get<int>(), most);
-    EXPECT_TRUE(made["withinBudget"].get<bool>());
-    EXPECT_LE(made["maxErrorMetres"].get<double>(), 0.05);
-    EXPECT_GT(made["comparedFrames"].get<int>(), 8);
-    EXPECT_GT(made["psnr"].get<double>(), 25);
+    const Json& cost = region["report"];
+    EXPECT_GT(cost["before"].get<int>(), most);
+    EXPECT_LE(cost["after"].get<int>(), most);
+    EXPECT_TRUE(cost["withinBudget"].get<bool>());
+    EXPECT_LE(cost["maxErrorMetres"].get<double>(), 0.05);
+    EXPECT_GT(cost["comparedFrames"].get<int>(), 8);
+    EXPECT_GT(cost["psnr"].get<double>(), 25);
   }
   const Json written = project.read();
   EXPECT_EQ(written["budget"],
