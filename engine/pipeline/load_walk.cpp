@@ -4,6 +4,7 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/pipeline.h"
@@ -38,55 +39,52 @@ LocalPtr formerLocal(const OpenProject& open, const LoadedWalk* former, const Re
   return local && (local->surfaces ? sameBudget && sameLight : sameBudget) ? local : nullptr;
 }
 
-/// Clips the scene to each region that `former` did not clip alike.
-std::vector<LocalPtr> localGeometryFor(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
+/// Clips the scene to each region that `former` did not clip alike. Regions whose simplified geometry is in
+/// the store stay null.
+std::vector<LocalPtr> localGeometryFor(const OpenProject& open, const LoadedWalk* former,
+                                       const std::optional<CaptureStore>& store, TaskRunner& runner,
                                        std::stop_token stop) {
   const auto& regions = open.layout->regions;
   std::vector<LocalPtr> local(regions.size());
   runner.parallelFor(regions.size(), [&](std::size_t r) {
     if (stop.stop_requested()) return;
     local[r] = formerLocal(open, former, regions[r]);
-    if (!local[r])
+    if (!local[r] && !(store && store->hasSimplified(simplifiedKey(open, regions[r]))))
       local[r] = std::make_shared<const LocalGeometry>(clipToPolygon(*open.scene, regions[r].grown));
   });
   return local;
 }
 
-/// Simplifies the regions above the budget. Says so in `loaded`; a region that cannot be simplified stays
-/// whole.
-void simplifyOverBudget(const OpenProject& open, const LoadedWalk* former, LoadedWalk& loaded,
-                        TaskRunner& runner, const Progress& progress, const std::stop_token& stop) {
-  loaded.budget = open.project.budget;
+/// Simplifies the regions above the budget, or takes them from the store. Says so in `loaded`; a region that
+/// cannot be simplified stays whole.
+void simplifyOverBudget(const OpenProject& open, const LoadedWalk* former, const CaptureStore& store,
+                        LoadedWalk& loaded, TaskRunner& runner, const Progress& progress,
+                        const std::stop_token& stop) {
   std::vector<std::size_t> over;
   for (std::size_t r = 0; r < loaded.walk.local.size(); ++r) {
     const LocalPtr& local = loaded.walk.local[r];
-    if (!local || !open.project.budget.simplifies()) continue;
-    if (local->surfaces) {
+    if (local && local->surfaces) {
       const int old = *former->walk.layout->findRegion(open.layout->regions[r].id);
       const auto known = std::ranges::find(former->simplified, old, &LoadedWalk::Simplified::region);
       if (known != former->simplified.end())
         loaded.simplified.push_back({int(r), known->report, known->fromStore});
-    } else if (local->triangles.size() > std::size_t(open.project.budget.trianglesPerRegion)) {
+    } else if (!local || local->triangles.size() > std::size_t(open.project.budget.trianglesPerRegion)) {
       over.push_back(r);
     }
-  }
-  if (over.empty()) return;
-  const auto store = CaptureStore::open(captureFolderFor(open.file));
-  if (!store) {
-    loaded.warnings.push_back("local geometry above the budget was not simplified: " +
-                              store.error().describe());
-    return;
   }
   std::mutex mutex;
   double done = 0;
   runner.parallelFor(over.size(), [&](std::size_t n) {
     if (stop.stop_requested()) return;
-    const std::size_t r = over[n];
-    auto made = simplifiedRegion(open, int(r), loaded.walk.local[r], loaded.walk.surfaceLight, *store, stop);
+    LocalPtr& local = loaded.walk.local[over[n]];
+    auto made = simplifiedRegion(open, int(over[n]), local, loaded.walk.surfaceLight, store, stop);
+    if (!made && !local)
+      local = std::make_shared<const LocalGeometry>(
+          clipToPolygon(*open.scene, open.layout->regions[over[n]].grown));
     const std::lock_guard lock(mutex);
     if (made) {
-      loaded.walk.local[r] = made->geometry;
-      loaded.simplified.push_back({int(r), made->report, made->fromStore});
+      local = made->geometry;
+      loaded.simplified.push_back({int(over[n]), made->report, made->fromStore});
       if (made->notKept) loaded.warnings.push_back(made->notKept->describe());
     } else if (made.error().kind != ErrorKind::cancelled) {
       loaded.warnings.push_back("a region above the budget was not simplified: " + made.error().describe());
@@ -163,8 +161,16 @@ Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, T
         loaded.warnings.push_back(light.error().describe());
     }
   }
-  walk.local = localGeometryFor(open, former, runner, stop);
-  simplifyOverBudget(open, former, loaded, runner, progress, stop);
+  loaded.budget = open.project.budget;
+  std::optional<CaptureStore> simplifiedStore;
+  if (open.project.budget.simplifies()) {
+    auto store = CaptureStore::open(folder);
+    if (!store) return tl::unexpected(store.error());
+    simplifiedStore = std::move(*store);
+  }
+  walk.local = localGeometryFor(open, former, simplifiedStore, runner, stop);
+  if (simplifiedStore && !stop.stop_requested())
+    simplifyOverBudget(open, former, *simplifiedStore, loaded, runner, progress, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "loading was cancelled", open.file.string());
   reportSimplified(loaded);
   loaded.missing = int(std::count(walk.captures.begin(), walk.captures.end(), nullptr));

@@ -75,10 +75,12 @@ Result<SimplifiedRegion> simplifiedRegion(const OpenProject& open, int region,
     }
     out.notKept = kept.error();
   }
-  auto made = simplify(*open.scene, *full, optionsOf(open), stop);
+  const auto whole =
+      full ? full : std::make_shared<const LocalGeometry>(clipToPolygon(*open.scene, place.grown));
+  auto made = simplify(*open.scene, *whole, optionsOf(open), stop);
   if (!made) return tl::unexpected(made.error());
   out.geometry = std::make_shared<const LocalGeometry>(drawable(*made, open, place, light));
-  measureCost(open, region, full, out.geometry, light, made->report);
+  measureCost(open, region, whole, out.geometry, light, made->report);
   out.report = made->report;
   if (Status put = store.putSimplified(key, *made); !put) out.notKept = put.error();
   return out;

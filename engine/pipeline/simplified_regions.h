@@ -23,8 +23,8 @@ struct SimplifiedRegion {
   std::optional<Error> notKept;  ///< why it is not in the store, or why what was there was not used
 };
 
-/// `full` is region `region` clipped from the scene; `light` may be null (not baked). Where the result is
-/// new, its cost in pictures is measured too. Runs on one thread.
+/// `full` is region `region` clipped from the scene (null: clipped where it is needed); `light` may be null
+/// (not baked). Where the result is new, its cost in pictures is measured too. Runs on one thread.
 Result<SimplifiedRegion> simplifiedRegion(const OpenProject& open, int region,
                                           const std::shared_ptr<const LocalGeometry>& full,
                                           const std::shared_ptr<const SurfaceLight>& light,
