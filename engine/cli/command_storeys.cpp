@@ -36,6 +36,7 @@ Result<Report> runStoreys(const StoreysOptions& options, const Common& common) {
   storeys.walkable.eyeHeight = options.eyeHeight;
   storeys.walkable.stepHeight = options.stepHeight;
   storeys.walkable.gridStep = options.gridStep;
+  storeys.walkable.ignoreSides = options.ignoreSides;
   storeys.leastShare = options.leastShare;
   storeys.leastArea = options.leastArea;
   const auto found = findFileStoreys(options.file, importOptions(options.up, options.metresPerUnit), storeys,

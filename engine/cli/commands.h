@@ -26,6 +26,13 @@ struct StoreysOptions {
 };
 Result<Report> runStoreys(const StoreysOptions& options, const Common& common);
 
+struct CheckOptions {
+  std::filesystem::path project, output;
+  double cameraRoom = 0.4, mostPush = 1;
+  bool all = false;
+};
+Result<Report> runCheck(const CheckOptions& options, const Common& common);
+
 struct InfoOptions {
   std::filesystem::path project;
   bool regions = false;

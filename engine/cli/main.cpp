@@ -83,6 +83,22 @@ void addStoreys(CLI::App& app, Chosen& chosen, StoreysOptions& o) {
       ->capture_default_str();
 }
 
+void addCheck(CLI::App& app, Chosen& chosen, CheckOptions& o) {
+  CLI::App* c = add(app, chosen, "check",
+                    "Find cameras in walls, too near surfaces or off the floor, and regions where nobody can "
+                    "stand; say how to clear them",
+                    "  acentric check kitchen.acentric.json\n"
+                    "  acentric check kitchen.acentric.json --room 0.6 -o placement.svg --json",
+                    o, runCheck);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--room", o.cameraRoom, "Metres that a camera needs in all directions")
+      ->capture_default_str();
+  c->add_option("--push", o.mostPush, "How far a place that clears a camera is looked for, metres")
+      ->capture_default_str();
+  c->add_flag("--all", o.all, "List every finding");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
 void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
   CLI::App* c =
       add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
@@ -315,6 +331,7 @@ int main(int argc, char** argv) {
   Chosen chosen;
   NewOptions newOptions;
   StoreysOptions storeys;
+  CheckOptions check;
   InfoOptions info;
   BudgetOptions budget;
   FitCommandOptions fit;
@@ -327,6 +344,7 @@ int main(int argc, char** argv) {
   BenchOptions bench;
   addNew(app, chosen, newOptions);
   addStoreys(app, chosen, storeys);
+  addCheck(app, chosen, check);
   addInfo(app, chosen, info);
   addBudget(app, chosen, budget);
   addFit(app, chosen, fit);
