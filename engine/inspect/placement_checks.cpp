@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "engine/inspect/standing.h"
 
@@ -17,7 +18,8 @@ constexpr double kTouching = 0.25;       // share of cameraRoom below which a ca
 constexpr double kPushStep = 0.05;       // metres
 constexpr double kPushAccuracy = 0.005;  // metres
 constexpr int kPushSides = 24;
-constexpr int kPlacesAcross = 8;  // of a region, where standing room is looked for
+constexpr int kPlacesAcross = 8;   // of a region, where standing room is looked for
+constexpr double kNeighbours = 3;  // cells: how far centres look for others of the same space
 constexpr double kHeadAboveEye = 0.15;
 constexpr double kSeemInside = 0.8;  // share of the centres from which sides are not trusted
 
@@ -34,15 +36,21 @@ std::string wayOf(const glm::dvec3& direction) {
 class Checker {
  public:
   Checker(const Layout& layout, const Bounds& bounds, const PlacementRules& rules, const SurfaceProbe& probe,
-          bool trustSides)
-      : layout_(layout), bounds_(bounds), rules_(rules), probe_(probe), trustSides_(trustSides) {}
+          bool trustSides, std::vector<bool> insideOfCamera)
+      : layout_(layout),
+        bounds_(bounds),
+        rules_(rules),
+        probe_(probe),
+        trustSides_(trustSides),
+        insideOfCamera_(std::move(insideOfCamera)) {}
 
-  std::vector<PlacementFinding> check(const CameraCentre& centre, const Surroundings& around) const {
+  std::vector<PlacementFinding> check(const CameraCentre& centre, const Surroundings& around,
+                                      bool inside) const {
     std::vector<PlacementFinding> found;
     const auto add = [&](PlacementFlaw flaw, Severity severity, std::string reason) {
       found.push_back({flaw, severity, centre.cameras, -1, centre.position, std::move(reason), {}});
     };
-    if (trustSides_ && around.inside())
+    if (trustSides_ && inside)
       add(PlacementFlaw::insideSolid, Severity::error,
           fmt::format(
               "it is inside a solid: {} of {} directions meet the back of a surface first, and {} cross "
@@ -77,13 +85,13 @@ class Checker {
       low = glm::min(low, corner), high = glm::max(high, corner);
     const glm::dvec2 middle = region.polygon.centroid();
     int looked = 1;
-    if (canStandAt(middle)) return std::nullopt;
+    if (canStandAt(middle, region)) return std::nullopt;
     for (int i = 0; i < kPlacesAcross; ++i)
       for (int j = 0; j < kPlacesAcross; ++j) {
         const glm::dvec2 place = low + (high - low) * glm::dvec2(i + 0.5, j + 0.5) / double(kPlacesAcross);
         if (!region.polygon.containsClosed(place)) continue;
         ++looked;
-        if (canStandAt(place)) return std::nullopt;
+        if (canStandAt(place, region)) return std::nullopt;
       }
     return PlacementFinding{
         PlacementFlaw::noStandingRoom,
@@ -99,16 +107,32 @@ class Checker {
   }
 
  private:
-  bool canStandAt(const glm::dvec2& place) const {
+  bool canStandAt(const glm::dvec2& place, const Region& region) const {
     const double headRoom = layout_.spec.eyeHeight + kHeadAboveEye;
     StandingRules standing;
     standing.eyeHeight = layout_.spec.eyeHeight;
     standing.wallClearance = rules_.wallClearance;
-    standing.refuseInside = trustSides_;
-    for (const FloorLevel& level : floorLevelsAt(place, bounds_, headRoom, probe_))
-      if (std::abs(double(level.height) - layout_.spec.floorHeight) <= rules_.floorTolerance &&
-          canStand(place, level, standing, probe_))
-        return true;
+    StandingRules anySide = standing;
+    anySide.refuseInside = false;
+    return std::ranges::any_of(floorLevelsAt(place, bounds_, headRoom, probe_), [&](const FloorLevel& level) {
+      return std::abs(double(level.height) - layout_.spec.floorHeight) <= rules_.floorTolerance &&
+             (canStand(place, level, standing, probe_) ||
+              (canStand(place, level, anySide, probe_) &&
+               (!trustSides_ || seesCameraOutside(place, region))));
+    });
+  }
+
+  /// Some places seem to be inside a solid where walls are wound the other way; not what a camera sees that
+  /// is outside.
+  bool seesCameraOutside(const glm::dvec2& place, const Region& region) const {
+    const glm::dvec3 eye(place, layout_.eyeZ());
+    for (const Cover& cover : region.covers)
+      for (const Piece& piece : cover.pieces) {
+        const glm::dvec2 way = piece.apex - place;
+        const double length = glm::length(way);
+        if (insideOfCamera_[std::size_t(piece.camera)] || !(length > 0)) continue;
+        if (!(probe_(eye, glm::dvec3(way / length, 0)).distance < length)) return true;
+      }
     return false;
   }
 
@@ -143,7 +167,37 @@ class Checker {
   const PlacementRules& rules_;
   const SurfaceProbe& probe_;
   bool trustSides_;
+  std::vector<bool> insideOfCamera_;  ///< per Layout::cameras
 };
+
+/// Which centres are inside a solid. Where one sees freely to another, both are in the same space, so a space
+/// is inside a solid where most of its centres seem to be: models are wound the other way in places.
+std::vector<bool> findInside(const std::vector<CameraCentre>& centres,
+                             const std::vector<Surroundings>& around, const Layout& layout,
+                             const SurfaceProbe& probe) {
+  std::vector<bool> inside(centres.size(), false);
+  if (std::ranges::none_of(around, &Surroundings::inside)) return inside;
+  std::vector<std::size_t> parent(centres.size());
+  std::iota(parent.begin(), parent.end(), std::size_t(0));
+  const auto spaceOf = [&](std::size_t c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  const double reach = kNeighbours * layout.spec.cellSize;
+  for (std::size_t a = 0; a < centres.size(); ++a)  // in order of x
+    for (std::size_t b = a + 1; b < centres.size() && centres[b].position.x - centres[a].position.x <= reach;
+         ++b) {
+      const glm::dvec2 way = centres[b].position - centres[a].position;
+      const double length = glm::length(way);
+      if (length > reach || spaceOf(a) == spaceOf(b)) continue;
+      const glm::dvec3 from(centres[a].position, layout.eyeZ());
+      if (probe(from, glm::dvec3(way / length, 0)).distance >= length) parent[spaceOf(b)] = spaceOf(a);
+    }
+  std::vector<int> vote(centres.size(), 0);
+  for (std::size_t c = 0; c < centres.size(); ++c) vote[spaceOf(c)] += around[c].inside() ? 1 : -1;
+  for (std::size_t c = 0; c < centres.size(); ++c) inside[c] = vote[spaceOf(c)] > 0;
+  return inside;
+}
 
 }  // namespace
 
@@ -212,18 +266,22 @@ Result<PlacementReport> checkPlacement(const Layout& layout, const Bounds& bound
   runner.parallelFor(centres.size(), [&](std::size_t c) {
     if (!stop.stop_requested()) around[c] = lookAround({centres[c].position, layout.eyeZ()}, probe);
   });
-  const auto inside = std::ranges::count_if(around, &Surroundings::inside);
+  const std::vector<bool> inside = findInside(centres, around, layout, probe);
+  const auto insides = std::ranges::count(inside, true);
   PlacementReport report;
   report.centres = static_cast<int>(centres.size());
   report.regions = static_cast<int>(layout.regions.size());
-  report.ignoredSides = inside > 0 && double(inside) >= kSeemInside * double(centres.size());
+  report.ignoredSides = insides > 0 && double(insides) >= kSeemInside * double(centres.size());
 
-  const Checker checker(layout, bounds, rules, probe, !report.ignoredSides);
+  std::vector<bool> insideOfCamera(layout.cameras.size(), false);
+  for (std::size_t c = 0; c < centres.size(); ++c)
+    for (const int camera : centres[c].cameras) insideOfCamera[std::size_t(camera)] = inside[c];
+  const Checker checker(layout, bounds, rules, probe, !report.ignoredSides, std::move(insideOfCamera));
   std::vector<std::vector<PlacementFinding>> found(centres.size() + layout.regions.size());
   runner.parallelFor(found.size(), [&](std::size_t k) {
     if (stop.stop_requested()) return;
     if (k < centres.size())
-      found[k] = checker.check(centres[k], around[k]);
+      found[k] = checker.check(centres[k], around[k], inside[k]);
     else if (auto finding = checker.checkRegion(static_cast<int>(k - centres.size())))
       found[k].push_back(std::move(*finding));
   });

@@ -15,10 +15,10 @@ struct Surroundings {
   int odd = 0;         ///< where an odd number of surfaces lies on the way out; counted only when in doubt
   std::optional<double> floor;  ///< z of the first surface straight down, metres
 
-  /// Inside a closed solid all directions show backs. Half of them are enough: solids are often open at the
-  /// bottom. Some are enough where most directions also cross an odd number of surfaces.
+  /// Inside a closed solid all directions show backs. Solids are often open, and half of the backs are enough
+  /// where the way out also crosses an odd number of surfaces in many directions.
   bool inside() const {
-    return 2 * backs > directions || (3 * backs > directions && 5 * odd > 3 * directions);
+    return 5 * backs > 4 * directions || (2 * backs > directions && 5 * odd > 2 * directions);
   }
 };
 

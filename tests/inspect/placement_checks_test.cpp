@@ -117,6 +117,17 @@ TEST(PlacementChecks, FindACameraInASolidThatIsOpenBelow) {
   EXPECT_FALSE(report.findings[0].push) << "1 m to the side and 0.4 m clear is more than 1 m";
 }
 
+TEST(PlacementChecks, BelieveTheCamerasOfOneSpaceRatherThanOneAmongWallsWoundTheOtherWay) {
+  BoxWorld room = BoxWorld::room(12, 6, 3);
+  // A bay of sheets around (10, 3), open towards -x, all of them showing their backs to it.
+  room.addQuad({9, 2, 0}, {11, 2, 0}, {11, 2, 3}, {9, 2, 3});
+  room.addQuad({11, 2, 0}, {11, 4, 0}, {11, 4, 3}, {11, 2, 3});
+  room.addQuad({11, 4, 0}, {9, 4, 0}, {9, 4, 3}, {11, 4, 3});
+  room.addQuad({9, 2, 2.9}, {11, 2, 2.9}, {11, 4, 2.9}, {9, 4, 2.9});
+  EXPECT_TRUE(lookAround({10.3, 3, 1.6}, room.probe()).inside());
+  EXPECT_TRUE(check(room, camerasAt({{10.3, 3}, {7, 3}, {6, 2}})).findings.empty());
+}
+
 TEST(PlacementChecks, TrustNoSidesWhereAllWallsShowTheirBacks) {
   BoxWorld shell{{{{0, 0, 0}, {8, 6, 3}}}, {}};  // a box seen from within
   const PlacementReport report = check(shell, camerasAt({{4, 3}, {2, 2}, {0.1, 3}}));
