@@ -77,6 +77,16 @@ ImportOptions importOptions(const std::string& up, double metresPerUnit) {
   return options;
 }
 
+double megapixelsOf(const OpenProject& open) {
+  double pixels = 0;
+  for (const LayoutCamera& camera : open.layout->cameras) {
+    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout.nearBand,
+                                           open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
+    pixels += double(c.columns) * c.rows;
+  }
+  return pixels / 1e6;
+}
+
 std::string bytesText(std::uint64_t bytes) {
   if (bytes < 10'000) return fmt::format("{} bytes", bytes);
   if (bytes < 10'000'000) return fmt::format("{:.0f} kB", double(bytes) / 1e3);

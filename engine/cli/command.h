@@ -61,6 +61,9 @@ class FrameMaker {
 /// As --up and --metres-per-unit say.
 ImportOptions importOptions(const std::string& up, double metresPerUnit);
 
+/// Of all captures.
+double megapixelsOf(const OpenProject& open);
+
 /// "12.3 MB", "1,234,567".
 std::string bytesText(std::uint64_t bytes);
 std::string countText(std::uint64_t count);

@@ -33,16 +33,6 @@ std::string effectsText(const EffectPlan& plan) {
   return text;
 }
 
-double megapixelsOf(const OpenProject& open) {
-  double pixels = 0;
-  for (const LayoutCamera& camera : open.layout->cameras) {
-    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout.nearBand,
-                                           open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
-    pixels += double(c.columns) * c.rows;
-  }
-  return pixels / 1e6;
-}
-
 }  // namespace
 
 Result<Report> runInfo(const InfoOptions& options, const Common& common) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/cli/command.h"
+#include "engine/cli/layout_edits.h"
 
 namespace acentric::cli {
 
@@ -32,6 +33,14 @@ struct CheckOptions {
   bool all = false;
 };
 Result<Report> runCheck(const CheckOptions& options, const Common& common);
+
+struct LayoutOptions {
+  std::filesystem::path project, output;
+  LayoutEdits edits;
+  std::string outline;  ///< empty = as it is, "auto", or parseOutline text
+  bool apply = false;
+};
+Result<Report> runLayout(const LayoutOptions& options, const Common& common);
 
 struct InfoOptions {
   std::filesystem::path project;

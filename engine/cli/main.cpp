@@ -99,6 +99,35 @@ void addCheck(CLI::App& app, Chosen& chosen, CheckOptions& o) {
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 
+void addLayout(CLI::App& app, Chosen& chosen, LayoutOptions& o) {
+  CLI::App* c = add(app, chosen, "layout", "Show a layout, and what it would be with changes; apply them",
+                    "  acentric layout kitchen.acentric.json -o layout.svg\n"
+                    "  acentric layout kitchen.acentric.json --config e --cell 1.5 --rotate 30 --json\n"
+                    "  acentric layout kitchen.acentric.json --remove 1,0,0 --free 2,3,0.8,0,60,ccw --apply",
+                    o, runLayout);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--config", o.edits.configuration, "Configuration a to g");
+  c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
+      ->check(CLI::Range(0.05, 1000.0));
+  c->add_option("--origin", o.edits.origin, "Where the lattice begins: x,y in metres");
+  c->add_option("--rotate", o.edits.rotationDegrees, "How far the lattice is turned, degrees");
+  c->add_option("--eye-height", o.edits.eyeHeight, "Metres above the floor");
+  c->add_option("--near-band", o.edits.nearBand, "Metres around a region that are drawn as polygons");
+  c->add_option("--outline", o.outline,
+                "auto (find it again at the project's floor), or corners x,y;x,y;... in metres (loops "
+                "separated by /)");
+  c->add_option("--add", o.edits.add, "Place a cell: i,j,slot or i,j,slot,level (may be repeated)");
+  c->add_option("--remove", o.edits.remove, "Take a cell away (may be repeated)");
+  c->add_option("--split", o.edits.split, "Split a cell into four (e and g; may be repeated)");
+  c->add_option("--join", o.edits.join, "Undo the split of a cell (may be repeated)");
+  c->add_option("--free", o.edits.free,
+                "Place an APV beside the lattice: x,y,dx,dy,fov,ccw|cw (may be repeated); dx = dy = 0 is a "
+                "panorama");
+  c->add_option("--remove-free", o.edits.removeFree, "Take a free APV away, by its number");
+  c->add_flag("--apply", o.apply, "Write the changes to the project");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
 void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
   CLI::App* c =
       add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
@@ -332,6 +361,7 @@ int main(int argc, char** argv) {
   NewOptions newOptions;
   StoreysOptions storeys;
   CheckOptions check;
+  LayoutOptions layout;
   InfoOptions info;
   BudgetOptions budget;
   FitCommandOptions fit;
@@ -345,6 +375,7 @@ int main(int argc, char** argv) {
   addNew(app, chosen, newOptions);
   addStoreys(app, chosen, storeys);
   addCheck(app, chosen, check);
+  addLayout(app, chosen, layout);
   addInfo(app, chosen, info);
   addBudget(app, chosen, budget);
   addFit(app, chosen, fit);

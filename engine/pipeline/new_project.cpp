@@ -34,13 +34,6 @@ glm::dvec2 middleOf(const Outline& outline) {
   return 0.5 * (low + high);
 }
 
-/// To the thousandth of a metre: finer than any floor plan, and short in the file.
-Outline tidy(Outline outline) {
-  for (auto& loop : outline.loops)
-    for (glm::dvec2& corner : loop) corner = {roundTo(corner.x, 1e-3), roundTo(corner.y, 1e-3)};
-  return outline;
-}
-
 /// Area of lattice per ring, in units of the squared edge length.
 double areaPerRing(Configuration configuration) {
   return configuration == Configuration::b ? 2 * std::sqrt(3.0) : 1.0;
@@ -162,7 +155,7 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
 
   LayoutSpec& spec = project.layout;
   spec.configuration = options.configuration;
-  spec.outline = tidy(area->outline);
+  spec.outline = tidied(area->outline);
   spec.floorHeight = roundTo(area->floorHeight, 1e-4);
   spec.eyeHeight = options.eyeHeight;
   const double middling = std::sqrt(area->outline.area() / (kFirstRings * areaPerRing(spec.configuration)));

@@ -79,6 +79,21 @@ std::string describeStorey(const Storeys& storeys, int number) {
                      joined.empty() ? "" : fmt::format(", joined to {}", fmt::join(joined, ", ")));
 }
 
+Outline tidied(Outline outline) {
+  for (auto& loop : outline.loops)
+    for (glm::dvec2& corner : loop) corner = glm::round(corner * 1e3) / 1e3;
+  return outline;
+}
+
+Result<Outline> findOutlineAt(const RayScene& rays, double floorHeight, double eyeHeight) {
+  WalkableOptions options;
+  options.floorHeight = floorHeight;
+  options.eyeHeight = eyeHeight;
+  auto area = findWalkableArea(rays.scene().bounds, options, probeFor(rays));
+  if (!area) return tl::unexpected(area.error());
+  return tidied(std::move(area->outline));
+}
+
 Result<Storeys> findSceneStoreys(const RayScene& rays, const StoreyOptions& options) {
   return findStoreys(rays.scene().bounds, options, probeFor(rays));
 }

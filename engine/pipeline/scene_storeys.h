@@ -30,6 +30,12 @@ Result<WalkPlane> chooseStorey(const Storeys& storeys, const StoreyChoice& choic
 /// "0: -0.02 m, 326.4 m2, 98 % covered, joined to 1 and 2": one line for a person.
 std::string describeStorey(const Storeys& storeys, int number);
 
+/// Corners to the thousandth of a metre: finer than any floor plan, and short in the file.
+Outline tidied(Outline outline);
+
+/// The walkable outline about one floor height, tidied.
+Result<Outline> findOutlineAt(const RayScene& rays, double floorHeight, double eyeHeight);
+
 Result<Storeys> findSceneStoreys(const RayScene& rays, const StoreyOptions& options);
 
 /// Of a project file (*.json) with its import settings and effects, or of any model file with `import`.
