@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
@@ -36,7 +37,16 @@ glm::dvec2 middleOf(const Outline& outline) {
 
 /// Area of lattice per ring, in units of the squared edge length.
 double areaPerRing(Configuration configuration) {
-  return configuration == Configuration::b ? 2 * std::sqrt(3.0) : 1.0;
+  LayoutSpec unit;
+  unit.configuration = configuration;
+  unit.cellSize = 1;
+  const glm::dvec2 middle = cellPolygon(unit, {0, 0, 0}).centroid();
+  const glm::dvec2 along = cellPolygon(unit, {1, 0, 0}).centroid() - middle;
+  const glm::dvec2 across = cellPolygon(unit, {0, 1, 0}).centroid() - middle;
+  std::set<int> rings;
+  for (const LatticeCell& cell : cellsIn(unit, {-4, -4}, {4, 4}, 1000))
+    if (cell.kind == RegionKind::ring) rings.insert(cell.id.slot);
+  return std::abs(cross(along, across)) / double(std::max<std::size_t>(1, rings.size()));
 }
 
 Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
@@ -45,7 +55,8 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
   walkable.eyeHeight = options.eyeHeight;
   if (options.storey.given()) {
     if (options.outline != "auto")
-      return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both", options.outline);
+      return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both",
+                  options.outline);
     StoreyOptions storeys;
     storeys.walkable = walkable;
     if (options.storey.height) storeys.leastShare = 0;
