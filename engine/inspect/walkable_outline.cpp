@@ -29,6 +29,19 @@ tl::unexpected<Error> none(const std::string& what) {
               "walkable area");
 }
 
+/// Heights of all spots but those on a roof: under the open sky with another floor below, which furniture may
+/// fill. If there are no others, of all.
+std::vector<float> heightsBelowRoofs(const Standing& standing, const FloorLevels& levels) {
+  constexpr float kBelow = 0.01f;  // metres
+  std::vector<float> below, all;
+  for (const StandingSpot& spot : standing.spots) {
+    all.push_back(spot.height);
+    const FloorLevel& lowest = levels[standing.grid.index(spot.x, spot.y)].back();
+    if (spot.covered || lowest.height > spot.height - kBelow) below.push_back(spot.height);
+  }
+  return below.empty() ? all : below;
+}
+
 Result<WalkableArea> findArea(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& options,
                               const SurfaceProbe& probe) {
   FloorLevels levels = findFloorLevels(bounds, grid, options.headRoom(), probe);
@@ -40,9 +53,7 @@ Result<WalkableArea> findArea(const Bounds& bounds, const ProbeGrid& grid, const
       });
   const Standing standing = surveyStanding(grid, levels, options.standingRules(), probe);
   if (std::isnan(options.floorHeight)) {
-    std::vector<float> heights;
-    for (const StandingSpot& spot : standing.spots) heights.push_back(spot.height);
-    height = dominantHeight(std::move(heights), options.floorTolerance);
+    height = dominantHeight(heightsBelowRoofs(standing, levels), options.floorTolerance);
   }
   if (!height)
     return none(fmt::format("no surface has {:.2f} m of room above it and {:.2f} m to the sides",

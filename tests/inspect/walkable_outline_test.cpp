@@ -98,6 +98,14 @@ TEST(WalkableArea, OfAHouseIsItsFloorAndNotItsRoof) {
   EXPECT_NEAR(above.outline.area(), 5.6 * 3.6, 0.8);
 }
 
+TEST(WalkableArea, OfAHouseFullOfFurnitureIsItsFloorAndNotItsRoof) {
+  BoxWorld house = BoxWorld::room(6, 4, 2.8);
+  house.boxes.push_back({{0, 0, 0}, {3.5, 4, 0.9}});  // more than half of the floor
+  const WalkableArea area = walk(house);
+  EXPECT_NEAR(area.floorHeight, 0, 1e-4);
+  EXPECT_NEAR(area.outline.area(), 2.1 * 3.6, 0.5);
+}
+
 TEST(WalkableArea, OfAStreetIsTheGroundBetweenTheHouses) {
   BoxWorld street{{{{-20, -10, -1}, {20, 10, 0}}}, {}};
   street.boxes.push_back({{-20, 4, 0}, {20, 10, 8}});
