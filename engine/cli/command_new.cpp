@@ -21,9 +21,11 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   choices.outline = options.outline;
   choices.samplesPerDegree = options.samplesPerDegree;
   choices.import = importOptions(options.up, options.metresPerUnit);
+  choices.ignoreSides = options.ignoreSides;
   if (options.storey == "list") {
     StoreyOptions storeys;
     storeys.walkable.eyeHeight = options.eyeHeight;
+    storeys.walkable.ignoreSides = options.ignoreSides;
     const auto found =
         findFileStoreys(options.scene, choices.import, storeys, common.host, common.progress, common.stop);
     if (!found) return tl::unexpected(found.error());

@@ -24,8 +24,7 @@ Report storeysReport(const Storeys& storeys) {
         link.place.y,
         storeys.planes[std::size_t(link.upper)].height - storeys.planes[std::size_t(link.lower)].height);
   }
-  if (storeys.ignoredSides)
-    report.text += "  no surface faces up inside: the sides of surfaces were ignored\n";
+  if (storeys.ignoredSides) report.text += "  which side a surface shows was ignored\n";
   report.json = {
       {"storeys", std::move(planes)}, {"links", std::move(links)}, {"ignoredSides", storeys.ignoredSides}};
   return report;

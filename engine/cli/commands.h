@@ -14,7 +14,7 @@ struct NewOptions {
   std::string configuration = "b", outline = "auto", up = "guess";
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
   std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
-  bool force = false;
+  bool ignoreSides = false, force = false;
 };
 Result<Report> runNew(const NewOptions& options, const Common& common);
 

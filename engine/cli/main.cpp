@@ -57,6 +57,8 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
   c->add_option("--storey", o.storey,
                 "Which storey: its number, its height with the unit (3.2m), or list to see them "
                 "(default: the one with most floor)");
+  c->add_flag("--ignore-sides", o.ignoreSides,
+              "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
   c->add_flag("--force", o.force, "Replace an existing project file");
 }
 

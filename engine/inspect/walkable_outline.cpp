@@ -32,12 +32,14 @@ tl::unexpected<Error> none(const std::string& what) {
 /// Heights of all spots but those on a roof: under the open sky with another floor below, which furniture may
 /// fill. If there are no others, of all.
 std::vector<float> heightsBelowRoofs(const Standing& standing, const FloorLevels& levels) {
-  constexpr float kBelow = 0.01f;  // metres
   std::vector<float> below, all;
   for (const StandingSpot& spot : standing.spots) {
+    const auto& here = levels[standing.grid.index(spot.x, spot.y)];
+    const bool floorBelow = std::ranges::any_of(here, [&](const FloorLevel& level) {
+      return level.height < spot.height && !level.maybeInside;  // the ground's underside is none
+    });
     all.push_back(spot.height);
-    const FloorLevel& lowest = levels[standing.grid.index(spot.x, spot.y)].back();
-    if (spot.covered || lowest.height > spot.height - kBelow) below.push_back(spot.height);
+    if (spot.covered || !floorBelow) below.push_back(spot.height);
   }
   return below.empty() ? all : below;
 }

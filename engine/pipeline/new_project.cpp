@@ -53,6 +53,7 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
                                   const NewProjectOptions& options) {
   WalkableOptions walkable;
   walkable.eyeHeight = options.eyeHeight;
+  walkable.ignoreSides = options.ignoreSides;
   if (options.storey.given()) {
     if (options.outline != "auto")
       return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both",

@@ -27,6 +27,7 @@ struct NewProjectOptions {
   double eyeHeight = 1.6;        ///< metres
   std::string outline = "auto";  ///< "auto" or parseOutline text
   StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
+  bool ignoreSides = false;      ///< see inspect/walkable_outline.h
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
 };
 

@@ -106,6 +106,15 @@ TEST(WalkableArea, OfAHouseFullOfFurnitureIsItsFloorAndNotItsRoof) {
   EXPECT_NEAR(area.outline.area(), 2.1 * 3.6, 0.5);
 }
 
+TEST(WalkableArea, OfAThickBlockOfGroundWithAHutIsTheGround) {
+  BoxWorld diorama{{{{-10, -10, -4}, {10, 10, 0}}}, {}};
+  for (test::Box box : BoxWorld::room(4, 4, 2.4).boxes) diorama.boxes.push_back(box);
+  const WalkableArea area = walk(diorama);
+  EXPECT_NEAR(area.floorHeight, 0, 1e-3);
+  EXPECT_TRUE(area.outline.contains({-5, -5}));
+  EXPECT_GT(area.outline.area(), 20 * 20 - 5.2 * 5.2);
+}
+
 TEST(WalkableArea, OfAStreetIsTheGroundBetweenTheHouses) {
   BoxWorld street{{{{-20, -10, -1}, {20, 10, 0}}}, {}};
   street.boxes.push_back({{-20, 4, 0}, {20, 10, 8}});
