@@ -95,10 +95,10 @@ Status checkFreeApvs(const LayoutSpec& spec) {
     if (!(std::abs(apv.centre.x) <= kMaxCoordinate && std::abs(apv.centre.y) <= kMaxCoordinate))
       return refuse(fmt::format("free APV {} lies farther than {} m out", number, kMaxCoordinate));
     const double radius = glm::length(apv.offset);
-    if (!apv.traditional() && !(radius >= 0.01 && radius <= 1000))
+    if (!apv.traditional() && !(radius >= 1e-4 && radius <= 1e5))
       return refuse(
           fmt::format("free APV {} has an offset of {} m; it must be 0 (a traditional panorama) or "
-                      "lie in 0.01..1000",
+                      "lie in 0.0001..100000",
                       number, radius));
   }
   return {};
@@ -133,13 +133,13 @@ bool canSplit(Configuration configuration) {
 Status LayoutSpec::check() const {
   if (std::string_view(nameOf(configuration)) == "?") return refuse("the configuration is not one of a to g");
   for (const Status& status :
-       {checkRange("the cell size in metres", cellSize, 0.05, 1000),
+       {checkRange("the cell size in metres", cellSize, 1e-4, 1e5),
         checkRange("the lattice origin's x in metres", latticeOrigin.x, -kMaxCoordinate, kMaxCoordinate),
         checkRange("the lattice origin's y in metres", latticeOrigin.y, -kMaxCoordinate, kMaxCoordinate),
         checkRange("the rotation in radians", rotationRadians, -1000, 1000),
         checkRange("the floor height in metres", floorHeight, -kMaxCoordinate, kMaxCoordinate),
-        checkRange("the eye height in metres", eyeHeight, 0.01, 1000),
-        checkRange("the near band in metres", nearBand, 0, 1000), checkOutline(outline)})
+        checkRange("the eye height in metres", eyeHeight, 1e-5, 1e5),
+        checkRange("the near band in metres", nearBand, 0, 1e5), checkOutline(outline)})
     if (!status) return status;
   const std::optional<Lattice> lattice = Lattice::of(*this);
   require(lattice.has_value(), "a named configuration has a lattice");

@@ -51,7 +51,8 @@ struct LayoutSpec {
   std::map<int, Apv>
       freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
 
-  Status check() const;  ///< finite, cellSize in [0.05, 1000], no more than kMaxRegions regions
+  Status check() const;  ///< finite, cellSize in [1e-4, 1e5] (a project may be drawn in any unit), no more
+                         ///< than kMaxRegions regions
   void addTo(Hasher& hasher) const;
   bool operator==(const LayoutSpec&) const = default;
 };

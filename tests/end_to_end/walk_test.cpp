@@ -132,7 +132,7 @@ TEST_F(WalkTest, SaysWhatIsWrongAndExitsNonZero) {
       {{"bake", project->file(), "--only", "100000"}, 1, "100000"},
       {{"new", path("gallery.glb"), "-o", project->file()}, 1, "--force"},
       {{"new", path("none.glb"), "-o", path("n.acentric.json")}, 1, "none.glb"},
-      {{"new", path("gallery.glb"), "-o", path("n.acentric.json"), "--config", "c"}, 1, "b or e"},
+      {{"new", path("gallery.glb"), "-o", path("n.acentric.json"), "--config", "h"}, 1, "choose one of"},
       {{"render", project->file()}, 2, "--output"},
       {{"frobnicate"}, 2, "subcommand"},
   };

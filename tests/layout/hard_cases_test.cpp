@@ -1,0 +1,206 @@
+/// Where numbers go wrong: each case is checked on the real thing, and on a deliberately naive variant that
+/// must fail, so that the test is seen to bite.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/layout/lattice.h"
+#include "tests/layout/layout_fixtures.h"
+
+namespace acentric {
+namespace {
+using test::kAllConfigurations;
+using test::makeLayout;
+using test::Placing;
+using test::Random;
+
+// ---- Naive variants --------------------------------------------------------------------------------------
+
+/// The sign by one cross product, in the precision of Real.
+template <class Real>
+int naiveSide(const BorderLine& line, const glm::dvec2& p) {
+  const Real ax = Real(line.from.x), ay = Real(line.from.y);
+  const Real area = (Real(line.to.x) - ax) * (Real(p.y) - ay) - (Real(line.to.y) - ay) * (Real(p.x) - ax);
+  return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+/// Sectors that own both of their borders.
+bool closedHolds(const Piece& piece, const glm::dvec2& p) {
+  return naiveSide<double>(piece.low, p) >= 0 && naiveSide<double>(piece.high, p) <= 0;
+}
+
+/// Corners as computed from each polygon's own centre, matched by comparing coordinates.
+std::size_t cornersMatchedByCoordinates(const Layout& layout) {
+  std::set<std::pair<double, double>> corners;
+  for (const Region& region : layout.regions) {
+    const glm::dvec2 centre = region.polygon.centroid();
+    const glm::dvec2 first = region.polygon.corners[0] - centre;
+    const double n = double(region.polygon.size()), radius = glm::length(first),
+                 begin = std::atan2(first.y, first.x);
+    for (double k = 0; k < n; ++k) {
+      const glm::dvec2 corner = centre + radius * directionOf(begin + kTwoPi * k / n);
+      corners.emplace(corner.x, corner.y);
+    }
+  }
+  return corners.size();
+}
+
+// ---- Points on and beside borders ------------------------------------------------------------------------
+
+/// Places where a sector's border is hard to tell: along its line, and one step of the last digit beside it.
+std::vector<glm::dvec2> pointsAlongBorders(const Cover& cover, Random& random) {
+  std::vector<glm::dvec2> points;
+  for (const Piece& piece : cover.pieces)
+    for (const BorderLine& line : {piece.low, piece.high})
+      for (int n = 0; n < 6; ++n) {
+        glm::dvec2 p = line.to + random(0.1, 20) * line.direction();
+        points.push_back(p);
+        p.x = std::nextafter(p.x, random(-1, 1) > 0 ? INFINITY : -INFINITY);
+        points.push_back(p);
+      }
+  return points;
+}
+
+/// The sign in whole numbers: 5e6 m out, doubles are multiples of 2^-30 m.
+int wholeNumberSide(const BorderLine& line, const glm::dvec2& p) {
+  __extension__ using Wide = __int128;
+  const auto whole = [](double value) { return Wide(std::int64_t(std::ldexp(value, 30))); };
+  const Wide ax = whole(line.from.x), ay = whole(line.from.y);
+  const Wide area = (whole(line.to.x) - ax) * (whole(p.y) - ay) - (whole(line.to.y) - ay) * (whole(p.x) - ax);
+  return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+TEST(HardCases, TheSideOfABorderIsRightBesideItByExactSignsAndNotByFloatCrossProducts) {
+  int points = 0, wrongInFloat = 0;
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {2, {5e6, -5e6}, 0.4});
+    Random random(41);
+    for (const Region& region : layout.regions)
+      for (const Cover& cover : region.covers)
+        for (const glm::dvec2& p : pointsAlongBorders(cover, random)) {
+          if (region.polygon.containsClosed(p)) continue;
+          ASSERT_EQ(std::ranges::count_if(cover.pieces, [&](const Piece& piece) { return piece.holds(p); }),
+                    1);
+          const Piece& piece = cover.pieces[std::size_t(random.index(cover.pieces.size()))];
+          const bool held = wholeNumberSide(piece.low, p) >= 0 && wholeNumberSide(piece.high, p) < 0;
+          ASSERT_EQ(piece.holds(p), held && (!piece.clip || piece.clip->holds(p))) << nameOf(configuration);
+          ++points;
+          wrongInFloat += naiveSide<float>(piece.low, p) != wholeNumberSide(piece.low, p);
+        }
+  }
+  EXPECT_GT(points, 10000);
+  EXPECT_GT(wrongInFloat, points / 10);
+}
+
+TEST(HardCases, APointOnABorderIsHeldOnceByHalfOpenSectorsAndTwiceByClosedOnes) {
+  // Unrotated squares with corners at whole numbers: borders pass exactly through lattice points.
+  const Layout layout = makeLayout(Configuration::e, {2, {1, 1}, 0});
+  int points = 0, twice = 0;
+  for (const Region& region : layout.regions)
+    for (const Cover& cover : region.covers)
+      for (int x = -6; x <= 6; ++x)
+        for (int y = -6; y <= 6; ++y) {
+          const glm::dvec2 p(2 * x, 2 * y);
+          if (region.polygon.containsClosed(p)) continue;
+          const auto held = [&](const auto& holds) {
+            return std::ranges::count_if(cover.pieces, [&](const Piece& piece) { return holds(piece, p); });
+          };
+          ASSERT_EQ(held([](const Piece& piece, const glm::dvec2& q) { return piece.holds(q); }), 1);
+          ++points;
+          twice += held(closedHolds) > 1;
+        }
+  EXPECT_GT(points, 1000);
+  EXPECT_GT(twice, points / 10);
+}
+
+TEST(HardCases, CornersOfDifferentPolygonsAreTheSameCameraByIntegersAndNotByCoordinates) {
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {1.7, {123.4, -77.7}, 0.3}, 4);
+    std::set<std::pair<double, double>> bits;  // of the corners as the lattice places them
+    std::set<std::tuple<int, int, int, int>> addresses;
+    for (const Region& region : layout.regions)
+      for (const glm::dvec2& corner : region.polygon.corners) bits.emplace(corner.x, corner.y);
+    for (const LayoutCamera& camera : layout.cameras)
+      addresses.emplace(camera.id.i, camera.id.j, camera.id.corner, camera.id.level);
+    EXPECT_EQ(bits.size(), addresses.size()) << nameOf(configuration);
+    EXPECT_GT(cornersMatchedByCoordinates(layout), addresses.size() * 5 / 4) << nameOf(configuration);
+  }
+}
+
+TEST(HardCases, TheRightAngleClosesWhateverTheConfiguration) {
+  // v * n is 360 degrees for each ring, and the cameras at a corner that look all round leave no seam.
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {2, {0, 0}, 0.123});
+    for (const Region& region : layout.regions) {
+      if (region.kind != RegionKind::ring) continue;
+      double sum = 0;
+      for (const Piece& piece : region.covers[0].pieces)
+        sum += layout.cameras[std::size_t(piece.camera)].fovRadians;
+      EXPECT_NEAR(sum, kTwoPi, 1e-12);
+      const auto& pieces = region.covers[0].pieces;
+      for (std::size_t k = 0; k < pieces.size(); ++k) {  // each begins where the one before ended
+        const LayoutCamera& a = layout.cameras[std::size_t(pieces[k].camera)];
+        const LayoutCamera& b = layout.cameras[std::size_t(pieces[(k + 1) % pieces.size()].camera)];
+        EXPECT_NEAR(std::remainder(a.lowAzimuth + a.fovRadians - b.lowAzimuth, kTwoPi), 0, 1e-12);
+      }
+    }
+  }
+}
+
+// ---- Scale and place -------------------------------------------------------------------------------------
+
+/// The ids of the cameras that a view shows, back to front.
+std::vector<CameraId> shown(const Layout& layout, const glm::dvec2& eye, double azimuth, double width) {
+  std::vector<CameraId> ids;
+  const auto region = layout.regionAt(eye);
+  if (!region) return ids;
+  const ViewSector sector{eye, {azimuth - 0.5 * width, width}};
+  const Cover& cover = chooseCover(layout.regions[std::size_t(*region)], sector);
+  for (const OrderedPiece& piece : visiblePieces(layout, *region, cover, sector))
+    ids.push_back(layout.cameras[std::size_t(piece.camera)].id);
+  return ids;
+}
+
+TEST(HardCases, TheSameProjectAtAnyScaleAndPlaceHasTheSameLayoutAndCovers) {
+  const double cell = 2;
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout reference = makeLayout(configuration, {cell, {0, 0}, 0.3}, 2.5);
+    for (const double scale : {1e-3, 1.0, 1e4})
+      for (const glm::dvec2& move : {glm::dvec2(0), glm::dvec2(5e6, -5e6)}) {
+        const Layout other = makeLayout(configuration, {scale * cell, move, 0.3}, 2.5);
+        ASSERT_EQ(other.regions.size(), reference.regions.size());
+        ASSERT_EQ(other.cameras.size(), reference.cameras.size());
+        for (std::size_t r = 0; r < reference.regions.size(); ++r)
+          ASSERT_EQ(other.regions[r].id, reference.regions[r].id);
+        for (std::size_t c = 0; c < reference.cameras.size(); ++c)
+          ASSERT_EQ(other.cameras[c].id, reference.cameras[c].id);
+        Random random(42);
+        const double fovs[] = {radians(1), radians(59.999), radians(60), radians(120), radians(179)};
+        for (int n = 0; n < 400; ++n) {
+          const glm::dvec2 eye(random(-4, 4), random(-4, 4));
+          const double azimuth = random(0, kTwoPi), width = fovs[n % 5];
+          ASSERT_EQ(shown(other, move + scale * eye, azimuth, width), shown(reference, eye, azimuth, width))
+              << nameOf(configuration) << " at scale " << scale;
+        }
+      }
+  }
+}
+
+TEST(HardCases, AViewFiveThousandKilometresOutIsTheSameRelativeToTheEyeAndNotInWorldSpaceFloats) {
+  // A sample at 3 m, 1 mm from the picture's middle: what the warp sees is b = P - E and c / w. Computed from
+  // world coordinates kept in floats, whole pixels are lost.
+  const glm::dvec2 far(5e6, -5e6), centre = far + glm::dvec2(1.25, 0.5), eye = far + glm::dvec2(0.3, 0.2);
+  const glm::dvec2 direction = directionOf(0.7);
+  const double distance = 3, focal = 800;
+  const auto pixels = [&](const glm::dvec2& fromEye) { return focal * fromEye.y / fromEye.x; };
+  const double truth = pixels(centre - eye + distance * direction);
+  const glm::vec2 baseline(centre - eye), c(direction);
+  const float w = 1 / 3.0f;
+  EXPECT_NEAR(pixels(glm::dvec2(c + w * baseline)), truth, 1e-3);
+  const glm::vec2 world = glm::vec2(centre) + glm::vec2(direction) / w, naive = world - glm::vec2(eye);
+  EXPECT_GT(std::abs(pixels(glm::dvec2(naive)) - truth), 5);
+}
+
+}  // namespace
+}  // namespace acentric
