@@ -168,6 +168,8 @@ void addToolActions(std::vector<Action>& table) {
   flag("view.backdrop", "Show scene", key::b, &EditorState::showBackdrop, true);
   flag("view.lattice", "Show free lattice", key::g, &EditorState::showLattice, false);
   flag("view.cameras", "Show cameras", key::c, &EditorState::showCameras, false);
+  flag("view.triangles", "Colour cells by triangles", key::t, &EditorState::showTriangles, false);
+  flag("view.checks", "Show placement checks", key::p, &EditorState::showChecks, false);
   table.push_back({"view.fit",
                    "Plan",
                    "Fit plan",

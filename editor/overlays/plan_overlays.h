@@ -8,6 +8,7 @@
 #include <span>
 
 #include "editor/session/capture_status.h"
+#include "editor/session/inspection.h"
 #include "editor/tools/plan_tool.h"
 #include "editor/tools/walker.h"
 #include "engine/layout/layout.h"
@@ -23,6 +24,14 @@ bool onScreen(const ui::CanvasView& view, const ConvexPolygon& polygon);
 
 void drawRegions(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
                  const CaptureStatus& status, const std::set<CellId>& selection, const CellId* hovered);
+/// Cells by their triangles of local geometry: from none to the most that any has, those over the budget in
+/// the colour of danger. A legend stands in the lower left corner.
+void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
+                   std::size_t budget, ImFont* font);
+/// Marks where findings lie, and with an arrow where a centre would stand free. Returns the one under the
+/// pointer.
+const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
+                                     const PlacementReport& report, const glm::dvec2& pointer);
 /// Cells that are not placed.
 void drawFreeCells(ImDrawList& list, const ui::CanvasView& view, std::span<const LatticeCell> cells,
                    const CellId* hovered);

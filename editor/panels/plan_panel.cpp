@@ -52,15 +52,20 @@ void PlanPanel::drawToolbar(PanelContext& context) {
   actionButton(context, "view.lattice", ButtonLook::toggle, {}, "Lattice");
   ImGui::SameLine(0, 3);
   actionButton(context, "view.cameras", ButtonLook::toggle, {}, "Cameras");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.triangles", ButtonLook::toggle, {}, "Triangles");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.checks", ButtonLook::toggle, {}, "Checks");
   ImGui::SameLine(0, 16);
   actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
-  if (!context.session().built()) return;
-  const Layout& layout = *context.session().built()->layout;
+}
+
+void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {
   const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
                                        ui::formatCount(layout.cameras.size()));
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x - 12);
-  ImGui::AlignTextToFramePadding();
-  ui::mutedText(text);
+  const float width = font->CalcTextSizeA(font->FontSize, 1000, 0, text.c_str()).x;
+  const ImVec2 corner = ui::imVec(view_.areaMin() + glm::dvec2(view_.areaSize().x, ui::kRulerPixels));
+  ui::drawLabel(list, font, {corner.x - width - 16, corner.y + 10}, ui::palette::text, text.c_str());
 }
 
 void PlanPanel::updateFreeCells(const Session& session) {
@@ -166,6 +171,11 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   updateFreeCells(session);
   if (state.showLattice) drawFreeCells(list, view_, freeCells_, hoveredId);
   drawRegions(list, view_, layout, *session.captures(), state.selection, hoveredId);
+  session.askForInspection(state.showTriangles || state.showChecks);
+  const std::shared_ptr<const Inspection> inspection = session.inspection();
+  if (inspection && state.showTriangles)
+    drawTriangles(list, view_, *inspection, std::size_t(session.project().budget.trianglesPerRegion),
+                  context.window.fonts().small);
   drawOutline(list, view_, spec.outline);
   if (state.showCameras) drawCameras(list, view_, layout, *session.captures());
   drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
@@ -175,8 +185,28 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
           region ? &layout.regions[std::size_t(*region)] : nullptr);
   if (const auto drag = state.planTool.cellDrag())
     drawCellDrag(list, view_, spec, *drag, drag->from != drag->to && !isPlaced(spec, drag->to));
+  if (inspection) tellInspection(context, list, *inspection, hovered);
   if (!state.planTool.outlineCorners().empty())
     drawOutlineInHand(list, view_, state.planTool.outlineCorners(), view_.worldFromScreen(pointer_));
+}
+
+void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const Inspection& inspection,
+                               const std::optional<CellId>& hovered) const {
+  const EditorState& state = context.state();
+  const glm::dvec2 pointer = context.inputBlocked ? glm::dvec2(-1e9) : pointer_;
+  if (state.showChecks)
+    if (const PlacementFinding* finding = drawFindings(list, view_, inspection.placement, pointer)) {
+      std::string text = finding->reason;
+      if (finding->push)
+        text += fmt::format("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).",
+                            glm::length(*finding->push), finding->place.x + finding->push->x,
+                            finding->place.y + finding->push->y);
+      return ui::tooltip(text);
+    }
+  if (!state.showTriangles || !hovered) return;
+  if (const auto region = inspection.layout->findRegion(*hovered))
+    ui::tooltip(fmt::format("{} triangles of local geometry",
+                            ui::formatCount(inspection.budgets.triangles[std::size_t(*region)])));
 }
 
 void PlanPanel::logCells(PanelContext& context) const {
@@ -226,6 +256,7 @@ void PlanPanel::draw(PanelContext& context) {
   const bool inside = view_.contains(pointer_) && !context.inputBlocked;
   ui::drawRulers(list, view_, small, inside ? std::optional(pointer_) : std::nullopt);
   ui::drawScaleBar(list, view_, small);
+  if (context.session().built()) drawCounts(list, *context.session().built()->layout, small);
   if (inside) ui::drawCoordinates(list, view_, small, view_.worldFromScreen(pointer_));
   list.PopClipRect();
 }

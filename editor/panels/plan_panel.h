@@ -19,7 +19,11 @@ class PlanPanel {
   void logCells(PanelContext& context) const;
   void fit(const Session& session);
   void updateFreeCells(const Session& session);
+  void drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const;
   std::optional<CellId> hoveredCell(const PanelContext& context) const;
+  /// What lies under the pointer, in words.
+  void tellInspection(PanelContext& context, ImDrawList& list, const Inspection& inspection,
+                      const std::optional<CellId>& hovered) const;
 
   ui::CanvasView view_;
   ui::Texture backdropTexture_;

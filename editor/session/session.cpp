@@ -43,7 +43,7 @@ bool Session::poll(double now) {
 
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
-         drawingBackdrop_.running();
+         drawingBackdrop_.running() || inspecting_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -183,6 +183,32 @@ void Session::drawBackdropIfStale() {
       context.post(
           [this, backdrop = std::make_shared<const Backdrop>(std::move(*drawn))] { backdrop_ = backdrop; });
     }
+  });
+}
+
+std::shared_ptr<const Inspection> Session::inspection() const {
+  const bool current = inspection_ && built_ && inspection_->layout == built_->layout;
+  return current && inspectionWanted_ ? inspection_ : nullptr;
+}
+
+void Session::askForInspection(bool wanted) {
+  inspectionWanted_ = wanted;
+  inspectIfStale();
+}
+
+void Session::inspectIfStale() {
+  if (!inspectionWanted_ || !built_ || inspected_ == built_->layout) return;
+  inspected_ = built_->layout;
+  inspecting_.restart("Inspecting the layout", [this, open = built_, inspector = inspector_,
+                                                threads = bakeThreads()](const Job::Context& context) {
+    TaskRunner runner(threads - 1);
+    auto made = inspector->inspect(*open, runner, context.progress(), context.stop());
+    context.post([this, made = std::make_shared<Result<Inspection>>(std::move(made))] {
+      if (*made)
+        inspection_ = std::make_shared<const Inspection>(std::move(**made));
+      else if (made->error().kind != ErrorKind::cancelled)
+        messages_.addFailure("Inspecting the layout", made->error());
+    });
   });
 }
 

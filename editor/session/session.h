@@ -15,6 +15,7 @@
 #include "editor/session/eta.h"
 #include "editor/session/history.h"
 #include "editor/session/inbox.h"
+#include "editor/session/inspection.h"
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
@@ -77,6 +78,10 @@ class Session {
   const std::shared_ptr<const LoadedWalk>& walk() const { return walk_; }
   const std::shared_ptr<const CaptureStatus>& captures() const { return captures_; }
   const std::shared_ptr<const Backdrop>& backdrop() const { return backdrop_; }
+  /// Of the layout that is built; null while it is being made, or if the plan does not ask for it.
+  std::shared_ptr<const Inspection> inspection() const;
+  /// Does the plan show it? Called each frame.
+  void askForInspection(bool wanted);
   /// Grows by one with each opened project: views start afresh.
   int generation() const { return generation_; }
 
@@ -94,6 +99,7 @@ class Session {
   const Job& baking() const { return baking_; }
   const Job& loading() const { return loading_; }
   const Job& drawingBackdrop() const { return drawingBackdrop_; }
+  const Job& inspecting() const { return inspecting_; }
   bool working() const;
 
   Messages& messages() { return messages_; }
@@ -115,6 +121,7 @@ class Session {
   void loadCaptures();
   void loaded(LoadedWalk walk, CaptureStatus status, const OpenProject& from);
   void drawBackdropIfStale();
+  void inspectIfStale();
   void bakeEnded(const Result<ProjectBakeReport>& report);
   void remember(const std::filesystem::path& file);
   void autosave(double now);
@@ -142,6 +149,10 @@ class Session {
     bool operator==(const BackdropKey&) const = default;
   };
   BackdropKey backdropKey_;
+  bool inspectionWanted_ = false;
+  std::shared_ptr<Inspector> inspector_ = std::make_shared<Inspector>();  // used by the job alone
+  std::shared_ptr<const Inspection> inspection_;
+  std::shared_ptr<const Layout> inspected_;  // what the job was last asked for
 
   Eta eta_;
   std::optional<ProjectBakeReport> lastBake_;
@@ -157,6 +168,7 @@ class Session {
   Job baking_{inbox_};
   Job loading_{inbox_};
   Job drawingBackdrop_{inbox_};
+  Job inspecting_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -70,6 +70,9 @@ void Session::close() {
   loading_.abandon();
   rebuilding_.abandon();
   drawingBackdrop_.abandon();
+  inspecting_.abandon();
+  inspection_.reset();
+  inspected_.reset();
   if (hasProject() && !untitled_ && !recovery_) removeAutosave(file_);
   history_.reset();
   built_.reset();

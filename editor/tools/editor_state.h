@@ -27,9 +27,11 @@ struct EditorState {
   bool showBackdrop = true;
   bool showLattice = true;
   bool showCameras = true;
-  bool showHoles = false;  ///< pixels without a real sample in magenta
-  bool fitPlan = true;     ///< asked for; the plan clears it
-  bool restart = false;    ///< the eye goes back to the start of the walk; the walk clears it
+  bool showTriangles = false;  ///< cells coloured by their local triangles instead of what is baked
+  bool showChecks = false;     ///< where centres of projection stand badly
+  bool showHoles = false;      ///< pixels without a real sample in magenta
+  bool fitPlan = true;         ///< asked for; the plan clears it
+  bool restart = false;        ///< the eye goes back to the start of the walk; the walk clears it
 
   Dialog dialog = Dialog::none;
   Continuation continuation;

@@ -146,6 +146,33 @@ TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
   waitFor(session, [&] { return !session.working(); });
 }
 
+TEST_F(SessionTest, TheInspectionFollowsEditsAndCostsNothingUnasked) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  EXPECT_EQ(session.inspection(), nullptr);
+  EXPECT_FALSE(session.inspecting().running());
+
+  session.askForInspection(true);
+  waitFor(session, [&] { return session.inspection() != nullptr; });
+  const auto before = session.inspection();
+  const Layout& layout = *session.built()->layout;
+  ASSERT_EQ(before->budgets.triangles.size(), layout.regions.size());
+  EXPECT_EQ(before->budgets.triangles, countLocalTriangles(*session.built()->scene, layout));
+
+  ASSERT_TRUE(session.apply(removeCells(session.project(), {layout.regions.front().id})));
+  waitFor(session, [&] {
+    session.askForInspection(true);
+    return session.built()->layout != before->layout && session.inspection() != nullptr;
+  });
+  EXPECT_EQ(session.inspection()->layout, session.built()->layout);
+  EXPECT_EQ(session.inspection()->budgets.triangles.size(), before->budgets.triangles.size() - 1);
+  EXPECT_EQ(session.inspection()->budgets.counted, 0u)
+      << "a region that an edit leaves alone was counted again";
+
+  session.askForInspection(false);
+  EXPECT_EQ(session.inspection(), nullptr);
+}
+
 TEST_F(SessionTest, AnUnsoundEditIsRefusedWithAReason) {
   Session session(options());
   openAndSettle(session, folder_ / "room.obj");
