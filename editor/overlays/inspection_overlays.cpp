@@ -34,8 +34,12 @@ ui::Colour colourOf(Severity severity) {
   return palette::danger;
 }
 
-void drawLegend(ImDrawList& list, const ui::CanvasView& view, std::size_t most, std::size_t budget,
-                std::size_t over, ImFont* font) {
+}  // namespace
+
+void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
+                        std::size_t budget, ImFont* font) {
+  const std::size_t most = std::max<std::size_t>(inspection.budgets.worst(), 1);
+  const std::size_t over = budget > 0 ? inspection.budgets.over(budget).size() : 0;
   const ImVec2 low = imVec(view.areaMin() + glm::dvec2(30, view.areaSize().y - 74));
   constexpr float kWidth = 180, kHeight = 10;
   list.AddRectFilled({low.x - 8, low.y - 24}, {low.x + kWidth + 8, low.y + 32},
@@ -56,10 +60,8 @@ void drawLegend(ImDrawList& list, const ui::CanvasView& view, std::size_t most, 
          over > 0 ? palette::danger : palette::good);
 }
 
-}  // namespace
-
 void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
-                   std::size_t budget, ImFont* font) {
+                   std::size_t budget) {
   const std::size_t most = std::max<std::size_t>(inspection.budgets.worst(), 1);
   const std::vector<Region>& regions = inspection.layout->regions;
   for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -71,7 +73,6 @@ void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspectio
     ui::drawConvex(list, view, regions[r].polygon.corners, colour.withOpacity(0.55F),
                    colour.withOpacity(over ? 1.0F : 0.8F), over ? 2.2F : 1.0F);
   }
-  drawLegend(list, view, most, budget, budget > 0 ? inspection.budgets.over(budget).size() : 0, font);
 }
 
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,

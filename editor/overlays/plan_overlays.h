@@ -25,9 +25,12 @@ bool onScreen(const ui::CanvasView& view, const ConvexPolygon& polygon);
 void drawRegions(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
                  const CaptureStatus& status, const std::set<CellId>& selection, const CellId* hovered);
 /// Cells by their triangles of local geometry: from none to the most that any has, those over the budget in
-/// the colour of danger. A legend stands in the lower left corner.
+/// the colour of danger.
 void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
-                   std::size_t budget, ImFont* font);
+                   std::size_t budget);
+/// What the colours mean, in the lower left corner.
+void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
+                        std::size_t budget, ImFont* font);
 /// Marks where findings lie, and with an arrow where a centre would stand free. Returns the one under the
 /// pointer.
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,

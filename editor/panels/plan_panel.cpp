@@ -174,8 +174,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   session.askForInspection(state.showTriangles || state.showChecks);
   const std::shared_ptr<const Inspection> inspection = session.inspection();
   if (inspection && state.showTriangles)
-    drawTriangles(list, view_, *inspection, std::size_t(session.project().budget.trianglesPerRegion),
-                  context.window.fonts().small);
+    drawTriangles(list, view_, *inspection, std::size_t(session.project().budget.trianglesPerRegion));
   drawOutline(list, view_, spec.outline);
   if (state.showCameras) drawCameras(list, view_, layout, *session.captures());
   drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
@@ -194,15 +193,20 @@ void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const In
                                const std::optional<CellId>& hovered) const {
   const EditorState& state = context.state();
   const glm::dvec2 pointer = context.inputBlocked ? glm::dvec2(-1e9) : pointer_;
-  if (state.showChecks)
-    if (const PlacementFinding* finding = drawFindings(list, view_, inspection.placement, pointer)) {
-      std::string text = finding->reason;
-      if (finding->push)
-        text += fmt::format("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).",
-                            glm::length(*finding->push), finding->place.x + finding->push->x,
-                            finding->place.y + finding->push->y);
-      return ui::tooltip(text);
-    }
+  const PlacementFinding* finding =
+      state.showChecks ? drawFindings(list, view_, inspection.placement, pointer) : nullptr;
+  if (state.showTriangles)
+    drawTriangleLegend(list, view_, inspection,
+                       std::size_t(context.session().project().budget.trianglesPerRegion),
+                       context.window.fonts().small);
+  if (finding != nullptr) {
+    std::string text = finding->reason;
+    if (finding->push)
+      text += fmt::format("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).",
+                          glm::length(*finding->push), finding->place.x + finding->push->x,
+                          finding->place.y + finding->push->y);
+    return ui::tooltip(text);
+  }
   if (!state.showTriangles || !hovered) return;
   if (const auto region = inspection.layout->findRegion(*hovered))
     ui::tooltip(fmt::format("{} triangles of local geometry",
