@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -74,10 +75,15 @@ Json toJson(const std::map<int, Apv>& apvs) {
 
 std::map<int, Apv> apvsFrom(const Json& json) {
   std::map<int, Apv> out;
-  for (const Json& apv : json)
-    out[apv.at("number").get<int>()] = {
-        pointFrom(apv.at("centre")), pointFrom(apv.at("offset")), 360.0 / apv.at("cameras").get<int>(),
-        apv.value("hand", "counterClockwise") == "clockwise" ? Hand::clockwise : Hand::counterClockwise};
+  for (const Json& apv : json) {
+    const int number = apv.at("number").get<int>();
+    const bool clockwise = apv.value("hand", "counterClockwise") == "clockwise";
+    const Apv value{pointFrom(apv.at("centre")), pointFrom(apv.at("offset")),
+                    360.0 / apv.at("cameras").get<int>(),
+                    clockwise ? Hand::clockwise : Hand::counterClockwise};
+    if (!out.emplace(number, value).second)
+      throw std::runtime_error(fmt::format("/layout/freeApvs: two of them have the number {}", number));
+  }
   return out;
 }
 

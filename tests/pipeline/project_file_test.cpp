@@ -26,6 +26,9 @@ Project everythingSet() {
   project.layout.outline.loops = {{{0, 0}, {8, 0}, {8, 6}, {0, 6}}, {{2, 2}, {3, 2}, {3, 3}}};
   project.layout.added = {{1, -2, 0}, {4, 5, 0}};
   project.layout.removed = {{0, 0, 0}};
+  project.layout.split = {{1, -2, 0}, {2, -4, 0, 1}};
+  project.layout.freeApvs = {{3, {{1, 2}, {0.5, -0.25}, 360.0 / 7, Hand::clockwise}},
+                             {12, {{-4, 0.1}, {0, 0}, 60, Hand::counterClockwise}}};
   project.bake = {12.5, 24, 1.5, 0.02, 4};
   project.budget = {150000, 0.0025, true};
   project.view.renderer = Renderer::zbuffer;
@@ -96,6 +99,13 @@ TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
               HasSubstr("/bake/ambientRays"));
   EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")),
               HasSubstr("/view/exposure"));
+}
+
+TEST(ProjectFile, RefusesTwoFreeApvsOfOneNumber) {
+  const std::string apv = R"({"number":4,"centre":[0,0],"offset":[1,0],"cameras":6})";
+  const std::string one = R"({"configuration":"b","cellSize":2,"freeApvs":[)" + apv;
+  EXPECT_EQ(refusalOf(minimal(one + "]}")), "accepted");
+  EXPECT_THAT(refusalOf(minimal(one + "," + apv + "]}")), HasSubstr("two of them have the number 4"));
 }
 
 TEST(ProjectFile, RefusesUnknownKeys) {
