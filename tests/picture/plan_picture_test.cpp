@@ -183,3 +183,9 @@ TEST(PlanPicture, TicksAreRoundAndFew) {
 
 }  // namespace
 }  // namespace acentric
+
+#if defined(__SANITIZE_ADDRESS__)
+/// Fontconfig, which Cairo asks for letters, keeps its lists until the process ends.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig.so"; }
+#endif
