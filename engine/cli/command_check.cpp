@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/region_report.h"
 #include "engine/inspect/lattice_shift.h"
@@ -86,11 +85,11 @@ Result<Report> runCheck(const CheckOptions& options, const Common& common) {
   rules.cameraRoom = options.cameraRoom;
   rules.mostPush = options.mostPush;
   if (common.progress) common.progress({0, 0, "checking the placement"});
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto found =
       checkPlacement(*open->layout, open->scene->bounds, rules, probeFor(*open->rays), *runner, common.stop);
   if (!found) return tl::unexpected(found.error());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const double seconds = watch.seconds();
 
   Report report;
   Json findings = Json::array();

@@ -39,8 +39,7 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
                     o, runNew);
   c->add_option("scene", o.scene, "Model file: glTF, GLB, OBJ, PLY, STL, FBX, DAE, ...")->required();
   c->add_option("-o,--output", o.output, "Project file to write (*.acentric.json)")->required();
-  c->add_option("--config", o.configuration,
-                "Configuration: b (60 degree hexagons and triangles) or e (90 degree squares)")
+  c->add_option("--config", o.configuration, "Configuration a to g, of which the paper recommends b, e and g")
       ->capture_default_str();
   c->add_option("--cell", o.cellSize,
                 "Edge length of the polygons in metres (default: from the walkable area)")

@@ -1,7 +1,7 @@
 #include "engine/inspect/estimates.h"
+#include "engine/base/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,16 +11,6 @@ namespace {
 
 /// Fewer tell nothing about how cameras differ.
 constexpr std::size_t kFewestProbes = 16;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
 /// probed.

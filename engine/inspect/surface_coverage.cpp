@@ -1,9 +1,9 @@
 #include "engine/inspect/surface_coverage.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "engine/base/stopwatch.h"
 #include "engine/inspect/sampling_rate.h"
 #include "engine/layout/drawing_order.h"
 
@@ -11,16 +11,6 @@ namespace acentric {
 namespace {
 
 constexpr double kUnder = 0.5, kOver = 2.0;  // samples per pixel
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 SurfaceClass classOf(double ratio) {
   return ratio < kUnder ? SurfaceClass::under : ratio > kOver ? SurfaceClass::over : SurfaceClass::fine;

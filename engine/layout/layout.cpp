@@ -73,10 +73,16 @@ void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, std::vector<
   }
 }
 
-int cameraIndex(const std::vector<LayoutCamera>& cameras, const CameraId& id) {
+std::optional<int> findIn(const std::vector<LayoutCamera>& cameras, const CameraId& id) {
   const auto found = std::ranges::lower_bound(cameras, id, {}, &LayoutCamera::id);
-  require(found != cameras.end() && found->id == id, "every camera of a placed region was collected");
+  if (found == cameras.end() || found->id != id) return std::nullopt;
   return static_cast<int>(found - cameras.begin());
+}
+
+int cameraIndex(const std::vector<LayoutCamera>& cameras, const CameraId& id) {
+  const std::optional<int> index = findIn(cameras, id);
+  require(index.has_value(), "every camera of a placed region was collected");
+  return *index;
 }
 
 Cover makeCover(const Lattice& lattice, const CellId& id, const ConvexPolygon& polygon,
@@ -177,11 +183,7 @@ std::optional<int> Layout::findRegion(const CellId& id) const {
   return static_cast<int>(found - regions.begin());
 }
 
-std::optional<int> Layout::findCamera(const CameraId& id) const {
-  const auto found = std::ranges::lower_bound(cameras, id, {}, &LayoutCamera::id);
-  if (found == cameras.end() || found->id != id) return std::nullopt;
-  return static_cast<int>(found - cameras.begin());
-}
+std::optional<int> Layout::findCamera(const CameraId& id) const { return findIn(cameras, id); }
 
 std::optional<int> Layout::regionAt(const glm::dvec2& point) const {
   return index ? index->regionAt(point) : std::nullopt;

@@ -9,6 +9,7 @@
 #include "engine/measure/compare.h"
 #include "engine/measure/correlation.h"
 #include "engine/scene/surface_alpha.h"
+#include "engine/view/warp.h"
 
 namespace acentric {
 namespace {
@@ -96,7 +97,7 @@ ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings) {
   ViewHoleOptions options;
   options.everyCover = settings.secondaryCover;
   options.localGeometry = settings.localGeometry;
-  if (settings.reconstruction == Reconstruction::point) options.splatFactor = 0;
+  options.splatFactor = settings.reconstruction == Reconstruction::point ? 0 : kSlantAllowance;
   options.maxSplatPixels = settings.maxSplatPixels;
   return options;
 }

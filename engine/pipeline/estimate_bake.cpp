@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <new>
@@ -15,6 +14,7 @@
 #include "engine/bake/capture_writer.h"
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/file.h"
+#include "engine/base/stopwatch.h"
 #include "engine/pipeline/local_triangles.h"
 
 namespace acentric {
@@ -26,16 +26,6 @@ namespace {
 constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 70000;
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A folder that goes with its owner.
 class TrialFolder {

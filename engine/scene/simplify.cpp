@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <random>
 #include <span>
 #include <unordered_map>
 
 #include "engine/base/contract.h"
+#include "engine/base/stopwatch.h"
 #include "engine/scene/decimate.h"
 #include "engine/scene/triangle_bvh.h"
 
@@ -348,7 +348,7 @@ Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
                                  const SimplifyOptions& options, std::stop_token stop) {
   if (auto sound = options.check(); !sound) return tl::unexpected(sound.error());
   require(!full.surfaces, "what is simplified was clipped from the scene");
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Welder welder(scene);
   std::vector<const LocalTriangle*> kept;
   for (const LocalTriangle& t : full.triangles)
@@ -373,7 +373,7 @@ Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
   assembler.finish();
   report.after = assembler.out.triangles.size();
   report.withinBudget = options.mostTriangles == 0 || report.after <= options.mostTriangles;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = watch.seconds();
   assembler.out.report = report;
   return std::move(assembler.out);
 }

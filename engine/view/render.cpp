@@ -1,11 +1,11 @@
 #include "engine/view/render.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 #include <set>
 
 #include "engine/base/contract.h"
+#include "engine/base/stopwatch.h"
 #include "engine/view/hole_fill.h"
 #include "engine/view/local_raster.h"
 #include "engine/view/view_plan.h"
@@ -17,16 +17,6 @@ namespace {
 /// How far colours spread into a hole. Where images are not loaded yet the gap must stay visible as one.
 constexpr int kFillRings = 4096;
 constexpr int kFillRingsWhileLoading = 8;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Turns the canvas the right way round: rows of colours and sources, and depth for the passes that follow.
 void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImage& inverseZDepth,

@@ -12,11 +12,6 @@
 namespace acentric {
 namespace {
 
-/// Splats are this much larger than a sample seen face on: surfaces that the capture saw at a slant, and the
-/// eye does not, are sampled farther apart. With what a ceiling then adds, cracks are rare up to about 45
-/// degrees.
-constexpr double kSlantAllowance = 1.25;
-
 /// View axes with the focal length and the picture's centre multiplied in (ProjectColumn).
 struct ScaledAxes {
   glm::dvec3 u, v, z;

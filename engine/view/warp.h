@@ -8,6 +8,11 @@
 
 namespace acentric {
 
+/// Splats are this much larger than a sample seen face on: surfaces that the capture saw at a slant, and the
+/// eye does not, are sampled farther apart. With what a ceiling then adds, cracks are rare up to about 45
+/// degrees.
+inline constexpr double kSlantAllowance = 1.25;
+
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one

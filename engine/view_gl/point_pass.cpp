@@ -9,15 +9,12 @@
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_culling.h"
 #include "engine/view/column_order.h"
+#include "engine/view/warp.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/whole_picture.h"
 
 namespace acentric {
 namespace {
-
-/// Splats are this much larger than a sample seen face on, as in view/warp.cpp: surfaces that the capture saw
-/// at a slant, and the eye does not, are sampled farther apart.
-constexpr double kSlantAllowance = 1.25;
 
 /// First sample of the column at or below a row.
 std::uint32_t firstAtRow(const DisplayCapture& capture, std::uint32_t begin, std::uint32_t end,
