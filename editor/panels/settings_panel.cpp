@@ -46,7 +46,7 @@ void drawLayout(PanelContext& context) {
   const Project& project = context.session().project();
   const LayoutSpec& spec = project.layout;
   number(context, "cellSize",
-         {"Cell size", "%.2f m", 0.01, 0.05, 1000,
+         {"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
           "Edge length of the polygons. Smaller: nearer sampling, more captures."},
          spec.cellSize, [&](double v) { return setCellSize(project, v); });
   number(context, "eyeHeight",

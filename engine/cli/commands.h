@@ -60,8 +60,11 @@ struct FitCommandOptions {
   double leastCell = 0.3;
   double maxError = 0.005;  ///< metres, of simplified regions
   bool rotate = false, shift = false, simplify = false, apply = false;
+  bool split = false;  ///< keep the project's cells and split those above the number
+  bool merge = false;  ///< with `split`: undo splits that the number does not call for
 };
 Result<Report> runFit(const FitCommandOptions& options, const Common& common);
+Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common& common);
 
 struct BakeOptions {
   std::filesystem::path project;

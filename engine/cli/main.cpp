@@ -43,7 +43,7 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
       ->capture_default_str();
   c->add_option("--cell", o.cellSize,
                 "Edge length of the polygons in metres (default: from the walkable area)")
-      ->check(CLI::Range(0.05, 1000.0));
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
@@ -109,7 +109,7 @@ void addLayout(CLI::App& app, Chosen& chosen, LayoutOptions& o) {
   c->add_option("project", o.project, "Project file")->required();
   c->add_option("--config", o.edits.configuration, "Configuration a to g");
   c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
-      ->check(CLI::Range(0.05, 1000.0));
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
   c->add_option("--origin", o.edits.origin, "Where the lattice begins: x,y in metres");
   c->add_option("--rotate", o.edits.rotationDegrees, "How far the lattice is turned, degrees");
   c->add_option("--eye-height", o.edits.eyeHeight, "Metres above the floor");
@@ -152,17 +152,23 @@ void addBudget(CLI::App& app, Chosen& chosen, BudgetOptions& o) {
 void addFit(CLI::App& app, Chosen& chosen, FitCommandOptions& o) {
   CLI::App* c = add(app, chosen, "fit", "Find the largest cells whose regions keep to a number of triangles",
                     "  acentric fit kitchen.acentric.json --max 200000 --rotate -o fit.svg\n"
-                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --simplify --apply",
+                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --simplify --apply\n"
+                    "  acentric fit kitchen.acentric.json --max 200000 --split --merge -o split.svg",
                     o, runFit);
   c->add_option("project", o.project, "Project file")->required();
   c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
-  c->add_option("--min-cell", o.leastCell, "Smallest cells to try, metres")
-      ->check(CLI::Range(0.05, 1000.0))
+  c->add_option("--min-cell", o.leastCell, "Smallest cells to try, or to split into, metres")
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize))
       ->capture_default_str();
-  c->add_flag("--rotate", o.rotate, "Try turned lattices as well");
-  c->add_flag("--shift", o.shift, "Try shifted lattices as well");
-  c->add_flag("--simplify", o.simplify,
-              "Where no cells fit, keep the project's and simplify the regions that exceed the number");
+  auto* split = c->add_flag("--split", o.split,
+                            "Keep the project's cells and split those that exceed the number (e and g only)");
+  c->add_flag("--merge", o.merge, "With --split, undo splits whose whole keeps to the number")->needs(split);
+  c->add_flag("--rotate", o.rotate, "Try turned lattices as well")->excludes(split);
+  c->add_flag("--shift", o.shift, "Try shifted lattices as well")->excludes(split);
+  c->add_flag(
+      "--simplify", o.simplify,
+      "Simplify the regions that exceed the number where no cells (then the project's are kept) or no "
+      "splits prevent it");
   c->add_option("--max-error", o.maxError, "Metres that simplified surfaces may lie from the scene's")
       ->check(CLI::Range(1e-6, 10.0))
       ->capture_default_str();
@@ -248,7 +254,8 @@ void addMeasure(CLI::App& app, Chosen& chosen, MeasureOptions& o) {
 }
 
 void addValidate(CLI::App& app, Chosen& chosen, ValidateOptions& o) {
-  CLI::App* c = add(app, chosen, "validate", "Check a project, its scene and every capture on disk",
+  CLI::App* c = add(app, chosen, "validate",
+                    "Check a project, its scene and every capture and simplified region on disk",
                     "  acentric validate kitchen.acentric.json --json", o, runValidate);
   c->add_option("project", o.project, "Project file")->required();
 }

@@ -20,8 +20,11 @@ double extentOf(const Outline& outline) {
   return outline.empty() ? 0 : std::max(high.x - low.x, high.y - low.y);
 }
 
-/// Whole millimetres: what a person would choose, and what a project file keeps.
-double roundNumber(double metres) { return std::max(0.05, std::round(1e3 * metres) / 1e3); }
+/// Whole millimetres, and finer below a metre's size: what a person would choose.
+double roundNumber(double metres) {
+  const double perStep = std::max(1e3, std::pow(10, 3 - std::floor(std::log10(metres))));
+  return std::clamp(std::round(perStep * metres) / perStep, kLeastCellSize, kLargestCellSize);
+}
 
 /// Turning a lattice about a ring's centre by this angle gives the same lattice.
 double symmetryOf(const LayoutSpec& spec) {
@@ -57,7 +60,7 @@ class Fitter {
   Result<FitResult> run() {
     const double largest = options_.largestCell > 0
                                ? options_.largestCell
-                               : std::clamp(extentOf(base_.outline), options_.leastCell, 1000.0);
+                               : std::clamp(extentOf(base_.outline), options_.leastCell, kLargestCellSize);
     const double ratio = std::pow(options_.leastCell / largest, 1.0 / (options_.sizes - 1));
     std::optional<double> failed;  // the smallest size that did not fit before one did
     for (int n = 0; n < options_.sizes; ++n) {
@@ -166,10 +169,12 @@ Status FitOptions::check() const {
     return fail(ErrorKind::invalidArgument, std::move(message));
   };
   if (mostTriangles == 0) return refuse("the budget must be at least one triangle per region");
-  if (!(leastCell >= 0.05 && leastCell <= 1000))
-    return refuse(fmt::format("the smallest cell must be 0.05 to 1000 m, not {:g}", leastCell));
-  if (largestCell != 0 && !(largestCell >= leastCell && largestCell <= 1000))
-    return refuse(fmt::format("the largest cell must be {:g} to 1000 m, not {:g}", leastCell, largestCell));
+  if (!(leastCell >= kLeastCellSize && leastCell <= kLargestCellSize))
+    return refuse(fmt::format("the smallest cell must be {:g} to {:g} m, not {:g}", kLeastCellSize,
+                              kLargestCellSize, leastCell));
+  if (largestCell != 0 && !(largestCell >= leastCell && largestCell <= kLargestCellSize))
+    return refuse(fmt::format("the largest cell must be {:g} to {:g} m, not {:g}", leastCell,
+                              kLargestCellSize, largestCell));
   if (sizes < 2 || sizes > 200) return refuse(fmt::format("2 to 200 sizes can be tried, not {}", sizes));
   if (rotations < 1 || rotations > 90)
     return refuse(fmt::format("1 to 90 rotations can be tried, not {}", rotations));

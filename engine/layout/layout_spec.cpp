@@ -95,11 +95,11 @@ Status checkFreeApvs(const LayoutSpec& spec) {
     if (!(std::abs(apv.centre.x) <= kMaxCoordinate && std::abs(apv.centre.y) <= kMaxCoordinate))
       return refuse(fmt::format("free APV {} lies farther than {} m out", number, kMaxCoordinate));
     const double radius = glm::length(apv.offset);
-    if (!apv.traditional() && !(radius >= 1e-4 && radius <= 1e5))
+    if (!apv.traditional() && !(radius >= kLeastCellSize && radius <= kLargestCellSize))
       return refuse(
           fmt::format("free APV {} has an offset of {} m; it must be 0 (a traditional panorama) or "
-                      "lie in 0.0001..100000",
-                      number, radius));
+                      "lie in {}..{}",
+                      number, radius, kLeastCellSize, kLargestCellSize));
   }
   return {};
 }
@@ -133,7 +133,7 @@ bool canSplit(Configuration configuration) {
 Status LayoutSpec::check() const {
   if (std::string_view(nameOf(configuration)) == "?") return refuse("the configuration is not one of a to g");
   for (const Status& status :
-       {checkRange("the cell size in metres", cellSize, 1e-4, 1e5),
+       {checkRange("the cell size in metres", cellSize, kLeastCellSize, kLargestCellSize),
         checkRange("the lattice origin's x in metres", latticeOrigin.x, -kMaxCoordinate, kMaxCoordinate),
         checkRange("the lattice origin's y in metres", latticeOrigin.y, -kMaxCoordinate, kMaxCoordinate),
         checkRange("the rotation in radians", rotationRadians, -1000, 1000),

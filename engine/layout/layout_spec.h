@@ -35,10 +35,12 @@ inline constexpr int kFreeSlot = -1;
 /// Cells are split at most this often.
 inline constexpr int kMaxLevel = 6;
 inline constexpr int kMaxFreeApvs = 1000;
+/// Metres; a project may be drawn in any unit.
+inline constexpr double kLeastCellSize = 1e-4, kLargestCellSize = 1e5;
 
 struct LayoutSpec {
   Configuration configuration = Configuration::b;
-  double cellSize = 2.0;        ///< metres, edge length of the regular polygon
+  double cellSize = 2.0;        ///< metres, edge length of the regular polygon, within the limits above
   glm::dvec2 latticeOrigin{0};  ///< a ring polygon's centre, metres
   double rotationRadians = 0;
   double floorHeight = 0;    ///< z of the walk plane, metres
@@ -51,8 +53,7 @@ struct LayoutSpec {
   std::map<int, Apv>
       freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
 
-  Status check() const;  ///< finite, cellSize in [1e-4, 1e5] (a project may be drawn in any unit), no more
-                         ///< than kMaxRegions regions
+  Status check() const;  ///< finite, within the limits above, no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;
   bool operator==(const LayoutSpec&) const = default;
 };

@@ -188,5 +188,28 @@ TEST(Fit, LeavesOutCellsChosenOneByOne) {
   EXPECT_TRUE(fitted->spec.added.empty() && fitted->spec.removed.empty());
 }
 
+TEST(Fit, TriesCellsOfAnySizeThatALayoutMayHave) {
+  // The same room drawn a thousand times smaller: the same answer, a thousand times smaller.
+  TaskRunner runner(0);
+  std::vector<double> found;
+  for (const double scale : {1.0, 1e-3}) {
+    auto scene = std::make_shared<Scene>();
+    scene->meshes.resize(1);
+    for (int y = -40; y <= 40; ++y)
+      for (int x = -40; x <= 40; ++x)
+        addSpeck(scene->meshes[0], glm::vec3(0.1 * scale * glm::dvec3(x, y, 10)), float(1e-3 * scale));
+    const TriangleTree tree{scene};
+    FitOptions options;
+    options.mostTriangles = 400;
+    options.leastCell = 0.5 * scale;
+    const auto fitted =
+        fitToBudget(roomSpec(Configuration::e, 2 * scale, 0.2 * scale), tree, options, runner);
+    ASSERT_TRUE(fitted.has_value()) << fitted.error().describe();
+    ASSERT_TRUE(fitted->satisfied);
+    found.push_back(fitted->spec.cellSize / scale);
+  }
+  EXPECT_NEAR(found[1], found[0], 0.01 * found[0]);
+}
+
 }  // namespace
 }  // namespace acentric
