@@ -156,6 +156,19 @@ Result<SimplifiedLocal> CaptureStore::getSimplified(const ContentKey& key) const
   return getWhole(key, simplifiedOf(folder_, key), readKeyedSimplified);
 }
 
+std::vector<Error> CaptureStore::check(const ContentKey& key) const {
+  std::vector<Error> problems;
+  const auto look = [&](const fs::path& path, const auto& readKeyed) {
+    if (!isFile(path)) return;
+    if (auto read = expectKey(readKeyed(path), key, path); !read) problems.push_back(std::move(read.error()));
+  };
+  look(packOf(folder_, key), readKeyedCapturePack);
+  look(exrOf(folder_, key), readKeyedCaptureExr);
+  look(lightOf(folder_, key), readKeyedSurfaceLight);
+  look(simplifiedOf(folder_, key), readKeyedSimplified);
+  return problems;
+}
+
 std::uint64_t CaptureStore::bytesOf(const ContentKey& key) const {
   return sizeOf(exrOf(folder_, key)) + sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key)) +
          sizeOf(simplifiedOf(folder_, key));

@@ -51,6 +51,10 @@ class CaptureStore {
   Status putSimplified(const ContentKey& key, const SimplifiedLocal& simplified) const;
   Result<SimplifiedLocal> getSimplified(const ContentKey& key) const;
 
+  /// Reads every file that is there under the key (both of a capture, surface light, simplified geometry)
+  /// to its end; what is wrong with each, that it was made for another key too. Sets nothing aside.
+  std::vector<Error> check(const ContentKey& key) const;
+
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set
   /// aside; returns bytes freed.

@@ -128,5 +128,24 @@ TEST_F(SimplifiedFile, IsKeptInTheStoreUnderItsKeyAndPruned) {
   EXPECT_FALSE(store->hasSimplified(key));
 }
 
+TEST_F(SimplifiedFile, IsCheckedUnderItsKeyWithoutBeingSetAside) {
+  const auto store = CaptureStore::open(folder_);
+  ASSERT_TRUE(store);
+  const ContentKey key{7, 8}, other{9, 10};
+  EXPECT_TRUE(store->check(key).empty()) << "nothing is there";
+  ASSERT_TRUE(store->putSimplified(key, randomSimplified(4)));
+  EXPECT_TRUE(store->check(key).empty());
+  const fs::path file = folder_ / ("simplified-" + key.toHex() + ".local"),
+                 copy = folder_ / ("simplified-" + other.toHex() + ".local");
+  fs::copy_file(file, copy);
+  fs::resize_file(file, fs::file_size(file) - 1);
+  for (const auto& [under, path] : {std::pair{key, file}, std::pair{other, copy}}) {
+    const std::vector<Error> problems = store->check(under);
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].where, path.string());
+    EXPECT_TRUE(fs::exists(path));
+  }
+}
+
 }  // namespace
 }  // namespace acentric
