@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "editor/panels/bake_panel.h"
 #include "editor/panels/menu_bar.h"
@@ -53,6 +54,19 @@ tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& op
   std::unique_ptr<App> app(new App(options, std::move(*window)));
   if (!options.uiLog.empty() && !app->log_.open(options.uiLog))
     return tl::unexpected(fmt::format("{}: cannot be written", options.uiLog.string()));
+  if (!options.frameTimes.empty()) {
+    const std::shared_ptr<std::FILE> file(std::fopen(options.frameTimes.c_str(), "w"), [](std::FILE* open) {
+      return open != nullptr ? std::fclose(open) : 0;
+    });
+    if (file == nullptr)
+      return tl::unexpected(fmt::format("{}: cannot be written", options.frameTimes.string()));
+    fmt::print(file.get(), "at_s,list_ms,render_ms\n");
+    app->window_->measureFrames([file](const ui::FrameTime& time) {
+      fmt::print(file.get(), "{:.3f},{:.3f},{:.3f}\n", time.beginSeconds, 1e3 * time.listSeconds,
+                 1e3 * time.renderSeconds);
+      std::fflush(file.get());
+    });
+  }
   if (!app->window_->missingFont().empty())
     app->session_.messages().add(MessageLevel::warning,
                                  "The font " + app->window_->missingFont() +

@@ -16,9 +16,10 @@
 namespace acentric::editor {
 
 struct AppOptions {
-  std::filesystem::path file;   ///< to open at once; may be empty
-  std::filesystem::path uiLog;  ///< for tests: ui/ui_log.h; may be empty
-  double exitAfterSeconds = 0;  ///< 0 = never
+  std::filesystem::path file;        ///< to open at once; may be empty
+  std::filesystem::path uiLog;       ///< for tests: ui/ui_log.h; may be empty
+  std::filesystem::path frameTimes;  ///< CSV to write, a line per frame; may be empty
+  double exitAfterSeconds = 0;       ///< 0 = never
   int width = 1600;
   int height = 900;
   ImportHost importHost;

@@ -16,6 +16,8 @@ int main(int argc, char** argv) {
                      "program that parses models (default: beside this one)");
   command.add_option("--log-ui", options.uiLog, "write where widgets are and what happens, for tests")
       ->type_name("FILE");
+  command.add_option("--frame-times", options.frameTimes, "write how long each frame took, as CSV")
+      ->type_name("FILE");
   command.add_option("--exit-after", options.exitAfterSeconds, "leave by itself after so many seconds")
       ->check(CLI::NonNegativeNumber);
   command.footer(

@@ -1,4 +1,5 @@
-# cmake -DOUT=file.cpp -DFILES="a;b" -P embed.cmake : writes the files as string literals (see engine/view_gl/shader_sources.h).
+# cmake -DOUT=file.cpp -DFILES="a;b" -DHEADER=folder/shader_sources.h -DSPACE=namespace -P embed.cmake : writes the files as
+# string literals; the header declares how they are found.
 set(entries "")
 foreach(file ${FILES})
   get_filename_component(name ${file} NAME)
@@ -10,13 +11,13 @@ foreach(file ${FILES})
   string(APPEND entries "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 file(CONFIGURE OUTPUT ${OUT} @ONLY CONTENT [=[// Made by shaders/embed.cmake.
-#include "engine/view_gl/shader_sources.h"
+#include "@HEADER@"
 
-namespace acentric {
+namespace @SPACE@ {
 namespace {
 constexpr ShaderSource kSources[] = {
 @entries@};
 }  // namespace
 std::span<const ShaderSource> shaderSources() { return kSources; }
-}  // namespace acentric
+}  // namespace @SPACE@
 ]=])

@@ -154,12 +154,14 @@ void Window::run(const std::function<void()>& update, const std::function<void()
 }
 
 void Window::drawFrame(const std::function<void()>& draw) {
-  pacer_.drawn(seconds());
+  FrameTime time{seconds()};
+  pacer_.drawn(time.beginSeconds);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
   draw();
   ImGui::Render();
+  time.listSeconds = seconds() - time.beginSeconds;
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
@@ -170,8 +172,12 @@ void Window::drawFrame(const std::function<void()>& draw) {
   glClearColor(palette::backdrop.r, palette::backdrop.g, palette::backdrop.b, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (tellFrame_) glFinish();
   glfwSwapBuffers(window_);
   ++frames_;
+  if (!tellFrame_) return;
+  time.renderSeconds = seconds() - time.beginSeconds - time.listSeconds;
+  tellFrame_(time);
 }
 
 bool Window::takeCloseRequest() { return std::exchange(closeRequested_, false); }

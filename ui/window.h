@@ -18,6 +18,13 @@ struct GLFWwindow;
 
 namespace acentric::ui {
 
+/// How long the newest frame took, for measuring.
+struct FrameTime {
+  double beginSeconds = 0;   ///< Window::seconds() at its beginning
+  double listSeconds = 0;    ///< the program's draw function
+  double renderSeconds = 0;  ///< the graphics card's work, waited for, and showing it
+};
+
 struct WindowOptions {
   std::string title;
   int width = 1600;  ///< screen coordinates
@@ -56,6 +63,8 @@ class Window {
   const std::string& missingFont() const { return missingFont_; }
   glm::ivec2 size() const;
   unsigned long framesDrawn() const { return frames_; }
+  /// From now on every frame is waited for and handed to `tell` (empty: no longer).
+  void measureFrames(std::function<void(const FrameTime&)> tell) { tellFrame_ = std::move(tell); }
 
  private:
   Window() = default;
@@ -74,6 +83,7 @@ class Window {
   bool closeRequested_ = false;
   bool captured_ = false;
   unsigned long frames_ = 0;
+  std::function<void(const FrameTime&)> tellFrame_;
 };
 
 }  // namespace acentric::ui

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "editor/overlays/plan_overlays.h"
+#include "editor/overlays/scale_colour.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
 
@@ -13,14 +12,6 @@ namespace {
 
 using ui::imVec;
 namespace palette = ui::palette;
-
-/// Dark blue to yellow, of even steps in lightness: also told apart by those who do not see all colours.
-ui::Colour scaleColour(double t) {
-  static constexpr std::array<std::uint32_t, 5> kStops{0x3b528b, 0x21918c, 0x5ec962, 0xaadc32, 0xfde725};
-  const double at = std::clamp(t, 0.0, 1.0) * double(kStops.size() - 1);
-  const std::size_t low = std::min(std::size_t(at), kStops.size() - 2);
-  return ui::Colour::hex(kStops[low]).mixed(ui::Colour::hex(kStops[low + 1]), float(at - double(low)));
-}
 
 ui::Colour colourOf(Severity severity) {
   switch (severity) {
@@ -58,21 +49,6 @@ void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Insp
   if (budget > 0)
     text(low.x + 24, low.y + 13, fmt::format("{} over {}", over, ui::formatCount(budget)),
          over > 0 ? palette::danger : palette::good);
-}
-
-void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
-                   std::size_t budget) {
-  const std::size_t most = std::max<std::size_t>(inspection.budgets.worst(), 1);
-  const std::vector<Region>& regions = inspection.layout->regions;
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (!onScreen(view, regions[r].polygon)) continue;
-    const std::size_t count = inspection.budgets.triangles[r];
-    const bool over = budget > 0 && count > budget;
-    // By the root: most cells hold few, some very many.
-    const ui::Colour colour = over ? palette::danger : scaleColour(std::sqrt(double(count) / double(most)));
-    ui::drawConvex(list, view, regions[r].polygon.corners, colour.withOpacity(0.55F),
-                   colour.withOpacity(over ? 1.0F : 0.8F), over ? 2.2F : 1.0F);
-  }
 }
 
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,

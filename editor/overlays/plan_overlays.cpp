@@ -1,10 +1,11 @@
 #include "editor/overlays/plan_overlays.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
-#include "engine/geometry/conventions.h"
+#include "editor/commands/layout_edits.h"
 #include "ui/canvas_draw.h"
 
 namespace acentric::editor {
@@ -12,19 +13,6 @@ namespace {
 
 using ui::imVec;
 namespace palette = ui::palette;
-
-constexpr double kSectorRoom = 64;  ///< pixels per cell edge from which sectors are shown
-
-void drawSector(ImDrawList& list, const ImVec2& centre, double low, double fov, float radius,
-                const ui::Colour& colour) {
-  // Screen y points down, so angles turn the other way.
-  list.PathLineTo(centre);
-  list.PathArcTo(centre, radius, float(-low - fov), float(-low), 8);
-  list.PathFillConvex(colour.withOpacity(0.22F).packed());
-  list.PathLineTo(centre);
-  list.PathArcTo(centre, radius, float(-low - fov), float(-low), 8);
-  list.PathStroke(colour.withOpacity(0.8F).packed(), ImDrawFlags_Closed, 1);
-}
 
 }  // namespace
 
@@ -40,67 +28,37 @@ ui::Colour colourOf(BakeState state) {
   return palette::muted;
 }
 
-bool onScreen(const ui::CanvasView& view, const ConvexPolygon& polygon) {
-  glm::dvec2 low(std::numeric_limits<double>::max());
-  glm::dvec2 high(std::numeric_limits<double>::lowest());
-  for (const glm::dvec2& corner : polygon.corners) {
-    const glm::dvec2 screen = view.screenFromWorld(corner);
-    low = glm::min(low, screen);
-    high = glm::max(high, screen);
-  }
-  const glm::dvec2 min = view.areaMin();
-  const glm::dvec2 max = min + view.areaSize();
-  return high.x >= min.x && high.y >= min.y && low.x <= max.x && low.y <= max.y;
+void drawHovered(ImDrawList& list, const ui::CanvasView& view, const ConvexPolygon& polygon, bool placed) {
+  if (placed)
+    return ui::drawConvex(list, view, polygon.corners, palette::text.withOpacity(0.13F),
+                          palette::text.withOpacity(0.4F), 1.2F);
+  ui::drawConvex(list, view, polygon.corners, palette::accent.withOpacity(0.16F),
+                 palette::accent.withOpacity(0.9F), 1);
+  const ImVec2 at = imVec(view.screenFromWorld(polygon.centroid()));
+  list.AddLine({at.x - 6, at.y}, {at.x + 6, at.y}, palette::accent.packed(), 2);
+  list.AddLine({at.x, at.y - 6}, {at.x, at.y + 6}, palette::accent.packed(), 2);
 }
 
-void drawRegions(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
-                 const CaptureStatus& status, const std::set<CellId>& selection, const CellId* hovered) {
-  for (std::size_t i = 0; i < layout.regions.size(); ++i) {
-    const Region& region = layout.regions[i];
-    if (!onScreen(view, region.polygon)) continue;
-    const BakeState state = i < status.regions.size() ? status.regions[i] : BakeState::missing;
-    const ui::Colour colour = colourOf(state);
-    const bool under = hovered != nullptr && *hovered == region.id;
-    const float fill = region.kind == RegionKind::ring ? 0.20F : 0.11F;
-    ui::drawConvex(list, view, region.polygon.corners, colour.withOpacity(under ? fill + 0.12F : fill),
-                   colour.withOpacity(0.75F), 1.2F);
-  }
-  // Over their neighbours, whose borders they share.
-  for (const CellId& cell : selection)
-    if (const auto index = layout.findRegion(cell))
-      ui::drawConvex(list, view, layout.regions[std::size_t(*index)].polygon.corners,
-                     palette::accent.withOpacity(0.25F), palette::accent, 2.2F);
-}
-
-void drawFreeCells(ImDrawList& list, const ui::CanvasView& view, std::span<const LatticeCell> cells,
-                   const CellId* hovered) {
-  for (const LatticeCell& cell : cells) {
-    const bool under = hovered != nullptr && *hovered == cell.id;
-    ui::drawConvex(list, view, cell.polygon.corners,
-                   under ? palette::accent.withOpacity(0.16F) : palette::text.withOpacity(0),
-                   under ? palette::accent.withOpacity(0.9F) : palette::text.withOpacity(0.13F), 1);
-    if (!under) continue;
-    const ImVec2 at = imVec(view.screenFromWorld(cell.polygon.centroid()));
-    list.AddLine({at.x - 6, at.y}, {at.x + 6, at.y}, palette::accent.packed(), 2);
-    list.AddLine({at.x, at.y - 6}, {at.x, at.y + 6}, palette::accent.packed(), 2);
-  }
-}
-
-void drawCameras(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
-                 const CaptureStatus& status) {
-  const double cell = layout.spec.cellSize * view.pixelsPerMetre();
-  const float dot = float(std::clamp(cell * 0.05, 1.2, 3.5));
-  const bool sectors = cell >= kSectorRoom;
-  const float radius = float(std::min(26.0, cell * 0.18));
-  for (std::size_t i = 0; i < layout.cameras.size(); ++i) {
-    const LayoutCamera& camera = layout.cameras[i];
-    const glm::dvec2 screen = view.screenFromWorld(camera.position);
-    if (!view.contains(screen)) continue;
-    const bool baked = i < status.cameras.size() && status.cameras[i];
-    const ui::Colour colour = colourOf(baked ? BakeState::baked : BakeState::missing);
-    if (sectors) drawSector(list, imVec(screen), camera.lowAzimuth, camera.fovRadians, radius, colour);
-    list.AddCircleFilled(imVec(screen), dot + 1, palette::backdrop.withOpacity(0.8F).packed());
-    list.AddCircleFilled(imVec(screen), dot, colour.packed());
+void drawPending(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec& laid,
+                 const LayoutSpec& wanted) {
+  LayoutSpec same = laid;
+  same.added = wanted.added;
+  same.removed = wanted.removed;
+  if (same != wanted) return;  // another lattice: nothing stays where it is
+  constexpr std::size_t kMost = 500;
+  std::vector<CellId> changed;
+  std::ranges::set_symmetric_difference(laid.added, wanted.added, std::back_inserter(changed));
+  std::ranges::set_symmetric_difference(laid.removed, wanted.removed, std::back_inserter(changed));
+  if (changed.size() > kMost) changed.resize(kMost);
+  const ui::Colour missing = colourOf(BakeState::missing);
+  for (const CellId& cell : changed) {
+    const ConvexPolygon polygon = cellPolygon(wanted, cell);
+    if (isPlaced(wanted, cell))
+      ui::drawConvex(list, view, polygon.corners, missing.withOpacity(0.2F), missing.withOpacity(0.75F),
+                     1.2F);
+    else
+      ui::drawConvex(list, view, polygon.corners, palette::backdrop.withOpacity(0.8F),
+                     palette::backdrop.withOpacity(0.8F), 2);
   }
 }
 

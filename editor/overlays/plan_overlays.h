@@ -19,28 +19,18 @@ namespace acentric::editor {
 
 ui::Colour colourOf(BakeState state);
 
-/// Is a polygon on the screen at all?
-bool onScreen(const ui::CanvasView& view, const ConvexPolygon& polygon);
-
-void drawRegions(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
-                 const CaptureStatus& status, const std::set<CellId>& selection, const CellId* hovered);
-/// Cells by their triangles of local geometry: from none to the most that any has, those over the budget in
-/// the colour of danger.
-void drawTriangles(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
-                   std::size_t budget);
-/// What the colours mean, in the lower left corner.
+/// The cell under the pointer: what a click would take, or add.
+void drawHovered(ImDrawList& list, const ui::CanvasView& view, const ConvexPolygon& polygon, bool placed);
+/// Cells that were placed or taken away since the layout was laid, until it is laid anew.
+void drawPending(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec& laid,
+                 const LayoutSpec& wanted);
+/// What the colours of cells by triangles mean, in the lower left corner.
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
                         std::size_t budget, ImFont* font);
 /// Marks where findings lie, and with an arrow where a centre would stand free. Returns the one under the
 /// pointer.
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
                                      const PlacementReport& report, const glm::dvec2& pointer);
-/// Cells that are not placed.
-void drawFreeCells(ImDrawList& list, const ui::CanvasView& view, std::span<const LatticeCell> cells,
-                   const CellId* hovered);
-/// Dots at the centres of projection; sectors too where there is room.
-void drawCameras(ImDrawList& list, const ui::CanvasView& view, const Layout& layout,
-                 const CaptureStatus& status);
 void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& outline);
 /// The corners of an outline that is being drawn, with a line to the pointer.
 void drawOutlineInHand(ImDrawList& list, const ui::CanvasView& view, std::span<const glm::dvec2> corners,

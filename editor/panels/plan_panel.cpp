@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/overlays/plan_overlays.h"
@@ -14,9 +15,6 @@
 
 namespace acentric::editor {
 namespace {
-
-constexpr int kMostFreeCells = 1500;
-constexpr double kLeastCellPixels = 9;  ///< smaller cells are not worth drawing, and cannot be hit
 
 std::span<const std::uint8_t> bytesOf(const ColourImage& image) {
   return {&image.pixels.front().x, image.pixels.size() * sizeof(Rgba8)};
@@ -68,16 +66,24 @@ void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font)
   ui::drawLabel(list, font, {corner.x - width - 16, corner.y + 10}, ui::palette::text, text.c_str());
 }
 
-void PlanPanel::updateFreeCells(const Session& session) {
-  freeCells_.clear();
+void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::optional<CellId>& hovered) {
+  Session& session = context.session();
+  const EditorState& state = context.state();
+  const OpenProject& open = *session.built();
   const LayoutSpec& spec = session.project().layout;
-  if (spec.cellSize * view_.pixelsPerMetre() < kLeastCellPixels) return;
-  const glm::dvec2 a = view_.worldFromScreen(view_.areaMin());
-  const glm::dvec2 b = view_.worldFromScreen(view_.areaMin() + view_.areaSize());
-  const Layout& layout = *session.built()->layout;
-  for (LatticeCell& cell : cellsIn(spec, glm::min(a, b), glm::max(a, b), kMostFreeCells))
-    if (layout.spec != spec || !layout.findRegion(cell.id))
-      if (!isPlaced(spec, cell.id)) freeCells_.push_back(std::move(cell));
+  if (state.showLattice || context.log.on()) freeCells_.update(open.layout, view_);
+  if (state.showLattice) freeCells_.draw(list, view_);
+  layers_.update({open.layout, session.captures(), state.showTriangles ? session.inspection() : nullptr,
+                  std::size_t(session.project().budget.trianglesPerRegion)});
+  layers_.drawRegions(list, view_);
+  if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
+    session.messages().add(MessageLevel::error, "The plan cannot be drawn on this OpenGL. " + layers_.problem());
+  if (session.rebuilding().running()) drawPending(list, view_, open.layout->spec, spec);
+  if (hovered) {
+    const bool placed = isPlaced(spec, *hovered);
+    if (placed || state.showLattice) drawHovered(list, view_, cellPolygon(spec, *hovered), placed);
+  }
+  layers_.drawSelection(list, view_, state.selection);
 }
 
 std::optional<CellId> PlanPanel::hoveredCell(const PanelContext& context) const {
@@ -167,16 +173,11 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   }
   ui::drawGrid(list, view_);
   const std::optional<CellId> hovered = hoveredCell(context);
-  const CellId* hoveredId = hovered ? &*hovered : nullptr;
-  updateFreeCells(session);
-  if (state.showLattice) drawFreeCells(list, view_, freeCells_, hoveredId);
-  drawRegions(list, view_, layout, *session.captures(), state.selection, hoveredId);
   session.askForInspection(state.showTriangles || state.showChecks);
   const std::shared_ptr<const Inspection> inspection = session.inspection();
-  if (inspection && state.showTriangles)
-    drawTriangles(list, view_, *inspection, std::size_t(session.project().budget.trianglesPerRegion));
+  drawLayout(context, list, hovered);
   drawOutline(list, view_, spec.outline);
-  if (state.showCameras) drawCameras(list, view_, layout, *session.captures());
+  if (state.showCameras) layers_.drawCameras(list, view_);
   drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
   const WalkPose& pose = state.walker.pose();
   const auto region = layout.regionAt(glm::dvec2(pose.eye));
@@ -215,16 +216,18 @@ void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const In
 
 void PlanPanel::logCells(PanelContext& context) const {
   if (!context.log.on()) return;
-  const auto logPoint = [&](const std::string& name, const glm::dvec2& world) {
+  const auto logPoint = [&](const glm::dvec2& world, const auto& name) {
     const glm::dvec2 at = view_.screenFromWorld(world);
-    if (view_.contains(at)) context.log.rect(name, float(at.x), float(at.y), float(at.x), float(at.y));
+    if (view_.contains(at)) context.log.rect(name(), float(at.x), float(at.y), float(at.x), float(at.y));
   };
-  for (const LatticeCell& cell : freeCells_)
-    logPoint(fmt::format("free.{}.{}.{}", cell.id.i, cell.id.j, cell.id.slot), cell.polygon.centroid());
-  for (const Region& region : context.actions.session.built()->layout->regions)
-    logPoint(fmt::format("cell.{}.{}.{}", region.id.i, region.id.j, region.id.slot),
-             region.polygon.centroid());
-  logPoint("plan.eye", glm::dvec2(context.actions.state.walker.pose().eye));
+  const auto logCell = [&](const char* kind, const CellId& id, const ConvexPolygon& polygon) {
+    logPoint(polygon.centroid(), [&] { return fmt::format("{}.{}.{}.{}", kind, id.i, id.j, id.slot); });
+  };
+  logPoint(glm::dvec2(context.actions.state.walker.pose().eye), [] { return std::string("plan.eye"); });
+  const Layout& layout = *context.actions.session.built()->layout;
+  if (layout.spec.cellSize * view_.pixelsPerMetre() < kLeastCellPixels) return;
+  for (const LatticeCell& cell : freeCells_.cells()) logCell("free", cell.id, cell.polygon);
+  for (const Region& region : layout.regions) logCell("cell", region.id, region.polygon);
 }
 
 void PlanPanel::draw(PanelContext& context) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The plan: backdrop, lattice, cameras and eye, with the tools that edit them.
 
+#include "editor/overlays/free_cells.h"
+#include "editor/overlays/plan_layers.h"
 #include "editor/panels/panel_context.h"
 #include "ui/canvas_view.h"
 #include "ui/texture.h"
@@ -18,7 +20,7 @@ class PlanPanel {
   void drawContents(PanelContext& context, ImDrawList& list);
   void logCells(PanelContext& context) const;
   void fit(const Session& session);
-  void updateFreeCells(const Session& session);
+  void drawLayout(PanelContext& context, ImDrawList& list, const std::optional<CellId>& hovered);
   void drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const;
   std::optional<CellId> hoveredCell(const PanelContext& context) const;
   /// What lies under the pointer, in words.
@@ -28,7 +30,9 @@ class PlanPanel {
   ui::CanvasView view_;
   ui::Texture backdropTexture_;
   std::shared_ptr<const Backdrop> shownBackdrop_;
-  std::vector<LatticeCell> freeCells_;
+  PlanLayers layers_;
+  FreeCells freeCells_;
+  bool problemTold_ = false;
   glm::dvec2 pointer_{0};
 };
 

@@ -12,6 +12,7 @@ const std::string kNothing;
 History::History(Project initial, bool saved) : everSaved_(saved) {
   if (saved) saved_ = initial;
   entries_.push_back({"Open", std::move(initial)});
+  compareWithSaved();
 }
 
 void History::append(Project project, std::string label) {
@@ -19,6 +20,7 @@ void History::append(Project project, std::string label) {
   entries_.push_back({std::move(label), std::move(project)});
   if (entries_.size() > kMostEntries) entries_.erase(entries_.begin());
   cursor_ = entries_.size() - 1;
+  compareWithSaved();
 }
 
 void History::push(Project project, std::string label) {
@@ -30,7 +32,7 @@ void History::push(Project project, std::string label) {
 void History::preview(Project project, std::string label) {
   if (previewing_) {
     entries_[cursor_] = {std::move(label), std::move(project)};
-    return;
+    return compareWithSaved();
   }
   if (project == current()) return;
   const auto behind = entries_.begin() + static_cast<std::ptrdiff_t>(cursor_) + 1;
@@ -55,6 +57,7 @@ void History::rollbackPreview() {
   for (Entry& entry : hiddenRedo_) entries_.push_back(std::move(entry));
   hiddenRedo_.clear();
   previewing_ = false;
+  compareWithSaved();
 }
 
 const std::string& History::undoLabel() const { return canUndo() ? entries_[cursor_].label : kNothing; }
@@ -63,11 +66,13 @@ const std::string& History::redoLabel() const { return canRedo() ? entries_[curs
 void History::undo() {
   commitPreview();
   if (canUndo()) --cursor_;
+  compareWithSaved();
 }
 
 void History::redo() {
   commitPreview();
   if (canRedo()) ++cursor_;
+  compareWithSaved();
 }
 
 void History::discardCurrent() {
@@ -75,6 +80,13 @@ void History::discardCurrent() {
   if (!canUndo()) return;
   entries_.resize(cursor_);
   --cursor_;
+  compareWithSaved();
+}
+
+void History::markSaved() {
+  saved_ = current();
+  everSaved_ = true;
+  compareWithSaved();
 }
 
 }  // namespace acentric::editor

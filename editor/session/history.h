@@ -36,8 +36,8 @@ class History {
   /// Takes back the current entry and forgets it: it turned out to be impossible.
   void discardCurrent();
 
-  void markSaved() { saved_ = current(), everSaved_ = true; }
-  bool dirty() const { return !everSaved_ || saved_ != current(); }
+  void markSaved();
+  bool dirty() const { return dirty_; }
 
   std::size_t size() const { return entries_.size(); }
   std::size_t cursor() const { return cursor_; }
@@ -49,11 +49,13 @@ class History {
     Project project;
   };
   void append(Project project, std::string label);
+  void compareWithSaved() { dirty_ = !everSaved_ || saved_ != current(); }
 
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
   Project saved_;
   bool everSaved_ = false;
+  bool dirty_ = false;  // asked for in every frame: projects with many cells are not compared each time
   bool previewing_ = false;
   std::vector<Entry> hiddenRedo_;  // what push() would drop, kept until a preview is committed
 };
