@@ -10,7 +10,7 @@ vec4 farthestMean(vec4 texels[4]) {
   vec4 sum = vec4(0.0);
   float total = 0.0;
   for (int i = 0; i < 4; ++i)
-    if (texels[i].a >= 0.0 && texels[i].a <= kSameSurface * smallest + 1e-6) {
+    if (texels[i].a >= 0.0 && texels[i].a <= kSameSurface * smallest) {
       sum += texels[i];
       total += 1.0;
     }
@@ -36,7 +36,7 @@ vec4 fromCoarser(sampler2D coarser, ivec2 at) {
   for (int i = 0; i < 4; ++i) {
     if (texels[i].a < 0.0) continue;
     float weight = ((i & 1) == 1 ? f.x : 1.0 - f.x) * ((i >> 1) == 1 ? f.y : 1.0 - f.y);
-    if (texels[i].a > kSameSurface * smallest + 1e-6) weight *= kNearerSurface;
+    if (texels[i].a > kSameSurface * smallest) weight *= kNearerSurface;
     sum += weight * texels[i];
     total += weight;
   }

@@ -9,7 +9,7 @@ uniform sampler2D frameDepth;
 uniform sampler2D finer;
 #endif
 
-const float kNearest = 1e-3;               // as in local.vert
+const float kNearest = 1e-7;               // as in local.vert
 const float kBackgroundDepthScale = 1e-20; // as in points.vert
 const float kLargestBackground = 1e-14;
 

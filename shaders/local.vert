@@ -22,7 +22,9 @@ out vec3 atFromEye;
 out vec3 atNormal;
 #endif
 
-const float kNearest = 1e-3;  // metres along the view axis; nearer surfaces are not drawn
+// Metres along the view axis; nearer surfaces are not drawn. A floating-point depth buffer loses nothing by so small a
+// value, and projects may be drawn in any unit.
+const float kNearest = 1e-7;
 
 void main() {
   vec3 fromEye = position + originFromEye;

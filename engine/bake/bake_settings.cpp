@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace acentric {
 
@@ -17,10 +18,11 @@ Status BakeSettings::check() const {
     return bad(fmt::format("{} samples per degree: must lie in 0.5..64", samplesPerDegree));
   if (ambientRays < 0 || ambientRays > 1024)
     return bad(fmt::format("{} ambient rays: must lie in 0..1024", ambientRays));
-  if (!inRange(ambientRadius, 1e-3, 1e5))
-    return bad(fmt::format("ambient radius {} m: must lie in 0.001..100000", ambientRadius));
-  if (!inRange(surfaceTexel, 0.002, 10))
-    return bad(fmt::format("surface texel {} m: must lie in 0.002..10", surfaceTexel));
+  for (const auto& [what, metres] :
+       {std::pair{"ambient radius", ambientRadius}, std::pair{"surface texel", surfaceTexel}})
+    if (!inRange(metres, kLeastBakeLength, kLargestBakeLength))
+      return bad(
+          fmt::format("{} {} m: must lie in {}..{:.0f}", what, metres, kLeastBakeLength, kLargestBakeLength));
   if (maxLayers < 1 || maxLayers > 64) return bad(fmt::format("{} layers: must lie in 1..64", maxLayers));
   return {};
 }

@@ -6,11 +6,14 @@
 
 namespace acentric {
 
+/// Metres, of the settings' lengths; a project may be drawn in any unit.
+inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
+
 struct BakeSettings {
   double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
   int ambientRays = 12;         ///< per sample, 0..1024; used where the plan has ambient occlusion
   double ambientRadius = 2.0;   ///< metres; occluders beyond fade out
-  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, 0.002..10
+  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry
   int maxLayers = 8;            ///< samples kept per pixel at most, 1..64
 
   Status check() const;

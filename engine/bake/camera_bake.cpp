@@ -12,8 +12,6 @@ namespace acentric {
 namespace {
 
 constexpr int kColumnsPerChunk = 4;
-/// Nothing nearer to the centre of projection than this is sampled, horizontally: 1/w stays finite.
-constexpr double kNearestSample = 1e-5;
 /// Surfaces met along one ray at most; a guard, not a quality setting.
 constexpr int kMaxMarch = 4096;
 
@@ -36,9 +34,10 @@ struct Samples {
 std::vector<double> exitDistances(const LayoutCamera& camera, const glm::dvec2& origin,
                                   const glm::dvec2& direction) {
   std::vector<double> exits;
+  const double nearest = nearestSample(camera);
   for (const ConvexPolygon& polygon : camera.served) {
     const auto span = polygon.raySpan(origin, direction);
-    exits.push_back(span ? std::max(span->second, kNearestSample) : kNearestSample);
+    exits.push_back(span ? std::max(span->second, nearest) : nearest);
   }
   std::sort(exits.begin(), exits.end());
   exits.erase(std::unique(exits.begin(), exits.end()), exits.end());

@@ -35,7 +35,7 @@ LightSet lightSet(const Scene& scene, const EffectPlan& plan) {
 
 glm::vec3 irradianceFrom(const LocalSource& source, const glm::vec3& at, glm::vec3& towards,
                          float& distance) {
-  constexpr float kClosest = 1e-4f;  // metres; a surface through the lamp itself stays finite
+  constexpr float kClosest = 1e-7f;  // metres; a surface through the lamp itself stays finite
   const glm::vec3 way = source.position - at;
   distance = std::max(glm::length(way), kClosest);
   towards = way / distance;

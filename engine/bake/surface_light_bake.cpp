@@ -65,10 +65,11 @@ class SurfaceLightBaker {
     const std::size_t count = scene_.scene().triangleCount();
     light_.resolution.assign(count, 0);
     light_.hasBack.assign(count, 0);
-    constexpr double kGrowth = 1.2, kCoarsest = 100;
+    constexpr double kGrowth = 1.2;
+    const double coarsest = glm::length(scene_.scene().bounds.size());  // one sample a corner
     while (samplesAt(plan_.texel) > kMaxSamples) {
       plan_.texel *= kGrowth;
-      if (plan_.texel > kCoarsest)
+      if (plan_.texel > coarsest)
         return fail(
             ErrorKind::tooLarge,
             fmt::format("{} triangles need surface light; even one sample a corner is above the limit of {}. "

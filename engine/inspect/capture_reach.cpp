@@ -8,9 +8,7 @@
 namespace acentric {
 namespace {
 
-/// As the bake: nothing nearer to the centre of projection is sampled, and a surface on a region's border
-/// belongs to both sides.
-constexpr double kNearestSample = 1e-5;
+/// As the bake: a surface on a region's border belongs to both sides.
 constexpr double kBorderSlack = 1e-6;
 /// Ray tracing is done in single precision: a surface this share nearer is the point's own.
 constexpr double kSameSurface = 5e-5;
@@ -52,9 +50,11 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   if (!(way.flat > 0)) return false;
   const double elevation = std::atan2(direction.z, way.flat);
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
-  for (const ConvexPolygon& polygon : layout_.cameras[std::size_t(camera)].served) {
+  const LayoutCamera& served = layout_.cameras[std::size_t(camera)];
+  const double nearest = nearestSample(served);
+  for (const ConvexPolygon& polygon : served.served) {
     const auto span = polygon.raySpan(glm::dvec2(way.origin), glm::dvec2(direction) / way.flat);
-    const double exit = span ? std::max(span->second, kNearestSample) : kNearestSample;
+    const double exit = span ? std::max(span->second, nearest) : nearest;
     if (exit <= horizontal * (1 + kBorderSlack)) way.exits.push_back(exit);
   }
   std::ranges::sort(way.exits);

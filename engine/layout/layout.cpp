@@ -166,6 +166,13 @@ std::optional<Lattice> latticeFor(const LayoutSpec& spec) {
 
 }  // namespace
 
+double nearestSample(const LayoutCamera& camera) {
+  constexpr double kShareOfEdge = 2.5e-6;
+  if (camera.served.empty() || camera.served.front().size() < 3) return 0;
+  const auto& corners = camera.served.front().corners;
+  return kShareOfEdge * glm::distance(corners[0], corners[1]);
+}
+
 bool HalfPlane::holds(const glm::dvec2& point) const {
   const int side = orientation(line.from, line.to, point);
   return left ? side >= 0 : side < 0;

@@ -42,6 +42,11 @@ struct LayoutCamera {
   std::vector<ConvexPolygon> served;
 };
 
+/// Nothing nearer to the camera than this is captured, horizontal metres: so that inverse distances stay
+/// finite and a wall through the centre of projection leaves no rounding noise; a share of the regions' size,
+/// whatever their unit.
+double nearestSample(const LayoutCamera& camera);
+
 /// A border of a sector as the line through two points, directed away from the sector's apex. Neighbouring
 /// pieces share the very same points, so that an exact predicate puts each point on one side for both of
 /// them.

@@ -67,16 +67,19 @@ glm::dmat4 metresZUp(double metresPerUnit, UpAxis up) {
   return out;
 }
 
-/// Floats keep 24 bits: far from zero they lose the millimetres. Whole metres keep the origin exact in any
-/// format.
+/// Floats keep 24 bits: far from zero they lose the millimetres, or of a small scene its details. Whole
+/// metres (of small scenes: halves, quarters ...) keep the origin exact in any format.
 glm::dvec3 chooseOrigin(const Box& box) {
   const glm::dvec3 centre = 0.5 * (box.min + box.max);
   const double distance = glm::length(centre);
   const double reach = 0.5 * box.diagonal();
   const bool far = distance > 10000;
   const bool coarse =
-      distance > 4 * reach && distance + reach > 1000;  // a float's step is above 0.06 mm there
-  return far || coarse ? glm::round(centre) : glm::dvec3(0);
+      distance > 4 * reach && (distance + reach > 1000 ||  // a float's step is above 0.06 mm there
+                               distance > 1000 * reach);   // or above an 8000th of the scene
+  if (!far && !coarse) return glm::dvec3(0);
+  const double step = reach > 0 ? std::min(1.0, std::exp2(std::floor(std::log2(reach)))) : 1;
+  return glm::round(centre / step) * step;
 }
 
 void reportDropped(const CleaningCounts& counts, ImportReport& report) {
@@ -130,7 +133,7 @@ class Finisher {
     }
     scene_.origin = chooseOrigin(box);
     if (scene_.origin != glm::dvec3(0))
-      source_.guessed.add(fmt::format("project origin: moved to ({:.0f}, {:.0f}, {:.0f}) m, near the scene",
+      source_.guessed.add(fmt::format("project origin: moved to ({}, {}, {}) m, near the scene",
                                       scene_.origin.x, scene_.origin.y, scene_.origin.z));
     for (const SourceLight& from : source_.lights) placeLight(from, world);
   }

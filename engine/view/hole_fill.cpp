@@ -89,7 +89,7 @@ class HoleFill {
     int weights = 0;
     float depthSum = 0;
     forNeighbours(pixel, [&](std::uint32_t n, bool straight) {
-      if (!usable(n) || inverseZDepth_.pixels[n] > kSameDepth * smallest + 1e-6f) return;
+      if (!usable(n) || inverseZDepth_.pixels[n] > kSameDepth * smallest) return;
       const int weight = straight ? 3 : 2;
       const Rgba8& colour = frame_.colour.pixels[n];
       for (int c = 0; c < 3; ++c) sum[static_cast<std::size_t>(c)] += weight * colour[c];

@@ -10,8 +10,9 @@
 namespace acentric {
 namespace {
 
-/// Nearer surfaces are not drawn, metres along the view axis.
-constexpr double kNearest = 1e-3;
+/// Nearer surfaces are not drawn, metres along the view axis: below what any project, in whatever unit it is
+/// drawn, has before an eye.
+constexpr double kNearest = 1e-7;
 constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr int kBandRows = 32;
 constexpr std::uint32_t kNothing = 0xffffffff;

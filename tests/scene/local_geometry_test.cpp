@@ -57,19 +57,6 @@ TEST(LocalGeometry, ATriangleInsideIsKeptAsItIsAndOneOutsideIsDropped) {
   EXPECT_EQ(local.vertices[2].barycentric, glm::vec2(0, 1));
 }
 
-TEST(LocalGeometry, AWallOnTheSharedBorderOfTwoRegionsIsKeptByBoth) {
-  // Vertical wall in the plane x = 1, and a slanted border with corners that are no round numbers.
-  const Scene straight = sceneOf({{1, -1, 0}, {1, 1, 0}, {1, 1, 3}, {1, -1, 3}}, {{0, 1, 2}, {0, 2, 3}});
-  EXPECT_NEAR(areaOf(clipToPolygon(straight, rectangle(0, -5, 1, 5))), 6, 1e-6);
-  EXPECT_NEAR(areaOf(clipToPolygon(straight, rectangle(1, -5, 2, 5))), 6, 1e-6);
-
-  const glm::dvec2 a(0.1f, 0.7f), b(3.3f, 2.9f);
-  const Scene slanted = sceneOf({{0.1f, 0.7f, 0}, {3.3f, 2.9f, 0}, {3.3f, 2.9f, 2}}, {{0, 1, 2}});
-  const double whole = glm::length(b - a);
-  EXPECT_NEAR(areaOf(clipToPolygon(slanted, {{a, b, {-3, 6}}})), whole, 1e-6);
-  EXPECT_NEAR(areaOf(clipToPolygon(slanted, {{b, a, {5, -6}}})), whole, 1e-6);
-}
-
 TEST(LocalGeometry, ATouchingEdgeAddsNothing) {
   const Scene scene = sceneOf({{1, 0, 0}, {1, 1, 0}, {2, 0, 0}}, {{0, 1, 2}});
   EXPECT_TRUE(clipToPolygon(scene, rectangle(0, -5, 1, 5)).triangles.empty());

@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "analytic_scene.h"
-#include "engine/view/column_order.h"
-#include "engine/view/render.h"
+#include "tests/view/capture_fixtures.h"
 
 namespace acentric {
 namespace {
@@ -14,96 +12,14 @@ namespace {
 using test::AnalyticBox;
 using test::AnalyticScene;
 
-struct RandomViews {
-  std::mt19937 random;
-  explicit RandomViews(unsigned seed) : random(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  }
-  PerspectiveView next(const Layout& layout, int region, double fovDegrees) {
-    const ConvexPolygon& polygon = layout.regions[static_cast<std::size_t>(region)].polygon;
-    PerspectiveView view;
-    view.eye = glm::dvec3(test::randomPointIn(polygon, random), layout.eyeZ() + between(-0.8, 0.8));
-    view.yawRadians = between(0, kTwoPi);
-    view.pitchRadians = between(-0.5, 0.5);
-    view.fovRadians = radians(fovDegrees);
-    view.width = 320;
-    view.height = 200;
-    return view;
-  }
-};
-
-ViewSettings plainSettings(Renderer renderer = Renderer::list) {
-  ViewSettings settings;
-  settings.renderer = renderer;
-  settings.secondaryCover = false;
-  settings.fillHoles = false;
-  return settings;
-}
-
-Frame frameOf(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-              int workers = 0) {
-  TaskRunner runner(workers);
-  auto frame = renderFrame(scene, view, settings, runner);
-  if (!frame) {
-    ADD_FAILURE() << frame.error().describe();
-    return {};
-  }
-  return std::move(*frame);
-}
-
-/// One camera over a square region around the origin, for views that need no cover.
-struct OneCapture {
-  WalkScene scene;
-  ViewPlan plan;
-};
-
-Canvas paint(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-             const ViewPlan& plan, bool depthTest = false, int bands = 4) {
-  bool blended = false;
-  for (const auto& capture : scene.captures) blended = blended || (capture && capture->blended);
-  Canvas canvas = makeCanvas(view, blended);
-  TaskRunner runner(0);
-  WarpOptions options;
-  options.depthTest = depthTest;
-  options.bands = bands;
-  warpPieces(scene, view, settings, plan, options, canvas, runner);
-  return canvas;
-}
-
-/// A plan that draws one capture whole, in list priority order, without culling.
-OneCapture oneCapture(const AnalyticScene& analytic, const ColumnCamera& camera, const PerspectiveView& view,
-                      int layers = 1) {
-  OneCapture one;
-  one.scene.captures.push_back(std::make_shared<const DisplayCapture>(
-      prepareForDisplay(test::capture(analytic, camera, nullptr, layers), 1)));
-  PieceDraw piece;
-  piece.baseline = glm::vec3(camera.centreOfProjection - view.eye);
-  piece.maxInverseDistance.assign(static_cast<std::size_t>(camera.columns),
-                                  std::numeric_limits<float>::infinity());
-  piece.runs = columnOrder(camera, glm::dvec2(view.eye) - glm::dvec2(camera.centreOfProjection)).runs;
-  one.plan.pieces.push_back(piece);
-  return one;
-}
-
-ColumnCamera cameraAt(const glm::dvec3& centre, double middleDegrees, int columns = 240, int rows = 480) {
-  ColumnCamera camera;
-  camera.centreOfProjection = centre;
-  camera.fovRadians = radians(60);
-  camera.lowAzimuth = radians(middleDegrees - 30);
-  camera.topElevation = radians(60);
-  camera.bottomElevation = -radians(60);
-  camera.columns = columns;
-  camera.rows = rows;
-  return camera;
-}
-
-double shareOfDifferentPixels(const Canvas& a, const Canvas& b) {
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    differing += (a.pixels[i] & 0xffffffff) != (b.pixels[i] & 0xffffffff);
-  return static_cast<double>(differing) / static_cast<double>(a.pixels.size());
-}
+using test::cameraAt;
+using test::frameOf;
+using test::OneCapture;
+using test::oneCapture;
+using test::paint;
+using test::plainSettings;
+using test::RandomViews;
+using test::shareOfDifferentPixels;
 
 class ListPriority : public testing::TestWithParam<Configuration> {};
 
@@ -128,20 +44,6 @@ TEST_P(ListPriority, PaintsWhatADepthBufferShows) {
   RecordProperty("worstDifferingPercent", std::to_string(100 * worst));
   EXPECT_LT(sum / kViews, 0.005);
   EXPECT_LT(worst, 0.02);
-}
-
-TEST_P(ListPriority, HoldsForEveryFieldOfView) {
-  const auto layout = test::layoutAroundOrigin(GetParam());
-  ASSERT_NE(layout, nullptr);
-  const int region = *layout->regionAt({0.1, 0.05});
-  const WalkScene scene = test::walkScene(test::randomBoxes(5, 60, 3.4), layout, region, 3);
-  RandomViews views(12);
-  for (double fov : {1.0, 30.0, 59.999, 60.0, 90.0, 120.0, 150.0, 179.0}) {
-    const PerspectiveView view = views.next(*layout, region, fov);
-    const Frame list = frameOf(scene, view, plainSettings(Renderer::list));
-    const Frame nearest = frameOf(scene, view, plainSettings(Renderer::zbuffer));
-    EXPECT_LT(test::differingShare(list.colour, nearest.colour), 0.02) << fov;
-  }
 }
 
 TEST_P(ListPriority, IsTheSameForAnyThreadCountAndKernel) {
@@ -215,45 +117,6 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
   }
 }
 
-TEST(Warp, AtTheCentreOfProjectionIsThePictureItself) {
-  // Seen from P nothing moves: each sample's pixel holds its colour (points), whatever its distance.
-  AnalyticScene analytic = test::randomBoxes(8, 40, 2);
-  const ColumnCamera camera = cameraAt({0.3, -0.2, 1.6}, 40);
-  PerspectiveView view;
-  view.eye = camera.centreOfProjection;
-  view.yawRadians = radians(40);
-  view.fovRadians = radians(50);
-  view.width = 400, view.height = 260;
-  const OneCapture one = oneCapture(analytic, camera, view);
-  const Canvas canvas = paint(one.scene, view, plainSettings(), one.plan);
-  std::size_t wrong = 0;
-  const glm::dmat3 m = view.viewFromWorld();
-  for (int x = 0; x < view.width; ++x)
-    for (int y = 0; y < view.height; ++y) {
-      const glm::dvec3 ray = view.rayThrough(x + 0.5, y + 0.5);
-      const double column = wrapAngle(std::atan2(ray.y, ray.x) - camera.lowAzimuth) / camera.columnPitch();
-      const double row = (camera.topElevation - std::asin(ray.z)) / camera.rowPitch();
-      // The nearest sample, or a direct neighbour where its splat lies on top.
-      const CanvasPixel pixel = canvas.column(x)[y];
-      ASSERT_NE(slotOf(pixel), 0u);
-      bool found = false;
-      for (int dk = -2; dk <= 2; ++dk)
-        for (int dr = -2; dr <= 2; ++dr) {
-          const glm::dvec3 d(camera.directionAt(std::floor(column) + dk + 0.5),
-                             camera.tangentAt(std::floor(row) + dr + 0.5));
-          const auto hits = analytic.along(view.eye, d, 0);
-          const glm::vec4 colour =
-              unpackColour(packColour(hits.empty() ? analytic.skyColour : hits[0].colour));
-          const Rgba8 expected = encodeForDisplay(glm::vec3(colour), 1);
-          const double w = hits.empty() ? 0 : 1 / hits[0].distance;
-          found = found || (colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u) == expected &&
-                            std::abs(inverseZDepthOf(pixel) - w / (m * d).z) < 1e-4);
-        }
-      wrong += !found;
-    }
-  EXPECT_EQ(wrong, 0u);
-}
-
 TEST(Warp, PutsASampleWhereItsPointLies) {
   // One sample, any eye: the splat's centre is the projection of P + (c + t z) / w.
   std::mt19937 random(31);
@@ -301,43 +164,6 @@ TEST(Warp, PutsASampleWhereItsPointLies) {
     seen += inside;
   }
   EXPECT_GT(seen, 100);
-}
-
-TEST(Warp, HoldsStraightAboveAndBelowTheCamera) {
-  const AnalyticScene analytic = test::randomBoxes(9, 60, 1.2);
-  for (double height : {0.4, 1.0, 2.4, 2.8}) {
-    const ColumnCamera camera = cameraAt({0, 0, 1.6}, 0);
-    PerspectiveView view;
-    view.eye = {0, 0, height};
-    view.width = 320, view.height = 240;
-    view.pitchRadians = height > 1.6 ? -0.4 : 0.2;
-    const OneCapture one = oneCapture(analytic, camera, view);
-    for (Reconstruction reconstruction : {Reconstruction::point, Reconstruction::splat}) {
-      ViewSettings settings = plainSettings();
-      settings.reconstruction = reconstruction;
-      const double share = shareOfDifferentPixels(paint(one.scene, view, settings, one.plan),
-                                                  paint(one.scene, view, settings, one.plan, true));
-      // Columns have no order among themselves here, so splats overlap by chance along upright edges.
-      EXPECT_LT(share, reconstruction == Reconstruction::point ? 0.002 : 0.015) << height;
-    }
-  }
-}
-
-TEST(Warp, HoldsWithTheEpipoleOnAColumnsEdgeAndInItsMiddle) {
-  const AnalyticScene analytic = test::randomBoxes(10, 60, 1.5);
-  const ColumnCamera camera = cameraAt({0, 0, 1.6}, 0);
-  for (double column : {0.0, 0.5, 120.0, 120.5, 239.5, 240.0, -3.0, 250.0})
-    for (double side : {1.0, -1.0}) {  // the eye ahead of the camera, and behind it
-      PerspectiveView view;
-      view.eye =
-          camera.centreOfProjection + glm::dvec3(side * 0.9 * directionOf(camera.azimuthAt(column)), 0.2);
-      view.width = 320, view.height = 240;
-      const OneCapture one = oneCapture(analytic, camera, view);
-      EXPECT_LT(shareOfDifferentPixels(paint(one.scene, view, plainSettings(), one.plan),
-                                       paint(one.scene, view, plainSettings(), one.plan, true)),
-                0.006)
-          << column << " " << side;
-    }
 }
 
 TEST(Warp, DrawsTheLayersOfAPixelFromFarToNear) {
@@ -389,23 +215,6 @@ TEST(Warp, BlendsEachPaneOnceOverWhatLiesBehind) {
       EXPECT_LT(static_cast<double>(other), 0.02 * static_cast<double>(mixed))
           << depthTest << " " << offset.x;
     }
-  }
-}
-
-TEST(Warp, ShowsSkyAtInfinityWhereverTheEyeIs) {
-  AnalyticScene analytic;
-  analytic.floor = false;
-  const ColumnCamera camera = cameraAt({0, 0, 1.6}, 0);
-  PerspectiveView view;
-  view.eye = {0.9, -0.7, 2.2};
-  view.width = 200, view.height = 120;
-  view.fovRadians = radians(45);
-  const OneCapture one = oneCapture(analytic, camera, view);
-  const Canvas canvas = paint(one.scene, view, plainSettings(), one.plan);
-  const Rgba8 sky = encodeForDisplay(glm::vec3(unpackColour(packColour(analytic.skyColour))), 1);
-  for (CanvasPixel pixel : canvas.pixels) {
-    ASSERT_EQ(colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u), sky);
-    ASSERT_EQ(inverseZDepthOf(pixel), 0.0f);
   }
 }
 

@@ -1,0 +1,105 @@
+#pragma once
+/// Random views, single captures and canvases for the tests of the warp.
+
+#include <gtest/gtest.h>
+
+#include "engine/view/column_order.h"
+#include "engine/view/render.h"
+#include "engine/view/warp.h"
+#include "tests/view/analytic_scene.h"
+
+namespace acentric::test {
+
+struct RandomViews {
+  std::mt19937 random;
+  explicit RandomViews(unsigned seed) : random(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+  PerspectiveView next(const Layout& layout, int region, double fovDegrees) {
+    const ConvexPolygon& polygon = layout.regions[static_cast<std::size_t>(region)].polygon;
+    PerspectiveView view;
+    view.eye = glm::dvec3(randomPointIn(polygon, random), layout.eyeZ() + between(-0.8, 0.8));
+    view.yawRadians = between(0, kTwoPi);
+    view.pitchRadians = between(-0.5, 0.5);
+    view.fovRadians = radians(fovDegrees);
+    view.width = 320;
+    view.height = 200;
+    return view;
+  }
+};
+
+inline ViewSettings plainSettings(Renderer renderer = Renderer::list) {
+  ViewSettings settings;
+  settings.renderer = renderer;
+  settings.secondaryCover = false;
+  settings.fillHoles = false;
+  return settings;
+}
+
+inline Frame frameOf(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                     int workers = 0) {
+  TaskRunner runner(workers);
+  auto frame = renderFrame(scene, view, settings, runner);
+  if (!frame) {
+    ADD_FAILURE() << frame.error().describe();
+    return {};
+  }
+  return std::move(*frame);
+}
+
+/// One camera over a square region around the origin, for views that need no cover.
+struct OneCapture {
+  WalkScene scene;
+  ViewPlan plan;
+};
+
+inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                    const ViewPlan& plan, bool depthTest = false, int bands = 4) {
+  bool blended = false;
+  for (const auto& capture : scene.captures) blended = blended || (capture && capture->blended);
+  Canvas canvas = makeCanvas(view, blended);
+  TaskRunner runner(0);
+  WarpOptions options;
+  options.depthTest = depthTest;
+  options.bands = bands;
+  warpPieces(scene, view, settings, plan, options, canvas, runner);
+  return canvas;
+}
+
+/// A plan that draws one capture whole, in list priority order, without culling.
+inline OneCapture oneCapture(const AnalyticScene& analytic, const ColumnCamera& camera,
+                             const PerspectiveView& view, int layers = 1) {
+  OneCapture one;
+  one.scene.captures.push_back(std::make_shared<const DisplayCapture>(
+      prepareForDisplay(capture(analytic, camera, nullptr, layers), 1)));
+  PieceDraw piece;
+  piece.baseline = glm::vec3(camera.centreOfProjection - view.eye);
+  piece.maxInverseDistance.assign(static_cast<std::size_t>(camera.columns),
+                                  std::numeric_limits<float>::infinity());
+  piece.runs = columnOrder(camera, glm::dvec2(view.eye) - glm::dvec2(camera.centreOfProjection)).runs;
+  one.plan.pieces.push_back(piece);
+  return one;
+}
+
+inline ColumnCamera cameraAt(const glm::dvec3& centre, double middleDegrees, int columns = 240,
+                             int rows = 480) {
+  ColumnCamera camera;
+  camera.centreOfProjection = centre;
+  camera.fovRadians = radians(60);
+  camera.lowAzimuth = radians(middleDegrees - 30);
+  camera.topElevation = radians(60);
+  camera.bottomElevation = -radians(60);
+  camera.columns = columns;
+  camera.rows = rows;
+  return camera;
+}
+
+inline double shareOfDifferentPixels(const Canvas& a, const Canvas& b) {
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    differing += (a.pixels[i] & 0xffffffff) != (b.pixels[i] & 0xffffffff);
+  return static_cast<double>(differing) / static_cast<double>(a.pixels.size());
+}
+
+}  // namespace acentric::test
