@@ -157,9 +157,16 @@ class Refiner {
         worstBelow[id] = worst;
         continue;
       }
-      spec_.split.erase(id), made_.erase(id);
+      takeBack(id);
       noHelp_.insert(id);
     }
+  }
+
+  /// With all splits below it.
+  void takeBack(const CellId& id) {
+    if (made_.erase(id) == 0) return;
+    spec_.split.erase(id);
+    for (const CellId& part : lattice_.childrenOf(id)) takeBack(part);
   }
 
   WhyOver whyOver(const CellId& id) const {
