@@ -19,6 +19,7 @@ namespace {
 
 static_assert(key::space == GLFW_KEY_SPACE && key::digit3 == GLFW_KEY_3 && key::equal == GLFW_KEY_EQUAL);
 static_assert(key::a == GLFW_KEY_A && key::l == GLFW_KEY_L && key::q == GLFW_KEY_Q && key::z == GLFW_KEY_Z);
+static_assert(key::t == GLFW_KEY_T && key::v == GLFW_KEY_V);
 static_assert(key::escape == GLFW_KEY_ESCAPE && key::del == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME);
 static_assert(key::up == GLFW_KEY_UP && key::f1 == GLFW_KEY_F1 && key::f5 == GLFW_KEY_F5);
 static_assert(key::keypadEnter == GLFW_KEY_KP_ENTER && key::rightShift == GLFW_KEY_RIGHT_SHIFT);

@@ -1,6 +1,7 @@
 #include "editor/actions/action_table.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
@@ -133,6 +134,46 @@ void addEditActions(std::vector<Action>& table) {
        {}});
 }
 
+void addCoverageActions(std::vector<Action>& table) {
+  const auto kind = [&table](const char* id, const char* label, CoverageKind what, const char* help) {
+    table.push_back(
+        {id,
+         "Plan",
+         label,
+         {},
+         {},
+         help,
+         false,
+         withProject,
+         [what](ActionContext& c) {
+           c.state.showCoverage = true;
+           c.state.coverageKind = what;
+         },
+         [what](const ActionContext& c) { return c.state.showCoverage && c.state.coverageKind == what; }});
+  };
+  kind("coverage.surfaces", "Coverage of surfaces", CoverageKind::surfaces,
+       "For each point of a surface that an eye in the walkable area can see: how finely the captures would "
+       "sample it, against what the nearest eye needs.");
+  kind("coverage.layout", "Coverage of the plan", CoverageKind::layout,
+       "How many cameras hold each point of the plan.");
+  kind("coverage.cell", "Coverage of a cell", CoverageKind::cell,
+       "The same for the cameras at the corners of the selected cell, or of the one under the pointer; of a "
+       "free panorama view its own.");
+  table.push_back({"coverage.next",
+                   "Plan",
+                   "Next kind of coverage",
+                   {key::v, ui::modifier::shift},
+                   {},
+                   "",
+                   false,
+                   withProject,
+                   [](ActionContext& c) {
+                     if (std::exchange(c.state.showCoverage, true))
+                       c.state.coverageKind = CoverageKind((int(c.state.coverageKind) + 1) % 3);
+                   },
+                   {}});
+}
+
 void addToolActions(std::vector<Action>& table) {
   const auto tool = [&table](const char* id, const char* label, int code, PlanMode mode, const char* help) {
     table.push_back({id,
@@ -170,6 +211,8 @@ void addToolActions(std::vector<Action>& table) {
   flag("view.cameras", "Show cameras", key::c, &EditorState::showCameras, false);
   flag("view.triangles", "Colour cells by triangles", key::t, &EditorState::showTriangles, false);
   flag("view.checks", "Show placement checks", key::p, &EditorState::showChecks, false);
+  flag("view.coverage", "Show sampling coverage", key::v, &EditorState::showCoverage, false);
+  addCoverageActions(table);
   table.push_back({"view.fit",
                    "Plan",
                    "Fit plan",

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "editor/overlays/plan_overlays.h"
-#include "editor/overlays/scale_colour.h"
+#include "editor/overlays/scale_legend.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
 
@@ -30,25 +30,13 @@ ui::Colour colourOf(Severity severity) {
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
                         std::size_t budget, ImFont* font) {
   const std::size_t most = std::max<std::size_t>(inspection.budgets.worst(), 1);
-  const std::size_t over = budget > 0 ? inspection.budgets.over(budget).size() : 0;
-  const ImVec2 low = imVec(view.areaMin() + glm::dvec2(30, view.areaSize().y - 74));
-  constexpr float kWidth = 180, kHeight = 10;
-  list.AddRectFilled({low.x - 8, low.y - 24}, {low.x + kWidth + 8, low.y + 32},
-                     palette::panel.withOpacity(0.88F).packed(), 4);
-  for (int step = 0; step < 36; ++step)
-    list.AddRectFilled({low.x + float(step) * 5, low.y}, {low.x + float(step) * 5 + 5, low.y + kHeight},
-                       scaleColour(step / 35.0).packed());
-  const auto text = [&](float x, float y, const std::string& words, const ui::Colour& colour) {
-    list.AddText(font, font->FontSize, {x, y}, colour.packed(), words.c_str());
-  };
-  text(low.x, low.y - 19, "Triangles of local geometry", palette::text);
-  const std::string highest = ui::formatCount(most);
-  text(low.x, low.y + 13, "0", palette::muted);
-  text(low.x + kWidth - font->CalcTextSizeA(font->FontSize, 1000, 0, highest.c_str()).x, low.y + 13, highest,
-       palette::muted);
-  if (budget > 0)
-    text(low.x + 24, low.y + 13, fmt::format("{} over {}", over, ui::formatCount(budget)),
-         over > 0 ? palette::danger : palette::good);
+  ScaleLegend legend{"Triangles of local geometry", "0", ui::formatCount(most), {}};
+  if (budget > 0) {
+    const std::size_t over = inspection.budgets.over(budget).size();
+    legend.lines.push_back({fmt::format("{} over {}", over, ui::formatCount(budget)),
+                            over > 0 ? palette::danger : palette::good});
+  }
+  drawScaleLegend(list, view, legend, font);
 }
 
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,

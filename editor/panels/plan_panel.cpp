@@ -54,8 +54,19 @@ void PlanPanel::drawToolbar(PanelContext& context) {
   actionButton(context, "view.triangles", ButtonLook::toggle, {}, "Triangles");
   ImGui::SameLine(0, 3);
   actionButton(context, "view.checks", ButtonLook::toggle, {}, "Checks");
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.coverage", ButtonLook::toggle, {}, "Coverage");
   ImGui::SameLine(0, 16);
   actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
+  if (!context.state().showCoverage) return;
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Coverage of");
+  for (const auto& [id, label] :
+       {std::pair("coverage.surfaces", "surfaces"), std::pair("coverage.layout", "the plan"),
+        std::pair("coverage.cell", "a cell")}) {
+    ImGui::SameLine(0, id == std::string_view("coverage.surfaces") ? 10.0F : 3.0F);
+    actionButton(context, id, ButtonLook::toggle, {}, label);
+  }
 }
 
 void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {
@@ -74,10 +85,11 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   if (state.showLattice || context.log.on()) freeCells_.update(open.layout, view_);
   if (state.showLattice) freeCells_.draw(list, view_);
   layers_.update({open.layout, session.captures(), state.showTriangles ? session.inspection() : nullptr,
-                  std::size_t(session.project().budget.trianglesPerRegion)});
+                  std::size_t(session.project().budget.trianglesPerRegion), state.showCoverage});
   layers_.drawRegions(list, view_);
   if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
-    session.messages().add(MessageLevel::error, "The plan cannot be drawn on this OpenGL. " + layers_.problem());
+    session.messages().add(MessageLevel::error,
+                           "The plan cannot be drawn on this OpenGL. " + layers_.problem());
   if (session.rebuilding().running()) drawPending(list, view_, open.layout->spec, spec);
   if (hovered) {
     const bool placed = isPlaced(spec, *hovered);
@@ -175,9 +187,14 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   const std::optional<CellId> hovered = hoveredCell(context);
   session.askForInspection(state.showTriangles || state.showChecks);
   const std::shared_ptr<const Inspection> inspection = session.inspection();
+  session.askForCoverage(wantedCoverage(state, hovered));
+  const CoveragePicturePtr coverage = session.coverage();
+  coverage_.drawBelow(list, view_, coverage);
   drawLayout(context, list, hovered);
   drawOutline(list, view_, spec.outline);
-  if (state.showCameras) layers_.drawCameras(list, view_);
+  coverage_.drawAbove(list, view_);
+  if (state.showCameras && !(state.showCoverage && state.coverageKind == CoverageKind::surfaces))
+    layers_.drawCameras(list, view_);
   drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
   const WalkPose& pose = state.walker.pose();
   const auto region = layout.regionAt(glm::dvec2(pose.eye));
@@ -185,6 +202,12 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
           region ? &layout.regions[std::size_t(*region)] : nullptr);
   if (const auto drag = state.planTool.cellDrag())
     drawCellDrag(list, view_, spec, *drag, drag->from != drag->to && !isPlaced(spec, drag->to));
+  if (state.showCoverage) {
+    coverage_.drawLegend(list, view_, coverage.get(), state.coverageKind, context.window.fonts().small);
+    if (const std::string text = coverage_.textAt(view_, coverage.get(), pointer_);
+        !text.empty() && view_.contains(pointer_) && !context.inputBlocked && !state.planTool.capturing())
+      ui::tooltip(text);
+  }
   if (inspection) tellInspection(context, list, *inspection, hovered);
   if (!state.planTool.outlineCorners().empty())
     drawOutlineInHand(list, view_, state.planTool.outlineCorners(), view_.worldFromScreen(pointer_));
@@ -235,7 +258,7 @@ void PlanPanel::draw(PanelContext& context) {
   ImGui::BeginGroup();
   drawToolbar(context);
   ImGui::EndGroup();
-  const float top = ImGui::GetFrameHeight() + 14;
+  const float top = ImGui::GetItemRectSize().y + 14;
   ImGui::SetCursorPos({0, top});
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();

@@ -1,6 +1,7 @@
 #pragma once
 /// The plan: backdrop, lattice, cameras and eye, with the tools that edit them.
 
+#include "editor/overlays/coverage_layer.h"
 #include "editor/overlays/free_cells.h"
 #include "editor/overlays/plan_layers.h"
 #include "editor/panels/panel_context.h"
@@ -32,6 +33,7 @@ class PlanPanel {
   std::shared_ptr<const Backdrop> shownBackdrop_;
   PlanLayers layers_;
   FreeCells freeCells_;
+  CoverageLayer coverage_;
   bool problemTold_ = false;
   glm::dvec2 pointer_{0};
 };

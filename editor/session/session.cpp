@@ -43,7 +43,7 @@ bool Session::poll(double now) {
 
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
-         drawingBackdrop_.running() || inspecting_.running();
+         drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -209,6 +209,37 @@ void Session::inspectIfStale() {
       else if (made->error().kind != ErrorKind::cancelled)
         messages_.addFailure("Inspecting the layout", made->error());
     });
+  });
+}
+
+CoveragePicturePtr Session::coverage() const {
+  const bool current = coverage_ && coverageKey_ && built_ && coverage_->layout == built_->layout &&
+                       coverage_->request == coverageKey_->request;
+  return current ? coverage_ : nullptr;
+}
+
+void Session::askForCoverage(const std::optional<CoverageRequest>& wanted) {
+  if (!wanted || !built_) {
+    if (coverageKey_) measuringCoverage_.abandon();
+    coverageKey_.reset();
+    coverage_.reset();
+    return;
+  }
+  const Project& project = built_->project;
+  const CoverageKey key{built_->layout, built_->scene,      project.bake,
+                        built_->rays,   project.fovDegrees, project.view.secondaryCover,
+                        *wanted};
+  if (coverageKey_ == key) return;
+  coverageKey_ = key;
+  measuringCoverage_.restart("Measuring coverage", [this, open = built_, request = *wanted,
+                                                    threads = bakeThreads()](const Job::Context& context) {
+    TaskRunner runner(threads - 1);
+    const Status measured = measureCoverage(
+        *open, request, runner,
+        [&](const CoveragePicturePtr& picture) { context.post([this, picture] { coverage_ = picture; }); },
+        context.stop());
+    if (!measured && measured.error().kind != ErrorKind::cancelled)
+      context.post([this, error = measured.error()] { messages_.addFailure("Measuring coverage", error); });
   });
 }
 

@@ -12,6 +12,7 @@
 #include "editor/commands/edit.h"
 #include "editor/session/backdrop.h"
 #include "editor/session/capture_status.h"
+#include "editor/session/coverage.h"
 #include "editor/session/eta.h"
 #include "editor/session/history.h"
 #include "editor/session/inbox.h"
@@ -82,6 +83,10 @@ class Session {
   std::shared_ptr<const Inspection> inspection() const;
   /// Does the plan show it? Called each frame.
   void askForInspection(bool wanted);
+  /// The newest picture of the layout that is built, as asked for; null until there is one.
+  CoveragePicturePtr coverage() const;
+  /// What the plan shows of it; called each frame. Measuring begins anew when this or the project changed.
+  void askForCoverage(const std::optional<CoverageRequest>& wanted);
   /// Grows by one with each opened project: views start afresh.
   int generation() const { return generation_; }
 
@@ -100,6 +105,7 @@ class Session {
   const Job& loading() const { return loading_; }
   const Job& drawingBackdrop() const { return drawingBackdrop_; }
   const Job& inspecting() const { return inspecting_; }
+  const Job& measuringCoverage() const { return measuringCoverage_; }
   bool working() const;
 
   Messages& messages() { return messages_; }
@@ -154,6 +160,20 @@ class Session {
   std::shared_ptr<const Inspection> inspection_;
   std::shared_ptr<const Layout> inspected_;  // what the job was last asked for
 
+  /// All that a picture of the coverage depends on.
+  struct CoverageKey {
+    std::shared_ptr<const Layout> layout;
+    ScenePtr scene;
+    BakeSettings bake;
+    RayScenePtr rays;
+    double fovDegrees = 0;
+    bool everyCover = false;
+    CoverageRequest request;
+    bool operator==(const CoverageKey&) const = default;
+  };
+  std::optional<CoverageKey> coverageKey_;  // what the job was last asked for
+  CoveragePicturePtr coverage_;
+
   Eta eta_;
   std::optional<ProjectBakeReport> lastBake_;
   double bakeProgressSeen_ = 0;
@@ -169,6 +189,7 @@ class Session {
   Job loading_{inbox_};
   Job drawingBackdrop_{inbox_};
   Job inspecting_{inbox_};
+  Job measuringCoverage_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "editor/session/coverage.h"
 #include "editor/tools/plan_tool.h"
 #include "editor/tools/walker.h"
 
@@ -29,9 +30,11 @@ struct EditorState {
   bool showCameras = true;
   bool showTriangles = false;  ///< cells coloured by their local triangles instead of what is baked
   bool showChecks = false;     ///< where centres of projection stand badly
-  bool showHoles = false;      ///< pixels without a real sample in magenta
-  bool fitPlan = true;         ///< asked for; the plan clears it
-  bool restart = false;        ///< the eye goes back to the start of the walk; the walk clears it
+  bool showCoverage = false;   ///< instead of what is baked: how well places are sampled
+  CoverageKind coverageKind = CoverageKind::surfaces;
+  bool showHoles = false;  ///< pixels without a real sample in magenta
+  bool fitPlan = true;     ///< asked for; the plan clears it
+  bool restart = false;    ///< the eye goes back to the start of the walk; the walk clears it
 
   Dialog dialog = Dialog::none;
   Continuation continuation;

@@ -177,11 +177,12 @@ CoverageShares sharesOf(const PlanCoverage& coverage) {
 }
 
 Result<PlanCoverage> coverageOfSectors(std::span<const PlanSector> sectors, double reach,
-                                       const PlanGrid& grid, TaskRunner& runner) {
+                                       const PlanGrid& grid, TaskRunner& runner, std::stop_token stop) {
   auto coverage = emptyCoverage(grid);
   if (!coverage) return coverage;
   if (!(reach > 0)) return fail(ErrorKind::invalidArgument, "the reach must be positive", "plan coverage");
   runner.parallelFor(std::size_t(grid.rows), [&](std::size_t index) {
+    if (stop.stop_requested()) return;
     const int y = static_cast<int>(index);
     const Row row(grid, y);
     std::vector<int> changes(std::size_t(grid.columns) + 1, 0);
@@ -199,6 +200,7 @@ Result<PlanCoverage> coverageOfSectors(std::span<const PlanSector> sectors, doub
       coverage->counts[grid.indexOf(x, y)] = countable(std::size_t(count));
     }
   });
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the count was stopped", "plan coverage");
   return coverage;
 }
 
@@ -235,8 +237,8 @@ Result<PlanCoverage> coverageOfCorners(const Layout& layout, const Region& regio
 }
 
 Result<PlanCoverage> coverageOfLayout(const Layout& layout, double reach, const PlanGrid& grid,
-                                      TaskRunner& runner) {
-  return coverageOfSectors(sectorsOf(layout), reach, grid, runner);
+                                      TaskRunner& runner, std::stop_token stop) {
+  return coverageOfSectors(sectorsOf(layout), reach, grid, runner, std::move(stop));
 }
 
 }  // namespace acentric

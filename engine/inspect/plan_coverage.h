@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "engine/base/task_runner.h"
@@ -63,7 +64,7 @@ CoverageShares sharesOf(const PlanCoverage& coverage);
 
 /// Any sectors; a point farther than `reach` metres from an apex is not held by it.
 Result<PlanCoverage> coverageOfSectors(std::span<const PlanSector> sectors, double reach,
-                                       const PlanGrid& grid, TaskRunner& runner);
+                                       const PlanGrid& grid, TaskRunner& runner, std::stop_token stop = {});
 /// One APV alone; its polygon is not counted.
 Result<PlanCoverage> coverageOfApv(const Apv& apv, const PlanGrid& grid, TaskRunner& runner);
 /// One cover; the region is not counted.
@@ -74,6 +75,6 @@ Result<PlanCoverage> coverageOfCorners(const Layout& layout, const Region& regio
                                        TaskRunner& runner);
 /// All cameras of the layout.
 Result<PlanCoverage> coverageOfLayout(const Layout& layout, double reach, const PlanGrid& grid,
-                                      TaskRunner& runner);
+                                      TaskRunner& runner, std::stop_token stop = {});
 
 }  // namespace acentric

@@ -1,0 +1,44 @@
+/// Prints how soon the plan's coverage shows its first picture of a project, and when it is exact.
+///   coverage_bench PROJECT...
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "editor/session/coverage.h"
+#include "engine/base/stopwatch.h"
+
+namespace acentric::editor {
+namespace {
+
+void run(const std::filesystem::path& file) {
+  ImportHost host;
+  host.importer = ACENTRIC_IMPORTER;
+  const auto open = openProject(file, host);
+  if (!open) return fmt::print("{}\n", open.error().describe());
+  fmt::print("{}: {} regions, {} cameras\n", file.string(), open->layout->regions.size(),
+             open->layout->cameras.size());
+  TaskRunner runner(int(std::thread::hardware_concurrency()) - 2);
+  const std::pair<const char*, CoverageRequest> kinds[] = {
+      {"surfaces", {CoverageKind::surfaces, {}}},
+      {"plan", {CoverageKind::layout, {}}},
+      {"cell", {CoverageKind::cell, open->layout->regions.front().id}}};
+  for (const auto& [name, request] : kinds) {
+    const Stopwatch watch;
+    double first = 0;
+    int pictures = 0;
+    const Status done = measureCoverage(*open, request, runner, [&](const CoveragePicturePtr&) {
+      if (++pictures == 1) first = watch.seconds();
+    });
+    if (!done) return fmt::print("{}\n", done.error().describe());
+    fmt::print("  {:8}  first picture {:.3f} s, exact {:.2f} s, {} pictures\n", name, first, watch.seconds(),
+               pictures);
+  }
+}
+
+}  // namespace
+}  // namespace acentric::editor
+
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) acentric::editor::run(argv[i]);
+}
