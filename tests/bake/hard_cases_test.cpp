@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/bake/bake.h"
+#include "engine/bake/light_set.h"
 #include "tests/bake/layout_builder.h"
 #include "tests/bake/scene_builder.h"
 
@@ -105,6 +106,29 @@ TEST(HardCases, ASurfaceGivenTwiceIsKeptOnceAndNotOncePerTriangle) {
   EXPECT_EQ(once.capture.row, twice.capture.row);
   EXPECT_EQ(once.capture.inverseDistance, twice.capture.inverseDistance);
   EXPECT_GT(twice.everyTriangle, once.everyTriangle + 1000);
+}
+
+TEST(HardCases, ALampLightsWhatIsNearItAlikeInAnyUnitAndNotByAClosestDistanceInMetres) {
+  // Candela go by the square of the unit, so that irradiance stays.
+  int naiveDarker = 0;
+  for (const float scale : {1e-3f, 1.0f, 1e4f})
+    for (const float distance : {0.03f, 0.5f, 4.0f}) {
+      Scene scene;
+      Light lamp;
+      lamp.kind = LightKind::point;
+      lamp.intensity = 7 * scale * scale;
+      scene.lights = {lamp};
+      EffectOverrides on;
+      on[Effect::pointLights] = true;
+      const LightSet lights = lightSet(scene, planEffects(scene, on));
+      ASSERT_EQ(lights.point.size(), 1u);
+      const float expected = 7 / (distance * distance);
+      const glm::vec3 open = openIrradiance(lights, {distance * scale, 0, 0});
+      EXPECT_NEAR(open.x, expected, 1e-4f * expected) << "scale " << scale << ", " << distance << " m";
+      const float clamped = std::max(distance * scale, 1e-4f);
+      naiveDarker += lamp.intensity / (clamped * clamped) < 0.5f * expected;
+    }
+  EXPECT_GT(naiveDarker, 0);
 }
 
 }  // namespace

@@ -208,7 +208,7 @@ TEST(HardCases, TheSameProjectAtAnyScaleAndPlaceGivesTheSamePictureAndWorldSpace
   const glm::dvec3 far(5e6, -5e6, 120);
   double worstMean = 0, worstClearly = 0;
   for (const Place& place : {Place{1e-3, {}}, Place{1e4, {}}, Place{1e-3, far}, Place{1, far},
-                             Place{1e4, far}, Place{1e-3, {900, -700, 3}}}) {
+                             Place{1e4, far}, Place{1e-3, {500, -400, 3}}}) {
     const Walk walk = walkAt(place);
     const std::vector<PerspectiveView> others = hardViews(walk);
     ASSERT_EQ(others.size(), views.size());

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/view/hole_fill.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {
@@ -338,6 +339,34 @@ TEST_P(HardViews, FromOnTheBorderOfTwoRegionsAgreeWhicheverOfThemHoldsTheEye) {
   EXPECT_LT(popping, 0.2 * apart);
   EXPECT_GT(heldByTwo, 0);
   EXPECT_GT(heldByNone, 0);
+}
+
+// ---- Hole fill -------------------------------------------------------------------------------------------
+
+TEST(HardCases, HolesContinueTheFartherSideInAnyUnitAndNotByAnAbsoluteStepOfDepth) {
+  // Left of the hole something near and red, right of it a blue wall ten times as far.
+  int naiveMixes = 0;
+  for (const float perMetre : {1e3f, 1.0f, 1e-4f, 1e-6f}) {
+    Frame frame;
+    frame.colour = ColourImage(20, 5, Rgba8(0));
+    frame.source = Image<PixelSource>(20, 5, kSourceHole);
+    FloatImage inverseZDepth(20, 5, 0.0f);
+    for (int y = 0; y < 5; ++y)
+      for (int x = 0; x < 20; ++x) {
+        if (x == 8) continue;
+        frame.colour.at(x, y) = x < 8 ? Rgba8(255, 0, 0, 255) : Rgba8(0, 0, 255, 255);
+        frame.source.at(x, y) = PixelSource(x < 8 ? 1 : 2);
+        inverseZDepth.at(x, y) = (x < 8 ? 1.0f : 0.1f) * perMetre;
+      }
+    fillHoles(frame, inverseZDepth, 100);
+    for (int y = 0; y < 5; ++y) {
+      EXPECT_EQ(frame.colour.at(8, y), Rgba8(0, 0, 255, 255)) << perMetre;
+      EXPECT_EQ(frame.source.at(8, y), kSourceInvented);
+    }
+    const float near = perMetre, far = 0.1f * perMetre;
+    naiveMixes += near <= 1.3f * far + 1e-6f;  // taken for the same surface
+  }
+  EXPECT_GT(naiveMixes, 0);
 }
 
 // ---- Scale and place -------------------------------------------------------------------------------------
