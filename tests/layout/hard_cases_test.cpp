@@ -93,6 +93,49 @@ TEST(HardCases, TheSideOfABorderIsRightBesideItByExactSignsAndNotByFloatCrossPro
   EXPECT_GT(wrongInFloat, points / 10);
 }
 
+TEST(HardCases, AViewBorderAlongASectorsBorderShowsAllThatItsRaysCrossAndFloatCrossProductsMissSides) {
+  int views = 0, naiveWrong = 0;
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {2, {0.3, -0.7}, 0.4});
+    Random random(43);
+    for (std::size_t r = 0; r < layout.regions.size(); ++r) {
+      const Region& region = layout.regions[r];
+      for (const Cover& cover : region.covers)
+        for (const Piece& piece : cover.pieces) {
+          // The view begins or ends along the border, or a few last digits beside it.
+          const glm::dvec2 along = piece.low.direction();
+          double azimuth = std::atan2(along.y, along.x);
+          for (int digits = random.index(4); digits > 0; --digits)
+            azimuth = std::nextafter(azimuth, random(-9, 9));
+          const double width = random(0.3, 3.1);
+          const ViewSector sector{random.within(region.polygon),
+                                  {random.index(2) == 0 ? azimuth : azimuth - width, width}};
+          std::vector<int> painted;
+          for (const OrderedPiece& shown : visiblePieces(layout, static_cast<int>(r), cover, sector))
+            painted.push_back(shown.camera);
+          for (const double share : {1e-7, 0.5, 1 - 1e-7}) {
+            const glm::dvec2 ray = directionOf(sector.azimuths.low + share * width);
+            auto expected = test::crossedAlongRay(region, cover, sector.eye, ray, 1e-6);
+            std::ranges::reverse(expected);
+            auto crossed = painted;
+            std::erase_if(crossed, [&](int c) { return std::ranges::find(expected, c) == expected.end(); });
+            ASSERT_EQ(crossed, expected) << nameOf(configuration);
+          }
+          // Naively, the paper's r_eye x r_A in floats.
+          const glm::dvec2 view = directionOf(azimuth);
+          const glm::vec2 a(view), b(along);
+          const float rounded = a.x * b.y - a.y * b.x;
+          const long double exact =
+              static_cast<long double>(view.x) * along.y - static_cast<long double>(view.y) * along.x;
+          naiveWrong += (rounded > 0) != (exact > 0) || (rounded < 0) != (exact < 0);
+          ++views;
+        }
+    }
+  }
+  EXPECT_GT(views, 500);
+  EXPECT_GT(naiveWrong, views / 4);
+}
+
 TEST(HardCases, APointOnABorderIsHeldOnceByHalfOpenSectorsAndTwiceByClosedOnes) {
   // Unrotated squares with corners at whole numbers: borders pass exactly through lattice points.
   const Layout layout = makeLayout(Configuration::e, {2, {1, 1}, 0});
