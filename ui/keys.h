@@ -6,7 +6,7 @@ namespace acentric::ui {
 
 namespace key {
 inline constexpr int space = 32, comma = 44, minus = 45, slash = 47, digit0 = 48, digit1 = 49, digit2 = 50,
-                     digit3 = 51;
+                     digit3 = 51, digit4 = 52;
 inline constexpr int equal = 61, a = 65, b = 66, c = 67, d = 68, e = 69, f = 70, g = 71, h = 72, l = 76,
                      n = 78, o = 79, p = 80, t = 84, v = 86;
 inline constexpr int q = 81, r = 82, s = 83, w = 87, x = 88, y = 89, z = 90;

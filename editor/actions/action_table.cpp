@@ -5,6 +5,7 @@
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
+#include "editor/commands/storey_edits.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
@@ -174,6 +175,40 @@ void addCoverageActions(std::vector<Action>& table) {
                    {}});
 }
 
+/// Actions on the selected cells, in the Edit menu.
+void addCellActions(std::vector<Action>& table) {
+  const auto onSelection = [&table](const char* id, const char* label, const Shortcut& shortcut,
+                                    const char* help, bool (*sensible)(const LayoutSpec&, const CellId&),
+                                    Edit (*edit)(const Project&, const std::set<CellId>&)) {
+    table.push_back({id,
+                     "Edit",
+                     label,
+                     shortcut,
+                     {},
+                     help,
+                     false,
+                     [sensible](const ActionContext& c) {
+                       return c.session.hasProject() &&
+                              std::ranges::any_of(c.state.selection, [&](const CellId& cell) {
+                                return sensible(c.session.project().layout(), cell);
+                              });
+                     },
+                     [edit](ActionContext& c) {
+                       if (c.session.apply(edit(c.session.project(), c.state.selection)))
+                         c.state.selection.clear();
+                     },
+                     {}});
+  };
+  onSelection("edit.split", "Split selected cells", {key::x, 0},
+              "Into four of half the size, where more is to be seen or triangles are too many "
+              "(configurations e and g)",
+              canSplitCell, splitCells);
+  onSelection(
+      "edit.join", "Join what was split", {key::x, ui::modifier::shift},
+      "The parts around the selected ones become one cell again",
+      [](const LayoutSpec&, const CellId& cell) { return cell.level > 0; }, joinCells);
+}
+
 void addToolActions(std::vector<Action>& table) {
   const auto tool = [&table](const char* id, const char* label, int code, PlanMode mode, const char* help) {
     table.push_back({id,
@@ -192,7 +227,10 @@ void addToolActions(std::vector<Action>& table) {
        "Ctrl+click too.");
   tool("tool.eye", "Eye", key::digit2, PlanMode::eye, "Press to put the eye there, drag to turn it.");
   tool("tool.outline", "Outline", key::digit3, PlanMode::outline,
-       "Click the corners of the walkable area; click the first one or press Enter to close.");
+       "Click free ground to draw the walkable area or a hole in it, Enter closes; drag corners and sides to "
+       "change it.");
+  tool("tool.panorama", "Panorama", key::digit4, PlanMode::panorama,
+       "Click to place a panorama beside the lattice, or drag to choose how far its cameras stand out.");
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {
     table.push_back({id,
@@ -222,6 +260,92 @@ void addToolActions(std::vector<Action>& table) {
                    true,
                    withProject,
                    [](ActionContext& c) { c.state.fitPlan = true; },
+                   {}});
+}
+
+void addStoreyActions(std::vector<Action>& table) {
+  const auto beside = [&table](const char* id, const char* label, int code, int steps, bool first) {
+    table.push_back({id,
+                     "Plan",
+                     label,
+                     {code, 0},
+                     {},
+                     "",
+                     first,
+                     [steps](const ActionContext& c) {
+                       return c.session.hasProject() && storeyBeside(c.session.project(), steps);
+                     },
+                     [steps](ActionContext& c) {
+                       c.state.selection.clear();
+                       c.session.apply(
+                           showStorey(c.session.project(), *storeyBeside(c.session.project(), steps)));
+                     },
+                     {}});
+  };
+  beside("storey.up", "Storey above", key::pageUp, 1, true);
+  beside("storey.down", "Storey below", key::pageDown, -1, false);
+  table.push_back(
+      {"storey.find",
+       "Plan",
+       "Find more storeys",
+       {},
+       {},
+       "Looks for floors to walk on that have no layout yet, and lays cells like this storey's on them",
+       false,
+       [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
+       [](ActionContext& c) { c.session.findStoreys(); },
+       {}});
+  table.push_back({"storey.remove",
+                   "Plan",
+                   "Remove this storey",
+                   {},
+                   {},
+                   "",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.hasProject() && c.session.project().storeys.size() > 1;
+                   },
+                   [](ActionContext& c) {
+                     c.state.selection.clear();
+                     c.session.apply(removeStorey(c.session.project()));
+                   },
+                   {}});
+}
+
+void addBudgetActions(std::vector<Action>& table) {
+  const auto search = [&table](const char* id, const char* label, const char* help, bool onlySplit,
+                               void (Session::*run)()) {
+    table.push_back({id,
+                     "Plan",
+                     label,
+                     {},
+                     {},
+                     help,
+                     !onlySplit,
+                     [onlySplit](const ActionContext& c) {
+                       return withBuilt(c) && !c.session.searching().running() &&
+                              c.session.project().budget.trianglesPerRegion > 0 &&
+                              (!onlySplit || canSplit(c.session.project().layout().configuration));
+                     },
+                     [run](ActionContext& c) { (c.session.*run)(); },
+                     {}});
+  };
+  search("budget.fit", "Fit cells to the budget",
+         "The largest cells whose regions all keep to the triangle budget", false, &Session::fitCells);
+  search("budget.split", "Split cells above the budget",
+         "Only the cells that exceed the triangle budget (configurations e and g)", true,
+         &Session::splitOverBudget);
+  table.push_back({"search.cancel",
+                   "Plan",
+                   "Stop searching",
+                   {},
+                   {},
+                   "",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.searching().running() && !c.session.searching().cancelling();
+                   },
+                   [](ActionContext& c) { c.session.cancelSearch(); },
                    {}});
 }
 
@@ -315,7 +439,10 @@ std::vector<Action> makeActionTable() {
   std::vector<Action> table;
   addFileActions(table);
   addEditActions(table);
+  addCellActions(table);
   addToolActions(table);
+  addStoreyActions(table);
+  addBudgetActions(table);
   addWalkActions(table);
   addHelpActions(table);
   return table;

@@ -20,6 +20,10 @@ std::string nameOfKey(int code) {
       return "Backspace";
     case key::del:
       return "Del";
+    case key::pageUp:
+      return "Page Up";
+    case key::pageDown:
+      return "Page Down";
     case key::home:
       return "Home";
     default:

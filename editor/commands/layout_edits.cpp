@@ -9,18 +9,32 @@
 namespace acentric::editor {
 namespace {
 
-bool placedByOutline(const LayoutSpec& spec, const CellId& cell) {
-  return spec.outline.overlaps(cellPolygon(spec, cell));
-}
-
 void place(LayoutSpec& spec, const CellId& cell) {
   spec.removed.erase(cell);
-  if (!placedByOutline(spec, cell)) spec.added.insert(cell);
+  if (!isPlaced(spec, cell)) spec.added.insert(cell);
 }
 
 void take(LayoutSpec& spec, const CellId& cell) {
+  if (cell.slot == kFreeSlot) {
+    spec.freeApvs.erase(cell.i);
+    return;
+  }
   spec.added.erase(cell);
-  if (placedByOutline(spec, cell)) spec.removed.insert(cell);
+  if (isPlaced(spec, cell)) spec.removed.insert(cell);
+}
+
+/// Is a cell a part, of whatever size, of `whole`?
+bool isPartOf(const LayoutSpec& spec, CellId cell, const CellId& whole) {
+  while (cell.level > whole.level) cell = wholeOf(spec, cell);
+  return cell == whole;
+}
+
+/// Forgets what was chosen within a cell.
+void join(LayoutSpec& spec, const CellId& whole) {
+  for (std::set<CellId>* cells : {&spec.added, &spec.removed, &spec.split})
+    std::erase_if(
+        *cells, [&](const CellId& cell) { return cell.level > whole.level && isPartOf(spec, cell, whole); });
+  spec.split.erase(whole);
 }
 
 std::string nameOf(const CellId& cell) {
@@ -31,16 +45,11 @@ std::string nameOf(const CellId& cell) {
 template <class Change>
 Edit edited(const Project& project, std::string label, Change change) {
   Edit edit{project, std::move(label)};
-  change(edit.project.layout);
+  change(edit.project.layout());
   return edit;
 }
 
 }  // namespace
-
-bool isPlaced(const LayoutSpec& spec, const CellId& cell) {
-  if (spec.removed.contains(cell)) return false;
-  return spec.added.contains(cell) || placedByOutline(spec, cell);
-}
 
 Edit addCell(const Project& project, const CellId& cell) {
   return edited(project, "Add cell " + nameOf(cell), [&](LayoutSpec& spec) { place(spec, cell); });
@@ -55,12 +64,51 @@ Edit removeCells(const Project& project, const std::set<CellId>& cells) {
 }
 
 Edit moveCell(const Project& project, const CellId& from, const CellId& to) {
-  const bool possible = from != to && isPlaced(project.layout, from) && !isPlaced(project.layout, to);
+  const bool possible = from != to && isPlaced(project.layout(), from) && !isPlaced(project.layout(), to);
   return edited(project, fmt::format("Move cell {} to {}", nameOf(from), nameOf(to)), [&](LayoutSpec& spec) {
     if (!possible) return;
     take(spec, from);
     place(spec, to);
   });
+}
+
+Edit splitCells(const Project& project, const std::set<CellId>& cells) {
+  return edited(project,
+                cells.size() == 1 ? "Split cell " + nameOf(*cells.begin())
+                                  : fmt::format("Split {} cells", cells.size()),
+                [&](LayoutSpec& spec) {
+                  for (const CellId& cell : cells)
+                    if (canSplitCell(spec, cell)) spec.split.insert(cell);
+                });
+}
+
+Edit joinCells(const Project& project, const std::set<CellId>& cells) {
+  return edited(project,
+                cells.size() == 1 ? "Join the parts around " + nameOf(*cells.begin())
+                                  : fmt::format("Join the parts around {} cells", cells.size()),
+                [&](LayoutSpec& spec) {
+                  for (const CellId& cell : cells)
+                    if (cell.level > 0 && cell.slot != kFreeSlot) join(spec, wholeOf(spec, cell));
+                });
+}
+
+bool canSplitCell(const LayoutSpec& spec, const CellId& cell) {
+  return canSplit(spec.configuration) && cell.slot != kFreeSlot && cell.level < kMaxLevel &&
+         isPlaced(spec, cell);
+}
+
+Edit addFreeApv(const Project& project, const Apv& apv) {
+  return edited(project, apv.offset == glm::dvec2(0) ? "Add panorama" : "Add acentric panorama",
+                [&](LayoutSpec& spec) { spec.freeApvs[nextFreeNumber(spec)] = apv; });
+}
+
+Edit setFreeApv(const Project& project, int number, const Apv& apv) {
+  return edited(project, fmt::format("Panorama {}", number),
+                [&](LayoutSpec& spec) { spec.freeApvs[number] = apv; });
+}
+
+int nextFreeNumber(const LayoutSpec& spec) {
+  return spec.freeApvs.empty() ? 0 : spec.freeApvs.rbegin()->first + 1;
 }
 
 Edit setConfiguration(const Project& project, Configuration configuration) {
@@ -70,6 +118,7 @@ Edit setConfiguration(const Project& project, Configuration configuration) {
                   spec.configuration = configuration;
                   spec.added.clear();
                   spec.removed.clear();
+                  spec.split.clear();
                 });
 }
 
@@ -89,7 +138,7 @@ Edit setRotation(const Project& project, double radiansValue) {
 }
 
 Edit setOutline(const Project& project, Outline outline) {
-  const char* label = outline.empty() ? "Clear outline" : "Draw outline";
+  const char* label = outline.empty() ? "Clear outline" : "Change outline";
   return edited(project, label, [&](LayoutSpec& spec) { spec.outline = std::move(outline); });
 }
 
@@ -114,7 +163,7 @@ CellId nearestSlot(const LayoutSpec& spec, const CellId& like, const glm::dvec2&
   CellId best = like;
   double nearest = std::numeric_limits<double>::max();
   for (const LatticeCell& cell : cellsIn(spec, centre - reach, centre + reach, kMost)) {
-    if (cell.id.slot != like.slot) continue;
+    if (cell.id.slot != like.slot || cell.id.level != like.level) continue;
     const double distance = glm::distance(cell.polygon.centroid(), centre);
     if (distance < nearest) {
       nearest = distance;

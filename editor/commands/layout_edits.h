@@ -9,12 +9,22 @@
 
 namespace acentric::editor {
 
-bool isPlaced(const LayoutSpec& spec, const CellId& cell);
-
 Edit addCell(const Project& project, const CellId& cell);
+/// Free APVs among them too.
 Edit removeCells(const Project& project, const std::set<CellId>& cells);
 /// To a free place; the same cell, or a place that is taken, changes nothing.
 Edit moveCell(const Project& project, const CellId& from, const CellId& to);
+
+/// Into four of half the size each; those that cannot be split are left.
+Edit splitCells(const Project& project, const std::set<CellId>& cells);
+/// Undoes the splits that the cells came from, and all splits within.
+Edit joinCells(const Project& project, const std::set<CellId>& cells);
+bool canSplitCell(const LayoutSpec& spec, const CellId& cell);
+
+/// Beside the lattice.
+Edit addFreeApv(const Project& project, const Apv& apv);
+Edit setFreeApv(const Project& project, int number, const Apv& apv);
+int nextFreeNumber(const LayoutSpec& spec);
 
 /// Cells are addressed within the old lattice, so added and removed ones are dropped.
 Edit setConfiguration(const Project& project, Configuration configuration);

@@ -10,6 +10,12 @@ Edit setBakeSettings(const Project& project, const BakeSettings& bake, const cha
   return edit;
 }
 
+Edit setBudget(const Project& project, const TriangleBudget& budget, const char* field) {
+  Edit edit{project, fmt::format("Budget: {}", field)};
+  edit.project.budget = budget;
+  return edit;
+}
+
 Edit setViewSettings(const Project& project, const ViewSettings& view, const char* field) {
   Edit edit{project, fmt::format("View: {}", field)};
   edit.project.view = view;
@@ -30,7 +36,7 @@ Edit setExposure(const Project& project, float exposure) {
 
 Edit setSpawn(const Project& project, const Spawn& spawn) {
   Edit edit{project, "Set start of the walk"};
-  edit.project.spawn = spawn;
+  edit.project.spawn() = spawn;
   return edit;
 }
 

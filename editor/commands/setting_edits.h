@@ -9,6 +9,7 @@ namespace acentric::editor {
 
 /// Any change of bake or view settings, named by the field that changed.
 Edit setBakeSettings(const Project& project, const BakeSettings& bake, const char* field);
+Edit setBudget(const Project& project, const TriangleBudget& budget, const char* field);
 Edit setViewSettings(const Project& project, const ViewSettings& view, const char* field);
 Edit setFieldOfView(const Project& project, double degreesValue);
 Edit setExposure(const Project& project, float exposure);

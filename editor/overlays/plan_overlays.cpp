@@ -67,6 +67,60 @@ void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& ou
     ui::drawDashed(list, view, loop, true, palette::text.withOpacity(0.42F), 1.2F);
 }
 
+void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
+                        const glm::dvec2* pointer) {
+  for (const auto& loop : outline.loops) {
+    ui::drawDashed(list, view, loop, true, palette::accent.withOpacity(0.9F), 1.6F);
+    for (const glm::dvec2& corner : loop) {
+      const glm::dvec2 screen = view.screenFromWorld(corner);
+      if (!view.contains(screen)) continue;
+      const ImVec2 at = imVec(screen);
+      list.AddRectFilled({at.x - 3.5F, at.y - 3.5F}, {at.x + 3.5F, at.y + 3.5F}, palette::backdrop.packed());
+      list.AddRect({at.x - 3.5F, at.y - 3.5F}, {at.x + 3.5F, at.y + 3.5F}, palette::accent.packed(), 0, 0,
+                   1.4F);
+    }
+  }
+  if (pointer == nullptr) return;
+  const OutlineHit hit = hitOutline(outline, *pointer, view.pixelsPerMetre());
+  if (hit.kind == OutlineHit::Kind::nothing) return;
+  const ImVec2 at = imVec(view.screenFromWorld(hit.place));
+  if (hit.kind == OutlineHit::Kind::corner) {
+    list.AddRectFilled({at.x - 5, at.y - 5}, {at.x + 5, at.y + 5}, palette::accent.packed());
+    return;
+  }
+  list.AddCircleFilled(at, 5.5F, palette::backdrop.packed());
+  list.AddCircle(at, 5.5F, palette::accent.packed(), 0, 1.6F);
+  list.AddLine({at.x - 3, at.y}, {at.x + 3, at.y}, palette::accent.packed(), 1.4F);
+  list.AddLine({at.x, at.y - 3}, {at.x, at.y + 3}, palette::accent.packed(), 1.4F);
+}
+
+namespace {
+
+void drawFreeApv(ImDrawList& list, const ui::CanvasView& view, const Apv& apv, const ui::Colour& colour) {
+  const glm::dvec2 centre = view.screenFromWorld(apv.centre);
+  const ImVec2 at = imVec(centre);
+  list.AddCircleFilled(at, 5, palette::backdrop.withOpacity(0.85F).packed());
+  list.AddCircle(at, 5, colour.packed(), 0, 1.6F);
+  list.AddCircleFilled(at, 1.8F, colour.packed());
+  if (apv.traditional()) return;
+  ui::drawDashed(list, view, polygonOf(apv).corners, true, colour.withOpacity(0.8F), 1.4F);
+  // The first camera, from which the others follow.
+  const ImVec2 first = imVec(view.screenFromWorld(apv.centre + apv.offset));
+  list.AddLine(at, first, colour.withOpacity(0.7F).packed(), 1.2F);
+  list.AddCircleFilled(first, 2.6F, colour.packed());
+}
+
+}  // namespace
+
+void drawFreeApvs(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec& spec,
+                  const std::set<CellId>& selection, const std::optional<Apv>& inHand) {
+  for (const auto& [number, apv] : spec.freeApvs) {
+    const bool selected = selection.contains({number, 0, kFreeSlot});
+    drawFreeApv(list, view, apv, selected ? palette::accent : palette::text);
+  }
+  if (inHand) drawFreeApv(list, view, *inHand, palette::accent);
+}
+
 void drawOutlineInHand(ImDrawList& list, const ui::CanvasView& view, std::span<const glm::dvec2> corners,
                        const glm::dvec2& pointer) {
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -32,6 +32,12 @@ void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Insp
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
                                      const PlacementReport& report, const glm::dvec2& pointer);
 void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& outline);
+/// Corners that can be taken hold of; with a pointer, what a press there would do.
+void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
+                        const glm::dvec2* pointer);
+/// Centres of panoramas beside the lattice and where their cameras stand, one that is being placed too.
+void drawFreeApvs(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec& spec,
+                  const std::set<CellId>& selection, const std::optional<Apv>& inHand);
 /// The corners of an outline that is being drawn, with a line to the pointer.
 void drawOutlineInHand(ImDrawList& list, const ui::CanvasView& view, std::span<const glm::dvec2> corners,
                        const glm::dvec2& pointer);

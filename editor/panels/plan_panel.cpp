@@ -21,7 +21,7 @@ std::span<const std::uint8_t> bytesOf(const ColourImage& image) {
 }
 
 PlanSituation situationOf(PanelContext& context, const ui::CanvasView& view) {
-  return {&context.session().project().layout, &context.state().selection,
+  return {&context.session().project().layout(), &context.state().selection,
           glm::dvec2(context.state().walker.pose().eye), view.pixelsPerMetre()};
 }
 
@@ -40,7 +40,7 @@ void PlanPanel::fit(const Session& session) {
 }
 
 void PlanPanel::drawToolbar(PanelContext& context) {
-  for (const char* tool : {"tool.cells", "tool.eye", "tool.outline"}) {
+  for (const char* tool : {"tool.cells", "tool.eye", "tool.outline", "tool.panorama"}) {
     actionButton(context, tool, ButtonLook::toggle);
     ImGui::SameLine(0, 3);
   }
@@ -81,7 +81,7 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   Session& session = context.session();
   const EditorState& state = context.state();
   const OpenProject& open = *session.built();
-  const LayoutSpec& spec = session.project().layout;
+  const LayoutSpec& spec = session.project().layout();
   if (state.showLattice || context.log.on()) freeCells_.update(open.layout, view_);
   if (state.showLattice) freeCells_.draw(list, view_);
   layers_.update({open.layout, session.captures(), state.showTriangles ? session.inspection() : nullptr,
@@ -100,7 +100,7 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
 
 std::optional<CellId> PlanPanel::hoveredCell(const PanelContext& context) const {
   const EditorState& state = context.actions.state;
-  const LayoutSpec& spec = context.actions.session.project().layout;
+  const LayoutSpec& spec = context.actions.session.project().layout();
   const bool pointing = state.planTool.mode() == PlanMode::cells && !context.inputBlocked &&
                         view_.contains(pointer_) && !state.planTool.capturing() &&
                         spec.cellSize * view_.pixelsPerMetre() >= kLeastCellPixels;
@@ -135,9 +135,14 @@ void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
     pose.yawRadians = turn->yawRadians;
     state.walker.setPose(pose);
   } else if (const auto* outline = std::get_if<OutlineIntent>(&intent)) {
-    Outline drawn;
-    drawn.loops.push_back(outline->loop);
-    if (session.apply(setOutline(project, std::move(drawn)))) state.planTool.setMode(PlanMode::cells);
+    session.applyLive(setOutline(project, outline->outline), outline->finished);
+  } else if (const auto* apv = std::get_if<FreeApvIntent>(&intent)) {
+    const int number = apv->number.value_or(nextFreeNumber(project.layout()));
+    Edit edit = apv->number ? setFreeApv(project, number, apv->apv) : addFreeApv(project, apv->apv);
+    if (!apv->finished)
+      session.applyLive(std::move(edit), false);
+    else if (session.apply(std::move(edit)))
+      state.selection = {{number, 0, kFreeSlot}};
   }
 }
 
@@ -150,9 +155,12 @@ void PlanPanel::handleEvents(PanelContext& context) {
     if (event.kind == Kind::keyPress && !context.inputBlocked && tool.mode() == PlanMode::outline &&
         (event.code == ui::key::enter || event.code == ui::key::keypadEnter))
       act(context, tool.closeOutline());
-    if (event.kind == Kind::keyPress && event.code == ui::key::escape && !context.inputBlocked &&
-        !tool.cancel())
-      context.state().selection.clear();
+    if (event.kind == Kind::keyPress && event.code == ui::key::escape && !context.inputBlocked) {
+      if (tool.cancel())
+        context.session().cancelLive();
+      else
+        context.state().selection.clear();
+    }
     PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
                          view_.worldFromScreen(event.position)};
     if (event.kind == Kind::buttonPress && inside)
@@ -169,7 +177,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   Session& session = context.session();
   EditorState& state = context.state();
   const Layout& layout = *session.built()->layout;
-  const LayoutSpec& spec = session.project().layout;
+  const LayoutSpec& spec = session.project().layout();
   if (session.backdrop() != shownBackdrop_) {
     shownBackdrop_ = session.backdrop();
     if (shownBackdrop_)
@@ -195,7 +203,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   coverage_.drawAbove(list, view_);
   if (state.showCameras && !(state.showCoverage && state.coverageKind == CoverageKind::surfaces))
     layers_.drawCameras(list, view_);
-  drawStart(list, view_, session.project().spawn.position, session.project().spawn.yawRadians);
+  drawStart(list, view_, session.project().spawn().position, session.project().spawn().yawRadians);
   const WalkPose& pose = state.walker.pose();
   const auto region = layout.regionAt(glm::dvec2(pose.eye));
   drawEye(list, view_, pose, radians(session.project().fovDegrees),
@@ -209,8 +217,13 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
       ui::tooltip(text);
   }
   if (inspection) tellInspection(context, list, *inspection, hovered);
-  if (!state.planTool.outlineCorners().empty())
-    drawOutlineInHand(list, view_, state.planTool.outlineCorners(), view_.worldFromScreen(pointer_));
+  const glm::dvec2 pointer = view_.worldFromScreen(pointer_);
+  if (state.planTool.mode() == PlanMode::outline) {
+    const OutlineTool& tool = state.planTool.outlineTool();
+    drawOutlineHandles(list, view_, spec.outline, tool.corners().empty() ? &pointer : nullptr);
+    drawOutlineInHand(list, view_, tool.corners(), pointer);
+  }
+  drawFreeApvs(list, view_, spec, state.selection, state.planTool.panoramaTool().inHand());
 }
 
 void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const Inspection& inspection,

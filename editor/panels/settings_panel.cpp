@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
+#include "editor/commands/storey_edits.h"
 #include "engine/geometry/conventions.h"
 #include "ui/text_format.h"
 
@@ -22,13 +24,13 @@ void drawConfiguration(PanelContext& context) {
     choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)), "", true,
                        nameOf(configuration)});
   }
-  int index = int(project.layout.configuration);
+  int index = int(project.layout().configuration);
   const ui::FieldEdit edit =
       ui::choiceField("Configuration", choices, index, kLabelWidth,
                       "How panoramas are placed: angle of a camera and the polygons of the lattice.");
   context.log.item("settings.configuration");
   applyFieldEdit(context, edit, setConfiguration(project, Configuration(index)));
-  ui::wrappedText(ui::palette::faint, describe(project.layout.configuration));
+  ui::wrappedText(ui::palette::faint, describe(project.layout().configuration));
 }
 
 /// A number of the project in one line: `get` from it, `edit` from the new value.
@@ -40,11 +42,45 @@ void number(PanelContext& context, const char* logName, const ui::NumberField& f
   if (edit) applyFieldEdit(context, edit, makeEdit(value));
 }
 
+void drawStoreyName(PanelContext& context) {
+  const Project& project = context.session().project();
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Name");
+  ImGui::SameLine(kLabelWidth);
+  std::array<char, 101> name{};
+  project.current().name.copy(name.data(), name.size() - 1);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputText("##storeyName", name.data(), name.size());
+  context.log.item("settings.storeyName");
+  if (ImGui::IsItemDeactivatedAfterEdit() && project.current().name != name.data())
+    context.session().apply(renameStorey(project, name.data()));
+}
+
+void drawStoreys(PanelContext& context) {
+  if (!ui::section("Storey")) return;
+  const Project& project = context.session().project();
+  std::vector<ui::Choice> choices;
+  for (const Storey& storey : project.storeys)
+    choices.push_back({fmt::format("{}   {:.2f} m", storey.name, storey.layout.floorHeight), "", true,
+                       fmt::format("{} ({:.2f} m)", storey.name, storey.layout.floorHeight)});
+  int index = project.storey;
+  const ui::FieldEdit edit =
+      ui::choiceField("Storey", choices, index, kLabelWidth,
+                      "The walk plane that is shown and edited, and where the walk begins.");
+  context.log.item("settings.storey");
+  applyFieldEdit(context, edit, showStorey(project, index));
+  drawStoreyName(context);
+  ImGui::SetCursorPosX(kLabelWidth);
+  actionButton(context, "storey.find", ButtonLook::plain, {}, "Find more");
+  ImGui::SameLine();
+  actionButton(context, "storey.remove", ButtonLook::plain, {}, "Remove");
+}
+
 void drawLayout(PanelContext& context) {
   if (!ui::section("Layout")) return;
   drawConfiguration(context);
   const Project& project = context.session().project();
-  const LayoutSpec& spec = project.layout;
+  const LayoutSpec& spec = project.layout();
   number(context, "cellSize",
          {"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
           "Edge length of the polygons. Smaller: nearer sampling, more captures."},
@@ -81,6 +117,80 @@ void drawLayout(PanelContext& context) {
     if (ImGui::SmallButton("Clear")) context.session().apply(setOutline(project, {}));
     ui::tooltip("Cells are then placed by hand only.");
   }
+}
+
+/// The panorama beside the lattice that alone is selected.
+void drawPanorama(PanelContext& context) {
+  const Project& project = context.session().project();
+  const std::set<CellId>& selection = context.state().selection;
+  if (selection.size() != 1 || selection.begin()->slot != kFreeSlot) return;
+  const int key = selection.begin()->i;
+  const auto found = project.layout().freeApvs.find(key);
+  if (found == project.layout().freeApvs.end()) return;
+  if (!ui::section(fmt::format("Panorama {}###panorama", key).c_str())) return;
+  const Apv apv = found->second;
+  const auto change = [&](auto set) {
+    return [&, set](double v) {
+      Apv changed = apv;
+      set(changed, v);
+      return setFreeApv(project, key, changed);
+    };
+  };
+  const double distance = glm::length(apv.offset);
+  const double azimuth = std::atan2(apv.offset.y, apv.offset.x);
+  number(context, "panorama.x", {"Centre x", "%.2f m", 0.01, -1e6, 1e6}, apv.centre.x,
+         change([](Apv& a, double v) { a.centre.x = v; }));
+  number(context, "panorama.y", {"Centre y", "%.2f m", 0.01, -1e6, 1e6}, apv.centre.y,
+         change([](Apv& a, double v) { a.centre.y = v; }));
+  number(
+      context, "panorama.distance",
+      {"Cameras stand out", "%.2f m", 0.01, 0, 1000, "0: a traditional panorama, for the eye at its centre."},
+      distance, change([azimuth](Apv& a, double v) { a.offset = v * directionOf(azimuth); }));
+  number(context, "panorama.direction",
+         {"First camera at", "%.1f°", 0.1, -180, 180, "Counter-clockwise from east."}, degrees(azimuth),
+         change([distance](Apv& a, double v) { a.offset = distance * directionOf(radians(v)); }));
+  int cameras = apv.cameraCount();
+  const ui::FieldEdit edit = ui::numberField(
+      {"Cameras", "%.0f", 0.05, 3, 24, "Each of 360° divided by their number."}, cameras, kLabelWidth);
+  if (edit) applyFieldEdit(context, edit, change([](Apv& a, double v) { a.fovDegrees = 360 / v; })(cameras));
+  const std::array<ui::Choice, 2> kHands = {ui::Choice{"Counter-clockwise", "", true, ""},
+                                            ui::Choice{"Clockwise", "", true, ""}};
+  int hand = apv.hand == Hand::clockwise ? 1 : 0;
+  if (const ui::FieldEdit turned = ui::choiceField("Hand", kHands, hand, kLabelWidth,
+                                                   "Which way round each camera looks past the polygon."))
+    applyFieldEdit(context, turned, change([](Apv& a, double v) {
+                     a.hand = v > 0 ? Hand::clockwise : Hand::counterClockwise;
+                   })(hand));
+}
+
+void drawBudget(PanelContext& context) {
+  if (!ui::section("Triangle budget", false)) return;
+  const Project& project = context.session().project();
+  TriangleBudget budget = project.budget;
+  int most = budget.trianglesPerRegion;
+  if (const ui::FieldEdit edit =
+          ui::numberField({"Per region", most == 0 ? "no limit" : "%.0f", 200, 0, 2e9,
+                           "Triangles of local geometry that a region may have. 0: no limit."},
+                          most, kLabelWidth)) {
+    budget.trianglesPerRegion = most;
+    applyFieldEdit(context, edit, setBudget(project, budget, "triangles per region"));
+  }
+  number(context, "budget.error",
+         {"Largest error", "%.4f m", 0.0001, 1e-6, 10, "That simplified surfaces may lie from the scene's."},
+         budget.maxErrorMetres, [&](double v) {
+           budget.maxErrorMetres = v;
+           return setBudget(project, budget, "largest error");
+         });
+  bool simplify = budget.simplify;
+  if (const ui::FieldEdit edit =
+          ui::checkField("Simplify", simplify, kLabelWidth,
+                         "Regions above the limit are simplified to it, within the error.")) {
+    budget.simplify = simplify;
+    applyFieldEdit(context, edit, setBudget(project, budget, "simplify"));
+  }
+  actionButton(context, "budget.fit", ButtonLook::plain, {}, "Fit cells");
+  ImGui::SameLine();
+  actionButton(context, "budget.split", ButtonLook::plain, {}, "Split what exceeds");
 }
 
 void drawBake(PanelContext& context) {
@@ -203,7 +313,10 @@ void drawSettingsPanel(PanelContext& context) {
     ui::wrappedText(ui::palette::faint, "No project is open.");
     return;
   }
+  drawStoreys(context);
   drawLayout(context);
+  drawPanorama(context);
+  drawBudget(context);
   drawBake(context);
   drawView(context);
   drawEffects(context);

@@ -16,15 +16,19 @@ const char* hintOf(PlanMode mode) {
     case PlanMode::eye:
       return "Press to put the eye there, drag to turn it   ·   WASD walks";
     case PlanMode::outline:
-      return "Click the corners of the walkable area; click the first one or press Enter to close, Esc to "
-             "give up";
+      return "Click free ground to draw a loop (Enter closes it); drag corners and sides, Ctrl+click takes a "
+             "corner away; Esc gives up";
+    case PlanMode::panorama:
+      return "Click or drag free ground to place a panorama; click one to select it, drag moves it, "
+             "Ctrl+click "
+             "removes it";
   }
   return "";
 }
 
 std::string workText(const Session& session) {
-  const Job* jobs[] = {&session.opening(), &session.rebuilding(), &session.baking(), &session.loading(),
-                       &session.drawingBackdrop()};
+  const Job* jobs[] = {&session.opening(), &session.rebuilding(),      &session.baking(),
+                       &session.loading(), &session.drawingBackdrop(), &session.searching()};
   for (const Job* job : jobs)
     if (job->running()) return progressText(*job);
   return {};

@@ -70,7 +70,7 @@ void WalkPanel::followProject(PanelContext& context) {
   const Layout& layout = *session.built()->layout;
   const bool fresh = generation_ != session.generation();
   if (fresh || state.restart) {
-    const Spawn& spawn = session.project().spawn;
+    const Spawn& spawn = session.project().spawn();
     state.walker.setPose({glm::dvec3(spawn.position, layout.eyeZ()), spawn.yawRadians, 0});
     state.restart = false;
   }

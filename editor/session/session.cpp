@@ -4,6 +4,30 @@
 #include <thread>
 
 namespace acentric::editor {
+namespace {
+
+/// The current storey first; progress runs from 0 to 1 over all of them.
+Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const ImportHost& host, TaskRunner& runner,
+                                         const Progress& progress, std::stop_token stop) {
+  auto storeys = openStoreys(open, host, {}, stop);
+  if (!storeys) return tl::unexpected(storeys.error());
+  std::rotate(storeys->begin(), storeys->begin() + open.project.storey, storeys->end());
+  ProjectBakeReport all;
+  for (std::size_t s = 0; s < storeys->size(); ++s) {
+    const Progress part = [&](const ProgressState& state) {
+      if (storeys->size() == 1) return progress(state);
+      const double done = state.total > 0 ? state.done / state.total : 0;
+      progress({(double(s) + done) / double(storeys->size()), 1,
+                (*storeys)[s].project.current().name + ": " + state.stage});
+    };
+    const auto report = bakeProject((*storeys)[s], {}, runner, part, stop);
+    if (!report) return report;
+    all.add(*report);
+  }
+  return all;
+}
+
+}  // namespace
 
 Session::Session(SessionOptions options)
     : options_(std::move(options)),
@@ -18,7 +42,8 @@ bool onlyViewDiffers(const Project& a, const Project& b) {
   Project same = b;
   same.view = a.view;
   same.fovDegrees = a.fovDegrees;
-  same.spawn = a.spawn;
+  if (same.storeys.size() == a.storeys.size())
+    for (std::size_t s = 0; s < a.storeys.size(); ++s) same.storeys[s].spawn = a.storeys[s].spawn;
   return same == a;
 }
 
@@ -43,7 +68,8 @@ bool Session::poll(double now) {
 
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
-         drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running();
+         drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
+         searching_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -252,9 +278,10 @@ void Session::startBake() {
   if (!built_ || baking_.running()) return;
   eta_.reset();
   bakeProgressSeen_ = 0;
-  baking_.restart("Baking", [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
+  baking_.restart("Baking", [this, open = built_, threads = bakeThreads(),
+                             host = options_.importHost](const Job::Context& context) {
     TaskRunner runner(threads - 1);
-    const auto report = bakeProject(*open, {}, runner, context.progress(), context.stop());
+    const auto report = bakeAllStoreys(*open, host, runner, context.progress(), context.stop());
     context.post([this, report] { bakeEnded(report); });
   });
 }

@@ -92,12 +92,20 @@ class Session {
 
   // Bake
   // -------------------------------------------------------------------------------------------------------
+  /// Of all storeys, the current one first.
   void startBake();
   void cancelBake() { baking_.cancel(); }
   std::optional<double> bakeSecondsLeft(double now) const { return eta_.secondsLeft(now); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
   int bakeThreads() const;
   int processors() const { return processors_; }
+
+  /// Adds a storey for each walk plane found in the scene that has none.
+  void findStoreys();
+  /// The largest cells whose regions all keep to the project's triangle budget.
+  void fitCells();
+  /// Splits the cells of e and g that exceed the budget.
+  void splitOverBudget();
 
   const Job& opening() const { return opening_; }
   const Job& rebuilding() const { return rebuilding_; }
@@ -106,6 +114,9 @@ class Session {
   const Job& drawingBackdrop() const { return drawingBackdrop_; }
   const Job& inspecting() const { return inspecting_; }
   const Job& measuringCoverage() const { return measuringCoverage_; }
+  /// For storeys, or for cells that fit: one at a time.
+  const Job& searching() const { return searching_; }
+  void cancelSearch() { searching_.cancel(); }
   bool working() const;
 
   Messages& messages() { return messages_; }
@@ -129,6 +140,9 @@ class Session {
   void drawBackdropIfStale();
   void inspectIfStale();
   void bakeEnded(const Result<ProjectBakeReport>& report);
+  /// As an edit, unless the layout is no longer what was searched with.
+  void offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
+                   const std::string& found);
   void remember(const std::filesystem::path& file);
   void autosave(double now);
 
@@ -190,6 +204,7 @@ class Session {
   Job drawingBackdrop_{inbox_};
   Job inspecting_{inbox_};
   Job measuringCoverage_{inbox_};
+  Job searching_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

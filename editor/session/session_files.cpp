@@ -71,6 +71,7 @@ void Session::close() {
   rebuilding_.abandon();
   drawingBackdrop_.abandon();
   inspecting_.abandon();
+  searching_.abandon();
   inspection_.reset();
   inspected_.reset();
   if (hasProject() && !untitled_ && !recovery_) removeAutosave(file_);

@@ -7,31 +7,37 @@
 #include "ui/keys.h"
 
 namespace acentric::editor {
+namespace {
+
+PlanIntent asIntent(std::optional<OutlineIntent> intent) {
+  return intent ? PlanIntent(std::move(*intent)) : PlanIntent();
+}
+
+PlanIntent asIntent(PanoramaIntent intent) {
+  if (auto* apv = std::get_if<FreeApvIntent>(&intent)) return std::move(*apv);
+  if (const auto* select = std::get_if<SelectApvIntent>(&intent))
+    return SelectIntent{{{select->number, 0, kFreeSlot}}};
+  if (const auto* remove = std::get_if<RemoveApvIntent>(&intent))
+    return RemoveCellIntent{{remove->number, 0, kFreeSlot}};
+  return {};
+}
+
+}  // namespace
 
 void PlanTool::setMode(PlanMode mode) {
   cancel();
-  outline_.clear();
   mode_ = mode;
 }
 
 bool PlanTool::cancel() {
-  const bool afoot = state_ != State::rest || !outline_.empty();
+  const bool drawing = outline_.cancel(), placing = panorama_.cancel();
+  const bool afoot = state_ != State::rest || drawing || placing;
   state_ = State::rest;
   drag_.reset();
-  outline_.clear();
   return afoot;
 }
 
-PlanIntent PlanTool::closeOutline() {
-  if (outline_.size() < 3) return {};
-  return OutlineIntent{std::exchange(outline_, {})};
-}
-
-bool PlanTool::removeLastCorner() {
-  if (outline_.empty()) return false;
-  outline_.pop_back();
-  return true;
-}
+PlanIntent PlanTool::closeOutline() { return asIntent(outline_.close()); }
 
 PlanIntent PlanTool::handle(const PointerEvent& event, const PlanSituation& situation) {
   switch (event.kind) {
@@ -55,8 +61,12 @@ PlanIntent PlanTool::press(const PointerEvent& event, const PlanSituation& situa
     return {};
   }
   if (mode_ == PlanMode::outline) {
-    state_ = State::pressedFree;
-    return {};
+    state_ = State::tool;
+    return asIntent(outline_.press(event, situation.spec->outline, situation.pixelsPerMetre));
+  }
+  if (mode_ == PlanMode::panorama) {
+    state_ = State::tool;
+    return asIntent(panorama_.press(event, *situation.spec, situation.pixelsPerMetre));
   }
   if (mode_ == PlanMode::eye) {
     state_ = State::turnEye;
@@ -94,6 +104,8 @@ PlanIntent PlanTool::move(const PointerEvent& event, const PlanSituation& situat
     case State::dragCell:
       drag_ = CellDrag{pressed_, nearestSlot(*situation.spec, pressed_, event.world + grabOffset_)};
       return {};
+    case State::tool:
+      return mode_ == PlanMode::outline ? asIntent(outline_.move(event)) : asIntent(panorama_.move(event));
     case State::dragEye:
       return PlaceEyeIntent{event.world};
     case State::turnEye: {
@@ -114,15 +126,10 @@ PlanIntent PlanTool::release(const PointerEvent& event, const PlanSituation& sit
     return MoveCellIntent{drag->from, drag->to};
   }
   if (state == State::pressedCell) return clickCell(event, situation);
+  if (state == State::tool)
+    return mode_ == PlanMode::outline ? asIntent(outline_.release(event, situation.pixelsPerMetre))
+                                      : asIntent(panorama_.release(event));
   if (state != State::pressedFree) return {};
-  if (mode_ == PlanMode::outline) {
-    const bool closes =
-        outline_.size() >= 3 &&
-        glm::distance(event.world, outline_.front()) * situation.pixelsPerMetre <= kGrabPixels;
-    if (closes) return closeOutline();
-    outline_.push_back(pressWorld_);
-    return {};
-  }
   return AddCellIntent{pressed_};
 }
 

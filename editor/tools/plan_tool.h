@@ -5,29 +5,23 @@
 ///   remove it),
 ///            drag a placed one to move it; drag the eye to put it elsewhere
 ///   eye:     press to put the eye there, drag to turn it
-///   outline: click corners, click the first one (or Enter) to close
+///   outline: see outline_tool.h
+///   panorama: see panorama_tool.h
 /// In every mode the middle or right button pans.
 
 #include <glm/glm.hpp>
 #include <optional>
 #include <set>
 #include <variant>
-#include <vector>
 
+#include "editor/tools/outline_tool.h"
+#include "editor/tools/panorama_tool.h"
+#include "editor/tools/pointer_event.h"
 #include "engine/layout/layout.h"
 
 namespace acentric::editor {
 
-enum class PlanMode { cells, eye, outline };
-
-struct PointerEvent {
-  enum class Kind { press, move, release };
-  Kind kind = Kind::move;
-  int button = 0;
-  int modifiers = 0;
-  glm::dvec2 screen{0};
-  glm::dvec2 world{0};
-};
+enum class PlanMode { cells, eye, outline, panorama };
 
 /// What the tool needs to know at the moment of an event.
 struct PlanSituation {
@@ -58,17 +52,11 @@ struct PlaceEyeIntent {
 struct TurnEyeIntent {
   double yawRadians;
 };
-struct OutlineIntent {
-  std::vector<glm::dvec2> loop;
-};
 using PlanIntent = std::variant<std::monostate, AddCellIntent, RemoveCellIntent, SelectIntent, MoveCellIntent,
-                                PanIntent, PlaceEyeIntent, TurnEyeIntent, OutlineIntent>;
+                                PanIntent, PlaceEyeIntent, TurnEyeIntent, OutlineIntent, FreeApvIntent>;
 
 class PlanTool {
  public:
-  static constexpr double kDragPixels = 5;   ///< less is a click
-  static constexpr double kGrabPixels = 11;  ///< how near to the eye or to the outline's first corner
-
   PlanMode mode() const { return mode_; }
   void setMode(PlanMode mode);
 
@@ -78,7 +66,6 @@ class PlanTool {
   bool cancel();
   /// Enter in outline mode.
   PlanIntent closeOutline();
-  bool removeLastCorner();
 
   /// A button is down: events belong to the plan wherever the pointer is.
   bool capturing() const { return state_ != State::rest; }
@@ -86,10 +73,12 @@ class PlanTool {
     CellId from, to;
   };
   std::optional<CellDrag> cellDrag() const { return drag_; }
-  const std::vector<glm::dvec2>& outlineCorners() const { return outline_; }
+  const OutlineTool& outlineTool() const { return outline_; }
+  const PanoramaTool& panoramaTool() const { return panorama_; }
 
  private:
-  enum class State { rest, pan, pressedFree, pressedCell, dragCell, dragEye, turnEye };
+  /// `tool`: the outline's or the panoramas' has the pointer.
+  enum class State { rest, pan, pressedFree, pressedCell, dragCell, dragEye, turnEye, tool };
   PlanIntent press(const PointerEvent& event, const PlanSituation& situation);
   PlanIntent move(const PointerEvent& event, const PlanSituation& situation);
   PlanIntent release(const PointerEvent& event, const PlanSituation& situation);
@@ -102,7 +91,8 @@ class PlanTool {
   CellId pressed_;
   glm::dvec2 grabOffset_{0};  // from the pointer to the pressed cell's centre
   std::optional<CellDrag> drag_;
-  std::vector<glm::dvec2> outline_;
+  OutlineTool outline_;
+  PanoramaTool panorama_;
 };
 
 }  // namespace acentric::editor

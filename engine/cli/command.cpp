@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
+#include "engine/base/contract.h"
+#include "engine/pipeline/scene_storeys.h"
 #include "engine/view_gl/gl_renderer.h"
 
 namespace acentric::cli {
@@ -15,31 +18,30 @@ int Common::threadCount() const {
 
 std::unique_ptr<TaskRunner> Common::runner() const { return std::make_unique<TaskRunner>(threadCount() - 1); }
 
+namespace {
+constexpr double kNearStorey = 0.5;  // metres
+}
+
 struct FrameMaker::Gl {
   std::unique_ptr<HeadlessContext> context;
   std::unique_ptr<GlRenderer> renderer;  // destroyed before its context
   ~Gl() { renderer.reset(); }
 };
 
-FrameMaker::FrameMaker(const OpenProject& open, TaskRunner& runner) : open_(open), runner_(runner) {}
+FrameMaker::FrameMaker(std::span<const OpenProject> storeys, const Common& common, TaskRunner& runner)
+    : storeys_(storeys), common_(common), runner_(runner), walks_(storeys.size()) {}
 FrameMaker::~FrameMaker() = default;
 
-Result<std::unique_ptr<FrameMaker>> FrameMaker::create(const OpenProject& open,
+Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProject> storeys,
                                                        const std::string& rendererName, const Common& common,
                                                        TaskRunner& runner) {
-  std::unique_ptr<FrameMaker> maker(new FrameMaker(open, runner));
-  maker->settings = open.project.view;
+  std::unique_ptr<FrameMaker> maker(new FrameMaker(storeys, common, runner));
+  maker->settings = storeys.front().project.view;
   maker->truth_ = rendererName == "truth";
   if (maker->truth_) return maker;
   const auto renderer = parseRenderer(rendererName);
   if (!renderer) return tl::unexpected(renderer.error());
   maker->settings.renderer = *renderer;
-  auto loaded = loadWalk(open, nullptr, runner, common.progress, common.stop);
-  if (!loaded) return tl::unexpected(loaded.error());
-  maker->loaded_ = std::move(*loaded);
-  if (maker->loaded_.missing == int(maker->loaded_.keys.size()))
-    return fail(ErrorKind::notFound, "nothing is baked yet; run `acentric bake` on it first",
-                open.file.string());
   if (*renderer == Renderer::gl) {
     maker->gl_ = std::make_unique<Gl>();
     auto context = HeadlessContext::create();
@@ -52,22 +54,114 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(const OpenProject& open,
   return maker;
 }
 
+Status FrameMaker::load(const glm::dvec3& eye) {
+  const std::size_t storey = storeyAt(storeys_, eye);
+  if (truth_ || walks_[storey]) return {};
+  const OpenProject& open = storeys_[storey];
+  auto loaded = loadWalk(open, nullptr, runner_, common_.progress, common_.stop);
+  if (!loaded) return tl::unexpected(loaded.error());
+  if (loaded->missing == int(loaded->keys.size()))
+    return fail(ErrorKind::notFound,
+                storeys_.size() == 1
+                    ? "nothing is baked yet; run `acentric bake` on it first"
+                    : fmt::format("nothing is baked yet of {}; run `acentric bake` on it first",
+                                  open.project.storeys[storey].name),
+                open.file.string());
+  walks_[storey] = std::move(*loaded);
+  return {};
+}
+
 Result<Frame> FrameMaker::render(const PerspectiveView& view) {
   if (Status sound = view.check(); !sound) return tl::unexpected(sound.error());
+  const OpenProject& open = storeys_.front();
   if (truth_) {
     TruthFrame truth =
-        renderTruth(*open_.rays, view, open_.project.bake, open_.project.exposure, truthSamples, runner_);
+        renderTruth(*open.rays, view, open.project.bake, open.project.exposure, truthSamples, runner_);
     Frame frame;
     frame.colour = std::move(truth.colour);
     frame.source = Image<PixelSource>(view.width, view.height, kSourceLocal);
     return frame;
   }
-  if (!gl_) return renderFrame(loaded_.walk, view, settings, runner_);
-  auto stats = gl_->renderer->draw(loaded_.walk, view, settings);
+  if (Status loaded = load(view.eye); !loaded) return tl::unexpected(loaded.error());
+  const WalkScene& walk = walks_[storeyAt(storeys_, view.eye)]->walk;
+  if (!gl_) return renderFrame(walk, view, settings, runner_);
+  auto stats = gl_->renderer->draw(walk, view, settings);
   if (!stats) return tl::unexpected(stats.error());
   Frame frame = gl_->renderer->readBack();
   frame.stats = *stats;
   return frame;
+}
+
+std::vector<std::string> FrameMaker::warnings() const {
+  std::vector<std::string> all;
+  for (const auto& walk : walks_)
+    if (walk) all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());
+  return all;
+}
+
+Result<int> storeyOf(const Project& project, const std::string& choice) {
+  const std::vector<Storey>& storeys = project.storeys;
+  for (std::size_t s = 0; s < storeys.size(); ++s)
+    if (storeys[s].name == choice) return int(s);
+  if (const auto parsed = parseStoreyChoice(choice); parsed && parsed->number) {
+    if (std::size_t(*parsed->number) < storeys.size()) return *parsed->number;
+  } else if (parsed) {
+    const auto away = [&](const Storey& s) { return std::abs(s.layout.floorHeight - *parsed->height); };
+    const auto nearest = std::ranges::min_element(storeys, {}, away);
+    if (away(*nearest) <= kNearStorey) return int(nearest - storeys.begin());
+  }
+  std::string list;
+  for (std::size_t s = 0; s < storeys.size(); ++s)
+    list += fmt::format("{}{}: {} ({:.2f} m)", s == 0 ? "" : ", ", s, storeys[s].name,
+                        storeys[s].layout.floorHeight);
+  return fail(ErrorKind::notFound, fmt::format("the project has no storey '{}'; it has {}", choice, list),
+              "--storey");
+}
+
+Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& common) {
+  auto project = loadProject(file);
+  if (!project) return tl::unexpected(project.error());
+  if (!common.storey.empty()) {
+    const auto storey = storeyOf(*project, common.storey);
+    if (!storey) return tl::unexpected(storey.error());
+    project->storey = *storey;
+  }
+  return openUnsaved(file, *project, common.host, common.progress, common.stop);
+}
+
+Result<std::vector<OpenProject>> openStoreys(const std::filesystem::path& file, const Common& common) {
+  auto open = openChosen(file, common);
+  if (!open) return tl::unexpected(open.error());
+  if (!common.storey.empty()) return std::vector<OpenProject>{std::move(*open)};
+  return acentric::openStoreys(*open, common.host, common.progress, common.stop);
+}
+
+std::string storeyText(const Project& project) {
+  return project.storeys.size() < 2 ? "" : fmt::format(" ({})", project.current().name);
+}
+
+Report byStorey(std::span<const OpenProject> storeys, std::vector<Report> reports) {
+  require(!reports.empty() && reports.size() == storeys.size(), "each storey has a report");
+  if (reports.size() == 1) return std::move(reports.front());
+  Report all;
+  all.json["storeys"] = Json::array();
+  for (std::size_t s = 0; s < reports.size(); ++s) {
+    Json json = {{"storey", storeys[s].project.current().name}};
+    json.update(reports[s].json);
+    all.json["storeys"].push_back(std::move(json));
+    all.text += reports[s].text;
+    all.success = all.success && reports[s].success;
+  }
+  return all;
+}
+
+Status saveEdited(Project project, const std::filesystem::path& file) {
+  const auto before = loadProject(file);
+  if (!before) return tl::unexpected(before.error());
+  const std::string& begins = before->storeys[std::size_t(before->storey)].name;
+  const auto found = std::ranges::find(project.storeys, begins, &Storey::name);
+  if (found != project.storeys.end()) project.storey = int(found - project.storeys.begin());
+  return saveProject(project, file);
 }
 
 ImportOptions importOptions(const std::string& up, double metresPerUnit) {
@@ -80,7 +174,7 @@ ImportOptions importOptions(const std::string& up, double metresPerUnit) {
 double megapixelsOf(const OpenProject& open) {
   double pixels = 0;
   for (const LayoutCamera& camera : open.layout->cameras) {
-    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout.nearBand,
+    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
                                            open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
     pixels += double(c.columns) * c.rows;
   }

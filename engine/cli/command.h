@@ -6,8 +6,11 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "engine/bake/truth.h"
 #include "engine/base/progress.h"
@@ -27,6 +30,7 @@ struct Report {
 };
 
 struct Common {
+  std::string storey;    ///< of the project, as --storey says; empty = the one where its walk begins
   int threads = 0;       ///< 0 = all processors
   Progress progress;     ///< empty when not on a terminal or with --json
   std::stop_token stop;  ///< Ctrl-C
@@ -36,24 +40,48 @@ struct Common {
   std::unique_ptr<TaskRunner> runner() const;
 };
 
-/// Renders frames of one project by any renderer name, including "gl" (headless) and "truth".
+/// A project's storey by its name, its height with the unit (the nearest floor within half a metre), or its
+/// number in the project. Messages list what there is.
+Result<int> storeyOf(const Project& project, const std::string& choice);
+
+/// Opens the storey that was chosen.
+Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& common);
+/// Opens the storey that was chosen; if none was, all of them.
+Result<std::vector<OpenProject>> openStoreys(const std::filesystem::path& file, const Common& common);
+/// Writes an edited project, whichever storey was chosen: its walk begins where it did.
+Status saveEdited(Project project, const std::filesystem::path& file);
+
+/// " (storey 1)" where the project has several.
+std::string storeyText(const Project& project);
+
+/// The reports on storeys as one: the only one itself, else a list "storeys" of them with their names; the
+/// texts one after another.
+Report byStorey(std::span<const OpenProject> storeys, std::vector<Report> reports);
+
+/// Renders frames of a project by any renderer name, including "gl" (headless) and "truth". What is baked of
+/// a storey is loaded with the first frame there.
 class FrameMaker {
  public:
-  static Result<std::unique_ptr<FrameMaker>> create(const OpenProject& open, const std::string& rendererName,
-                                                    const Common& common, TaskRunner& runner);
+  /// `storeys`, at least one, must outlive it.
+  static Result<std::unique_ptr<FrameMaker>> create(std::span<const OpenProject> storeys,
+                                                    const std::string& rendererName, const Common& common,
+                                                    TaskRunner& runner);
   ~FrameMaker();
+  /// Loads what frames from an eye need; render() does so too.
+  Status load(const glm::dvec3& eye);
   Result<Frame> render(const PerspectiveView& view);
-  const LoadedWalk& loaded() const { return loaded_; }
+  std::vector<std::string> warnings() const;
   bool isTruth() const { return truth_; }
   ViewSettings settings;
   int truthSamples = 1;  ///< per pixel
 
  private:
-  FrameMaker(const OpenProject& open, TaskRunner& runner);
+  FrameMaker(std::span<const OpenProject> storeys, const Common& common, TaskRunner& runner);
   struct Gl;
-  const OpenProject& open_;
+  std::span<const OpenProject> storeys_;
+  const Common& common_;
   TaskRunner& runner_;
-  LoadedWalk loaded_;
+  std::vector<std::optional<LoadedWalk>> walks_;  ///< of storeys_
   bool truth_ = false;
   std::unique_ptr<Gl> gl_;
 };

@@ -29,8 +29,9 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
     const auto begin = std::chrono::steady_clock::now();
-    auto maker = FrameMaker::create(walk->open, name, common, *runner);
+    auto maker = FrameMaker::create(walk->storeys, name, common, *runner);
     if (!maker) return tl::unexpected(maker.error());
+    if (Status loaded = (*maker)->load(views.front().eye); !loaded) return tl::unexpected(loaded.error());
     if (makers.empty())
       loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     makers.push_back(std::move(*maker));

@@ -18,7 +18,7 @@ Json toJson(const Region& region, std::size_t triangles) {
 }  // namespace
 
 Result<Report> runBudget(const BudgetOptions& options, const Common& common) {
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const Layout& layout = *open->layout;
   const auto runner = common.runner();

@@ -78,7 +78,7 @@ Status suggestOrigin(const OpenProject& open, const PlacementReport& now, const 
 }  // namespace
 
 Result<Report> runCheck(const CheckOptions& options, const Common& common) {
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
   PlacementRules rules;

@@ -72,7 +72,7 @@ Result<std::string> planCsv(const PlanCoverage& coverage) {
 Result<Report> coverageOfPlan(const CoverageOptions& options, const Common& common) {
   const auto project = loadProject(options.project);
   if (!project) return tl::unexpected(project.error());
-  const auto layout = buildLayout(project->layout);
+  const auto layout = buildLayout(project->layout());
   if (!layout) return tl::unexpected(layout.error());
   const PlanBox box = boxOf(*layout);
   const auto runner = common.runner();
@@ -238,7 +238,7 @@ Json toJson(const SurfaceCoverage& coverage, const Scene& scene, const Layout& l
 Result<Report> coverageOfSurfaces(const CoverageOptions& options, const Common& common) {
   const auto size = parseSize(options.size.empty() ? kSurfaceSize : options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   SurfaceCoverageOptions judging = surfaceCoverageOptionsFor(open->project, size->width);
   judging.points = options.points;
@@ -290,13 +290,13 @@ Json toJson(const Correlation& correlation) {
 
 Result<Report> correlation(const CoverageOptions& options, const Common& common) {
   auto walk = openAlong(options.project, options.path, options.size.empty() ? kFrameSize : options.size, 0,
-                        kTourFrames, common);
+                        kTourFrames, common, Along::oneStorey);
   if (!walk) return tl::unexpected(walk.error());
   const auto views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->open, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
-  const ProjectReach reach(walk->open);
+  const ProjectReach reach(walk->storeys.front());
   const auto result = correlateHoles(
       reach, views, viewHoleOptionsFor((*maker)->settings),
       [&](const PerspectiveView& view) { return (*maker)->render(view); }, *runner, common.progress,

@@ -50,7 +50,7 @@ std::string summary(const FitResult& fitted, std::size_t most) {
 
 Result<Report> runFit(const FitCommandOptions& options, const Common& common) {
   if (options.split) return runFitBySplitting(options, common);
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
   FitOptions fitting;
@@ -59,7 +59,8 @@ Result<Report> runFit(const FitCommandOptions& options, const Common& common) {
   fitting.rotations = options.rotate ? kRotations : 1;
   fitting.origins = options.shift ? kOrigins : 1;
   const TriangleTree tree(open->scene);
-  const auto fitted = fitToBudget(open->project.layout, tree, fitting, *runner, common.progress, common.stop);
+  const auto fitted =
+      fitToBudget(open->project.layout(), tree, fitting, *runner, common.progress, common.stop);
   if (!fitted) return tl::unexpected(fitted.error());
   const auto layout = buildLayout(fitted->spec);
   if (!layout) return tl::unexpected(layout.error());
@@ -96,7 +97,7 @@ Result<Report> runFit(const FitCommandOptions& options, const Common& common) {
   report.success = fitted->satisfied;
   Project project = open->project;
   if (fitted->satisfied) {
-    project.layout = fitted->spec;
+    project.layout() = fitted->spec;
   } else if (options.simplify) {
     // No cells fit: they stay as they are, and what exceeds the budget is simplified.
     project.budget = simplifyingBudget(options);
@@ -111,7 +112,7 @@ Result<Report> runFit(const FitCommandOptions& options, const Common& common) {
           summary(*fitted, options.most) +
               "nothing was written: allow more with --max, smaller cells with --min-cell, or --simplify",
           options.project.string());
-    if (auto saved = saveProject(project, options.project); !saved) return tl::unexpected(saved.error());
+    if (auto saved = saveEdited(project, options.project); !saved) return tl::unexpected(saved.error());
     report.text += fmt::format("wrote {}{}\n", options.project.string(),
                                fitted->satisfied ? ": what its cameras need is to be baked anew" : "");
   }

@@ -71,7 +71,7 @@ Json toJson(const RefineResult& refined, const Layout& layout, const FitCommandO
 }  // namespace
 
 Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common& common) {
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
   RefineOptions refining;
@@ -80,7 +80,7 @@ Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common&
   refining.merge = options.merge;
   const TriangleTree tree(open->scene);
   const auto refined =
-      refineToBudget(open->project.layout, tree, refining, *runner, common.progress, common.stop);
+      refineToBudget(open->project.layout(), tree, refining, *runner, common.progress, common.stop);
   if (!refined) return fail(refined.error().kind, refined.error().message, options.project.string());
   const auto layout = buildLayout(refined->spec);
   if (!layout) return tl::unexpected(layout.error());
@@ -96,7 +96,7 @@ Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common&
         !written)
       return tl::unexpected(written.error());
   Project project = open->project;
-  project.layout = refined->spec;
+  project.layout() = refined->spec;
   if (!refined->satisfied() && options.simplify) {
     project.budget = simplifyingBudget(options);
     if (auto done = simplifyRegions(*open, project, tree, common, *runner, report); !done)
@@ -110,7 +110,7 @@ Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common&
         report.text +
             "nothing was written: allow more with --max, smaller cells with --min-cell, or --simplify",
         options.project.string());
-  if (auto saved = saveProject(project, options.project); !saved) return tl::unexpected(saved.error());
+  if (auto saved = saveEdited(project, options.project); !saved) return tl::unexpected(saved.error());
   report.text +=
       fmt::format("wrote {}{}\n", options.project.string(),
                   refined->split + refined->merged > 0 ? ": what its cameras need is to be baked anew" : "");

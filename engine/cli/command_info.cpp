@@ -36,7 +36,7 @@ std::string effectsText(const EffectPlan& plan) {
 }  // namespace
 
 Result<Report> runInfo(const InfoOptions& options, const Common& common) {
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const Scene& scene = *open->scene;
   const Layout& layout = *open->layout;
@@ -53,8 +53,15 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   const glm::vec3 size = scene.bounds.size();
 
   Report report;
+  Json storeys = Json::array();
+  for (const Storey& storey : open->project.storeys)
+    storeys.push_back({{"name", storey.name},
+                       {"floorHeight", storey.layout.floorHeight},
+                       {"squareMetres", storey.layout.outline.area()}});
   report.json = {
       {"project", options.project.string()},
+      {"storey", open->project.current().name},
+      {"storeys", std::move(storeys)},
       {"scene",
        {{"file", open->project.scene.generic_string()},
         {"triangles", scene.triangleCount()},
@@ -93,6 +100,11 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
       layout.spec.eyeHeight, layout.regions.size(), layout.cameras.size(), megapixels,
       countText(std::uint64_t(budget.min)), countText(std::uint64_t(budget.median)),
       countText(std::uint64_t(budget.max)), bakedCount, baked.size(), bytesText(bytes));
+  if (open->project.storeys.size() > 1)
+    for (const Storey& storey : open->project.storeys)
+      report.text += fmt::format("storey   {} {}: {:.2f} m, {:.1f} m2 walkable\n",
+                                 storey == open->project.current() ? '>' : ' ', storey.name,
+                                 storey.layout.floorHeight, storey.layout.outline.area());
   for (const auto& [label, lines] :
        {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
         std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})

@@ -111,18 +111,18 @@ Report describeLayout(const OpenProject& open) {
 Result<Project> editProject(const OpenProject& open, const LayoutOptions& options,
                             std::vector<std::string>& notes) {
   Project project = open.project;
-  auto edited = applyEdits(project.layout, options.edits);
+  auto edited = applyEdits(project.layout(), options.edits);
   if (!edited) return tl::unexpected(edited.error());
-  project.layout = std::move(edited->spec);
+  project.layout() = std::move(edited->spec);
   notes = std::move(edited->notes);
   if (options.outline == "auto") {
-    auto outline = findOutlineAt(*open.rays, project.layout.floorHeight, project.layout.eyeHeight);
+    auto outline = findOutlineAt(*open.rays, project.layout().floorHeight, project.layout().eyeHeight);
     if (!outline) return tl::unexpected(outline.error());
-    project.layout.outline = std::move(*outline);
+    project.layout().outline = std::move(*outline);
   } else if (!options.outline.empty()) {
     auto outline = parseOutline(options.outline);
     if (!outline) return tl::unexpected(outline.error());
-    project.layout.outline = std::move(*outline);
+    project.layout().outline = std::move(*outline);
   }
   return project;
 }
@@ -130,7 +130,7 @@ Result<Project> editProject(const OpenProject& open, const LayoutOptions& option
 }  // namespace
 
 Result<Report> runLayout(const LayoutOptions& options, const Common& common) {
-  auto open = openProject(options.project, common.host, common.progress, common.stop);
+  auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   std::vector<std::string> notes;
   const auto project = editProject(*open, options, notes);
@@ -159,7 +159,7 @@ Result<Report> runLayout(const LayoutOptions& options, const Common& common) {
   report.json["changed"] = changed;
   report.json["applied"] = changed && options.apply;
   if (changed && options.apply) {
-    if (Status saved = saveProject(*project, options.project); !saved) return tl::unexpected(saved.error());
+    if (Status saved = saveEdited(*project, options.project); !saved) return tl::unexpected(saved.error());
     report.text += fmt::format("changed {}\n", options.project.string());
   } else if (changed) {
     report.text += "not written: --apply changes the project\n";

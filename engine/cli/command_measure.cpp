@@ -29,10 +29,10 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   const auto walk =
       openAlong(options.project, options.path, options.size, options.fovDegrees, kTourFrames, common);
   if (!walk) return tl::unexpected(walk.error());
-  const OpenProject& open = walk->open;
+  const OpenProject& open = walk->storeys.front();
   const auto views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(open, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<double> psnr, ssim, holes, milliseconds;
@@ -71,7 +71,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
                  {"holeShare", toJson(h)},
                  {"frameMs", toJson(m)},
                  {"frames", std::move(frames)},
-                 {"warnings", (*maker)->loaded().warnings}};
+                 {"warnings", (*maker)->warnings()}};
   report.text = fmt::format(
       "{} frames of {}x{}, renderer {}, {} threads\n"
       "  PSNR       median {:6.2f} dB   worst {:6.2f} dB\n"

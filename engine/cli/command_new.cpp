@@ -31,7 +31,8 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     if (!found) return tl::unexpected(found.error());
     return storeysReport(*found);
   }
-  if (!options.storey.empty()) {
+  choices.everyStorey = options.storey == "all";
+  if (!options.storey.empty() && !choices.everyStorey) {
     const auto storey = parseStoreyChoice(options.storey);
     if (!storey) return tl::unexpected(storey.error());
     choices.storey = *storey;
@@ -45,25 +46,31 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
 
   const auto open = openProject(options.output, common.host, common.progress, common.stop);
   if (!open) return tl::unexpected(open.error());
+  const auto storeys = acentric::openStoreys(*open, common.host, common.progress, common.stop);
+  if (!storeys) return tl::unexpected(storeys.error());
   Report report;
-  const Layout& layout = *open->layout;
-  report.json = {{"project", options.output.string()},
-                 {"triangles", open->scene->triangleCount()},
-                 {"configuration", nameOf(project->layout.configuration)},
-                 {"cellSize", project->layout.cellSize},
-                 {"floorHeight", project->layout.floorHeight},
-                 {"walkableSquareMetres", project->layout.outline.area()},
-                 {"regions", layout.regions.size()},
-                 {"cameras", layout.cameras.size()},
-                 {"guessed", open->scene->report.guessed},
-                 {"dropped", open->scene->report.dropped},
+  report.text =
+      fmt::format("{}: {} triangles\n", options.output.string(), countText(open->scene->triangleCount()));
+  Json json = Json::array();
+  for (const OpenProject& storey : *storeys) {
+    const LayoutSpec& spec = storey.layout->spec;
+    json.push_back({{"name", storey.project.current().name},
+                    {"configuration", nameOf(spec.configuration)},
+                    {"cellSize", spec.cellSize},
+                    {"floorHeight", spec.floorHeight},
+                    {"walkableSquareMetres", spec.outline.area()},
+                    {"regions", storey.layout->regions.size()},
+                    {"cameras", storey.layout->cameras.size()}});
+    report.text += fmt::format(
+        "  {}: {:.1f} m2 walkable at z = {:.2f} m; configuration {} with {:g} m cells: {} regions, {} "
+        "cameras\n",
+        storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
+        spec.cellSize, storey.layout->regions.size(), storey.layout->cameras.size());
+  }
+  report.json = {{"project", options.output.string()},     {"triangles", open->scene->triangleCount()},
+                 {"storey", open->project.current().name}, {"storeys", std::move(json)},
+                 {"guessed", open->scene->report.guessed}, {"dropped", open->scene->report.dropped},
                  {"ignored", open->scene->report.ignored}};
-  report.text = fmt::format(
-      "{}: {} triangles; {:.1f} m2 walkable at z = {:.2f} m; configuration {} with {:g} m cells: {} regions, "
-      "{} cameras\n",
-      options.output.string(), countText(open->scene->triangleCount()), project->layout.outline.area(),
-      project->layout.floorHeight, nameOf(project->layout.configuration), project->layout.cellSize,
-      layout.regions.size(), layout.cameras.size());
   for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
                                      std::pair{"dropped", &open->scene->report.dropped},
                                      std::pair{"ignored", &open->scene->report.ignored}})

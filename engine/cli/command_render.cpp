@@ -10,7 +10,7 @@
 namespace acentric::cli {
 namespace {
 
-/// "x,y" or "x,y,z"; z defaults to the layout's eye height.
+/// "x,y" or "x,y,z"; z defaults to the eye height of the storey.
 Result<glm::dvec3> parseEye(const std::string& text, const Layout& layout) {
   glm::dvec3 eye(0, 0, layout.eyeZ());
   const char* at = text.data();
@@ -51,14 +51,14 @@ Result<PictureSize> parseSize(const std::string& text) {
 Result<Report> runRender(const RenderOptions& options, const Common& common) {
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
+  auto current = openChosen(options.project, common);
+  if (!current) return tl::unexpected(current.error());
 
   PerspectiveView view;
   if (options.eye.empty()) {
-    view.eye = {open->project.spawn.position, open->layout->eyeZ()};
+    view.eye = {current->project.spawn().position, current->layout->eyeZ()};
   } else {
-    const auto eye = parseEye(options.eye, *open->layout);
+    const auto eye = parseEye(options.eye, *current->layout);
     if (!eye) return tl::unexpected(eye.error());
     view.eye = *eye;
   }
@@ -69,8 +69,15 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   view.height = size->height;
 
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(*open, options.renderer, common, *runner);
+  std::vector<OpenProject> storeys{*current};
+  if (common.storey.empty()) {
+    auto all = acentric::openStoreys(*current, common.host, common.progress, common.stop);
+    if (!all) return tl::unexpected(all.error());
+    storeys = std::move(*all);
+  }
+  auto maker = FrameMaker::create(storeys, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
+  if (Status loaded = (*maker)->load(view.eye); !loaded) return tl::unexpected(loaded.error());
   (*maker)->truthSamples = options.truthSamples;
   const auto begin = std::chrono::steady_clock::now();
   const auto frame = (*maker)->render(view);
@@ -94,9 +101,9 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
                  {"openShare", holeShare},
                  {"renderMs", seconds * 1e3},
                  {"stats", toJson(frame->stats)},
-                 {"warnings", (*maker)->loaded().warnings}};
+                 {"warnings", (*maker)->warnings()}};
   report.text = fmt::format("{}\n", options.output.string());
-  for (const std::string& warning : (*maker)->loaded().warnings) report.text += "warning: " + warning + "\n";
+  for (const std::string& warning : (*maker)->warnings()) report.text += "warning: " + warning + "\n";
   if (options.stats && (*maker)->isTruth())
     report.text += fmt::format("  {:.0f} ms, ray-traced\n", seconds * 1e3);
   if (options.stats && !(*maker)->isTruth())

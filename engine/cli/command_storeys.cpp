@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/cli/commands.h"
 #include "engine/pipeline/scene_storeys.h"
 
@@ -30,6 +32,85 @@ Report storeysReport(const Storeys& storeys) {
   return report;
 }
 
+namespace {
+
+Status addPlanes(Project& project, const OpenProject& open, const Storeys& found, const std::string& choice,
+                 const Common& common) {
+  std::vector<WalkPlane> planes = found.planes;
+  if (choice != "all") {
+    const auto parsed = parseStoreyChoice(choice);
+    if (!parsed) return tl::unexpected(parsed.error());
+    auto plane = chooseStorey(found, *parsed);
+    if (!plane) return tl::unexpected(plane.error());
+    if (hasStoreyOn(project, *plane))
+      return fail(ErrorKind::invalidArgument,
+                  fmt::format("the project has a storey at {:.2f} m there already", plane->height), "--add");
+    planes = {std::move(*plane)};
+  }
+  const auto added = addStoreys(project, open, planes, found.ignoredSides, common.stop);
+  if (!added) return tl::unexpected(added.error());
+  return {};
+}
+
+Status removeStorey(Project& project, const std::string& choice) {
+  const auto storey = storeyOf(project, choice);
+  if (!storey) return tl::unexpected(storey.error());
+  if (project.storeys.size() == 1)
+    return fail(ErrorKind::invalidArgument, "a project keeps at least one storey", "--remove");
+  project.storeys.erase(project.storeys.begin() + *storey);
+  if (project.storey > *storey || project.storey == int(project.storeys.size())) --project.storey;
+  return {};
+}
+
+Status renameStorey(Project& project, const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos)
+    return fail(ErrorKind::invalidArgument, fmt::format("'{}': give OLD=NEW", text), "--rename");
+  const auto storey = storeyOf(project, text.substr(0, equals));
+  if (!storey) return tl::unexpected(storey.error());
+  project.storeys[std::size_t(*storey)].name = text.substr(equals + 1);
+  return {};
+}
+
+Result<Report> editStoreys(const StoreysOptions& options, const StoreyOptions& searching,
+                           const Common& common) {
+  const auto open = openChosen(options.file, common);
+  if (!open) return tl::unexpected(open.error());
+  Project project = open->project;
+  for (const std::string& text : options.rename)
+    if (Status done = renameStorey(project, text); !done) return tl::unexpected(done.error());
+  for (const std::string& choice : options.remove)
+    if (Status done = removeStorey(project, choice); !done) return tl::unexpected(done.error());
+  if (!options.add.empty()) {
+    if (common.progress) common.progress({0, 0, "finding the storeys"});
+    const auto found = findSceneStoreys(*open->rays, searching);
+    if (!found) return tl::unexpected(found.error());
+    for (const std::string& choice : options.add)
+      if (Status done = addPlanes(project, *open, *found, choice, common); !done)
+        return tl::unexpected(done.error());
+  }
+  if (!options.begin.empty()) {
+    const auto storey = storeyOf(project, options.begin);
+    if (!storey) return tl::unexpected(storey.error());
+    project.storey = *storey;
+  }
+  if (Status saved = saveProject(project, options.file); !saved) return tl::unexpected(saved.error());
+  Report report;
+  report.json = {
+      {"project", options.file.string()}, {"storey", project.current().name}, {"storeys", Json::array()}};
+  for (const Storey& storey : project.storeys) {
+    report.json["storeys"].push_back({{"name", storey.name},
+                                      {"floorHeight", storey.layout.floorHeight},
+                                      {"squareMetres", storey.layout.outline.area()}});
+    report.text += fmt::format("{} {}: {:.2f} m, {:.1f} m2\n", storey == project.current() ? '>' : ' ',
+                               storey.name, storey.layout.floorHeight, storey.layout.outline.area());
+  }
+  report.text += fmt::format("wrote {}\n", options.file.string());
+  return report;
+}
+
+}  // namespace
+
 Result<Report> runStoreys(const StoreysOptions& options, const Common& common) {
   StoreyOptions storeys;
   storeys.walkable.eyeHeight = options.eyeHeight;
@@ -38,6 +119,10 @@ Result<Report> runStoreys(const StoreysOptions& options, const Common& common) {
   storeys.walkable.ignoreSides = options.ignoreSides;
   storeys.leastShare = options.leastShare;
   storeys.leastArea = options.leastArea;
+  if (options.edits() && options.file.extension() != ".json")
+    return fail(ErrorKind::invalidArgument,
+                "storeys are added to a project: make one with `acentric new` first", options.file.string());
+  if (options.edits()) return editStoreys(options, storeys, common);
   const auto found = findFileStoreys(options.file, importOptions(options.up, options.metresPerUnit), storeys,
                                      common.host, common.progress, common.stop);
   if (!found) return tl::unexpected(found.error());

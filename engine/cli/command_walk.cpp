@@ -16,9 +16,9 @@ constexpr int kSheetColumns = 4;
 }  // namespace
 
 Result<Report> runTour(const TourOptions& options, const Common& common) {
-  const auto open = openProject(options.project, common.host, common.progress, common.stop);
+  const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
-  const CameraPath path = tourOf(*open->layout, open->project.spawn.position, options.frames);
+  const CameraPath path = tourOf(*open->layout, open->project.spawn().position, options.frames);
   if (Status saved = savePath(path, options.output); !saved) return tl::unexpected(saved.error());
   if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
   Report report;
@@ -33,7 +33,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
   if (!walk) return tl::unexpected(walk.error());
   const auto& views = walk->views;
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->open, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<ColourImage> pictures;
@@ -70,7 +70,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
                  {"frameMsMedian", spread.median},
                  {"frameMsP99", spread.p99},
                  {"openShare", openShare},
-                 {"warnings", (*maker)->loaded().warnings}};
+                 {"warnings", (*maker)->warnings()}};
   report.text = fmt::format("{} frames in {}; contact sheet {}\n", views.size(), options.output.string(),
                             sheet.string());
   if (!(*maker)->isTruth())

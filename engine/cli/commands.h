@@ -24,6 +24,11 @@ struct StoreysOptions {
   double metresPerUnit = 0, eyeHeight = 1.6, stepHeight = 0.25, gridStep = 0, leastShare = 0.05,
          leastArea = 2;
   bool ignoreSides = false;
+  /// Of a project: what is found there becomes storeys of its own, by number, height or "all".
+  std::vector<std::string> add, remove;
+  std::vector<std::string> rename;  ///< "storey 1=attic"
+  std::string begin;                ///< where the walk begins
+  bool edits() const { return !add.empty() || !remove.empty() || !rename.empty() || !begin.empty(); }
 };
 Result<Report> runStoreys(const StoreysOptions& options, const Common& common);
 

@@ -17,6 +17,7 @@ constexpr int kFailed = 1, kUsage = 2;
 
 struct Chosen {
   std::function<Result<Report>(const Common&)> run;
+  std::string storey;
 };
 
 /// Adds a subcommand whose options are `options` and whose action is `run`.
@@ -29,6 +30,13 @@ CLI::App* add(CLI::App& app, Chosen& chosen, const char* name, const char* descr
     chosen.run = [&options, run](const Common& common) { return run(options, common); };
   });
   return command;
+}
+
+void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise) {
+  command.add_option(
+      "--storey", chosen.storey,
+      fmt::format("Storey: its name, its height with the unit (3.2m), or its number (default: {})",
+                  otherwise));
 }
 
 void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
@@ -54,7 +62,7 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
   c->add_option("--storey", o.storey,
-                "Which storey: its number, its height with the unit (3.2m), or list to see them "
+                "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
                 "(default: the one with most floor)");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
@@ -62,11 +70,13 @@ void addNew(CLI::App& app, Chosen& chosen, NewOptions& o) {
 }
 
 void addStoreys(CLI::App& app, Chosen& chosen, StoreysOptions& o) {
-  CLI::App* c = add(app, chosen, "storeys",
-                    "List the walk planes found in a scene, and the stairs and ramps between them",
-                    "  acentric storeys house.glb\n"
-                    "  acentric new house.glb -o upstairs.acentric.json --storey 1",
-                    o, runStoreys);
+  CLI::App* c = add(
+      app, chosen, "storeys",
+      "List the walk planes found in a scene, and the stairs and ramps between them; add them to a project",
+      "  acentric storeys house.glb\n"
+      "  acentric new house.glb -o house.acentric.json --storey all\n"
+      "  acentric storeys house.acentric.json --add 3.2m --rename \"storey 1=attic\"",
+      o, runStoreys);
   c->add_option("file", o.file, "Project file or model file")->required();
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--step-height", o.stepHeight, "Metres that a foot climbs at once")->capture_default_str();
@@ -82,6 +92,11 @@ void addStoreys(CLI::App& app, Chosen& chosen, StoreysOptions& o) {
   c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
+  c->add_option("--add", o.add,
+                "Lay cells on a plane found: its number here, its height (3.2m), or all that have none yet");
+  c->add_option("--remove", o.remove, "Take a storey out of the project");
+  c->add_option("--rename", o.rename, "Give a storey another name: OLD=NEW");
+  c->add_option("--begin", o.begin, "The storey where the walk begins");
 }
 
 void addCheck(CLI::App& app, Chosen& chosen, CheckOptions& o) {
@@ -92,6 +107,7 @@ void addCheck(CLI::App& app, Chosen& chosen, CheckOptions& o) {
                     "  acentric check kitchen.acentric.json --room 0.6 -o placement.svg --json",
                     o, runCheck);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--room", o.cameraRoom, "Metres that a camera needs in all directions")
       ->capture_default_str();
   c->add_option("--push", o.mostPush, "How far a place that clears a camera is looked for, metres")
@@ -107,6 +123,7 @@ void addLayout(CLI::App& app, Chosen& chosen, LayoutOptions& o) {
                     "  acentric layout kitchen.acentric.json --remove 1,0,0 --free 2,3,0.8,0,60,ccw --apply",
                     o, runLayout);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--config", o.edits.configuration, "Configuration a to g");
   c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
       ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
@@ -135,6 +152,7 @@ void addInfo(CLI::App& app, Chosen& chosen, InfoOptions& o) {
           "  acentric info kitchen.acentric.json\n  acentric info kitchen.acentric.json --regions --json", o,
           runInfo);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_flag("--regions", o.regions, "List every region with its local triangles");
 }
 
@@ -144,6 +162,7 @@ void addBudget(CLI::App& app, Chosen& chosen, BudgetOptions& o) {
                     "  acentric budget kitchen.acentric.json --json",
                     o, runBudget);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--max", o.most, "Triangles that a region may have (default: the project's budget)")
       ->check(CLI::PositiveNumber);
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
@@ -156,6 +175,7 @@ void addFit(CLI::App& app, Chosen& chosen, FitCommandOptions& o) {
                     "  acentric fit kitchen.acentric.json --max 200000 --split --merge -o split.svg",
                     o, runFit);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
   c->add_option("--min-cell", o.leastCell, "Smallest cells to try, or to split into, metres")
       ->check(CLI::Range(kLeastCellSize, kLargestCellSize))
@@ -182,6 +202,7 @@ void addBake(CLI::App& app, Chosen& chosen, BakeOptions& o) {
       "  acentric bake kitchen.acentric.json --threads 2\n  acentric bake kitchen.acentric.json --dry-run", o,
       runBake);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
   c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
@@ -194,6 +215,7 @@ void addRender(CLI::App& app, Chosen& chosen, RenderOptions& o) {
       "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
       o, runRender);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "the one at the eye");
   c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
   c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
   c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
@@ -214,6 +236,7 @@ void addWalk(CLI::App& app, Chosen& chosen, WalkOptions& o) {
   CLI::App* c = add(app, chosen, "walk", "Render a camera path to PNG frames and a contact sheet",
                     "  acentric walk kitchen.acentric.json --path tour.json -o frames", o, runWalk);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "those along the path");
   c->add_option("--path", o.path,
                 "Camera path (JSON), such as `acentric tour` writes (default: a tour of 60 frames)");
   c->add_option("-o,--output", o.output, "Folder for the frames")->required();
@@ -228,6 +251,7 @@ void addTour(CLI::App& app, Chosen& chosen, TourOptions& o) {
   CLI::App* c = add(app, chosen, "tour", "Write a camera path through all regions",
                     "  acentric tour kitchen.acentric.json -o tour.json --frames 120", o, runTour);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("-o,--output", o.output, "Path file to write")->required();
   c->add_option("--frames", o.frames, "Number of frames")
       ->check(CLI::Range(1, 1000000))
@@ -240,6 +264,7 @@ void addMeasure(CLI::App& app, Chosen& chosen, MeasureOptions& o) {
                     "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare",
                     o, runMeasure);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "those along the path");
   c->add_option("--path", o.path, "Camera path (JSON; default: a tour of 60 frames)");
   c->add_option("--renderer", o.renderer, "list, scalar, zbuffer or gl")
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
@@ -258,12 +283,14 @@ void addValidate(CLI::App& app, Chosen& chosen, ValidateOptions& o) {
                     "Check a project, its scene and every capture and simplified region on disk",
                     "  acentric validate kitchen.acentric.json --json", o, runValidate);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
 }
 
 void addBench(CLI::App& app, Chosen& chosen, BenchOptions& o) {
   CLI::App* c = add(app, chosen, "bench", "Time the renderers against each other on a tour of the project",
                     "  acentric bench kitchen.acentric.json --renderers list,zbuffer --json", o, runBench);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--renderers", o.renderers, "Which, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
@@ -284,6 +311,7 @@ void addEstimate(CLI::App& app, Chosen& chosen, EstimateCommandOptions& o) {
                     "  acentric estimate kitchen.acentric.json --seconds 10 --json",
                     o, runEstimate);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
   c->add_option("--seconds", o.seconds, "Time to spend; more narrows the error")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
@@ -298,6 +326,7 @@ void addCoverage(CLI::App& app, Chosen& chosen, CoverageOptions& o) {
       "  acentric coverage kitchen.acentric.json --path tour.json --correlate --json",
       o, runCoverage);
   c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
   c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
   c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
   c->add_flag("--correlate", o.correlate,
@@ -403,6 +432,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : kUsage;
   }
+  common.storey = chosen.storey;
   common.stop = stopOnInterrupt();
   if (!json) common.progress = terminalProgress();
   return finish(chosen.run(common), json);

@@ -5,11 +5,12 @@
 namespace acentric::cli {
 namespace {
 
-Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const OpenProject& open,
+Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, std::span<const OpenProject> storeys,
                                                 PictureSize size, double fovDegrees) {
   std::vector<PerspectiveView> views;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const PathPose& pose = path.poses[i];
+    const OpenProject& open = storeys[storeyAt(storeys, pose.eye)];
     PerspectiveView view;
     view.eye = pose.eye;
     view.yawRadians = pose.yawRadians;
@@ -35,18 +36,29 @@ Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, const Op
 }  // namespace
 
 Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
-                           const std::string& size, double fovDegrees, int tourFrames, const Common& common) {
+                           const std::string& size, double fovDegrees, int tourFrames, const Common& common,
+                           Along along) {
   const auto pictureSize = parseSize(size);
   if (!pictureSize) return tl::unexpected(pictureSize.error());
-  auto open = openProject(project, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
-  const auto path = pathFile.empty()
-                        ? Result<CameraPath>(tourOf(*open->layout, open->project.spawn.position, tourFrames))
-                        : loadPath(pathFile);
+  auto current = openChosen(project, common);
+  if (!current) return tl::unexpected(current.error());
+  const auto path =
+      pathFile.empty()
+          ? Result<CameraPath>(tourOf(*current->layout, current->project.spawn().position, tourFrames))
+          : loadPath(pathFile);
   if (!path) return tl::unexpected(path.error());
-  auto views = viewsAlong(*path, *open, *pictureSize, fovDegrees);
+  PathWalk walk{{}, *pictureSize, {}};
+  if (pathFile.empty() || along == Along::oneStorey || !common.storey.empty()) {
+    walk.storeys.push_back(std::move(*current));
+  } else {
+    auto storeys = acentric::openStoreys(*current, common.host, common.progress, common.stop);
+    if (!storeys) return tl::unexpected(storeys.error());
+    walk.storeys = std::move(*storeys);
+  }
+  auto views = viewsAlong(*path, walk.storeys, *pictureSize, fovDegrees);
   if (!views) return tl::unexpected(views.error());
-  return PathWalk{std::move(*open), *pictureSize, std::move(*views)};
+  walk.views = std::move(*views);
+  return walk;
 }
 
 }  // namespace acentric::cli

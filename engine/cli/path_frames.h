@@ -12,15 +12,19 @@ namespace acentric::cli {
 
 /// A project opened for a walk along a path.
 struct PathWalk {
-  OpenProject open;
+  std::vector<OpenProject> storeys;
   PictureSize size;
   std::vector<PerspectiveView> views;  ///< one per pose
 };
 
-/// `pathFile` empty = a tour of `tourFrames` through all regions; `fovDegrees` 0 = the project's. Fails,
-/// naming the frame, when an eye stands outside every region.
+/// A path may lead through all storeys, unless one was chosen or only one can be dealt with.
+enum class Along { anyStorey, oneStorey };
+
+/// `pathFile` empty = a tour of `tourFrames` through all regions of one storey; `fovDegrees` 0 = the
+/// project's. Fails, naming the frame, when an eye stands outside every region.
 Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
-                           const std::string& size, double fovDegrees, int tourFrames, const Common& common);
+                           const std::string& size, double fovDegrees, int tourFrames, const Common& common,
+                           Along along = Along::anyStorey);
 
 /// `count` entries, evenly chosen, first and last included.
 template <class T>

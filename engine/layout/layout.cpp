@@ -266,8 +266,28 @@ LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point) {
 }
 
 ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id) {
+  if (id.slot == kFreeSlot) {
+    const auto apv = spec.freeApvs.find(id.i);
+    return apv == spec.freeApvs.end() ? ConvexPolygon{} : polygonOf(apv->second);
+  }
   const std::optional<Lattice> lattice = latticeFor(spec);
   return lattice ? lattice->polygonOf(id) : ConvexPolygon{};
+}
+
+bool isPlaced(const LayoutSpec& spec, const CellId& id) {
+  if (id.slot == kFreeSlot) return spec.freeApvs.contains(id.i);
+  const std::optional<Lattice> lattice = latticeFor(spec);
+  return lattice && isPlaced(spec, *lattice, id);
+}
+
+std::array<CellId, 4> partsOf(const LayoutSpec& spec, const CellId& id) {
+  require(canSplit(spec.configuration), "only regions of e and g have parts");
+  return Lattice::of(spec)->childrenOf(id);
+}
+
+CellId wholeOf(const LayoutSpec& spec, const CellId& id) {
+  require(canSplit(spec.configuration) && id.level > 0, "only parts of e and g belong to a whole");
+  return Lattice::of(spec)->parentOf(id);
 }
 
 std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, const glm::dvec2& max,

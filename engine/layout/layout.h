@@ -3,6 +3,7 @@
 /// Pure geometry; no scene needed. Cameras are identified by integers (lattice corner, direction index), so
 /// that corners computed from different polygons are the same camera.
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -142,6 +143,12 @@ struct LatticeCell {
 };
 LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point);
 ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id);
+/// Does buildLayout(spec) place this cell, or have this free APV?
+bool isPlaced(const LayoutSpec& spec, const CellId& id);
+/// The four regions of half the size that tile a region; only of configurations that can be split.
+std::array<CellId, 4> partsOf(const LayoutSpec& spec, const CellId& id);
+/// The region that a region of level 1 or more is a part of.
+CellId wholeOf(const LayoutSpec& spec, const CellId& id);
 /// Lattice regions whose polygon overlaps a box, placed or not (for drawing the lattice), at most `limit`.
 std::vector<LatticeCell> cellsIn(const LayoutSpec& spec, const glm::dvec2& min, const glm::dvec2& max,
                                  int limit);

@@ -81,6 +81,28 @@ void addLeaves(const CellId& cell, bool byHand, const LayoutSpec& spec, const La
 
 }  // namespace
 
+namespace {
+
+enum class Reached : std::uint8_t { no, byOutline, byHand };
+
+/// Does a cell share in what is placed, by the splits above it?
+Reached reached(const LayoutSpec& spec, const Lattice& lattice, const CellId& cell) {
+  if (spec.removed.contains(cell)) return Reached::no;
+  if (spec.added.contains(cell)) return Reached::byHand;
+  if (cell.level > 0) {
+    const CellId whole = lattice.parentOf(cell);
+    if (!spec.split.contains(whole)) return Reached::no;
+    if (const Reached above = reached(spec, lattice, whole); above != Reached::byOutline) return above;
+  }
+  return spec.outline.overlaps(lattice.polygonOf(cell)) ? Reached::byOutline : Reached::no;
+}
+
+}  // namespace
+
+bool isPlaced(const LayoutSpec& spec, const Lattice& lattice, const CellId& cell) {
+  return !spec.split.contains(cell) && reached(spec, lattice, cell) != Reached::no;
+}
+
 Result<std::vector<CellId>> placedCells(const LayoutSpec& spec, const Lattice& lattice) {
   const std::size_t limit = std::size_t(kMaxRegions) + spec.removed.size();
   std::vector<CellId> cells = cellsOverlapping(spec.outline, lattice, limit);

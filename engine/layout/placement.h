@@ -8,6 +8,9 @@
 
 namespace acentric {
 
+/// Is a cell among placedCells? Looks at this one alone.
+bool isPlaced(const LayoutSpec& spec, const Lattice& lattice, const CellId& cell);
+
 /// Addresses in order. Stops as soon as the limit is passed, however large the outline.
 Result<std::vector<CellId>> placedCells(const LayoutSpec& spec, const Lattice& lattice);
 

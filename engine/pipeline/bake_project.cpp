@@ -21,11 +21,24 @@ class StoreSink final : public CaptureSink {
 
 }  // namespace
 
+void ProjectBakeReport::add(const ProjectBakeReport& other) {
+  captures.cameras.clear();
+  captures.baked += other.captures.baked;
+  captures.reused += other.captures.reused;
+  captures.seconds += other.captures.seconds;
+  captures.samples += other.captures.samples;
+  captures.rays += other.captures.rays;
+  surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
+  surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
+  surfaceLightSeconds += other.surfaceLightSeconds;
+  bytes += other.bytes;
+}
+
 std::vector<int> bakingOrder(const OpenProject& open) {
   std::vector<int> order(open.layout->cameras.size());
   std::iota(order.begin(), order.end(), 0);
   const auto distance = [&](int camera) {
-    return glm::distance(open.layout->cameras[std::size_t(camera)].position, open.project.spawn.position);
+    return glm::distance(open.layout->cameras[std::size_t(camera)].position, open.project.spawn().position);
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return distance(a) < distance(b); });
   return order;

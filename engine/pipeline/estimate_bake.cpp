@@ -143,7 +143,7 @@ class ProjectProber final : public BakeProber {
         sink_(folder.path()) {}
 
   ColumnCamera columnsOf(int camera) const {
-    return columnCameraFor(layoutCamera(camera), open_.layout->eyeZ(), open_.project.layout.nearBand,
+    return columnCameraFor(layoutCamera(camera), open_.layout->eyeZ(), open_.project.layout().nearBand,
                            open_.scene->bounds, open_.plan.on(Effect::sky), open_.project.bake);
   }
 

@@ -49,24 +49,23 @@ double areaPerRing(Configuration configuration) {
   return std::abs(cross(along, across)) / double(std::max<std::size_t>(1, rings.size()));
 }
 
-Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
-                                  const NewProjectOptions& options) {
-  WalkableOptions walkable;
-  walkable.eyeHeight = options.eyeHeight;
-  walkable.ignoreSides = options.ignoreSides;
-  if (options.storey.given()) {
-    if (options.outline != "auto")
-      return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both",
-                  options.outline);
-    StoreyOptions storeys;
-    storeys.walkable = walkable;
-    if (options.storey.height) storeys.leastShare = 0;
-    const auto found = findSceneStoreys(rays, storeys);
-    if (!found) return tl::unexpected(found.error());
-    const auto chosen = chooseStorey(*found, options.storey);
-    if (!chosen) return tl::unexpected(chosen.error());
-    return WalkableArea{chosen->height, chosen->outline, found->ignoredSides};
-  }
+/// The walk planes that the options ask for, the largest first.
+Result<Storeys> chosenPlanes(const RayScene& rays, const NewProjectOptions& options,
+                             const WalkableOptions& walkable) {
+  if (options.outline != "auto")
+    return fail(ErrorKind::invalidArgument, "give either a storey or an outline, not both", options.outline);
+  StoreyOptions storeys;
+  storeys.walkable = walkable;
+  if (options.storey.height) storeys.leastShare = 0;
+  auto found = findSceneStoreys(rays, storeys);
+  if (!found || options.everyStorey) return found;
+  auto chosen = chooseStorey(*found, options.storey);
+  if (!chosen) return tl::unexpected(chosen.error());
+  return Storeys{{std::move(*chosen)}, {}, found->ignoredSides};
+}
+
+Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays, const NewProjectOptions& options,
+                                  const WalkableOptions& walkable) {
   if (options.outline == "auto") return findWalkableArea(scene.bounds, walkable, probeFor(rays));
   const auto outline = parseOutline(options.outline);
   if (!outline) return tl::unexpected(outline.error());
@@ -80,6 +79,20 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays,
     return fail(ErrorKind::invalidArgument, "the outline lies outside the scene", options.outline);
   const auto area = findWalkableArea(within, walkable, probeFor(rays));
   return WalkableArea{area ? area->floorHeight : double(scene.bounds.min.z), *outline};
+}
+
+/// Walk planes to lay cells on, at least one. Of a single one without a choice only height and outline count.
+Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewProjectOptions& options) {
+  WalkableOptions walkable;
+  walkable.eyeHeight = options.eyeHeight;
+  walkable.ignoreSides = options.ignoreSides;
+  if (options.storey.given() || options.everyStorey) return chosenPlanes(rays, options, walkable);
+  auto area = walkableArea(scene, rays, options, walkable);
+  if (!area) return tl::unexpected(area.error());
+  WalkPlane plane;
+  plane.height = area->floorHeight;
+  plane.outline = std::move(area->outline);
+  return Storeys{{std::move(plane)}, {}, area->ignoredSides};
 }
 
 /// Direction with the longest free view at eye height.
@@ -136,6 +149,26 @@ std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
   return eyes;
 }
 
+/// Lays `pattern`'s cells on a walk plane.
+Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std::string name,
+                         bool ignoredSides, const RayScene& rays, std::stop_token stop) {
+  LayoutSpec spec = pattern;
+  spec.outline = tidied(plane.outline);
+  spec.floorHeight = roundTo(plane.height, 1e-4);
+  const glm::dvec2 middle = middleOf(spec.outline);
+  spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
+  if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
+  ShiftOptions shift;
+  shift.crowding.trustSides = !ignoredSides;
+  spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(rays), stop).origin;
+  const auto layout = buildLayout(spec);
+  if (!layout) return tl::unexpected(layout.error());
+  if (layout->regions.empty())
+    return fail(ErrorKind::invalidArgument,
+                "no region fits the outline; draw a larger one or choose smaller cells");
+  return Storey{std::move(name), std::move(spec), chooseSpawn(*layout, rays)};
+}
+
 }  // namespace
 
 Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
@@ -162,37 +195,53 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
   if (!rays) return tl::unexpected(rays.error());
 
   if (progress) progress({0, 0, "finding the walkable area"});
-  auto area = walkableArea(**scene, **rays, options);
-  if (!area) return tl::unexpected(area.error());
+  const auto planes = planesFor(**scene, **rays, options);
+  if (!planes) return tl::unexpected(planes.error());
+  const auto largest =
+      std::ranges::max_element(planes->planes, {}, [](const WalkPlane& p) { return p.outline.area(); });
 
-  LayoutSpec& spec = project.layout;
-  spec.configuration = options.configuration;
-  spec.outline = tidied(area->outline);
-  spec.floorHeight = roundTo(area->floorHeight, 1e-4);
-  spec.eyeHeight = options.eyeHeight;
-  const double middling = std::sqrt(area->outline.area() / (kFirstRings * areaPerRing(spec.configuration)));
-  spec.cellSize = options.cellSize > 0
-                      ? options.cellSize
-                      : std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
-  const glm::dvec2 middle = middleOf(spec.outline);
-  spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
+  LayoutSpec pattern;
+  pattern.configuration = options.configuration;
+  pattern.eyeHeight = options.eyeHeight;
+  const double middling =
+      std::sqrt(largest->outline.area() / (kFirstRings * areaPerRing(pattern.configuration)));
+  pattern.cellSize = options.cellSize > 0
+                         ? options.cellSize
+                         : std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
   if (options.samplesPerDegree > 0) project.bake.samplesPerDegree = options.samplesPerDegree;
-  if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
-  if (progress) progress({0, 0, "placing the cells"});
-  ShiftOptions shift;
-  shift.crowding.trustSides = !area->ignoredSides;
-  spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(**rays), stop).origin;
-  const auto layout = buildLayout(spec);
-  if (!layout) return tl::unexpected(layout.error());
-  if (layout->regions.empty())
-    return fail(ErrorKind::invalidArgument,
-                "no region fits the outline; draw a larger one or choose smaller cells", sceneFile.string());
+  project.storeys.clear();
+  std::vector<glm::dvec3> eyes;
+  for (std::size_t s = 0; s < planes->planes.size(); ++s) {
+    if (progress) progress({double(s), double(planes->planes.size()), "placing the cells"});
+    auto storey = storeyFor(pattern, planes->planes[s],
+                            planes->planes.size() == 1 ? "floor" : fmt::format("storey {}", s),
+                            planes->ignoredSides, **rays, stop);
+    if (!storey) {
+      Error failure = storey.error();
+      failure.where = sceneFile.string();
+      return tl::unexpected(std::move(failure));
+    }
+    if (&planes->planes[s] == &*largest) project.storey = int(s);
+    project.storeys.push_back(std::move(*storey));
+  }
 
   if (progress) progress({0, 0, "estimating the exposure"});
+  const auto layout = buildLayout(project.layout());
+  if (!layout) return tl::unexpected(layout.error());
   project.exposure = tidy(estimateExposure(**rays, sampleEyes(*layout, 8), project.bake, runner));
-  project.spawn = chooseSpawn(*layout, **rays);
   if (Status sound = project.check(); !sound) return tl::unexpected(sound.error());
   return project;
+}
+
+Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
+                          bool ignoredSides, std::stop_token stop) {
+  LayoutSpec pattern;
+  const LayoutSpec& like = open.project.layout();
+  pattern.configuration = like.configuration;
+  pattern.cellSize = like.cellSize;
+  pattern.eyeHeight = like.eyeHeight;
+  pattern.nearBand = like.nearBand;
+  return storeyFor(pattern, plane, std::move(name), ignoredSides, *open.rays, stop);
 }
 
 }  // namespace acentric

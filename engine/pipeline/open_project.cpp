@@ -50,10 +50,10 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
     if (!rays) return tl::unexpected(rays.error());
     open.rays = *rays;
   }
-  if (former && former->project.layout == project.layout) {
+  if (former && former->project.layout() == project.layout()) {
     open.layout = former->layout;
   } else {
-    auto layout = buildLayout(project.layout);
+    auto layout = buildLayout(project.layout());
     if (!layout) return tl::unexpected(layout.error());
     open.layout = std::make_shared<const Layout>(std::move(*layout));
   }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct NewProjectOptions {
   double eyeHeight = 1.6;        ///< metres
   std::string outline = "auto";  ///< "auto" or parseOutline text
   StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
+  bool everyStorey = false;      ///< with "auto": a layout on each storey; the walk begins on the largest
   bool ignoreSides = false;      ///< see inspect/walkable_outline.h
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
 };
@@ -60,6 +62,22 @@ Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project
 Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,
                                   const Progress& progress = {}, std::stop_token stop = {});
 
+/// Each storey of a project opened, in order; what they have in common is shared.
+Result<std::vector<OpenProject>> openStoreys(const OpenProject& open, const ImportHost& host,
+                                             const Progress& progress = {}, std::stop_token stop = {});
+/// The storey whose regions are nearest to an eye.
+std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye);
+
+/// A storey for a walk plane found in the project's scene: configuration, cell size, eye height and near band
+/// as in the project's current storey, the lattice shifted to where its cameras stand freest.
+Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
+                          bool ignoredSides, std::stop_token stop = {});
+/// Has the project a storey on this plane: at its height, with an outline that holds most of its corners?
+bool hasStoreyOn(const Project& project, const WalkPlane& plane);
+/// Adds a storey for each plane that has none, with a name of its own. How many were added.
+Result<int> addStoreys(Project& project, const OpenProject& open, std::span<const WalkPlane> planes,
+                       bool ignoredSides, std::stop_token stop = {});
+
 struct BakeRequest {
   std::vector<int> cameras;  ///< empty = all; else indices, baked in this order
   bool surfaceLight = true;
@@ -70,6 +88,8 @@ struct ProjectBakeReport {
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
   std::uint64_t bytes = 0;  ///< on disk, of all this project's captures
+  /// Of another storey. Which cameras were baked is not kept: each storey numbers them for itself.
+  void add(const ProjectBakeReport& other);
 };
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress = {}, std::stop_token stop = {});

@@ -21,6 +21,15 @@ struct Spawn {
   bool operator==(const Spawn&) const = default;
 };
 
+/// A walk plane with its layout. Storeys share the scene, its captures' folder and all settings.
+struct Storey {
+  std::string name;  ///< of no other storey
+  LayoutSpec layout;
+  Spawn spawn;
+  bool operator==(const Storey&) const = default;
+};
+inline constexpr int kMaxStoreys = 200;
+
 /// How many triangles a region's local geometry may have, and what is done where it has more.
 struct TriangleBudget {
   int trianglesPerRegion = 0;     ///< 0 = no limit
@@ -36,13 +45,20 @@ struct Project {
   std::filesystem::path scene;  ///< relative to the project file's folder
   ImportOptions import;
   EffectOverrides effects;
-  LayoutSpec layout;
+  std::vector<Storey> storeys{{"floor", {}, {}}};  ///< at least one
+  int storey = 0;                                  ///< the one that is worked on, and where the walk begins
   BakeSettings bake;
   TriangleBudget budget;
   ViewSettings view;
   double fovDegrees = 60;  ///< of the walk
   float exposure = 1;
-  Spawn spawn;
+
+  const Storey& current() const { return storeys[std::size_t(storey)]; }
+  Storey& current() { return storeys[std::size_t(storey)]; }
+  const LayoutSpec& layout() const { return current().layout; }
+  LayoutSpec& layout() { return current().layout; }
+  const Spawn& spawn() const { return current().spawn; }
+  Spawn& spawn() { return current().spawn; }
 
   Status check() const;
   bool operator==(const Project&) const = default;

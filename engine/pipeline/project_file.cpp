@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -20,6 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMaxStoreyName = 100;
 constexpr std::size_t kMaxProjectBytes = std::size_t(64) << 20;
 
 /// Degrees to nine decimals: angles then survive saving and reading unchanged.
@@ -82,7 +84,7 @@ std::map<int, Apv> apvsFrom(const Json& json) {
                     360.0 / apv.at("cameras").get<int>(),
                     clockwise ? Hand::clockwise : Hand::counterClockwise};
     if (!out.emplace(number, value).second)
-      throw std::runtime_error(fmt::format("/layout/freeApvs: two of them have the number {}", number));
+      throw std::runtime_error(fmt::format("freeApvs: two of them have the number {}", number));
   }
   return out;
 }
@@ -140,6 +142,30 @@ LayoutSpec layoutFrom(const Json& json) {
   return spec;
 }
 
+Json toJson(const Storey& storey) {
+  return {
+      {"name", storey.name},
+      {"layout", toJson(storey.layout)},
+      {"spawn",
+       {{"position", toJson(storey.spawn.position)}, {"yawDegrees", tidyDegrees(storey.spawn.yawRadians)}}}};
+}
+
+Storey storeyFrom(const Json& json, std::string name) {
+  Storey storey{std::move(name), layoutFrom(json.at("layout")), {}};
+  if (const auto spawn = json.find("spawn"); spawn != json.end())
+    storey.spawn = {pointFrom(spawn->at("position")), radians(spawn->value("yawDegrees", 0.0))};
+  return storey;
+}
+
+/// A file may give its only layout without a list of storeys.
+std::vector<Storey> storeysFrom(const Json& json) {
+  if (!json.contains("storeys")) return {storeyFrom(json, "floor")};
+  std::vector<Storey> storeys;
+  for (const Json& storey : json["storeys"])
+    storeys.push_back(storeyFrom(storey, storey.at("name").get<std::string>()));
+  return storeys;
+}
+
 void readImport(const Json& json, ImportOptions& options) {
   read(json, "metresPerUnit", options.metresPerUnit);
   read(json, "defaultLight", options.defaultLight);
@@ -167,7 +193,12 @@ Project projectFrom(const Json& json) {
     for (int i = 0; i < kEffectCount; ++i)
       if (const auto found = json["effects"].find(nameOf(Effect(i))); found != json["effects"].end())
         project.effects[Effect(i)] = found->get<bool>();
-  project.layout = layoutFrom(json.at("layout"));
+  project.storeys = storeysFrom(json);
+  if (json.contains("storey")) {
+    const auto found = std::ranges::find(project.storeys, json["storey"].get<std::string>(), &Storey::name);
+    if (found == project.storeys.end()) throw std::runtime_error("/storey: names none of the storeys");
+    project.storey = int(found - project.storeys.begin());
+  }
   if (json.contains("bake")) {
     read(json["bake"], "samplesPerDegree", project.bake.samplesPerDegree);
     read(json["bake"], "ambientRays", project.bake.ambientRays);
@@ -181,10 +212,6 @@ Project projectFrom(const Json& json) {
     read(json["budget"], "simplify", project.budget.simplify);
   }
   if (json.contains("view")) readView(json["view"], project);
-  if (json.contains("spawn")) {
-    project.spawn.position = pointFrom(json["spawn"].at("position"));
-    project.spawn.yawRadians = radians(json["spawn"].value("yawDegrees", 0.0));
-  }
   return project;
 }
 
@@ -241,6 +268,31 @@ Status checkSchema(const Json& json, const std::string& where) {
   return fail(ErrorKind::malformed, fmt::format("{}: {}", pointer, reason), where);
 }
 
+Status checkStoreys(const Project& project) {
+  const std::vector<Storey>& storeys = project.storeys;
+  if (storeys.empty() || storeys.size() > std::size_t(kMaxStoreys))
+    return fail(ErrorKind::malformed,
+                fmt::format("/storeys: there must be 1 to {} storeys, not {}", kMaxStoreys, storeys.size()));
+  if (project.storey < 0 || project.storey >= int(storeys.size()))
+    return fail(ErrorKind::malformed, fmt::format("/storey: there is no storey {}", project.storey));
+  for (std::size_t s = 0; s < storeys.size(); ++s) {
+    const auto refuse = [&](std::string_view what) {
+      return fail(ErrorKind::malformed, fmt::format("/storeys/{}{}", s, what));
+    };
+    const Storey& storey = storeys[s];
+    if (storey.name.empty() || storey.name.size() > kMaxStoreyName)
+      return refuse(fmt::format("/name: must have 1 to {} bytes", kMaxStoreyName));
+    if (std::ranges::count(storeys, storey.name, &Storey::name) > 1)
+      return refuse(fmt::format("/name: '{}' is the name of another storey too", storey.name));
+    if (const Status sound = storey.layout.check(); !sound)
+      return refuse("/layout: " + sound.error().message);
+    if (!std::isfinite(storey.spawn.position.x) || !std::isfinite(storey.spawn.position.y) ||
+        !std::isfinite(storey.spawn.yawRadians))
+      return refuse("/spawn: must hold finite numbers");
+  }
+  return {};
+}
+
 }  // namespace
 
 Status TriangleBudget::check() const {
@@ -256,21 +308,20 @@ Status Project::check() const {
   if (scene.is_absolute())
     return fail(ErrorKind::malformed,
                 "/scene: must be relative to the project file's folder, not " + scene.string());
-  for (const Status& part : {import.check(), layout.check(), bake.check(), budget.check(), view.check()})
+  for (const Status& part : {import.check(), checkStoreys(*this), bake.check(), budget.check(), view.check()})
     if (!part) return part;
   if (!(fovDegrees >= 1 && fovDegrees <= 179))
     return fail(ErrorKind::malformed, "/view/fovDegrees: must lie in 1..179");
   if (!(exposure > 0 && std::isfinite(exposure)))
     return fail(ErrorKind::malformed, "/view/exposure: must be a positive number");
-  if (!std::isfinite(spawn.position.x) || !std::isfinite(spawn.position.y) ||
-      !std::isfinite(spawn.yawRadians))
-    return fail(ErrorKind::malformed, "/spawn: must hold finite numbers");
   return {};
 }
 
 std::string formatProject(const Project& project) {
   Json effects = Json::object();
   for (const auto& [effect, on] : project.effects) effects[nameOf(effect)] = on;
+  Json storeys = Json::array();
+  for (const Storey& storey : project.storeys) storeys.push_back(toJson(storey));
   const Json json = {
       {"format", "acentric-project"},
       {"version", 1},
@@ -280,7 +331,8 @@ std::string formatProject(const Project& project) {
         {"up", nameOf(project.import.up)},
         {"defaultLight", project.import.defaultLight}}},
       {"effects", std::move(effects)},
-      {"layout", toJson(project.layout)},
+      {"storeys", std::move(storeys)},
+      {"storey", project.storeys[std::size_t(project.storey)].name},
       {"bake",
        {{"samplesPerDegree", project.bake.samplesPerDegree},
         {"ambientRays", project.bake.ambientRays},
@@ -299,10 +351,7 @@ std::string formatProject(const Project& project) {
         {"secondaryCover", project.view.secondaryCover},
         {"fillHoles", project.view.fillHoles},
         {"fovDegrees", project.fovDegrees},
-        {"exposure", std::stod(fmt::format("{}", project.exposure))}}},  // the shortest decimal of the float
-      {"spawn",
-       {{"position", toJson(project.spawn.position)},
-        {"yawDegrees", tidyDegrees(project.spawn.yawRadians)}}}};
+        {"exposure", std::stod(fmt::format("{}", project.exposure))}}}};  // the shortest decimal of the float
   return withShortArraysOnOneLine(json.dump(2)) + "\n";
 }
 

@@ -10,7 +10,7 @@ namespace {
 Project projectWithCell(double metres) {
   Project project;
   project.scene = "room.obj";
-  project.layout.cellSize = metres;
+  project.layout().cellSize = metres;
   return project;
 }
 
@@ -20,14 +20,14 @@ TEST(History, UndoAndRedoStepThroughEdits) {
   history.push(projectWithCell(3), "Three");
   EXPECT_EQ(history.undoLabel(), "Three");
   history.undo();
-  EXPECT_EQ(history.current().layout.cellSize, 2);
+  EXPECT_EQ(history.current().layout().cellSize, 2);
   EXPECT_EQ(history.redoLabel(), "Three");
   history.undo();
   EXPECT_FALSE(history.canUndo());
   EXPECT_EQ(history.undoLabel(), "");
   history.redo();
   history.redo();
-  EXPECT_EQ(history.current().layout.cellSize, 3);
+  EXPECT_EQ(history.current().layout().cellSize, 3);
   EXPECT_FALSE(history.canRedo());
 }
 
@@ -44,7 +44,7 @@ TEST(History, ANewEditForgetsWhatCouldBeRedone) {
   history.push(projectWithCell(3), "Three");
   EXPECT_FALSE(history.canRedo());
   history.undo();
-  EXPECT_EQ(history.current().layout.cellSize, 1);
+  EXPECT_EQ(history.current().layout().cellSize, 1);
 }
 
 TEST(History, ADragIsOneEntry) {
@@ -53,7 +53,7 @@ TEST(History, ADragIsOneEntry) {
   history.commitPreview();
   EXPECT_EQ(history.size(), 2U);
   history.undo();
-  EXPECT_EQ(history.current().layout.cellSize, 1);
+  EXPECT_EQ(history.current().layout().cellSize, 1);
 }
 
 TEST(History, ADragBackToWhereItBeganIsNoEntryAndKeepsRedo) {
@@ -66,7 +66,7 @@ TEST(History, ADragBackToWhereItBeganIsNoEntryAndKeepsRedo) {
   EXPECT_FALSE(history.canUndo());
   ASSERT_TRUE(history.canRedo());
   history.redo();
-  EXPECT_EQ(history.current().layout.cellSize, 2);
+  EXPECT_EQ(history.current().layout().cellSize, 2);
 }
 
 TEST(History, ARolledBackDragLeavesNoTrace) {
@@ -75,7 +75,7 @@ TEST(History, ARolledBackDragLeavesNoTrace) {
   history.undo();
   history.preview(projectWithCell(7), "Drag");
   history.rollbackPreview();
-  EXPECT_EQ(history.current().layout.cellSize, 1);
+  EXPECT_EQ(history.current().layout().cellSize, 1);
   EXPECT_EQ(history.redoLabel(), "Two");
 }
 
@@ -97,7 +97,7 @@ TEST(History, AnImpossibleEditIsForgotten) {
   History history(projectWithCell(1), true);
   history.push(projectWithCell(2), "Two");
   history.discardCurrent();
-  EXPECT_EQ(history.current().layout.cellSize, 1);
+  EXPECT_EQ(history.current().layout().cellSize, 1);
   EXPECT_FALSE(history.canRedo());
 }
 

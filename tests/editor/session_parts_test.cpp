@@ -161,7 +161,7 @@ TEST_F(FilesTest, AutosaveNeverTouchesTheProjectAndIsOfferedOnlyWhenItDiffers) {
   ASSERT_TRUE(saveProject(project, file));
   EXPECT_FALSE(recoverableAutosave(file, project).has_value());
   Project edited = project;
-  edited.layout.cellSize = 3.5;
+  edited.layout().cellSize = 3.5;
   ASSERT_TRUE(writeAutosave(edited, file));
   EXPECT_EQ(*loadProject(file), project);
   const auto found = recoverableAutosave(file, project);

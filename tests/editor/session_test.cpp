@@ -129,7 +129,7 @@ TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
     openAndSettle(session, folder_ / "room.obj");
     ASSERT_TRUE(session.saveAs(file));
     session.apply(setEyeHeight(session.project(), 1.23));
-    edited = session.project().layout.eyeHeight;
+    edited = session.project().layout().eyeHeight;
     waitFor(session, [&] { return !session.working(); });
     session.poll(now_ + 100);
     EXPECT_TRUE(fs::exists(autosaveFileFor(file)));
@@ -137,9 +137,9 @@ TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
   Session session(options());
   openAndSettle(session, file);
   ASSERT_TRUE(session.recoveryOffered());
-  EXPECT_NE(session.project().layout.eyeHeight, edited);
+  EXPECT_NE(session.project().layout().eyeHeight, edited);
   session.answerRecovery(true);
-  EXPECT_EQ(session.project().layout.eyeHeight, edited);
+  EXPECT_EQ(session.project().layout().eyeHeight, edited);
   EXPECT_TRUE(session.dirty());
   ASSERT_TRUE(session.save());
   EXPECT_FALSE(fs::exists(autosaveFileFor(file)));
@@ -205,7 +205,7 @@ TEST(OnlyViewDiffers, KnowsWhatNeedsNothingLaidOrLoaded) {
   Project b = a;
   b.view.fillHoles = !b.view.fillHoles;
   b.fovDegrees = 75;
-  b.spawn.yawRadians = 2;
+  b.spawn().yawRadians = 2;
   EXPECT_TRUE(onlyViewDiffers(a, b));
   b.exposure = 2;
   EXPECT_FALSE(onlyViewDiffers(a, b));

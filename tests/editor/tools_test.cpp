@@ -106,8 +106,9 @@ TEST_F(PlanToolTest, AnOutlineIsClosedAtItsFirstCornerAndNeedsThree) {
   click({4, 3});
   const PlanIntent intent = click({0.05, 0.05});
   ASSERT_TRUE(std::holds_alternative<OutlineIntent>(intent));
-  EXPECT_EQ(std::get<OutlineIntent>(intent).loop.size(), 3U);
-  EXPECT_TRUE(tool_.outlineCorners().empty());
+  ASSERT_EQ(std::get<OutlineIntent>(intent).outline.loops.size(), 1U);
+  EXPECT_EQ(std::get<OutlineIntent>(intent).outline.loops[0].size(), 3U);
+  EXPECT_TRUE(tool_.outlineTool().corners().empty());
 }
 
 Walker::Clamp anywhere() {
@@ -168,6 +169,105 @@ TEST(Walker, AStalledWindowDoesNotThrowTheEye) {
   keys.forward = true;
   walker.step(30, keys, anywhere());
   EXPECT_LE(walker.pose().eye.x, Walker::kMetresPerSecond * 0.1 + 1e-9);
+}
+
+const Outline kSquare{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}}};
+
+TEST(OutlineEdits, ALoopWithinIsAHoleApartAnotherAreaAcrossAReplacement) {
+  const Outline holed = withLoop(kSquare, {{2, 2}, {3, 2}, {3, 3}, {2, 3}});
+  EXPECT_DOUBLE_EQ(holed.area(), 63);
+  EXPECT_FALSE(holed.contains({2.5, 2.5}));
+  const Outline two = withLoop(holed, {{20, 0}, {22, 0}, {22, 2}, {20, 2}});
+  EXPECT_DOUBLE_EQ(two.area(), 67);
+  EXPECT_DOUBLE_EQ(withLoop(two, {{4, 4}, {12, 4}, {12, 12}}).area(), 4 + 32)
+      << "the hole goes with what it was in; the other area stays";
+  EXPECT_DOUBLE_EQ(withLoop(two, {{-1, -1}, {30, -1}, {30, 9}, {-1, 9}}).area(), 310) << "encloses all";
+  EXPECT_EQ(withLoop(kSquare, {{1, 1}, {2, 2}}), kSquare) << "two corners are no loop";
+}
+
+class OutlineToolTest : public PlanToolTest {
+ protected:
+  OutlineToolTest() {
+    spec_.outline = kSquare;
+    tool_.setMode(PlanMode::outline);
+  }
+  static const OutlineIntent& outlineOf(const PlanIntent& intent) { return std::get<OutlineIntent>(intent); }
+};
+
+TEST_F(OutlineToolTest, ACornerIsDraggedAndOnlyItsReleaseIsFinal) {
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(send(PointerEvent::Kind::press, {8.1, 7.9})));
+  const PlanIntent under = send(PointerEvent::Kind::move, {9.1, 8.9});
+  EXPECT_FALSE(outlineOf(under).finished);
+  EXPECT_NEAR(glm::distance(outlineOf(under).outline.loops[0][2], {9, 9}), 0, 1e-12);
+  const PlanIntent done = send(PointerEvent::Kind::release, {9.1, 8.9});
+  EXPECT_TRUE(outlineOf(done).finished);
+  EXPECT_EQ(outlineOf(done).outline, outlineOf(under).outline);
+  EXPECT_FALSE(tool_.capturing());
+}
+
+TEST_F(OutlineToolTest, APressOnASidePutsACornerThere) {
+  const PlanIntent pressed = send(PointerEvent::Kind::press, {4, -0.1});
+  ASSERT_EQ(outlineOf(pressed).outline.loops[0].size(), 5U);
+  EXPECT_NEAR(glm::distance(outlineOf(pressed).outline.loops[0][1], {4, 0}), 0, 1e-12);
+  send(PointerEvent::Kind::move, {4, -2.1});
+  const PlanIntent done = send(PointerEvent::Kind::release, {4, -2.1});
+  EXPECT_DOUBLE_EQ(outlineOf(done).outline.area(), 64 + 8);
+}
+
+TEST_F(OutlineToolTest, ControlClickTakesACornerAwayAndWithTheThirdTheLoop) {
+  const PlanIntent once = send(PointerEvent::Kind::press, {0, 0}, ui::mouse::left, ui::modifier::control);
+  EXPECT_TRUE(outlineOf(once).finished);
+  EXPECT_DOUBLE_EQ(outlineOf(once).outline.area(), 32);
+  send(PointerEvent::Kind::release, {0, 0}, ui::mouse::left, ui::modifier::control);
+  EXPECT_TRUE(tool_.outlineTool().corners().empty()) << "and begins no loop";
+  spec_.outline = outlineOf(once).outline;
+  const PlanIntent twice = send(PointerEvent::Kind::press, {8, 0}, ui::mouse::left, ui::modifier::control);
+  EXPECT_TRUE(outlineOf(twice).outline.empty());
+}
+
+TEST_F(OutlineToolTest, AClickOnACornerAloneChangesNothing) {
+  send(PointerEvent::Kind::press, {0, 0});
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(send(PointerEvent::Kind::release, {0, 0})));
+  EXPECT_TRUE(tool_.outlineTool().corners().empty()) << "nor does it begin a loop";
+}
+
+class PanoramaToolTest : public PlanToolTest {
+ protected:
+  PanoramaToolTest() {
+    spec_.freeApvs[4] = {{3, 3}, {1, 0}, 60, Hand::counterClockwise};
+    tool_.setMode(PlanMode::panorama);
+  }
+};
+
+TEST_F(PanoramaToolTest, AClickPlacesOneWithCamerasACellsEdgeOut) {
+  const auto intent = std::get<FreeApvIntent>(click({-5, 2}));
+  EXPECT_FALSE(intent.number);
+  EXPECT_EQ(intent.apv.centre, glm::dvec2(-5, 2));
+  EXPECT_DOUBLE_EQ(glm::length(intent.apv.offset), spec_.cellSize);
+}
+
+TEST_F(PanoramaToolTest, ADragFromFreeGroundSaysHowFarItsCamerasStandOut) {
+  send(PointerEvent::Kind::press, {-5, 2});
+  send(PointerEvent::Kind::move, {-5, 4});
+  ASSERT_TRUE(tool_.panoramaTool().inHand());
+  const auto intent = std::get<FreeApvIntent>(send(PointerEvent::Kind::release, {-5, 4}));
+  EXPECT_EQ(intent.apv.offset, glm::dvec2(0, 2));
+  EXPECT_FALSE(tool_.panoramaTool().inHand());
+}
+
+TEST_F(PanoramaToolTest, OneIsSelectedMovedAndTakenAwayByItsCentreOrItsPolygon) {
+  const CellId cell{4, 0, kFreeSlot};
+  EXPECT_EQ(std::get<SelectIntent>(click({3.1, 3})).cells, std::set<CellId>{cell});
+  EXPECT_EQ(std::get<SelectIntent>(click({3.6, 3.2})).cells, std::set<CellId>{cell});
+  const PlanIntent taken = send(PointerEvent::Kind::press, {3, 3}, ui::mouse::left, ui::modifier::control);
+  EXPECT_EQ(std::get<RemoveCellIntent>(taken).cell, cell);
+  send(PointerEvent::Kind::release, {3, 3}, ui::mouse::left, ui::modifier::control);
+  send(PointerEvent::Kind::press, {3.5, 3});
+  EXPECT_FALSE(std::get<FreeApvIntent>(send(PointerEvent::Kind::move, {5.5, 2})).finished);
+  const auto moved = std::get<FreeApvIntent>(send(PointerEvent::Kind::release, {5.5, 2}));
+  EXPECT_EQ(moved.number, 4);
+  EXPECT_EQ(moved.apv.centre, glm::dvec2(5, 2));
+  EXPECT_EQ(moved.apv.offset, spec_.freeApvs[4].offset);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST_F(BudgetCommandTest, FitsCellsAndWritesThemOnlyWhenAsked) {
   EXPECT_EQ(project.read(), before);
   const Json applied = report({"fit", project.file(), "--max", limit, "--apply"});
   EXPECT_TRUE(applied["applied"].get<bool>());
-  EXPECT_EQ(project.read()["layout"]["cellSize"], fitted["cellSize"]);
+  EXPECT_EQ(project.read()["storeys"][0]["layout"]["cellSize"], fitted["cellSize"]);
   const Json after = report({"budget", project.file(), "--max", limit});
   EXPECT_EQ(after["most"], fitted["most"]);
   EXPECT_EQ(after["over"].size(), 0u);
@@ -85,7 +85,7 @@ TEST_F(BudgetCommandTest, SimplifiesWhatNoCellsCanFitOnceAndSaysSoInEveryWalk) {
   const Json written = project.read();
   EXPECT_EQ(written["budget"],
             (Json{{"trianglesPerRegion", most}, {"maxErrorMetres", 0.05}, {"simplify", true}}));
-  EXPECT_EQ(written["layout"]["cellSize"], 2.5) << "the cells stay";
+  EXPECT_EQ(written["storeys"][0]["layout"]["cellSize"], 2.5) << "the cells stay";
   EXPECT_EQ(report({"budget", project.file()})["limit"], most) << "the project's own";
   for (const Json& region : report(fit)["simplified"]) EXPECT_TRUE(region["fromStore"].get<bool>());
 
@@ -185,8 +185,8 @@ TEST_F(BudgetCommandTest, SplitsOnlyWhatExceedsTheBudgetAndSimplifiesTheRest) {
 
   EXPECT_TRUE(report({"fit", project.file(), "--max", limit, "--split", "--apply"})["applied"].get<bool>());
   Json after = project.read();
-  EXPECT_EQ(after["layout"]["split"].size(), tried["split"]);
-  EXPECT_EQ(after["layout"]["cellSize"], before["layout"]["cellSize"]);
+  EXPECT_EQ(after["storeys"][0]["layout"]["split"].size(), tried["split"]);
+  EXPECT_EQ(after["storeys"][0]["layout"]["cellSize"], before["storeys"][0]["layout"]["cellSize"]);
   const Json recounted = report({"budget", project.file(), "--max", limit});
   EXPECT_EQ(recounted["over"].size(), 0u);
   EXPECT_EQ(recounted["most"], tried["most"]);
@@ -197,7 +197,7 @@ TEST_F(BudgetCommandTest, SplitsOnlyWhatExceedsTheBudgetAndSimplifiesTheRest) {
   const Json merged = report({"fit", project.file(), "--max", most, "--split", "--merge", "--apply"});
   EXPECT_EQ(merged["merged"], tried["split"]);
   after = project.read();
-  EXPECT_EQ(after["layout"].value("split", Json::array()).size(), 0u);
+  EXPECT_EQ(after["storeys"][0]["layout"].value("split", Json::array()).size(), 0u);
 
   // Where no smaller cells are allowed, what exceeds the number is simplified.
   const std::vector<std::string> simplify{"fit",         project.file(), "--max",  limit,

@@ -50,10 +50,10 @@ TEST_F(LayoutCommandsTest, ANewProjectIsLaidOnTheStoreyChosen) {
   const double height = storeys[1]["height"];
   const Json byNumber =
       report({"new", scene(), "-o", path("one.acentric.json"), "--storey", "1", "--cell", "4"});
-  EXPECT_NEAR(byNumber["floorHeight"].get<double>(), height, 1e-3);
+  EXPECT_NEAR(byNumber["storeys"][0]["floorHeight"].get<double>(), height, 1e-3);
   const Json byHeight = report({"new", scene(), "-o", path("height.acentric.json"), "--storey",
                                 std::to_string(height) + "m", "--cell", "4"});
-  EXPECT_NEAR(byHeight["floorHeight"].get<double>(), height, 1e-3);
+  EXPECT_NEAR(byHeight["storeys"][0]["floorHeight"].get<double>(), height, 1e-3);
 }
 
 TEST_F(LayoutCommandsTest, ALayoutIsTriedAndThenApplied) {
@@ -107,7 +107,8 @@ TEST_F(LayoutCommandsTest, EveryConfigurationHasALayout) {
 
 TEST_F(LayoutCommandsTest, TheOutlineIsFoundAgainAtTheProjectsFloor) {
   const Json found = report({"layout", made->file(), "--outline", "auto"});
-  EXPECT_NEAR(found["floorHeight"].get<double>(), asMade["layout"]["floorHeight"].get<double>(), 1e-9);
+  EXPECT_NEAR(found["floorHeight"].get<double>(), asMade["storeys"][0]["layout"]["floorHeight"].get<double>(),
+              1e-9);
   EXPECT_GT(found["squareMetres"]["outline"].get<double>(), 20);
 }
 
@@ -126,7 +127,8 @@ TEST_F(LayoutCommandsTest, ACheckSaysWhatIsWrongAndWithWhat) {
   EXPECT_EQ(checked["counts"]["errors"], errors);
   // A walk plane half a metre too low: every region is without standing room, and it is said.
   Json sunk = asMade;
-  sunk["layout"]["floorHeight"] = asMade["layout"]["floorHeight"].get<double>() - 0.5;
+  sunk["storeys"][0]["layout"]["floorHeight"] =
+      asMade["storeys"][0]["layout"]["floorHeight"].get<double>() - 0.5;
   made->write(sunk);
   std::size_t without = 0;
   const Json sunkReport = report({"check", made->file(), "--all"});

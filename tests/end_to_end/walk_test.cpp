@@ -98,7 +98,7 @@ TEST_F(WalkTest, AnotherCellBakesOnlyWhatItAdds) {
   Json edited = project->read();
   const Json info = Json::parse(acentric({"info", project->file(), "--regions", "--json"}).output);
   const Json cell = info["regions"][0]["cell"];
-  edited["layout"]["removed"] = Json::array({cell});
+  edited["storeys"][0]["layout"]["removed"] = Json::array({cell});
   const auto shrunk = project->folder() / "shrunk.acentric.json";
   std::ofstream(shrunk) << edited.dump(2);
   std::filesystem::copy(project->captures(), project->folder() / "shrunk.captures");
@@ -108,7 +108,7 @@ TEST_F(WalkTest, AnotherCellBakesOnlyWhatItAdds) {
 
   // Put back a cell whose captures were pruned with it: only its own cameras are baked again.
   ASSERT_EQ(acentric({"bake", shrunk.string(), "--prune"}).exitCode, 0);
-  edited["layout"]["removed"] = Json::array();
+  edited["storeys"][0]["layout"]["removed"] = Json::array();
   std::ofstream(shrunk) << edited.dump(2);
   const auto back = acentric({"bake", shrunk.string(), "--json"});
   ASSERT_EQ(back.exitCode, 0) << back.errors;

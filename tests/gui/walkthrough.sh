@@ -79,7 +79,7 @@ wait_for '^event message Saved room.acentric.json' 20
 grep -q '"added"' "$PROJECT" || fail "the project file has no added cells"
 python3 - "$PROJECT" "${CELL#cell.}" <<'PY' || fail "the added cell is not in the project file"
 import json, sys
-layout = json.load(open(sys.argv[1]))["layout"]
+layout = json.load(open(sys.argv[1]))["storeys"][0]["layout"]
 sys.exit(0 if layout["added"] == [[int(n) for n in sys.argv[2].split(".")]] else 1)
 PY
 CAPTURES=$(field captures)

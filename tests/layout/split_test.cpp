@@ -53,6 +53,27 @@ TEST_P(SplitOf, ChildrenTileTheirParentAndKnowIt) {
   }
 }
 
+TEST_P(SplitOf, ACellIsPlacedExactlyIfTheLayoutHoldsIt) {
+  LayoutSpec spec = splitSpec(GetParam());
+  Random random(52);
+  const auto anyCell = [&] {
+    const glm::dvec2 place{random(-8, 8), random(-8, 8)};
+    return cellAt(spec, place).id;
+  };
+  for (int n = 0; n < 6; ++n) spec.added.insert(anyCell()), spec.removed.insert(anyCell());
+  spec.removed.insert(partsOf(spec, *spec.split.begin())[2]);
+  ASSERT_TRUE(spec.check()) << spec.check().error().describe();
+  const Layout layout = buildLayout(spec).value();
+  for (const Region& region : layout.regions) EXPECT_TRUE(isPlaced(spec, region.id));
+  for (int n = 0; n < 3000; ++n) {
+    CellId cell = anyCell();
+    for (;; cell = wholeOf(spec, cell)) {  // and what it is a part of
+      EXPECT_EQ(isPlaced(spec, cell), layout.findRegion(cell).has_value()) << cell.i << ' ' << cell.j;
+      if (cell.level == 0) break;
+    }
+  }
+}
+
 TEST_P(SplitOf, EveryPlaceBelongsToExactlyOneRegionOfWhateverSize) {
   const Layout layout = buildLayout(splitSpec(GetParam())).value();
   std::set<int> levels;

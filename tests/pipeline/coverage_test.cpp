@@ -16,15 +16,15 @@ using test::SceneBuilder;
 OpenProject openRoom(const SceneBuilder& builder, double samplesPerDegree) {
   OpenProject open;
   open.file = "room.acentric.json";
-  open.project.layout.cellSize = 1.2;
-  open.project.layout.nearBand = 0.6;
-  open.project.layout.outline.loops = {{{-1.5, -1.5}, {1.5, -1.5}, {1.5, 1.5}, {-1.5, 1.5}}};
+  open.project.layout().cellSize = 1.2;
+  open.project.layout().nearBand = 0.6;
+  open.project.layout().outline.loops = {{{-1.5, -1.5}, {1.5, -1.5}, {1.5, 1.5}, {-1.5, 1.5}}};
   open.project.bake.samplesPerDegree = samplesPerDegree;
   open.project.bake.ambientRays = 0;
   open.rays = builder.rays();
   open.scene = open.rays->sharedScene();
   open.plan = open.rays->plan();
-  open.layout = std::make_shared<const Layout>(buildLayout(open.project.layout).value());
+  open.layout = std::make_shared<const Layout>(buildLayout(open.project.layout()).value());
   return open;
 }
 

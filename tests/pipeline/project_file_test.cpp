@@ -16,19 +16,19 @@ Project everythingSet() {
   project.scene = "models/house with spaces.glb";
   project.import = {0.01, UpAxis::z, false};
   project.effects = {{Effect::ambientOcclusion, false}, {Effect::normalMaps, true}};
-  project.layout.configuration = Configuration::e;
-  project.layout.cellSize = 1.7000000000000002;
-  project.layout.latticeOrigin = {0.1, -1e6 / 3};
-  project.layout.rotationRadians = radians(12.5);
-  project.layout.floorHeight = -0.25;
-  project.layout.eyeHeight = 1.55;
-  project.layout.nearBand = 0.75;
-  project.layout.outline.loops = {{{0, 0}, {8, 0}, {8, 6}, {0, 6}}, {{2, 2}, {3, 2}, {3, 3}}};
-  project.layout.added = {{1, -2, 0}, {4, 5, 0}};
-  project.layout.removed = {{0, 0, 0}};
-  project.layout.split = {{1, -2, 0}, {2, -4, 0, 1}};
-  project.layout.freeApvs = {{3, {{1, 2}, {0.5, -0.25}, 360.0 / 7, Hand::clockwise}},
-                             {12, {{-4, 0.1}, {0, 0}, 60, Hand::counterClockwise}}};
+  project.layout().configuration = Configuration::e;
+  project.layout().cellSize = 1.7000000000000002;
+  project.layout().latticeOrigin = {0.1, -1e6 / 3};
+  project.layout().rotationRadians = radians(12.5);
+  project.layout().floorHeight = -0.25;
+  project.layout().eyeHeight = 1.55;
+  project.layout().nearBand = 0.75;
+  project.layout().outline.loops = {{{0, 0}, {8, 0}, {8, 6}, {0, 6}}, {{2, 2}, {3, 2}, {3, 3}}};
+  project.layout().added = {{1, -2, 0}, {4, 5, 0}};
+  project.layout().removed = {{0, 0, 0}};
+  project.layout().split = {{1, -2, 0}, {2, -4, 0, 1}};
+  project.layout().freeApvs = {{3, {{1, 2}, {0.5, -0.25}, 360.0 / 7, Hand::clockwise}},
+                               {12, {{-4, 0.1}, {0, 0}, 60, Hand::counterClockwise}}};
   project.bake = {12.5, 24, 1.5, 0.02, 4};
   project.budget = {150000, 0.0025, true};
   project.view.renderer = Renderer::zbuffer;
@@ -39,7 +39,10 @@ Project everythingSet() {
   project.view.fillHoles = false;
   project.fovDegrees = 72.5;
   project.exposure = 0.123f;
-  project.spawn = {{1.25, 2.5}, radians(-90.0)};
+  project.spawn() = {{1.25, 2.5}, radians(-90.0)};
+  project.storeys.push_back({"second [1, 2]", project.layout(), {{-3, 4}, radians(15.0)}});
+  project.storeys.back().layout.floorHeight = 3.1;
+  project.storey = 1;
   return project;
 }
 
@@ -83,8 +86,8 @@ TEST(ProjectFile, FillsInDefaultsForWhatIsNotNamed) {
   ASSERT_TRUE(project) << project.error().describe();
   Project expected;
   expected.scene = "a.glb";
-  expected.layout.configuration = Configuration::b;
-  expected.layout.cellSize = 2;
+  expected.layout().configuration = Configuration::b;
+  expected.layout().cellSize = 2;
   EXPECT_EQ(*project, expected);
 }
 
@@ -106,6 +109,25 @@ TEST(ProjectFile, RefusesTwoFreeApvsOfOneNumber) {
   const std::string one = R"({"configuration":"b","cellSize":2,"freeApvs":[)" + apv;
   EXPECT_EQ(refusalOf(minimal(one + "]}")), "accepted");
   EXPECT_THAT(refusalOf(minimal(one + "," + apv + "]}")), HasSubstr("two of them have the number 4"));
+}
+
+TEST(ProjectFile, RefusesStoreysThatCannotBeToldApartOrFound) {
+  const auto storeys = [](const std::string& list, const std::string& more = "") {
+    return R"({"format":"acentric-project","version":1,"scene":"a.glb","storeys":[)" + list + "]" + more +
+           "}";
+  };
+  const std::string one = R"({"name":"hall","layout":{"configuration":"b","cellSize":2}})";
+  const std::string two = R"({"name":"attic","layout":{"configuration":"e","cellSize":1}})";
+  EXPECT_EQ(refusalOf(storeys(one + "," + two)), "accepted");
+  EXPECT_EQ(parseProject(storeys(one + "," + two, R"(,"storey":"attic")"), "p")->layout().cellSize, 1);
+  EXPECT_THAT(refusalOf(storeys(one + "," + one)), HasSubstr("name of another"));
+  EXPECT_THAT(refusalOf(storeys(one, R"(,"storey":"cellar")")), HasSubstr("/storey"));
+  EXPECT_THAT(refusalOf(storeys("")), HasSubstr("/storeys"));
+  EXPECT_NE(refusalOf(storeys(one, R"(,"layout":{"configuration":"b","cellSize":2})")), "accepted")
+      << "a layout within and without the list";
+  EXPECT_NE(refusalOf(R"({"format":"acentric-project","version":1,"scene":"a.glb"})"), "accepted");
+  EXPECT_THAT(refusalOf(storeys(R"({"name":"hall","layout":{"configuration":"b","cellSize":-2}})")),
+              HasSubstr("/storeys/0/layout/cellSize"));
 }
 
 TEST(ProjectFile, RefusesUnknownKeys) {

@@ -1,0 +1,39 @@
+#include "editor/commands/storey_edits.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace acentric::editor {
+
+Edit showStorey(const Project& project, int storey) {
+  Edit edit{project, "Go to " + project.storeys[std::size_t(storey)].name};
+  edit.project.storey = storey;
+  return edit;
+}
+
+std::optional<int> storeyBeside(const Project& project, int steps) {
+  std::vector<int> byHeight(project.storeys.size());
+  std::iota(byHeight.begin(), byHeight.end(), 0);
+  std::ranges::stable_sort(byHeight, {},
+                           [&](int s) { return project.storeys[std::size_t(s)].layout.floorHeight; });
+  const auto at = std::ranges::find(byHeight, project.storey) - byHeight.begin() + steps;
+  if (at < 0 || at >= std::ssize(byHeight)) return std::nullopt;
+  return byHeight[std::size_t(at)];
+}
+
+Edit renameStorey(const Project& project, std::string name) {
+  Edit edit{project, "Rename " + project.current().name + " to " + name};
+  edit.project.current().name = std::move(name);
+  return edit;
+}
+
+Edit removeStorey(const Project& project) {
+  Edit edit{project, "Remove " + project.current().name};
+  if (project.storeys.size() < 2) return edit;
+  edit.project.storeys.erase(edit.project.storeys.begin() + project.storey);
+  edit.project.storey = std::max(0, project.storey - 1);
+  return edit;
+}
+
+}  // namespace acentric::editor
