@@ -105,7 +105,7 @@ TEST_F(CoverageTest, OfACellCountsTheCamerasAtItsCornersAndItsCoversHoldEachPoin
 
 TEST_F(CoverageTest, OfAFreePanoramaViewIsExactlyOneOutsideIt) {
   Edit edit{session_->project(), "free"};
-  edit.project.layout.freeApvs[3] = Apv{{0, 0}, {0.7, 0}, 60, Hand::counterClockwise};
+  edit.project.layout().freeApvs[3] = Apv{{0, 0}, {0.7, 0}, 60, Hand::counterClockwise};
   ASSERT_TRUE(session_->apply(edit));
   waitFor([&] { return !session_->working() && open().project == session_->project(); });
   const auto pictures = measured({CoverageKind::cell, CellId{3, 0, kFreeSlot}});
