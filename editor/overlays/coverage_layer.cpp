@@ -73,7 +73,7 @@ ScaleLegend surfaceLegend(const CoveragePicture& picture) {
       {fmt::format("{} only near, drawn as geometry", percent(all.share(SurfaceClass::local))),
        palette::muted});
   const std::string points =
-      fmt::format("{} points, {} eyes per region", ui::formatCount(all.points), picture.eyesPerRegion);
+      fmt::format("{} points, from {} eyes", ui::formatCount(all.points), ui::formatCount(picture.eyes));
   legend.lines.push_back(
       {picture.exact ? points + ": exact" : fmt::format("{}: {:.0f} %", points, 100 * picture.progress),
        palette::muted});

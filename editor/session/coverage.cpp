@@ -7,7 +7,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr std::size_t kMostEyes = 20'000;  ///< of all regions, at each point; one per region at least
+constexpr int kMostEyes = 10'000;  ///< that look at each point
 
 Result<PlanCoverage> countOn(const PlanGrid& grid, const Layout& layout, const CoverageRequest& request,
                              std::optional<int> region, TaskRunner& runner, const std::stop_token& stop) {
@@ -83,13 +83,15 @@ Status measureSurfaces(const OpenProject& open, const CoverageRequest& request, 
                        const std::stop_token& stop) {
   const ProjectReach reach(open);
   const SurfaceCoverageOptions options = coverageOptions(open);
+  std::size_t eyes = 0;
+  for (const auto& ofRegion : standingEyes(*open.layout, options.eyes)) eyes += ofRegion.size();
   const auto tell = [&](const SurfaceCoveragePtr& snapshot) {
     auto picture = std::make_shared<CoveragePicture>();
     picture->request = request;
     picture->layout = open.layout;
     picture->surfaces = snapshot;
     picture->medianRate = medianRateOf(*snapshot);
-    picture->eyesPerRegion = options.eyes.perRegion;
+    picture->eyes = eyes;
     picture->progress = double(snapshot->points.size()) / snapshot->wanted;
     picture->exact = snapshot->complete;
     show(picture);
@@ -122,8 +124,9 @@ PlanGrid coverageGrid(const Layout& layout, const CoverageRequest& request, int 
 
 SurfaceCoverageOptions coverageOptions(const OpenProject& open) {
   SurfaceCoverageOptions options = surfaceCoverageOptionsFor(open.project, kJudgedDisplayWidth);
-  const std::size_t regions = std::max<std::size_t>(open.layout->regions.size(), 1);
-  options.eyes.perRegion = std::clamp(int(kMostEyes / regions), 1, options.eyes.perRegion);
+  const int regions = std::max(int(open.layout->regions.size()), 1);
+  options.eyes.perRegion = std::clamp(kMostEyes / regions, 1, options.eyes.perRegion);
+  if (regions > kMostEyes) options.eyes.mostRegions = kMostEyes;
   return options;
 }
 

@@ -36,7 +36,8 @@ struct CoveragePicture {
   double coverHoldsOnce = 0;               ///< cell: share of `plan` that each of them holds exactly once
   SurfaceCoveragePtr surfaces;             ///< surfaces
   double medianRate = 0;                   ///< samples per pixel, of the points that are sampled at all
-  int eyesPerRegion = 0;
+  std::size_t eyes = 0;                    ///< surfaces: that look from the walkable area
+
   double progress = 0;  ///< 0..1
   bool exact = false;
 };
@@ -49,7 +50,7 @@ inline constexpr int kPlanCoverageCells = 512;
 
 /// The grid at rest: around all regions, or around the one.
 PlanGrid coverageGrid(const Layout& layout, const CoverageRequest& request, int cells = kPlanCoverageCells);
-/// As surfaces of the project are judged. Layouts of very many regions have fewer eyes in each.
+/// As surfaces of the project are judged. Layouts of very many regions have fewer eyes in each, then in some.
 SurfaceCoverageOptions coverageOptions(const OpenProject& open);
 
 /// Calls `show` with ever better pictures, on the calling thread, the last one exact. A stop ends it with

@@ -30,6 +30,9 @@ glm::dvec2 placeIn(const ConvexPolygon& polygon, int n) {
 Status EyeOptions::check() const {
   if (perRegion < 1 || perRegion > 100000)
     return fail(ErrorKind::invalidArgument, "eyes per region must lie in 1..100000", "surface coverage");
+  if (mostRegions < 0)
+    return fail(ErrorKind::invalidArgument, "the most regions with eyes must not be negative",
+                "surface coverage");
   if (!(lower >= 0 && lower <= 1000 && higher >= 0 && higher <= 1000))
     return fail(ErrorKind::invalidArgument, "the range of eye heights must lie within 1000 m",
                 "surface coverage");
@@ -42,6 +45,11 @@ std::vector<std::vector<glm::dvec3>> standingEyes(const Layout& layout, const Ey
   const Outline& outline = layout.spec.outline;
   std::vector<std::vector<glm::dvec3>> eyes(layout.regions.size());
   for (std::size_t r = 0; r < eyes.size(); ++r) {
+    // Multiples of the golden ratio skip evenly, and whatever the rhythm in which kinds of regions follow one
+    // another.
+    if (options.mostRegions > 0 &&
+        std::fmod(double(r) * kGolden, 1.0) * double(eyes.size()) >= double(options.mostRegions))
+      continue;
     const Region& region = layout.regions[r];
     const bool everywhere = outline.empty() || layout.spec.added.contains(region.id);
     for (int n = 0; n < options.perRegion * kTriesPerEye && int(eyes[r].size()) < options.perRegion; ++n) {

@@ -12,6 +12,9 @@ struct EyeOptions {
   int perRegion = 7;  ///< places to stand in each region
   /// Metres above and below the layout's eye height, between which the eyes are spread.
   double lower = 0, higher = 0;
+  /// 0 = all regions have eyes; else about so many at most, spread evenly over the layout: for a fair sample
+  /// of very large ones.
+  int mostRegions = 0;
   Status check() const;
 };
 

@@ -120,6 +120,7 @@ PointCoverage SurfaceJudge::judge(const SurfacePoint& point) const {
   glm::dvec3 nearestEye(0);
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < eyes_.size(); ++r) {
+    if (eyes_[r].empty()) continue;
     const bool local = reach_.layout().regions[r].grown.containsClosed(place);
     std::uint32_t seeing = 0, missing = 0;
     for (const glm::dvec3& eye : eyes_[r]) {

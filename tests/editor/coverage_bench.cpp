@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <thread>
 
 #include "editor/session/coverage.h"
@@ -18,21 +20,21 @@ void run(const std::filesystem::path& file) {
   if (!open) return fmt::print("{}\n", open.error().describe());
   fmt::print("{}: {} regions, {} cameras\n", file.string(), open->layout->regions.size(),
              open->layout->cameras.size());
-  TaskRunner runner(int(std::thread::hardware_concurrency()) - 2);
+  TaskRunner runner(std::max(0, int(std::thread::hardware_concurrency()) - 2));
   const std::pair<const char*, CoverageRequest> kinds[] = {
       {"surfaces", {CoverageKind::surfaces, {}}},
       {"plan", {CoverageKind::layout, {}}},
       {"cell", {CoverageKind::cell, open->layout->regions.front().id}}};
   for (const auto& [name, request] : kinds) {
     const Stopwatch watch;
-    double first = 0;
     int pictures = 0;
     const Status done = measureCoverage(*open, request, runner, [&](const CoveragePicturePtr&) {
-      if (++pictures == 1) first = watch.seconds();
+      if (++pictures > 1) return;
+      fmt::print("  {:8}  first picture {:.3f} s", name, watch.seconds());
+      std::fflush(stdout);
     });
     if (!done) return fmt::print("{}\n", done.error().describe());
-    fmt::print("  {:8}  first picture {:.3f} s, exact {:.2f} s, {} pictures\n", name, first, watch.seconds(),
-               pictures);
+    fmt::print(", exact {:.2f} s, {} pictures\n", watch.seconds(), pictures);
   }
 }
 

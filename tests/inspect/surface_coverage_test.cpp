@@ -135,6 +135,27 @@ TEST(StandingEyes, LieWithinTheirRegionsAndTheOutline) {
   EXPECT_EQ(eyes[std::size_t(*layout.findRegion({-4, 0, 0}))].size(), 9u);
 }
 
+TEST(StandingEyes, OfTooManyRegionsStandInAFairSampleOfThem) {
+  LayoutSpec spec;
+  spec.cellSize = 0.5;
+  spec.outline.loops = {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}};
+  const Layout layout = buildLayout(spec).value();
+  const auto eyes = standingEyes(layout, {2, 0, 0, 300});
+  ASSERT_GT(layout.regions.size(), 1200u);
+  std::size_t regions = 0, rings = 0, left = 0, allRings = 0;
+  for (std::size_t r = 0; r < eyes.size(); ++r) {
+    const bool ring = layout.regions[r].kind == RegionKind::ring;
+    allRings += ring ? 1 : 0;
+    if (eyes[r].empty()) continue;
+    ++regions;
+    rings += ring ? 1 : 0;
+    left += layout.regions[r].polygon.centroid().x < 10 ? 1 : 0;
+  }
+  EXPECT_NEAR(double(regions), 300, 10);
+  EXPECT_NEAR(double(rings) / double(regions), double(allRings) / double(eyes.size()), 0.05);
+  EXPECT_NEAR(double(left) / double(regions), 0.5, 0.06);
+}
+
 TEST(SurfacePoints, AreSpreadByArea) {
   const ScenePtr scene = test::sceneOf({{{0, 0, 0}, {1, 1, 1}}, {{5, 0, 0}, {8, 2, 1}}});
   const SurfacePoints points(scene);
