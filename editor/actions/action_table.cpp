@@ -375,6 +375,19 @@ void addWalkActions(std::vector<Action>& table) {
                    },
                    [](ActionContext& c) { c.session.cancelBake(); },
                    {}});
+  table.push_back({"bake.estimate",
+                   "Walk",
+                   "Estimate the bake",
+                   {},
+                   {},
+                   "Tells time and bytes of what is missing, by baking a little of it",
+                   false,
+                   [](const ActionContext& c) {
+                     return withBuilt(c) && !c.session.baking().running() &&
+                            !c.session.estimating().running();
+                   },
+                   [](ActionContext& c) { c.session.estimateBake(); },
+                   {}});
   table.push_back({"walk.restart",
                    "Walk",
                    "Go to start",

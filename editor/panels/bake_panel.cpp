@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -48,6 +50,17 @@ void drawFacts(PanelContext& context) {
                                ui::formatCount(report.rays.shadow), ui::formatCount(report.rays.ambient)),
                    kValueX);
     ui::keyValue("On disk", ui::formatBytes(last->bytes), kValueX);
+  }
+  if (const BakeEstimate* estimate = session.estimate()) {
+    const double error = std::max(estimate->seconds.relativeError, estimate->bytes.relativeError);
+    ui::keyValue("Still to bake",
+                 estimate->seconds.value == 0
+                     ? std::string("nothing")
+                     : fmt::format("{} captures, {:.1f} Mpixel: about {}, {} (±{:.0f} %)",
+                                   ui::formatCount(std::uint64_t(estimate->cameras)), estimate->pixels / 1e6,
+                                   ui::formatDuration(estimate->seconds.value),
+                                   ui::formatBytes(std::uint64_t(estimate->bytes.value)), 100 * error),
+                 kValueX);
   }
   int threads = session.bakeThreads();
   const ui::FieldEdit edit =
@@ -98,6 +111,8 @@ void drawBakePanel(PanelContext& context) {
     actionButton(context, "bake.cancel", ButtonLook::plain, {kButtonWidth, 0}, "Cancel");
   else
     actionButton(context, "bake.start", ButtonLook::primary, {kButtonWidth, 0});
+  ImGui::SameLine();
+  actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
   ImGui::SameLine();
   drawProgress(context);
   drawLegend();

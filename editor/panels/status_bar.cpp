@@ -27,8 +27,9 @@ const char* hintOf(PlanMode mode) {
 }
 
 std::string workText(const Session& session) {
-  const Job* jobs[] = {&session.opening(), &session.rebuilding(),      &session.baking(),
-                       &session.loading(), &session.drawingBackdrop(), &session.searching()};
+  const Job* jobs[] = {&session.opening(),   &session.rebuilding(),      &session.baking(),
+                       &session.loading(),   &session.drawingBackdrop(), &session.searching(),
+                       &session.estimating()};
   for (const Job* job : jobs)
     if (job->running()) return progressText(*job);
   return {};

@@ -4,31 +4,6 @@
 #include <thread>
 
 namespace acentric::editor {
-namespace {
-
-/// The current storey first; progress runs from 0 to 1 over all of them.
-Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const ImportHost& host, TaskRunner& runner,
-                                         const Progress& progress, std::stop_token stop) {
-  auto storeys = openStoreys(open, host, {}, stop);
-  if (!storeys) return tl::unexpected(storeys.error());
-  std::rotate(storeys->begin(), storeys->begin() + open.project.storey, storeys->end());
-  ProjectBakeReport all;
-  for (std::size_t s = 0; s < storeys->size(); ++s) {
-    const Progress part = [&](const ProgressState& state) {
-      if (storeys->size() == 1) return progress(state);
-      const double done = state.total > 0 ? state.done / state.total : 0;
-      progress({(double(s) + done) / double(storeys->size()), 1,
-                (*storeys)[s].project.current().name + ": " + state.stage});
-    };
-    const auto report = bakeProject((*storeys)[s], {}, runner, part, stop);
-    if (!report) return report;
-    all.add(*report);
-  }
-  return all;
-}
-
-}  // namespace
-
 Session::Session(SessionOptions options)
     : options_(std::move(options)),
       processors_(options_.processors > 0 ? options_.processors
@@ -69,7 +44,7 @@ bool Session::poll(double now) {
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
          drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
-         searching_.running();
+         searching_.running() || estimating_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -267,33 +242,6 @@ void Session::askForCoverage(const std::optional<CoverageRequest>& wanted) {
     if (!measured && measured.error().kind != ErrorKind::cancelled)
       context.post([this, error = measured.error()] { messages_.addFailure("Measuring coverage", error); });
   });
-}
-
-int Session::bakeThreads() const {
-  const int wanted = preferences_.bakeThreads > 0 ? preferences_.bakeThreads : processors_ - 1;
-  return std::clamp(wanted, 1, processors_);
-}
-
-void Session::startBake() {
-  if (!built_ || baking_.running()) return;
-  eta_.reset();
-  bakeProgressSeen_ = 0;
-  baking_.restart("Baking", [this, open = built_, threads = bakeThreads(),
-                             host = options_.importHost](const Job::Context& context) {
-    TaskRunner runner(threads - 1);
-    const auto report = bakeAllStoreys(*open, host, runner, context.progress(), context.stop());
-    context.post([this, report] { bakeEnded(report); });
-  });
-}
-
-void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
-  loadWanted_ = true;
-  nextLoad_ = 0;
-  if (!report) return messages_.addFailure("Baking", report.error());
-  lastBake_ = *report;
-  const BakeReport& captures = report->captures;
-  messages_.add(MessageLevel::good, "Baked " + std::to_string(captures.baked) + " captures, " +
-                                        std::to_string(captures.reused) + " were there already");
 }
 
 }  // namespace acentric::editor

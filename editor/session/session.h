@@ -20,6 +20,7 @@
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
+#include "engine/inspect/estimates.h"
 #include "engine/pipeline/pipeline.h"
 
 namespace acentric::editor {
@@ -95,6 +96,11 @@ class Session {
   /// Of all storeys, the current one first.
   void startBake();
   void cancelBake() { baking_.cancel(); }
+  /// Of what the current storey lacks, by baking a little of it.
+  void estimateBake();
+  /// Null until asked for, and when something has changed since.
+  const BakeEstimate* estimate() const;
+  const Job& estimating() const { return estimating_; }
   std::optional<double> bakeSecondsLeft(double now) const { return eta_.secondsLeft(now); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
   int bakeThreads() const;
@@ -188,6 +194,12 @@ class Session {
   std::optional<CoverageKey> coverageKey_;  // what the job was last asked for
   CoveragePicturePtr coverage_;
 
+  struct Estimate {
+    std::shared_ptr<const OpenProject> of;
+    int threads = 0;
+    BakeEstimate figures;
+  };
+  std::optional<Estimate> estimate_;
   Eta eta_;
   std::optional<ProjectBakeReport> lastBake_;
   double bakeProgressSeen_ = 0;
@@ -205,6 +217,7 @@ class Session {
   Job inspecting_{inbox_};
   Job measuringCoverage_{inbox_};
   Job searching_{inbox_};
+  Job estimating_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -72,6 +72,8 @@ void Session::close() {
   drawingBackdrop_.abandon();
   inspecting_.abandon();
   searching_.abandon();
+  estimating_.abandon();
+  estimate_.reset();
   inspection_.reset();
   inspected_.reset();
   if (hasProject() && !untitled_ && !recovery_) removeAutosave(file_);

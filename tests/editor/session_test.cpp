@@ -6,13 +6,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <thread>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
+#include "editor/commands/storey_edits.h"
 #include "editor/session/project_files.h"
+#include "engine/inspect/refine.h"
 
 namespace acentric::editor {
 namespace {
@@ -119,6 +122,125 @@ TEST_F(SessionTest, RemovingACellAndUndoingItLeavesEverythingBaked) {
   waitFor(session, [&] { return !session.working() && session.built()->layout->regions.size() == before; });
   EXPECT_TRUE(session.captures()->complete());
   EXPECT_FALSE(session.dirty());
+}
+
+TEST_F(SessionTest, AnEstimateIsOfWhatIsMissingAndForgottenWithAnEdit) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  EXPECT_EQ(session.estimate(), nullptr);
+  session.estimateBake();
+  waitFor(session, [&] { return session.estimate() != nullptr; });
+  EXPECT_EQ(session.estimate()->cameras, int(session.built()->layout->cameras.size()));
+  EXPECT_GT(session.estimate()->seconds.value, 0);
+  EXPECT_GT(session.estimate()->bytes.value, 0);
+  session.apply(setEyeHeight(session.project(), 1.3));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  EXPECT_EQ(session.estimate(), nullptr);
+  session.startBake();
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  session.estimateBake();
+  waitFor(session, [&] { return session.estimate() != nullptr; });
+  EXPECT_EQ(session.estimate()->cameras, 0);
+  EXPECT_EQ(session.estimate()->seconds.value, 0);
+}
+
+TEST_F(SessionTest, CellsAreFittedToTheBudgetAsAnEditThatCanBeUndone) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  session.apply(setConfiguration(session.project(), Configuration::e));
+  session.apply(setCellSize(session.project(), 3));
+  TriangleBudget budget;
+  budget.trianglesPerRegion = 1;  // the room has no part with fewer
+  session.apply(setBudget(session.project(), budget, "one"));
+  waitFor(session, [&] { return !session.working(); });
+  const LayoutSpec before = session.project().layout();
+  session.fitCells();
+  waitFor(session, [&] { return !session.searching().running() && !session.messages().all().empty(); });
+  EXPECT_EQ(session.messages().all().back().level, MessageLevel::warning);
+  EXPECT_EQ(session.project().layout(), before);
+
+  budget.trianglesPerRegion = 12;
+  session.apply(setBudget(session.project(), budget, "all"));
+  waitFor(session, [&] { return !session.working(); });
+  session.fitCells();
+  waitFor(session, [&] { return !session.searching().running() && session.project().layout() != before; });
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  const auto counts = countLocalTriangles(*session.built()->scene, *session.built()->layout);
+  ASSERT_FALSE(counts.empty());
+  EXPECT_LE(*std::ranges::max_element(counts), 12U);
+  session.undo();
+  EXPECT_EQ(session.project().layout(), before);
+}
+
+TEST_F(SessionTest, CellsAboveTheBudgetAreSplitAsTheSearchSays) {
+  {  // a rug of many triangles in a corner of the room
+    writeRoom(folder_ / "rug.obj");
+    std::ofstream rug(folder_ / "rug.obj", std::ios::app);
+    constexpr int kSide = 14;
+    for (int i = 0; i <= kSide; ++i)
+      for (int j = 0; j <= kSide; ++j) rug << "v " << -2.9 + 0.2 * i << " 0.01 " << -2.4 + 0.2 * j << '\n';
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        const int a = 9 + i * (kSide + 1) + j, b = a + kSide + 1;
+        rug << "f " << a << ' ' << a + 1 << ' ' << b + 1 << ' ' << b << '\n';
+      }
+  }
+  Session session(options());
+  openAndSettle(session, folder_ / "rug.obj");
+  session.apply(setConfiguration(session.project(), Configuration::e));
+  session.apply(setCellSize(session.project(), 3));
+  session.apply(setNearBand(session.project(), 0.05));
+  TriangleBudget budget;
+  budget.trianglesPerRegion = 150;
+  session.apply(setBudget(session.project(), budget, "150"));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  RefineOptions refining;
+  refining.mostTriangles = 150;
+  TaskRunner runner(0);
+  const auto expected =
+      refineToBudget(session.project().layout(), TriangleTree(session.built()->scene), refining, runner);
+  ASSERT_TRUE(expected) << expected.error().describe();
+  ASSERT_GT(expected->split, 0U);
+  session.splitOverBudget();
+  waitFor(session,
+          [&] { return !session.searching().running() && !session.project().layout().split.empty(); });
+  EXPECT_EQ(session.project().layout(), expected->spec);
+  session.undo();
+  EXPECT_TRUE(session.project().layout().split.empty());
+}
+
+TEST_F(SessionTest, StoreysFoundInTheSceneAreAddedBakedAndWalked) {
+  // A slab over a part of a hall's floor, with head room above and below.
+  std::ofstream(folder_ / "loft.obj")
+      << "v -6 0 -3\nv 6 0 -3\nv 6 0 3\nv -6 0 3\nv -6 6 -3\nv 6 6 -3\nv 6 6 3\nv -6 6 3\n"
+         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+         "v 1 2.9 -3\nv 6 2.9 -3\nv 6 2.9 3\nv 1 2.9 3\nv 1 2.6 -3\nv 6 2.6 -3\nv 6 2.6 3\nv 1 2.6 3\n"
+         "f 12 11 10 9\nf 13 14 15 16\nf 12 9 13 16\n";
+  Session session(options());
+  openAndSettle(session, folder_ / "loft.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "loft.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  ASSERT_EQ(session.project().storeys.size(), 1U);
+  session.findStoreys();
+  waitFor(session, [&] { return !session.working() && session.project().storeys.size() > 1; });
+  ASSERT_EQ(session.project().storeys.size(), 3U)
+      << "the floor, the loft, and the roof of a file without sides";
+  EXPECT_NEAR(session.project().storeys[1].layout.floorHeight, 2.9, 0.02);
+  session.findStoreys();
+  waitFor(session, [&] { return !session.working(); });
+  EXPECT_EQ(session.project().storeys.size(), 3U) << "nothing is added twice";
+
+  session.startBake();
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  session.apply(showStorey(session.project(), 1));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  EXPECT_NEAR(session.built()->layout->eyeZ(), 2.9 + session.project().layout().eyeHeight, 0.02);
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  EXPECT_EQ(session.walk()->missing, 0) << "a bake is of all storeys";
 }
 
 TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
