@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -40,24 +41,31 @@ void PlanPanel::fit(const Session& session) {
 }
 
 void PlanPanel::drawToolbar(PanelContext& context) {
-  for (const char* tool : {"tool.cells", "tool.eye", "tool.outline", "tool.panorama"}) {
-    actionButton(context, tool, ButtonLook::toggle);
-    ImGui::SameLine(0, 3);
+  constexpr float kNear = 3, kApart = 16;
+  struct Entry {
+    const char* id;
+    const char* label;
+    float gap;
+    ButtonLook look = ButtonLook::toggle;
+  };
+  static constexpr std::array<Entry, 11> kEntries{{{"tool.cells", "Cells", 0},
+                                                   {"tool.eye", "Eye", kNear},
+                                                   {"tool.outline", "Outline", kNear},
+                                                   {"tool.panorama", "Panorama", kNear},
+                                                   {"view.backdrop", "Scene", kApart},
+                                                   {"view.lattice", "Lattice", kNear},
+                                                   {"view.cameras", "Cameras", kNear},
+                                                   {"view.triangles", "Triangles", kNear},
+                                                   {"view.checks", "Checks", kNear},
+                                                   {"view.coverage", "Coverage", kNear},
+                                                   {"view.fit", "Fit", kApart, ButtonLook::plain}}};
+  const float right = ImGui::GetWindowSize().x - 8;
+  for (const Entry& entry : kEntries) {
+    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (entry.gap > 0) ImGui::SameLine(0, entry.gap);
+    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+    actionButton(context, entry.id, entry.look, {}, entry.label);
   }
-  ImGui::SameLine(0, 16);
-  actionButton(context, "view.backdrop", ButtonLook::toggle, {}, "Scene");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.lattice", ButtonLook::toggle, {}, "Lattice");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.cameras", ButtonLook::toggle, {}, "Cameras");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.triangles", ButtonLook::toggle, {}, "Triangles");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.checks", ButtonLook::toggle, {}, "Checks");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.coverage", ButtonLook::toggle, {}, "Coverage");
-  ImGui::SameLine(0, 16);
-  actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
   if (!context.state().showCoverage) return;
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Coverage of");

@@ -171,13 +171,15 @@ ImportOptions importOptions(const std::string& up, double metresPerUnit) {
   return options;
 }
 
+double pixelsOf(const OpenProject& open, const LayoutCamera& camera) {
+  const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
+                                         open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
+  return double(c.columns) * c.rows;
+}
+
 double megapixelsOf(const OpenProject& open) {
   double pixels = 0;
-  for (const LayoutCamera& camera : open.layout->cameras) {
-    const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
-                                           open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
-    pixels += double(c.columns) * c.rows;
-  }
+  for (const LayoutCamera& camera : open.layout->cameras) pixels += pixelsOf(open, camera);
   return pixels / 1e6;
 }
 

@@ -89,6 +89,8 @@ class FrameMaker {
 /// As --up and --metres-per-unit say.
 ImportOptions importOptions(const std::string& up, double metresPerUnit);
 
+/// Of a camera's capture.
+double pixelsOf(const OpenProject& open, const LayoutCamera& camera);
 /// Of all captures.
 double megapixelsOf(const OpenProject& open);
 

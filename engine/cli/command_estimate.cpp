@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/cli/commands.h"
+#include "engine/inspect/estimate_picture.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric::cli {
@@ -74,6 +75,15 @@ Result<StoreyEstimate> estimateStorey(const OpenProject& open, const EstimateCom
       bytesOf(e.lightBytes), percent(e.lightBytes), timeText(e.lightSeconds.value), percent(e.lightSeconds),
       countOf(e.lightSamples), bytesOf(e.bytes), timeText(e.seconds.value), runner.threads(), e.probedCameras,
       e.probeSeconds, missing.size(), baked.size(), timeText(share * e.captureSeconds.value));
+  if (!options.output.empty()) {
+    std::vector<double> pixels;
+    for (const LayoutCamera& camera : open.layout->cameras) pixels.push_back(pixelsOf(open, camera));
+    const auto picture = pictureOf(*open.layout, pixels, e, open.scene->name + ": estimate of the bake");
+    if (Status written = writePlanPicture(picture, options.output); !written)
+      return tl::unexpected(written.error());
+    report.json["picture"] = options.output.string();
+    report.text += fmt::format("wrote {}\n", options.output.string());
+  }
   return StoreyEstimate{std::move(report), e.bytes.value, e.seconds.value};
 }
 
@@ -82,6 +92,8 @@ Result<StoreyEstimate> estimateStorey(const OpenProject& open, const EstimateCom
 Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common) {
   const auto storeys = openStoreys(options.project, common);
   if (!storeys) return tl::unexpected(storeys.error());
+  if (!options.output.empty() && storeys->size() > 1)
+    return fail(ErrorKind::invalidArgument, "a picture is of one storey: say with --storey which", "-o");
   const auto runner = common.runner();
   std::vector<Report> reports;
   double bytes = 0, seconds = 0;

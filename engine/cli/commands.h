@@ -133,7 +133,7 @@ struct BenchOptions {
 Result<Report> runBench(const BenchOptions& options, const Common& common);
 
 struct EstimateCommandOptions {
-  std::filesystem::path project;
+  std::filesystem::path project, output;
   double seconds = 2.3;  ///< spent on probing
 };
 Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common);

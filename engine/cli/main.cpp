@@ -308,13 +308,14 @@ void addEstimate(CLI::App& app, Chosen& chosen, EstimateCommandOptions& o) {
   CLI::App* c = add(app, chosen, "estimate",
                     "Tell what a bake will take (samples, bytes, minutes) by baking a little of it",
                     "  acentric estimate kitchen.acentric.json --threads 2\n"
-                    "  acentric estimate kitchen.acentric.json --seconds 10 --json",
+                    "  acentric estimate kitchen.acentric.json --seconds 10 -o estimate.svg --json",
                     o, runEstimate);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
   c->add_option("--seconds", o.seconds, "Time to spend; more narrows the error")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 
 void addCoverage(CLI::App& app, Chosen& chosen, CoverageOptions& o) {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <random>
 
+#include "engine/inspect/estimate_picture.h"
+
 namespace acentric {
 namespace {
 
@@ -184,6 +186,36 @@ TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
     std::ranges::sort(order);
     for (int k = 0; k < count; ++k) EXPECT_EQ(order[std::size_t(k)], k);
   }
+}
+
+TEST(EstimatePicture, ARegionTakesTheBytesOfItsCaptures) {
+  LayoutSpec spec;
+  spec.configuration = Configuration::e;
+  spec.cellSize = 1;
+  spec.outline.loops = {{{0.1, 0.1}, {1.9, 0.1}, {1.9, 0.4}, {0.1, 0.4}}};
+  const Layout layout = buildLayout(spec).value();
+  std::vector<double> pixels(layout.cameras.size());
+  for (std::size_t c = 0; c < pixels.size(); ++c) pixels[c] = 1000.0 + double(c);
+  BakeEstimate estimate;
+  estimate.cameras = int(pixels.size());
+  estimate.pixels = std::accumulate(pixels.begin(), pixels.end(), 0.0);
+  estimate.captureBytes.value = 3 * estimate.pixels;
+  const std::vector<double> bytes = bytesPerRegion(layout, pixels, estimate);
+  ASSERT_EQ(bytes.size(), layout.regions.size());
+  for (std::size_t r = 0; r < bytes.size(); ++r) {
+    double expected = 0;
+    for (std::size_t c = 0; c < pixels.size(); ++c) {
+      const bool serves = std::ranges::any_of(layout.regions[r].covers, [&](const Cover& cover) {
+        return std::ranges::find(cover.pieces, int(c), &Piece::camera) != cover.pieces.end();
+      });
+      if (serves) expected += 3 * pixels[c];
+    }
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(bytes[r], expected, 1e-6 * expected);
+  }
+  const PlanPicture picture = pictureOf(layout, pixels, estimate, "room");
+  ASSERT_GE(picture.polygons.size(), bytes.size());
+  EXPECT_DOUBLE_EQ(*picture.polygons[0].value, bytes[0] / 1e6);
 }
 
 }  // namespace
