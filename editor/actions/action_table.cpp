@@ -229,7 +229,7 @@ void addToolActions(std::vector<Action>& table) {
   tool("tool.outline", "Outline", key::digit3, PlanMode::outline,
        "Click free ground to draw the walkable area or a hole in it, Enter closes; drag corners and sides to "
        "change it.");
-  tool("tool.panorama", "Panorama", key::digit4, PlanMode::panorama,
+  tool("tool.panorama", "Single APV", key::digit4, PlanMode::panorama,
        "Click to place a panorama beside the lattice, or drag to choose how far its cameras stand out.");
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {

@@ -51,7 +51,7 @@ void PlanPanel::drawToolbar(PanelContext& context) {
   static constexpr std::array<Entry, 11> kEntries{{{"tool.cells", "Cells", 0},
                                                    {"tool.eye", "Eye", kNear},
                                                    {"tool.outline", "Outline", kNear},
-                                                   {"tool.panorama", "Panorama", kNear},
+                                                   {"tool.panorama", "APV", kNear},
                                                    {"view.backdrop", "Scene", kApart},
                                                    {"view.lattice", "Lattice", kNear},
                                                    {"view.cameras", "Cameras", kNear},
