@@ -4,190 +4,28 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <random>
 #include <span>
-#include <unordered_map>
 
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
 #include "engine/scene/decimate.h"
+#include "engine/scene/surface_distance.h"
 #include "engine/scene/triangle_bvh.h"
+#include "engine/scene/weld.h"
 
 namespace acentric {
 namespace {
 
 constexpr int kAttempts = 3;
-constexpr std::size_t kSurfaceSamples = 20000;
 constexpr double kMaxLightResolution = 64;
 /// Light samples look for their place a little inside the triangle: at a corner several surfaces meet.
 constexpr float kInset = 0.02f;
-
-struct SourceTriangle {
-  std::uint32_t mesh = 0, triangle = 0;
-};
 
 bool isWhole(const LocalGeometry& full, const LocalTriangle& t) {
   return full.vertices[t.vertices.x].barycentric == glm::vec2(0, 0) &&
          full.vertices[t.vertices.y].barycentric == glm::vec2(1, 0) &&
          full.vertices[t.vertices.z].barycentric == glm::vec2(0, 1);
-}
-
-/// All that shading reads of a vertex; vertices that are alike in it are one.
-struct VertexKey {
-  std::uint32_t mesh = 0;
-  std::array<float, 10> values{};  ///< position, two texture coordinates, normal where it is seen
-  glm::u8vec4 colour{0};
-  bool operator==(const VertexKey&) const = default;
-};
-
-struct VertexKeyHash {
-  std::size_t operator()(const VertexKey& key) const {
-    std::uint64_t hash = key.mesh;
-    const auto mix = [&](std::uint32_t v) { hash = (hash ^ v) * 0x9e3779b97f4a7c15u, hash ^= hash >> 29; };
-    for (const float value : key.values) mix(std::bit_cast<std::uint32_t>(value + 0.0f));
-    mix(std::bit_cast<std::uint32_t>(key.colour));
-    return std::size_t(hash);
-  }
-};
-
-VertexKey keyOf(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex) {
-  const Mesh& m = scene.meshes[mesh];
-  const Material& material = scene.materials[std::size_t(m.material)];
-  VertexKey key;
-  key.mesh = mesh;
-  const glm::vec3& p = m.positions[vertex];
-  std::size_t at = 0;
-  const auto add = [&](float value) { key.values[at++] = value == 0 ? 0.0f : value; };  // -0 is 0
-  add(p.x), add(p.y), add(p.z);
-  for (const auto& uv : m.uv) {
-    const bool used = !uv.empty() && (material.baseColourTexture.used() || material.emissiveTexture.used());
-    add(used ? uv[vertex].x : 0), add(used ? uv[vertex].y : 0);
-  }
-  // Only glass shows its normals; the light of the others is baked.
-  if (material.transmission > 0 && !m.normals.empty())
-    for (int axis = 0; axis < 3; ++axis) add(m.normals[vertex][axis]);
-  if (!m.colours.empty()) key.colour = m.colours[vertex];
-  return key;
-}
-
-/// The whole triangles as one mesh for decimation, and where its vertices come from.
-struct Welded {
-  DecimationMesh mesh;
-  std::vector<SourceTriangle> triangleSource;
-  std::vector<SourceTriangle> vertexSource;  ///< .triangle is the vertex within the mesh
-};
-
-const std::vector<glm::vec2>* paintedUv(const Scene& scene, const Mesh& mesh) {
-  const Material& material = scene.materials[std::size_t(mesh.material)];
-  for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
-    if (use->used() && !mesh.uv[use->uvSet == 1 ? 1 : 0].empty()) return &mesh.uv[use->uvSet == 1 ? 1 : 0];
-  return nullptr;
-}
-
-class Welder {
- public:
-  explicit Welder(const Scene& scene) : scene_(scene), known_(scene.meshes.size()) {}
-
-  /// Not if welding leaves the triangle without three corners.
-  bool add(const LocalTriangle& t) {
-    const glm::uvec3& corners = scene_.meshes[t.mesh].triangles[t.triangle];
-    const glm::uvec3 welded(vertex(t.mesh, corners.x), vertex(t.mesh, corners.y), vertex(t.mesh, corners.z));
-    if (welded.x == welded.y || welded.y == welded.z || welded.z == welded.x) return false;
-    out.mesh.triangles.push_back(welded);
-    out.triangleSource.push_back({t.mesh, t.triangle});
-    return true;
-  }
-
-  Welded out;
-
- private:
-  std::uint32_t vertex(std::uint32_t mesh, std::uint32_t index) {
-    const Mesh& source = scene_.meshes[mesh];
-    if (known_[mesh].empty()) known_[mesh].assign(source.positions.size(), TriangleBvh::kNone);
-    std::uint32_t& known = known_[mesh][index];
-    if (known != TriangleBvh::kNone) return known;
-    const auto [at, isNew] =
-        alike_.try_emplace(keyOf(scene_, mesh, index), std::uint32_t(out.vertexSource.size()));
-    if (isNew) {
-      out.vertexSource.push_back({mesh, index});
-      out.mesh.positions.push_back(source.positions[index]);
-      const auto* uv = paintedUv(scene_, source);
-      out.mesh.uv.push_back(uv ? (*uv)[index] : glm::vec2(0));
-      out.mesh.colours.push_back(source.colours.empty() ? glm::vec4(1)
-                                                        : glm::vec4(source.colours[index]) / 255.0f);
-    }
-    return known = at->second;
-  }
-
-  const Scene& scene_;
-  std::vector<std::vector<std::uint32_t>> known_;  ///< by mesh and vertex
-  std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> alike_;
-};
-
-TriangleBvh treeOf(const DecimationMesh& mesh, const std::vector<glm::uvec3>& triangles) {
-  std::vector<TriangleBvh::Corners> corners;
-  corners.reserve(triangles.size());
-  for (const glm::uvec3& t : triangles)
-    corners.push_back({mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]});
-  return TriangleBvh(std::move(corners));
-}
-
-/// How far two surfaces lie apart, by samples on each.
-class Distances {
- public:
-  void add(double distance) { max = std::max(max, distance), sum_ += distance, ++count; }
-  double mean() const { return count == 0 ? 0 : sum_ / double(count); }
-  double max = 0;
-  std::size_t count = 0;
-
- private:
-  double sum_ = 0;
-};
-
-/// Random points on the triangles, as many per area everywhere; always the same ones.
-void sampleSurface(const DecimationMesh& mesh, const std::vector<glm::uvec3>& triangles,
-                   const TriangleBvh& other, Distances& distances) {
-  std::vector<double> upTo;
-  double area = 0;
-  for (const glm::uvec3& t : triangles) {
-    const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-    upTo.push_back(area += 0.5 * glm::length(glm::cross(b - a, c - a)));
-  }
-  if (!(area > 0)) return;
-  std::mt19937 engine(20240);
-  std::uniform_real_distribution<double> share(0, 1);
-  for (std::size_t n = 0; n < kSurfaceSamples; ++n) {
-    const double at = area * (double(n) + share(engine)) / double(kSurfaceSamples);
-    const auto t =
-        std::min(std::size_t(std::ranges::upper_bound(upTo, at) - upTo.begin()), triangles.size() - 1);
-    const double u = std::sqrt(share(engine)), v = share(engine);
-    const glm::uvec3& corners = triangles[t];
-    distances.add(
-        other
-            .nearest(pointOn({glm::dvec3(mesh.positions[corners.x]), glm::dvec3(mesh.positions[corners.y]),
-                              glm::dvec3(mesh.positions[corners.z])},
-                             {u * (1 - v), u * v}))
-            .distance);
-  }
-}
-
-Distances measure(const Welded& welded, const TriangleBvh& before, const Decimation& after) {
-  Distances distances;
-  std::vector<glm::uvec3> triangles;
-  std::vector<bool> left(welded.mesh.positions.size(), false);
-  for (const DecimatedTriangle& t : after.triangles) {
-    triangles.push_back(t.vertices);
-    for (int k = 0; k < 3; ++k) left[t.vertices[k]] = true;
-  }
-  const TriangleBvh tree = treeOf(welded.mesh, triangles);
-  // Where a vertex was taken away the distance is largest.
-  for (std::size_t v = 0; v < left.size(); ++v)
-    if (!left[v]) distances.add(tree.nearest(glm::dvec3(welded.mesh.positions[v])).distance);
-  sampleSurface(welded.mesh, welded.mesh.triangles, tree, distances);
-  sampleSurface(welded.mesh, triangles, before, distances);
-  return distances;
 }
 
 /// Puts the result together: meshes of the vertices that are left, and where the light comes from.
@@ -323,7 +161,7 @@ Result<Decimation> decimateWithin(const Welded& welded, const TriangleBvh& befor
   for (int attempt = 1;; ++attempt) {
     auto decimated = decimate(welded.mesh, options, stop);
     if (!decimated) return decimated;
-    const Distances distances = measure(welded, before, *decimated);
+    const Distances distances = surfaceDistances(welded.mesh, before, *decimated);
     report.maxError = distances.max;
     report.meanError = distances.mean();
     report.errorSamples = distances.count;

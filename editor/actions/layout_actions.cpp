@@ -1,0 +1,100 @@
+#include "editor/actions/menu_actions.h"
+#include "editor/commands/storey_edits.h"
+
+namespace acentric::editor {
+namespace {
+
+void addStoreyActions(std::vector<Action>& table) {
+  const auto beside = [&table](const char* id, const char* label, int code, int steps, bool first) {
+    table.push_back({id,
+                     "Plan",
+                     label,
+                     {code, 0},
+                     {},
+                     "",
+                     first,
+                     [steps](const ActionContext& c) {
+                       return c.session.hasProject() && storeyBeside(c.session.project(), steps);
+                     },
+                     [steps](ActionContext& c) {
+                       c.state.selection.clear();
+                       c.session.apply(
+                           showStorey(c.session.project(), *storeyBeside(c.session.project(), steps)));
+                     },
+                     {}});
+  };
+  beside("storey.up", "Storey above", key::pageUp, 1, true);
+  beside("storey.down", "Storey below", key::pageDown, -1, false);
+  table.push_back(
+      {"storey.find",
+       "Plan",
+       "Find more storeys",
+       {},
+       {},
+       "Looks for floors to walk on that have no layout yet, and lays cells like this storey's on them",
+       false,
+       [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
+       [](ActionContext& c) { c.session.findStoreys(); },
+       {}});
+  table.push_back({"storey.remove",
+                   "Plan",
+                   "Remove this storey",
+                   {},
+                   {},
+                   "",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.hasProject() && c.session.project().storeys.size() > 1;
+                   },
+                   [](ActionContext& c) {
+                     c.state.selection.clear();
+                     c.session.apply(removeStorey(c.session.project()));
+                   },
+                   {}});
+}
+
+void addBudgetActions(std::vector<Action>& table) {
+  const auto search = [&table](const char* id, const char* label, const char* help, bool onlySplit,
+                               void (Session::*run)()) {
+    table.push_back({id,
+                     "Plan",
+                     label,
+                     {},
+                     {},
+                     help,
+                     !onlySplit,
+                     [onlySplit](const ActionContext& c) {
+                       return withBuilt(c) && !c.session.searching().running() &&
+                              c.session.project().budget.trianglesPerRegion > 0 &&
+                              (!onlySplit || canSplit(c.session.project().layout().configuration));
+                     },
+                     [run](ActionContext& c) { (c.session.*run)(); },
+                     {}});
+  };
+  search("budget.fit", "Fit cells to the budget",
+         "The largest cells whose regions all keep to the triangle budget", false, &Session::fitCells);
+  search("budget.split", "Split cells above the budget",
+         "Only the cells that exceed the triangle budget (configurations e and g)", true,
+         &Session::splitOverBudget);
+  table.push_back({"search.cancel",
+                   "Plan",
+                   "Stop searching",
+                   {},
+                   {},
+                   "",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.searching().running() && !c.session.searching().cancelling();
+                   },
+                   [](ActionContext& c) { c.session.cancelSearch(); },
+                   {}});
+}
+
+}  // namespace
+
+void addLayoutActions(std::vector<Action>& table) {
+  addStoreyActions(table);
+  addBudgetActions(table);
+}
+
+}  // namespace acentric::editor

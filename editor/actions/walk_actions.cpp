@@ -1,0 +1,80 @@
+#include "editor/actions/menu_actions.h"
+#include "editor/commands/setting_edits.h"
+
+namespace acentric::editor {
+
+void addWalkActions(std::vector<Action>& table) {
+  table.push_back({"bake.start",
+                   "Walk",
+                   "Bake",
+                   {key::b, kCtrl},
+                   {},
+                   "Bake what is missing, nearest to the start first",
+                   false,
+                   [](const ActionContext& c) { return withBuilt(c) && !c.session.baking().running(); },
+                   [](ActionContext& c) {
+                     if (c.session.untitled()) return saveThen(c, {Continuation::Kind::bake, {}});
+                     c.session.startBake();
+                   },
+                   {}});
+  table.push_back({"bake.cancel",
+                   "Walk",
+                   "Cancel bake",
+                   {},
+                   {},
+                   "What is finished stays",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.baking().running() && !c.session.baking().cancelling();
+                   },
+                   [](ActionContext& c) { c.session.cancelBake(); },
+                   {}});
+  table.push_back({"bake.estimate",
+                   "Walk",
+                   "Estimate the bake",
+                   {},
+                   {},
+                   "Tells time and bytes of what is missing, by baking a little of it",
+                   false,
+                   [](const ActionContext& c) {
+                     return withBuilt(c) && !c.session.baking().running() &&
+                            !c.session.estimating().running();
+                   },
+                   [](ActionContext& c) { c.session.estimateBake(); },
+                   {}});
+  table.push_back({"walk.restart",
+                   "Walk",
+                   "Go to start",
+                   {key::home, 0},
+                   {},
+                   "",
+                   true,
+                   withBuilt,
+                   [](ActionContext& c) { c.state.restart = true; },
+                   {}});
+  table.push_back({"walk.setStart",
+                   "Walk",
+                   "Start here",
+                   {key::home, kCtrl},
+                   {},
+                   "The walk begins where the eye is now, and baking begins near it",
+                   false,
+                   withBuilt,
+                   [](ActionContext& c) {
+                     const WalkPose& pose = c.state.walker.pose();
+                     c.session.apply(setSpawn(c.session.project(), {glm::dvec2(pose.eye), pose.yawRadians}));
+                   },
+                   {}});
+  table.push_back({"view.holes",
+                   "Walk",
+                   "Mark holes",
+                   {key::h, 0},
+                   {},
+                   "Pixels without a real sample in magenta, those filled in by guesswork too",
+                   true,
+                   withProject,
+                   [](ActionContext& c) { c.state.showHoles = !c.state.showHoles; },
+                   [](const ActionContext& c) { return c.state.showHoles; }});
+}
+
+}  // namespace acentric::editor

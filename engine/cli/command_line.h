@@ -1,0 +1,44 @@
+#pragma once
+/// The command line's options by command. Each command's options live as long as the App.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "engine/cli/commands.h"
+
+namespace acentric::cli {
+
+/// What parsing leaves to be run.
+struct Chosen {
+  std::function<Result<Report>(const Common&)> run;
+  std::string storey;
+};
+
+/// Adds a subcommand that does `run`; returns it with the options that it will be run with.
+template <class Options>
+std::pair<CLI::App*, Options&> add(CLI::App& app, Chosen& chosen, const char* name, const char* description,
+                                   const char* examples,
+                                   Result<Report> (*run)(const Options&, const Common&)) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->footer(std::string("Examples:\n") + examples);
+  const auto options = std::make_shared<Options>();
+  command->callback([&chosen, options, run] {
+    chosen.run = [options, run](const Common& common) { return run(*options, common); };
+  });
+  return {command, *options};
+}
+
+/// `otherwise`: what is meant where no storey is given.
+void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise);
+
+/// Projects: made, changed, baked, checked.
+void addProjectCommands(CLI::App& app, Chosen& chosen);
+/// What a layout will give, before it is baked.
+void addInspectionCommands(CLI::App& app, Chosen& chosen);
+/// Pictures of what is baked, and how good and fast they are.
+void addWalkCommands(CLI::App& app, Chosen& chosen);
+
+}  // namespace acentric::cli

@@ -1,0 +1,126 @@
+/// What a layout will give, before it is baked.
+
+#include "engine/cli/command_line.h"
+
+namespace acentric::cli {
+namespace {
+
+void addCheck(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "check",
+                    "Find cameras in walls, too near surfaces or off the floor, and regions where nobody can "
+                    "stand; say how to clear them",
+                    "  acentric check kitchen.acentric.json\n"
+                    "  acentric check kitchen.acentric.json --room 0.6 -o placement.svg --json",
+                    runCheck);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--room", o.cameraRoom, "Metres that a camera needs in all directions")
+      ->capture_default_str();
+  c->add_option("--push", o.mostPush, "How far a place that clears a camera is looked for, metres")
+      ->capture_default_str();
+  c->add_flag("--all", o.all, "List every finding");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
+void addBudget(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "budget", "Count the triangles of each region's local geometry",
+                    "  acentric budget kitchen.acentric.json --max 200000 -o budget.svg\n"
+                    "  acentric budget kitchen.acentric.json --json",
+                    runBudget);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--max", o.most, "Triangles that a region may have (default: the project's budget)")
+      ->check(CLI::PositiveNumber);
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
+void addFit(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "fit", "Find the largest cells whose regions keep to a number of triangles",
+                    "  acentric fit kitchen.acentric.json --max 200000 --rotate -o fit.svg\n"
+                    "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --simplify --apply\n"
+                    "  acentric fit kitchen.acentric.json --max 200000 --split --merge -o split.svg",
+                    runFit);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
+  c->add_option("--min-cell", o.leastCell, "Smallest cells to try, or to split into, metres")
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize))
+      ->capture_default_str();
+  auto* split = c->add_flag("--split", o.split,
+                            "Keep the project's cells and split those that exceed the number (e and g only)");
+  c->add_flag("--merge", o.merge, "With --split, undo splits whose whole keeps to the number")->needs(split);
+  c->add_flag("--rotate", o.rotate, "Try turned lattices as well")->excludes(split);
+  c->add_flag("--shift", o.shift, "Try shifted lattices as well")->excludes(split);
+  c->add_flag(
+      "--simplify", o.simplify,
+      "Simplify the regions that exceed the number where no cells (then the project's are kept) or no "
+      "splits prevent it");
+  c->add_option("--max-error", o.maxError, "Metres that simplified surfaces may lie from the scene's")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->capture_default_str();
+  c->add_flag("--apply", o.apply, "Write the cells found, or the simplification, to the project file");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
+void addCoverage(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(
+      app, chosen, "coverage",
+      "Show how densely the cameras sample the plan and the surfaces, and which surfaces would be holes",
+      "  acentric coverage kitchen.acentric.json --plan -o plan.svg\n"
+      "  acentric coverage kitchen.acentric.json --surfaces --points 50000 -o surfaces.png --csv points.csv\n"
+      "  acentric coverage kitchen.acentric.json --path tour.json --correlate --json",
+      runCoverage);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
+  c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
+  c->add_flag("--correlate", o.correlate,
+              "Along a path, compare predicted holes with those of rendered frames (needs a bake)");
+  c->add_option("--points", o.points, "Points on the surfaces")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  c->add_option("--eyes", o.eyesPerRegion, "Places to stand that are tried in each region")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  c->add_option("--grid", o.grid, "Points of the plan along its longer side")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
+  c->add_option("--reach", o.reach, "In the plan, only cameras within so many metres (0 = any distance)")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  c->add_option("--path", o.path, "Camera path (JSON; default: a tour)");
+  c->add_option("--frames", o.frames, "Frames of the path that are compared, evenly chosen (0 = all)")
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360)");
+  c->add_option("--renderer", o.renderer, "Renderer of compared frames: list, scalar, zbuffer or gl")
+      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+      ->capture_default_str();
+  c->add_option("--csv", o.csv, "File for every point's (or cell's, or frame's) figures");
+  c->add_option("-o,--output", o.output, "Picture to write (.svg or .png)");
+}
+
+void addEstimate(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "estimate",
+                    "Tell what a bake will take (samples, bytes, minutes) by baking a little of it",
+                    "  acentric estimate kitchen.acentric.json --threads 2\n"
+                    "  acentric estimate kitchen.acentric.json --seconds 10 -o estimate.svg --json",
+                    runEstimate);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
+  c->add_option("--seconds", o.seconds, "Time to spend; more narrows the error")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
+}  // namespace
+
+void addInspectionCommands(CLI::App& app, Chosen& chosen) {
+  addCheck(app, chosen);
+  addBudget(app, chosen);
+  addFit(app, chosen);
+  addCoverage(app, chosen);
+  addEstimate(app, chosen);
+}
+
+}  // namespace acentric::cli

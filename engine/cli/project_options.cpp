@@ -1,0 +1,148 @@
+/// Projects: made, changed, baked, checked.
+
+#include <fmt/format.h>
+
+#include "engine/cli/command_line.h"
+
+namespace acentric::cli {
+namespace {
+
+void addNew(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "new", "Import a scene and lay a first tessellation over its walkable floor",
+                    "  acentric new kitchen.glb -o kitchen.acentric.json\n"
+                    "  acentric new street.gltf -o street.acentric.json --config e --cell 3 --outline "
+                    "\"0,0;12,0;12,8;0,8\"",
+                    runNew);
+  c->add_option("scene", o.scene, "Model file: glTF, GLB, OBJ, PLY, STL, FBX, DAE, ...")->required();
+  c->add_option("-o,--output", o.output, "Project file to write (*.acentric.json)")->required();
+  c->add_option("--config", o.configuration, "Configuration a to g, of which the paper recommends b, e and g")
+      ->capture_default_str();
+  c->add_option("--cell", o.cellSize,
+                "Edge length of the polygons in metres (default: from the walkable area)")
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
+  c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
+  c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
+      ->capture_default_str();
+  c->add_option("--samples-per-degree", o.samplesPerDegree, "Resolution of the captures (default 8)")
+      ->check(CLI::Range(0.5, 64.0));
+  c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of the model (default: guessed, and said)");
+  c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
+      ->check(CLI::IsMember({"guess", "y", "z"}))
+      ->capture_default_str();
+  c->add_option("--storey", o.storey,
+                "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
+                "(default: the one with most floor)");
+  c->add_flag("--ignore-sides", o.ignoreSides,
+              "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
+  c->add_flag("--force", o.force, "Replace an existing project file");
+}
+
+void addInfo(CLI::App& app, Chosen& chosen) {
+  auto [c, o] =
+      add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
+          "  acentric info kitchen.acentric.json\n  acentric info kitchen.acentric.json --regions --json",
+          runInfo);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_flag("--regions", o.regions, "List every region with its local triangles");
+}
+
+void addStoreys(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(
+      app, chosen, "storeys",
+      "List the walk planes found in a scene, and the stairs and ramps between them; add them to a project",
+      "  acentric storeys house.glb\n"
+      "  acentric new house.glb -o house.acentric.json --storey all\n"
+      "  acentric storeys house.acentric.json --add 3.2m --rename \"storey 1=attic\"",
+      runStoreys);
+  c->add_option("file", o.file, "Project file or model file")->required();
+  c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
+  c->add_option("--step-height", o.stepHeight, "Metres that a foot climbs at once")->capture_default_str();
+  c->add_option("--grid", o.gridStep, "Metres between the places looked at (default: from the scene's size)");
+  c->add_option("--least-share", o.leastShare, "Leave out planes of less than this share of the largest one")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  c->add_option("--least-area", o.leastArea, "Leave out planes of fewer square metres")
+      ->capture_default_str();
+  c->add_flag("--ignore-sides", o.ignoreSides,
+              "Take surfaces for floor whichever way they face, and no place for the inside of a solid");
+  c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of a model (default: guessed)");
+  c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
+      ->check(CLI::IsMember({"guess", "y", "z"}))
+      ->capture_default_str();
+  c->add_option("--add", o.add,
+                "Lay cells on a plane found: its number here, its height (3.2m), or all that have none yet");
+  c->add_option("--remove", o.remove, "Take a storey out of the project");
+  c->add_option("--rename", o.rename, "Give a storey another name: OLD=NEW");
+  c->add_option("--begin", o.begin, "The storey where the walk begins");
+}
+
+void addLayout(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "layout", "Show a layout, and what it would be with changes; apply them",
+                    "  acentric layout kitchen.acentric.json -o layout.svg\n"
+                    "  acentric layout kitchen.acentric.json --config e --cell 1.5 --rotate 30 --json\n"
+                    "  acentric layout kitchen.acentric.json --remove 1,0,0 --free 2,3,0.8,0,60,ccw --apply",
+                    runLayout);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--config", o.edits.configuration, "Configuration a to g");
+  c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
+      ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
+  c->add_option("--origin", o.edits.origin, "Where the lattice begins: x,y in metres");
+  c->add_option("--rotate", o.edits.rotationDegrees, "How far the lattice is turned, degrees");
+  c->add_option("--eye-height", o.edits.eyeHeight, "Metres above the floor");
+  c->add_option("--near-band", o.edits.nearBand, "Metres around a region that are drawn as polygons");
+  c->add_option("--outline", o.outline,
+                "auto (find it again at the project's floor), or corners x,y;x,y;... in metres (loops "
+                "separated by /)");
+  c->add_option("--add", o.edits.add, "Place a cell: i,j,slot or i,j,slot,level (may be repeated)");
+  c->add_option("--remove", o.edits.remove, "Take a cell away (may be repeated)");
+  c->add_option("--split", o.edits.split, "Split a cell into four (e and g; may be repeated)");
+  c->add_option("--join", o.edits.join, "Undo the split of a cell (may be repeated)");
+  c->add_option("--free", o.edits.free,
+                "Place an APV beside the lattice: x,y,dx,dy,fov,ccw|cw (may be repeated); dx = dy = 0 is a "
+                "panorama");
+  c->add_option("--remove-free", o.edits.removeFree, "Take a free APV away, by its number");
+  c->add_flag("--apply", o.apply, "Write the changes to the project");
+  c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
+}
+
+void addBake(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(
+      app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
+      "  acentric bake kitchen.acentric.json --threads 2\n  acentric bake kitchen.acentric.json --dry-run",
+      runBake);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
+  c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
+  c->add_flag("--dry-run", o.dryRun, "List what would be baked");
+  c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
+}
+
+void addValidate(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "validate",
+                    "Check a project, its scene and every capture and simplified region on disk",
+                    "  acentric validate kitchen.acentric.json --json", runValidate);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "all of them");
+}
+
+}  // namespace
+
+void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise) {
+  command.add_option(
+      "--storey", chosen.storey,
+      fmt::format("Storey: its name, its height with the unit (3.2m), or its number (default: {})",
+                  otherwise));
+}
+
+void addProjectCommands(CLI::App& app, Chosen& chosen) {
+  addNew(app, chosen);
+  addInfo(app, chosen);
+  addStoreys(app, chosen);
+  addLayout(app, chosen);
+  addBake(app, chosen);
+  addValidate(app, chosen);
+}
+
+}  // namespace acentric::cli
