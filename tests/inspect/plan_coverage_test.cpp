@@ -7,11 +7,9 @@
 #include <cmath>
 
 #include "tests/layout/layout_fixtures.h"
+#include "tests/support/print_configuration.h"
 
 namespace acentric {
-
-void PrintTo(Configuration configuration, std::ostream* out) { *out << nameOf(configuration); }
-
 namespace {
 using test::makeLayout;
 using testing::HasSubstr;

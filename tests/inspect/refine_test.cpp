@@ -8,6 +8,7 @@
 #include "engine/layout/lattice.h"
 #include "engine/scene/local_geometry.h"
 #include "tests/layout/layout_fixtures.h"
+#include "tests/support/print_configuration.h"
 
 namespace acentric {
 namespace {

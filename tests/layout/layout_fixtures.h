@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/layout/drawing_order.h"
+#include "tests/support/print_configuration.h"
 
 namespace acentric::test {
 

@@ -58,6 +58,8 @@ Capture deepButEmptyColumns() {
   return capture;
 }
 
+void PrintTo(const CaptureFormat* format, std::ostream* out) { *out << format->name; }
+
 class CaptureFiles : public FolderTest, public testing::WithParamInterface<const CaptureFormat*> {};
 INSTANTIATE_TEST_SUITE_P(Formats, CaptureFiles, testing::Values(&kPack, &kExr),
                          [](const auto& format) { return format.param == &kPack ? "Pack" : "OpenExr"; });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/view/hole_fill.h"
+#include "tests/support/print_configuration.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/print_configuration.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {
