@@ -134,7 +134,7 @@ Result<Report> runBench(const BenchOptions& options, const Common& common);
 
 struct EstimateCommandOptions {
   std::filesystem::path project, output;
-  double seconds = 2.3;  ///< spent on probing
+  double seconds = 4;  ///< spent on probing parts of cameras and of the light
 };
 Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common);
 

@@ -107,7 +107,8 @@ void addEstimate(CLI::App& app, Chosen& chosen) {
                     runEstimate);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
-  c->add_option("--seconds", o.seconds, "Time to spend; more narrows the error")
+  c->add_option("--seconds", o.seconds,
+                "Time to spend on parts of cameras (more narrows the error); a dozen whole ones come on top")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");

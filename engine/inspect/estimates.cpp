@@ -11,6 +11,8 @@ namespace {
 
 /// Fewer tell nothing about how cameras differ.
 constexpr std::size_t kFewestProbes = 16;
+/// Of these, baked whole too.
+constexpr std::size_t kWholeProbes = 12;
 
 /// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
 /// probed.
@@ -46,6 +48,33 @@ Figure sum(const Figure& a, const Figure& b, double exact = 0) {
 }
 
 Error stopped() { return {ErrorKind::cancelled, "the estimate was stopped", "estimate"}; }
+
+/// A camera's seconds as its part foretells them, and as it took.
+struct Pace {
+  double foretold = 0, taken = 0;
+};
+
+/// How much of the time that parts foretell whole cameras take.
+Result<Figure> measurePace(const std::vector<double>& pixels, const std::vector<int>& order,
+                           const std::vector<CaptureProbe>& probes, const CaptureOverhead& overhead,
+                           BakeProber& prober) {
+  const std::size_t count = std::min(kWholeProbes, probes.size());
+  const auto taken = prober.bakeWhole({order.begin(), order.begin() + std::ptrdiff_t(count)});
+  if (!taken) return tl::unexpected(taken.error());
+  std::vector<Pace> tracing, writing;
+  double traced = 0, written = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    const CaptureProbe& probe = probes[p];
+    const double times = probe.pixels > 0 ? pixels[std::size_t(order[p])] / probe.pixels : 0;
+    const double perSample = probe.writtenSamples > 0 ? probe.writeSeconds / probe.writtenSamples : 0;
+    tracing.push_back({overhead.traceSeconds + times * probe.traceSeconds, (*taken)[p]});
+    writing.push_back({overhead.writeSeconds + times * probe.samples * perSample, (*taken)[p]});
+    traced += tracing.back().foretold, written += writing.back().foretold;
+  }
+  // The slower of the two over all of them, as for the whole bake: each waits for the other's queue only.
+  const std::vector<Pace>& paces = traced >= written ? tracing : writing;
+  return ratioOf(paces, &Pace::taken, &Pace::foretold, double(count) / double(pixels.size()));
+}
 
 Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions& options, BakeProber& prober,
                         const Progress& progress, const std::stop_token& stop, BakeEstimate& estimate) {
@@ -89,7 +118,11 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   const bool tracing = estimate.traceSeconds.value >= estimate.writeSeconds.value;
   const Figure& slower = tracing ? estimate.traceSeconds : estimate.writeSeconds;
   const Figure& faster = tracing ? estimate.writeSeconds : estimate.traceSeconds;
-  estimate.captureSeconds = sum(slower, times(faster, 1 / cameras));
+  const auto pace = measurePace(pixels, order, *probes, *overhead, prober);
+  if (!pace) return tl::unexpected(pace.error());
+  estimate.captureSeconds = product(sum(slower, times(faster, 1 / cameras)), *pace);
+  estimate.traceSeconds = product(estimate.traceSeconds, *pace);
+  estimate.writeSeconds = product(estimate.writeSeconds, *pace);
   return {};
 }
 

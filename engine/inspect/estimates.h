@@ -3,6 +3,9 @@
 /// Nothing is assumed about the machine or the scene: a spread of cameras is probed for a second or so, by
 /// the very routines of the bake, and the rates found are carried over to all of them.
 ///
+/// Many cameras are probed in part, to see how they differ; a few of them also whole, since parts are slower:
+/// rays that lie apart share less in the caches, small pictures pack worse.
+///
 /// Each figure comes with its standard error: cameras differ, and a probe sees some of them. Probing is
 /// injected, since inspect neither traces nor writes; engine/pipeline wires it.
 
@@ -52,14 +55,18 @@ class BakeProber {
   virtual Status probeCapture(int camera) = 0;
   /// Waits until all is written: one entry per probed camera, in order.
   virtual Result<std::vector<CaptureProbe>> finishCaptures() = 0;
+  /// Bakes these cameras whole, one after another as a bake does; seconds of each, from its beginning to that
+  /// of the next, of the last until all is written.
+  virtual Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) = 0;
   virtual Result<LightOverhead> lightOverhead() = 0;
   /// Another part each time; nothing probed once all of that kind has been.
   virtual Result<LightProbe> probeLight(int kind) = 0;
 };
 
 struct EstimateOptions {
-  double captureSeconds = 1.5;  ///< spent on probing captures; a few cameras are probed however long it takes
-  double lightSeconds = 0.8;    ///< the same for surface light
+  double captureSeconds =
+      2.6;                    ///< spent on parts of captures; a few cameras are probed however long it takes
+  double lightSeconds = 1.4;  ///< the same for surface light
   bool surfaceLight = true;
   Status check() const;
 };

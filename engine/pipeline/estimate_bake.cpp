@@ -23,7 +23,7 @@ namespace {
 
 /// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
 /// files pack into one block: smaller blocks pack better.
-constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 70000;
+constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 
@@ -200,6 +200,26 @@ class ProjectProber final : public BakeProber {
     for (std::size_t trial = 0; trial < probes_.size(); ++trial)
       probes_[trial].bytes = bytesPerSample[trial] * probes_[trial].writtenSamples;
     return probes_;
+  }
+
+  Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) override {
+    TrialSink sink(lightFile_.parent_path());
+    CaptureWriter writer(sink);
+    std::vector<double> seconds;
+    Stopwatch watch;
+    for (const int camera : cameras) {
+      watch = {};
+      RayCounts rays;
+      auto capture = bakeCamera(*open_.rays, layoutCamera(camera), columnsOf(camera), open_.project.bake,
+                                runner_, rays, stop_);
+      if (!capture) return tl::unexpected(capture.error());
+      if (Status put = writer.put({}, std::move(*capture)); !put) return tl::unexpected(put.error());
+      seconds.push_back(watch.seconds());
+    }
+    watch = {};
+    if (Status done = writer.finish(); !done) return tl::unexpected(done.error());
+    seconds.back() += watch.seconds();
+    return seconds;
   }
 
   Result<LightOverhead> lightOverhead() override {

@@ -23,6 +23,7 @@ class KnownBake final : public BakeProber {
   double writeSecondsPerSample = 1e-7;
   std::vector<double> lightSamples{5e5, 2e5}, lightSecondsPerSample{4e-6, 1e-6};
   double probedShare = 0.1;  ///< of each camera, and of each kind of triangle
+  double wholePace = 1;      ///< seconds of whole cameras against those that their parts foretell
   std::vector<int> probed;
   std::vector<int> lightProbes = std::vector<int>(2, 0);
 
@@ -60,6 +61,16 @@ class KnownBake final : public BakeProber {
   Status probeCapture(int camera) override {
     probed.push_back(camera);
     return {};
+  }
+  Result<std::vector<double>> bakeWhole(const std::vector<int>& numbers) override {
+    std::vector<double> seconds;
+    for (const int number : numbers) {
+      const Camera& c = cameras[std::size_t(number)];
+      seconds.push_back(
+          wholePace * std::max(overhead.traceSeconds + c.pixels * c.secondsPerPixel,
+                               overhead.writeSeconds + c.pixels * c.samplesPerPixel * writeSecondsPerSample));
+    }
+    return seconds;
   }
   Result<std::vector<CaptureProbe>> finishCaptures() override {
     std::vector<CaptureProbe> probes;
@@ -186,6 +197,22 @@ TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
     std::ranges::sort(order);
     for (int k = 0; k < count; ++k) EXPECT_EQ(order[std::size_t(k)], k);
   }
+}
+
+TEST(Estimates, WholeCamerasSetThePaceWherePartsMislead) {
+  KnownBake bake = KnownBake::random(300, 8);
+  EstimateOptions options;
+  options.captureSeconds = 0;
+  options.surfaceLight = false;
+  const auto plain = estimateBake(bake.pixels(), options, bake);
+  ASSERT_TRUE(plain);
+  KnownBake brisk = KnownBake::random(300, 8);
+  brisk.wholePace = 0.7;
+  const auto paced = estimateBake(brisk.pixels(), options, brisk);
+  ASSERT_TRUE(paced);
+  EXPECT_NEAR(paced->seconds.value, 0.7 * plain->seconds.value, 1e-9);
+  EXPECT_NEAR(paced->traceSeconds.value, 0.7 * plain->traceSeconds.value, 1e-9);
+  EXPECT_EQ(paced->bytes.value, plain->bytes.value) << "bytes are no matter of pace";
 }
 
 TEST(EstimatePicture, ARegionTakesTheBytesOfItsCaptures) {
