@@ -70,7 +70,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
 
   const auto runner = common.runner();
   std::vector<OpenProject> storeys{*current};
-  if (common.storey.empty()) {
+  if (common.storey.empty() && !options.eye.empty()) {
     auto all = acentric::openStoreys(*current, common.host, common.progress, common.stop);
     if (!all) return tl::unexpected(all.error());
     storeys = std::move(*all);

@@ -39,6 +39,7 @@ Result<std::vector<OpenProject>> openStoreys(const OpenProject& open, const Impo
 }
 
 std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye) {
+  if (storeys.size() == 1) return 0;  // asked for each frame
   const auto away = [&](const OpenProject& open) {
     const Layout::Nearest nearest = open.layout->nearestRegion(glm::dvec2(eye));
     if (nearest.region < 0) return std::numeric_limits<double>::infinity();
