@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <fstream>
 
+#include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
@@ -28,12 +28,11 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   std::vector<std::unique_ptr<FrameMaker>> makers;
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     auto maker = FrameMaker::create(walk->storeys, name, common, *runner);
     if (!maker) return tl::unexpected(maker.error());
     if (Status loaded = (*maker)->load(views.front().eye); !loaded) return tl::unexpected(loaded.error());
-    if (makers.empty())
-      loadSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (makers.empty()) loadSeconds = watch.seconds();
     makers.push_back(std::move(*maker));
   }
   // Renderers take turns frame by frame, so that a change of the machine's speed meets them all.

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <chrono>
 #include <cmath>
 
+#include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/geometry/conventions.h"
 
@@ -79,10 +79,10 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   if (!maker) return tl::unexpected(maker.error());
   if (Status loaded = (*maker)->load(view.eye); !loaded) return tl::unexpected(loaded.error());
   (*maker)->truthSamples = options.truthSamples;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto frame = (*maker)->render(view);
   if (!frame) return tl::unexpected(frame.error());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = watch.seconds();
 
   if (Status written = writeColourImage(frame->colour, options.output); !written)
     return tl::unexpected(written.error());

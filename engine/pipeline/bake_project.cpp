@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
+#include "engine/base/stopwatch.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/pipeline.h"
 
@@ -74,7 +74,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
   if (request.surfaceLight && store->hasSurfaceLight(open.surfaceLightKey)) {
     report.surfaceLightReused = true;
   } else if (request.surfaceLight) {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
     const auto light =
         bakeSurfaceLight(*open.rays, local.wanted, local.viewer, open.project.bake, runner, progress, stop);
@@ -82,8 +82,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light); !put)
       return tl::unexpected(put.error());
     report.surfaceLightBaked = true;
-    report.surfaceLightSeconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.surfaceLightSeconds = watch.seconds();
   }
   for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
   return report;
