@@ -8,9 +8,12 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+
+#include "engine/base/hash.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -60,7 +63,30 @@ Status flushToDisk(const fs::path& path, int flags) {
 fs::path temporaryFor(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   return path.parent_path() /
-         fmt::format("{}{}-{}{}", kTemporaryPrefix, ::getpid(), counter++, path.extension().string());
+         fmt::format("{}{}{}", temporaryNameStart(), counter++, path.extension().string());
+}
+
+/// Where process numbers have one meaning: a host, and there a namespace of processes (a container's).
+std::string machineTag() {
+  char host[256] = "";
+  ::gethostname(host, sizeof host - 1);
+  std::error_code none;
+  const fs::path processes = fs::read_symlink("/proc/self/ns/pid", none);
+  return fmt::format("{:08x}", Hasher().text(host).text(processes.string()).finish().low & 0xffffffff);
+}
+
+constexpr auto kForsaken = std::chrono::hours(24);  ///< since the last write
+
+bool isStale(const fs::directory_entry& entry, const std::string& machine) {
+  std::error_code error;
+  const auto written = entry.last_write_time(error);
+  if (!error && fs::file_time_type::clock::now() - written > kForsaken) return true;
+  const std::string name = entry.path().filename().string();
+  const std::string ours = fmt::format("{}{}-", kTemporaryPrefix, machine);
+  int process = 0;
+  if (!name.starts_with(ours)) return false;
+  std::from_chars(name.data() + ours.size(), name.data() + name.size(), process);
+  return process <= 0 || (::kill(process, 0) != 0 && errno != EPERM);
 }
 
 }  // namespace
@@ -106,18 +132,19 @@ Status writeTextAtomically(const fs::path& path, std::string_view text) {
   return writeFileAtomically(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+std::string temporaryNameStart() {
+  return fmt::format("{}{}-{}-", kTemporaryPrefix, machineTag(), ::getpid());
+}
+
 int removeStaleTemporaries(const fs::path& folder) {
   int removed = 0;
   std::error_code error;
+  const std::string machine = machineTag();
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(kTemporaryPrefix)) continue;
-    int process = 0;
-    const char* digits = name.data() + kTemporaryPrefix.size();
-    std::from_chars(digits, name.data() + name.size(), process);
-    const bool alive = process > 0 && (::kill(process, 0) == 0 || errno == EPERM);
     std::error_code removeError;
-    if (!alive && fs::remove(entry.path(), removeError)) ++removed;
+    if (entry.path().filename().string().starts_with(kTemporaryPrefix) && isStale(entry, machine) &&
+        fs::remove(entry.path(), removeError))
+      ++removed;
   }
   return removed;
 }

@@ -30,8 +30,12 @@ Status replaceFileAtomically(const std::filesystem::path& path,
 
 inline constexpr std::string_view kTemporaryPrefix = ".acentric-tmp-";
 
-/// Removes temporaries that a killed process left in `folder`: those whose writing process is gone.
-/// Returns how many were removed.
+/// How the names of this process' temporaries begin: kTemporaryPrefix, the machine, the process. Folders may
+/// be shared between machines, whose process numbers mean nothing to each other.
+std::string temporaryNameStart();
+
+/// Removes temporaries that a killed process left in `folder`: those of this machine whose writing process is
+/// gone, and all that nobody has written to for a day. Returns how many were removed.
 int removeStaleTemporaries(const std::filesystem::path& folder);
 
 /// $XDG_CACHE_HOME/acentric, else ~/.cache/acentric, else a folder under the system's temporary one.

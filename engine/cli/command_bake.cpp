@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/cli/commands.h"
+#include "engine/pipeline/shard.h"
 #include "engine/pipeline/simplified_regions.h"
 
 namespace acentric::cli {
@@ -23,19 +24,38 @@ Report dryRun(const OpenProject& open) {
   return report;
 }
 
-Result<Report> bakeStorey(const OpenProject& open, const BakeOptions& options, const Common& common,
+/// What of each storey is to be baked.
+std::vector<BakeRequest> requestsFor(std::span<const OpenProject> storeys, const BakeOptions& options,
+                                     const Shard& shard) {
+  std::size_t first = 0, light = 0;  // numbers of what is to be baked, as the shard counts
+  for (const OpenProject& open : storeys) light += open.keys.size();
+  std::vector<BakeRequest> requests;
+  for (const OpenProject& open : storeys) {
+    BakeRequest request;
+    if (options.light == "only") {
+      request.cameras.emplace();
+    } else if (!options.only.empty()) {
+      request.cameras = options.only;
+    } else if (!shard.whole()) {
+      request.cameras = bakingOrder(open);
+      std::erase_if(*request.cameras, [&](int camera) { return !shard.takes(first + std::size_t(camera)); });
+    }
+    request.surfaceLight = options.light != "without" && shard.takes(light++);
+    first += open.keys.size();
+    requests.push_back(std::move(request));
+  }
+  return requests;
+}
+
+Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, const Common& common,
                           TaskRunner& runner) {
-  const auto baked = bakeProject(open, {options.only, true}, runner, common.progress, common.stop);
+  const auto baked = bakeProject(open, request, runner, common.progress, common.stop);
   if (!baked) return tl::unexpected(baked.error());
 
   const auto present = bakedCameras(open);
-  const auto wanted = [&](std::size_t camera) {
-    return options.only.empty() ||
-           std::find(options.only.begin(), options.only.end(), int(camera)) != options.only.end();
-  };
-  for (std::size_t i = 0; i < present.size(); ++i)
-    if (wanted(i) && !present[i])
-      return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", i),
+  for (const int camera : request.cameras ? *request.cameras : bakingOrder(open))
+    if (!present[std::size_t(camera)])
+      return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
                   captureFolderFor(open.file).string());
 
   const BakeReport& captures = baked->captures;
@@ -47,21 +67,25 @@ Result<Report> bakeStorey(const OpenProject& open, const BakeOptions& options, c
                        {"reused", camera.reused},
                        {"seconds", camera.seconds},
                        {"samples", camera.samples}});
-  report.json = {
-      {"baked", captures.baked},
-      {"reused", captures.reused},
-      {"seconds", captures.seconds},
-      {"samples", captures.samples},
-      {"rays", toJson(captures.rays)},
-      {"surfaceLight", {{"baked", baked->surfaceLightBaked}, {"seconds", baked->surfaceLightSeconds}}},
-      {"bytes", baked->bytes},
-      {"cameras", std::move(cameras)}};
+  report.json = {{"baked", captures.baked},
+                 {"reused", captures.reused},
+                 {"seconds", captures.seconds},
+                 {"samples", captures.samples},
+                 {"rays", toJson(captures.rays)},
+                 {"surfaceLight",
+                  {{"asked", request.surfaceLight},
+                   {"baked", baked->surfaceLightBaked},
+                   {"seconds", baked->surfaceLightSeconds}}},
+                 {"bytes", baked->bytes},
+                 {"cameras", std::move(cameras)}};
   report.text = fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
       captures.baked, storeyText(open.project), captures.seconds, countText(captures.samples),
       captures.reused,
-      baked->surfaceLightBaked ? fmt::format("{:.1f} s", baked->surfaceLightSeconds) : "was there already",
+      !request.surfaceLight      ? std::string("was not asked for")
+      : baked->surfaceLightBaked ? fmt::format("{:.1f} s", baked->surfaceLightSeconds)
+                                 : std::string("was there already"),
       bytesText(baked->bytes), captureFolderFor(open.file).string());
   return report;
 }
@@ -82,6 +106,13 @@ Result<std::uint64_t> prune(std::span<const OpenProject> storeys) {
 }  // namespace
 
 Result<Report> runBake(const BakeOptions& options, const Common& common) {
+  const auto shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
+  if (!shard) return tl::unexpected(shard.error());
+  if (options.prune && !options.shard.empty())
+    return fail(ErrorKind::invalidArgument, "leave it to one command when all shares are baked", "--prune");
+  if (!options.only.empty() && (!options.shard.empty() || options.light == "only"))
+    return fail(ErrorKind::invalidArgument, "cameras are either named, or a share of them is taken, or none",
+                "--only");
   auto storeys = openStoreys(options.project, common);
   if (!storeys) return tl::unexpected(storeys.error());
   if (!options.only.empty() && storeys->size() > 1)
@@ -90,14 +121,16 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   if (options.prune && !common.storey.empty())
     return fail(ErrorKind::invalidArgument, "what one storey does not use another may: leave --storey away",
                 "--prune");
+  const std::vector<BakeRequest> requests = requestsFor(*storeys, options, *shard);
   const auto runner = common.runner();
   std::vector<Report> reports;
-  for (const OpenProject& open : *storeys) {
+  for (std::size_t s = 0; s < storeys->size(); ++s) {
+    const OpenProject& open = (*storeys)[s];
     if (options.dryRun) {
       reports.push_back(dryRun(open));
       continue;
     }
-    auto report = bakeStorey(open, options, common, *runner);
+    auto report = bakeStorey(open, requests[s], common, *runner);
     if (!report) return report;
     reports.push_back(std::move(*report));
   }

@@ -74,6 +74,8 @@ Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common&
 struct BakeOptions {
   std::filesystem::path project;
   std::vector<int> only;
+  std::string shard;           ///< "2/8"; empty = all
+  std::string light = "with";  ///< surface light: with, without or only
   bool dryRun = false;
   bool prune = false;
 };

@@ -108,13 +108,20 @@ void addLayout(CLI::App& app, Chosen& chosen) {
 }
 
 void addBake(CLI::App& app, Chosen& chosen) {
-  auto [c, o] = add(
-      app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
-      "  acentric bake kitchen.acentric.json --threads 2\n  acentric bake kitchen.acentric.json --dry-run",
-      runBake);
+  auto [c, o] = add(app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
+                    "  acentric bake kitchen.acentric.json --threads 2\n"
+                    "  acentric bake kitchen.acentric.json --dry-run\n"
+                    "  acentric bake kitchen.acentric.json --shard 2/8",
+                    runBake);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
   c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
+  c->add_option("--shard", o.shard,
+                "Bake a share: 2/8 is the second of eight, which may run side by side on machines that share "
+                "the project's folder");
+  c->add_option("--light", o.light, "Light on local geometry: with the captures, without it, or only it")
+      ->check(CLI::IsMember({"with", "without", "only"}))
+      ->capture_default_str();
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
 }

@@ -58,15 +58,14 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
                                       const Progress& progress, std::stop_token stop) {
   const auto store = CaptureStore::open(captureFolderFor(open.file));
   if (!store) return tl::unexpected(store.error());
-  for (int camera : request.cameras)
+  const std::vector<int> cameras = request.cameras ? *request.cameras : bakingOrder(open);
+  for (int camera : cameras)
     if (camera < 0 || camera >= int(open.keys.size()))
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
   StoreSink sink(*store);
-  auto captures =
-      bake(*open.rays, *open.layout, request.cameras.empty() ? bakingOrder(open) : request.cameras,
-           open.project.bake, sink, runner, progress, stop);
+  auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop);
   if (!captures) return tl::unexpected(captures.error());
   ProjectBakeReport report;
   report.captures = std::move(*captures);

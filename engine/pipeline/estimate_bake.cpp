@@ -33,8 +33,7 @@ class TrialFolder {
   static Result<TrialFolder> make(const fs::path& preferred) {
     std::error_code error;
     for (const fs::path& parent : {preferred, fs::temp_directory_path(error)}) {
-      std::string name =
-          (parent / fmt::format("{}{}-estimate-XXXXXX", kTemporaryPrefix, ::getpid())).string();
+      std::string name = (parent / (temporaryNameStart() + "estimate-XXXXXX")).string();
       if (::mkdtemp(name.data()) != nullptr) return TrialFolder(name);
     }
     return fail(ErrorKind::unreadable, "no folder for trial files can be made here, nor a temporary one",

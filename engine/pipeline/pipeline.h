@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -79,7 +80,7 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
                        bool ignoredSides, std::stop_token stop = {});
 
 struct BakeRequest {
-  std::vector<int> cameras;  ///< empty = all; else indices, baked in this order
+  std::optional<std::vector<int>> cameras;  ///< indices, baked in this order; none given: all of them
   bool surfaceLight = true;
 };
 struct ProjectBakeReport {

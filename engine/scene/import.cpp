@@ -61,7 +61,7 @@ class Temporary {
   explicit Temporary(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
     path_ =
-        folder / fmt::format("{}{}-import-{}{}", kTemporaryPrefix, ::getpid(), counter++, kEntryExtension);
+        folder / fmt::format("{}import-{}{}", temporaryNameStart(), counter++, kEntryExtension);
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;

@@ -45,12 +45,29 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFileAndNoTemporary) {
   EXPECT_EQ(filesInFolder(), 1u);
 }
 
-TEST_F(FileTest, RemovesTemporariesOfDeadProcessesOnly) {
-  std::ofstream(folder_ / (std::string(kTemporaryPrefix) + "999999999-0.exr")) << "x";
-  std::ofstream(folder_ / (std::string(kTemporaryPrefix) + std::to_string(::getpid()) + "-0.exr")) << "x";
+TEST_F(FileTest, RemovesTemporariesOfDeadProcessesOfThisMachineOnly) {
+  const std::string mine = temporaryNameStart();
+  const std::string process = std::to_string(::getpid()) + "-";
+  ASSERT_TRUE(mine.starts_with(kTemporaryPrefix) && mine.ends_with("-" + process));
+  const std::string here = mine.substr(0, mine.size() - process.size());
+  const std::string elsewhere = std::string(kTemporaryPrefix) + "00000000-";
+  std::ofstream(folder_ / (here + "999999999-0.exr")) << "dead";
+  std::ofstream(folder_ / (mine + "0.exr")) << "alive";
+  std::ofstream(folder_ / (elsewhere + "999999999-0.exr")) << "who knows";
   std::ofstream(folder_ / "kept.exr") << "x";
   EXPECT_EQ(removeStaleTemporaries(folder_), 1);
-  EXPECT_EQ(filesInFolder(), 2u);
+  EXPECT_EQ(filesInFolder(), 3u);
+}
+
+TEST_F(FileTest, RemovesTemporariesThatNobodyHasWrittenToForADay) {
+  const auto written = folder_ / (std::string(kTemporaryPrefix) + "00000000-1-0.exr");
+  std::ofstream(written) << "another machine's";
+  std::filesystem::last_write_time(written,
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(23));
+  EXPECT_EQ(removeStaleTemporaries(folder_), 0);
+  std::filesystem::last_write_time(written,
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(25));
+  EXPECT_EQ(removeStaleTemporaries(folder_), 1);
 }
 
 TEST_F(FileTest, NamesTheFileThatCannotBeRead) {
