@@ -218,6 +218,14 @@ void drawBake(PanelContext& context) {
            bake.ambientRadius = v;
            return setBakeSettings(project, bake, "ambient radius");
          });
+  int shadowRays = bake.shadowRays;
+  const ui::FieldEdit shadowEdit = ui::numberField(
+      {"Shadow rays", "%.0f", 0.2, 1, 1024, "Per sample towards each light with a size; 1 to 1024."},
+      shadowRays, kLabelWidth);
+  if (shadowEdit) {
+    bake.shadowRays = shadowRays;
+    applyFieldEdit(context, shadowEdit, setBakeSettings(project, bake, "shadow rays"));
+  }
   number(context, "surfaceTexel",
          {"Surface texel", "%.3f m", 0.001, 0.002, 10, "Distance of light samples on near geometry."},
          bake.surfaceTexel, [&](double v) {

@@ -18,6 +18,8 @@ Status BakeSettings::check() const {
     return bad(fmt::format("{} samples per degree: must lie in 0.5..64", samplesPerDegree));
   if (ambientRays < 0 || ambientRays > 1024)
     return bad(fmt::format("{} ambient rays: must lie in 0..1024", ambientRays));
+  if (shadowRays < 1 || shadowRays > 1024)
+    return bad(fmt::format("{} shadow rays: must lie in 1..1024", shadowRays));
   for (const auto& [what, metres] :
        {std::pair{"ambient radius", ambientRadius}, std::pair{"surface texel", surfaceTexel}})
     if (!inRange(metres, kLeastBakeLength, kLargestBakeLength))
@@ -28,7 +30,12 @@ Status BakeSettings::check() const {
 }
 
 void BakeSettings::addTo(Hasher& hasher) const {
-  hasher.value(samplesPerDegree).value(ambientRays).value(ambientRadius).value(surfaceTexel).value(maxLayers);
+  hasher.value(samplesPerDegree)
+      .value(ambientRays)
+      .value(ambientRadius)
+      .value(surfaceTexel)
+      .value(maxLayers)
+      .value(shadowRays);
 }
 
 }  // namespace acentric

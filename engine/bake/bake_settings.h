@@ -13,6 +13,7 @@ struct BakeSettings {
   double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
   int ambientRays = 12;         ///< per sample, 0..1024; used where the plan has ambient occlusion
   double ambientRadius = 2.0;   ///< metres; occluders beyond fade out
+  int shadowRays = 16;          ///< per sample towards each light with a size, 1..1024
   double surfaceTexel = 0.04;   ///< metres between light samples on local geometry
   int maxLayers = 8;            ///< samples kept per pixel at most, 1..64
 

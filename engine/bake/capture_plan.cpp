@@ -10,7 +10,7 @@ namespace acentric {
 namespace {
 
 /// Raised whenever the same input bakes to other pixels.
-constexpr std::string_view kBakeVersion = "acentric capture 1";
+constexpr std::string_view kBakeVersion = "acentric capture 2";
 
 constexpr double kSteepest =
     radians(85);  ///< rows are never wasted on the poles, which local geometry covers
@@ -59,6 +59,7 @@ ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSett
     hasher.value(settings.ambientRays).value(settings.ambientRadius);
   else
     hasher.value(0);
+  if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
   columnCamera.addTo(hasher);
   hasher.value(std::uint64_t(camera.served.size()));
   for (const ConvexPolygon& polygon : camera.served) {

@@ -8,6 +8,7 @@ namespace {
 
 LocalSource localSource(const Light& light) {
   LocalSource source{light.position, light.colour * light.intensity};
+  source.radius = light.radius;
   if (light.range > 0) source.inverseRangeSquared = 1 / (light.range * light.range);
   if (light.kind != LightKind::spot) return source;
   source.axis = light.direction;
@@ -21,14 +22,17 @@ LocalSource localSource(const Light& light) {
 
 LightSet lightSet(const Scene& scene, const EffectPlan& plan) {
   LightSet set;
+  const bool wide = plan.on(Effect::softShadows);
   for (const Light& light : scene.lights) {
     const glm::vec3 strength = light.colour * light.intensity;
     if (!(strength.x > 0 || strength.y > 0 || strength.z > 0)) continue;
     if (light.kind == LightKind::directional && plan.on(Effect::directionalLights))
-      set.directional.push_back({-light.direction, strength});
+      (wide && light.angularRadius > 0 ? set.wideDirectional : set.directional)
+          .push_back({-light.direction, strength, std::cos(light.angularRadius)});
     if (light.kind == LightKind::point && plan.on(Effect::pointLights))
-      set.point.push_back(localSource(light));
-    if (light.kind == LightKind::spot && plan.on(Effect::spotLights)) set.spot.push_back(localSource(light));
+      (wide && light.radius > 0 ? set.wideLocal : set.point).push_back(localSource(light));
+    if (light.kind == LightKind::spot && plan.on(Effect::spotLights))
+      (wide && light.radius > 0 ? set.wideLocal : set.spot).push_back(localSource(light));
   }
   return set;
 }
@@ -50,9 +54,10 @@ glm::vec3 irradianceFrom(const LocalSource& source, const glm::vec3& at, glm::ve
 glm::vec3 openIrradiance(const LightSet& lights, const glm::vec3& at) {
   glm::vec3 sum(0), towards;
   float distance = 0;
-  for (const auto& source : lights.directional) sum += source.irradiance;
-  for (const auto& source : lights.point) sum += irradianceFrom(source, at, towards, distance);
-  for (const auto& source : lights.spot) sum += irradianceFrom(source, at, towards, distance);
+  for (const auto* sources : {&lights.directional, &lights.wideDirectional})
+    for (const auto& source : *sources) sum += source.irradiance;
+  for (const auto* sources : {&lights.point, &lights.spot, &lights.wideLocal})
+    for (const auto& source : *sources) sum += irradianceFrom(source, at, towards, distance);
   return sum;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-/// The scene's punctual lights sorted by kind, as one plan wants them: a kind that is off has an empty list.
-/// Units are glTF's: lux for directional lights, candela for point and spot lights.
+/// The scene's lights sorted by kind, as one plan wants them: a kind that is off has an empty list. Lights
+/// with a size are apart, and among the others where the plan has soft shadows off. Units are glTF's: lux for
+/// directional lights, candela for point and spot lights.
 
 #include <glm/glm.hpp>
 #include <vector>
@@ -13,6 +14,7 @@ namespace acentric {
 struct DirectionalSource {
   glm::vec3 towards;     ///< unit, to the light
   glm::vec3 irradiance;  ///< lux, facing the light
+  float cosine = 1;      ///< of the half angle it fills
 };
 
 struct LocalSource {
@@ -23,13 +25,18 @@ struct LocalSource {
   glm::vec3 axis{0, 0, -1};  ///< unit, the way the light travels
   float coneScale = 0;
   float coneOffset = 1;
+  float radius = 0;  ///< metres
 };
 
 struct LightSet {
   std::vector<DirectionalSource> directional;
   std::vector<LocalSource> point;
   std::vector<LocalSource> spot;
-  bool empty() const { return directional.empty() && point.empty() && spot.empty(); }
+  std::vector<DirectionalSource> wideDirectional;  ///< with a size
+  std::vector<LocalSource> wideLocal;              ///< points and spots with a size
+  bool hasSmall() const { return !directional.empty() || !point.empty() || !spot.empty(); }
+  bool hasWide() const { return !wideDirectional.empty() || !wideLocal.empty(); }
+  bool empty() const { return !hasSmall() && !hasWide(); }
 };
 
 LightSet lightSet(const Scene& scene, const EffectPlan& plan);

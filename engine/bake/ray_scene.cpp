@@ -5,6 +5,7 @@
 #include <mutex>
 #include <new>
 
+#include "engine/bake/area_lights.h"
 #include "engine/bake/embree_handles.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/material_rules.h"
@@ -138,8 +139,11 @@ Status checkMesh(const Scene& scene, const Mesh& mesh) {
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
   primary += other.primary;
   shadow += other.shadow;
+  softShadow += other.softShadow;
   ambient += other.ambient;
+  bounce += other.bounce;
   mirror += other.mirror;
+  through += other.through;
   return *this;
 }
 
@@ -226,6 +230,7 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const Ef
     }
     if (auto committed = made->embree_->commit(source.name); !committed)
       return tl::unexpected(committed.error());
+    made->areaLights_ = std::make_unique<const AreaLights>(source, plan);
     return made;
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory to make the scene traceable");

@@ -30,9 +30,18 @@ struct Hit {
 
 /// Rays traced, by purpose; a plan that lacks an effect traces none of its rays.
 struct RayCounts {
-  std::uint64_t primary = 0, shadow = 0, ambient = 0, mirror = 0;
+  std::uint64_t primary = 0;
+  std::uint64_t shadow = 0;      ///< towards lights without size
+  std::uint64_t softShadow = 0;  ///< towards lights with a size, and surfaces that glow
+  std::uint64_t ambient = 0;
+  std::uint64_t bounce = 0;
+  std::uint64_t mirror = 0;
+  std::uint64_t through = 0;  ///< of the others: those that met glass or a blended surface
+  std::uint64_t total() const { return primary + shadow + softShadow + ambient + bounce + mirror; }
   RayCounts& operator+=(const RayCounts& other);
 };
+
+class AreaLights;
 
 class RayScene {
  public:
@@ -42,6 +51,7 @@ class RayScene {
   const Scene& scene() const { return *scene_; }
   ScenePtr sharedScene() const { return scene_; }
   const EffectPlan& plan() const { return plan_; }
+  const AreaLights& areaLights() const { return *areaLights_; }
 
   /// Nearest surface. Alpha-tested surfaces are cut out where the plan has alpha tests. Back sides count.
   Hit trace(const Ray& ray) const;
@@ -57,6 +67,7 @@ class RayScene {
   ScenePtr scene_;
   EffectPlan plan_;
   std::unique_ptr<Embree> embree_;
+  std::unique_ptr<const AreaLights> areaLights_;
 };
 
 using RayScenePtr = std::shared_ptr<const RayScene>;

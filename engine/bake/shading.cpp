@@ -15,38 +15,6 @@ namespace {
 /// Layers of glass and blending that a composed ray goes through at most.
 constexpr int kMaxBlendedLayers = 32;
 
-template <bool kShadows>
-glm::vec3 arriving(const RayScene& scene, const Surface& surface, const glm::vec3& irradiance,
-                   const glm::vec3& towards, float distance, RayCounts& rays) {
-  const float cosine = glm::dot(surface.normal, towards);
-  if (cosine <= 0 || glm::dot(surface.geometricNormal, towards) <= 0 || irradiance == glm::vec3(0))
-    return glm::vec3(0);
-  glm::vec3 light = irradiance * cosine;
-  if constexpr (kShadows) {
-    ++rays.shadow;
-    light *= scene.transmittance({surface.rayOrigin, towards, 0, distance});
-  }
-  return light;
-}
-
-/// Irradiance of all punctual lights.
-template <bool kShadows>
-glm::vec3 directLight(const RayScene& scene, const LightSet& lights, const Surface& surface,
-                      RayCounts& rays) {
-  glm::vec3 sum(0);
-  for (const auto& source : lights.directional)
-    sum += arriving<kShadows>(scene, surface, source.irradiance, source.towards,
-                              std::numeric_limits<float>::infinity(), rays);
-  for (const auto* sources : {&lights.point, &lights.spot})
-    for (const auto& source : *sources) {
-      glm::vec3 towards;
-      float distance = 0;
-      const glm::vec3 irradiance = irradianceFrom(source, surface.rayOrigin, towards, distance);
-      sum += arriving<kShadows>(scene, surface, irradiance, towards, distance * (1 - 1e-5f), rays);
-    }
-  return sum;
-}
-
 }  // namespace
 
 float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
@@ -55,7 +23,7 @@ float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
 struct ShadingKernels {
   using DirectLight = Shader::DirectLight;
 
-  template <DirectLight kDirect, bool kOcclusion, bool kDetail, bool kSpecial>
+  template <DirectLight kSmall, DirectLight kWide, bool kOcclusion, bool kDetail, bool kSpecial>
   static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
                       RayCounts& rays) {
     const RayScene& scene = *shader.scene_;
@@ -69,6 +37,8 @@ struct ShadingKernels {
     out.emission = surface.emission;
     if constexpr (kSpecial)
       if (rules.blended) out.alpha = std::clamp(surface.baseColour.a, 0.0f, 1.0f);
+    if constexpr (kSpecial)
+      if (rules.clear()) ++rays.through;
     if (rules.unlit) {
       out.light = glm::vec3(1);
       return out;
@@ -84,9 +54,12 @@ struct ShadingKernels {
 
     const auto ambient = shader.ambient_.template gather<kOcclusion>(scene, surface, rays);
     out.light = ambient.radiance;
-    if constexpr (kDirect != DirectLight::none)
-      out.light += directLight<kDirect == DirectLight::shadowed>(scene, shader.lights_, surface, rays) *
-                   std::numbers::inv_pi_v<float>;
+    glm::vec3 direct(0);
+    if constexpr (kSmall != DirectLight::none)
+      direct += shader.lights_.template small<kSmall == DirectLight::shadowed>(surface, rays);
+    if constexpr (kWide != DirectLight::none)
+      direct += shader.lights_.template wide<kWide == DirectLight::shadowed>(surface, rays);
+    out.light += direct * std::numbers::inv_pi_v<float>;
     // Metals have no diffuse colour of their own; without traced reflections half stays, and the rest is what
     // lies in the mirrored direction, the blurrier the rougher.
     const float metal = std::clamp(surface.metallic, 0.0f, 1.0f);
@@ -110,17 +83,17 @@ struct ShadingKernels {
 
   template <std::size_t kIndex>
   static constexpr Shader::Kernel at() {
-    return &shade<static_cast<DirectLight>(kIndex / 8), (kIndex & 4) != 0, (kIndex & 2) != 0,
-                  (kIndex & 1) != 0>;
+    return &shade<static_cast<DirectLight>(kIndex / 24), static_cast<DirectLight>(kIndex / 8 % 3),
+                  (kIndex & 4) != 0, (kIndex & 2) != 0, (kIndex & 1) != 0>;
   }
   template <std::size_t... kIndices>
   static constexpr auto table(std::index_sequence<kIndices...>) {
     return std::array<Shader::Kernel, sizeof...(kIndices)>{at<kIndices>()...};
   }
   static Shader::Kernel find(const Shader::Switches& s) {
-    static constexpr auto kTable = table(std::make_index_sequence<24>{});
-    return kTable[std::size_t(s.direct) * 8 + (s.occlusion ? 4u : 0u) + (s.detail ? 2u : 0u) +
-                  (s.special ? 1u : 0u)];
+    static constexpr auto kTable = table(std::make_index_sequence<72>{});
+    return kTable[std::size_t(s.direct) * 24 + std::size_t(s.wide) * 8 + (s.occlusion ? 4u : 0u) +
+                  (s.detail ? 2u : 0u) + (s.special ? 1u : 0u)];
   }
 };
 
@@ -129,11 +102,14 @@ Shader::Shader(const RayScene& scene, const BakeSettings& settings)
       rules_(materialRules(scene.scene(), scene.plan())),
       detail_(detailRules(scene.plan())),
       emission_(scene.plan().on(Effect::emission)),
-      lights_(lightSet(scene.scene(), scene.plan())),
-      ambient_(scene, lights_, settings) {
+      lights_(scene, settings),
+      ambient_(scene, lights_.set(), settings) {
   const EffectPlan& plan = scene.plan();
-  const bool shadows = plan.on(Effect::hardShadows) || plan.on(Effect::softShadows);
-  if (!lights_.empty()) switches_.direct = shadows ? DirectLight::shadowed : DirectLight::unshadowed;
+  const auto use = [](bool any, bool shadows) {
+    return !any ? DirectLight::none : shadows ? DirectLight::shadowed : DirectLight::unshadowed;
+  };
+  switches_.direct = use(lights_.hasSmall(), plan.on(Effect::hardShadows));
+  switches_.wide = use(lights_.hasWide(), plan.on(Effect::softShadows));
   switches_.occlusion = tracesOcclusion(plan, settings);
   switches_.detail = detail_.any();
   switches_.special =

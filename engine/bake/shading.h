@@ -2,10 +2,10 @@
 /// The one shading routine, used by captures, surface light and the reference picture alike. It is composed
 /// at compile time from the effect plan: `Shader` picks the instantiation once, and what is off is not in it.
 ///
-/// Switches of an instantiation (24 in all): direct light {none, unshadowed, shadowed} x ambient occlusion x
-/// surface detail (textures, vertex colours, normal maps together: each is one test of a flag beside a
-/// texture read) x special materials (mirrors, glass, blending: a flag per material, since even where they
-/// exist few hits are on them).
+/// Switches of an instantiation (72 in all): lights without size {none, unshadowed, shadowed} x lights with
+/// one and surfaces that glow {the same} x ambient occlusion x surface detail (textures, vertex colours,
+/// normal maps together: each is one test of a flag beside a texture read) x special materials (mirrors,
+/// glass, blending: a flag per material, since even where they exist few hits are on them).
 ///
 /// Radiance leaving a surface = baseColour * light + emission. `light` does not depend on the viewer except
 /// on metals, mirrors and glass.
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/bake/ambient.h"
-#include "engine/bake/light_set.h"
+#include "engine/bake/direct_light.h"
 #include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
 
@@ -60,7 +60,8 @@ class Shader {
 
   enum class DirectLight : std::uint8_t { none, unshadowed, shadowed };
   struct Switches {
-    DirectLight direct = DirectLight::none;
+    DirectLight direct = DirectLight::none;  ///< of lights without size
+    DirectLight wide = DirectLight::none;    ///< of lights with one, and of surfaces that glow
     bool occlusion = false;
     bool detail = false;
     bool special = false;
@@ -75,7 +76,7 @@ class Shader {
   std::vector<MaterialRules> rules_;
   DetailRules detail_;
   bool emission_ = false;
-  LightSet lights_;
+  DirectLights lights_;
   Ambient ambient_;
   Switches switches_;
   Kernel kernel_;

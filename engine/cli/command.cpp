@@ -197,8 +197,9 @@ std::string countText(std::uint64_t count) {
 }
 
 Json toJson(const RayCounts& rays) {
-  return {
-      {"primary", rays.primary}, {"shadow", rays.shadow}, {"ambient", rays.ambient}, {"mirror", rays.mirror}};
+  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"softShadow", rays.softShadow},
+          {"ambient", rays.ambient}, {"bounce", rays.bounce}, {"mirror", rays.mirror},
+          {"through", rays.through}};
 }
 
 Json toJson(const FrameStats& stats) {

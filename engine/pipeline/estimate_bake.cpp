@@ -87,10 +87,6 @@ class TrialSink final : public CaptureSink {
   std::vector<Written> written_;
 };
 
-double total(const RayCounts& rays) {
-  return double(rays.primary + rays.shadow + rays.ambient + rays.mirror);
-}
-
 /// Triangles that get about as many samples each.
 class TriangleKind {
  public:
@@ -266,7 +262,7 @@ class ProjectProber final : public BakeProber {
     CaptureProbe& probe = probes_.back();
     probe.pixels += double(columns.columns) * columns.rows;
     probe.samples += double(capture->sampleCount());
-    probe.rays += total(rays);
+    probe.rays += double(rays.total());
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
     return writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(*capture));
   }

@@ -11,12 +11,13 @@ namespace {
 ContentKey keyOfSurfaceLight(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                              const Layout& layout) {
   Hasher hasher;
-  hasher.text("surface light 1").value(scene.key.high).value(scene.key.low);
+  hasher.text("surface light 2").value(scene.key.high).value(scene.key.low);
   plan.addTo(hasher);
   hasher.value(settings.ambientRays)
       .value(settings.ambientRadius)
       .value(settings.surfaceTexel)
       .value(layout.eyeZ());
+  if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
   for (const Region& region : layout.regions) hasher.array(std::span<const glm::dvec2>(region.grown.corners));
   return hasher.finish();
 }

@@ -203,6 +203,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "samplesPerDegree", project.bake.samplesPerDegree);
     read(json["bake"], "ambientRays", project.bake.ambientRays);
     read(json["bake"], "ambientRadius", project.bake.ambientRadius);
+    read(json["bake"], "shadowRays", project.bake.shadowRays);
     read(json["bake"], "surfaceTexel", project.bake.surfaceTexel);
     read(json["bake"], "maxLayers", project.bake.maxLayers);
   }
@@ -337,6 +338,7 @@ std::string formatProject(const Project& project) {
        {{"samplesPerDegree", project.bake.samplesPerDegree},
         {"ambientRays", project.bake.ambientRays},
         {"ambientRadius", project.bake.ambientRadius},
+        {"shadowRays", project.bake.shadowRays},
         {"surfaceTexel", project.bake.surfaceTexel},
         {"maxLayers", project.bake.maxLayers}}},
       {"budget",

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "engine/scene/emitters.h"
+
 namespace acentric {
 namespace {
 
@@ -22,6 +24,7 @@ constexpr std::array<EffectNames, kEffectCount> kNames{{
     {"directionalLights", "Directional lights"},
     {"pointLights", "Point lights"},
     {"spotLights", "Spot lights"},
+    {"areaLights", "Glowing surfaces as lights"},
     {"sky", "Sky light"},
     {"hardShadows", "Hard shadows"},
     {"softShadows", "Soft shadows"},
@@ -34,7 +37,6 @@ constexpr std::array<EffectNames, kEffectCount> kNames{{
 }};
 
 constexpr const char* kNoBounces = "approximated by ambient light; bounces are not simulated by this version";
-constexpr const char* kNoSize = "lights have no size";
 
 /// "3 materials with textures: Floor, Wall, frame" (the first three by name).
 std::string listed(const std::vector<std::string>& names, const char* one, const char* many,
@@ -120,14 +122,34 @@ class Planner {
                          : listed(coloured, "mesh", "meshes", "with vertex colours"));
   }
 
-  std::vector<std::string> lightsOf(LightKind kind) const {
+  std::vector<std::string> lightsWhere(const std::function<bool(const Light&)>& wanted) const {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       const Light& light = scene_.lights[i];
-      if (light.kind == kind && light.intensity > 0 && light.colour != glm::vec3(0))
+      if (light.intensity > 0 && light.colour != glm::vec3(0) && wanted(light))
         names.push_back(nameOr(light.name, "light", i));
     }
     return names;
+  }
+
+  void planAreaLights() {
+    const std::vector<std::uint8_t> lighting = lightingMeshes(scene_);
+    std::vector<bool> materialLights(scene_.materials.size());
+    for (std::size_t m = 0; m < lighting.size(); ++m)
+      if (lighting[m] != 0) materialLights[std::size_t(scene_.meshes[m].material)] = true;
+    std::vector<std::string> names;
+    for (const int m : materials_)
+      if (materialLights[std::size_t(m)])
+        names.push_back(nameOr(material(m).name, "material", std::size_t(m)));
+    if (allUnlit_)
+      set(Effect::areaLights, false, "every used material is unlit");
+    else if (!names.empty())
+      set(Effect::areaLights, true,
+          listed(names, "material", "materials", "bright and large enough to light others"));
+    else
+      set(Effect::areaLights, false,
+          plan_[Effect::emission].calledFor ? "what glows is too faint or small to light others"
+                                            : "no used material emits light");
   }
 
   void planLights() {
@@ -140,13 +162,15 @@ class Planner {
          {Kind{Effect::directionalLights, LightKind::directional, "directional light", "directional lights"},
           Kind{Effect::pointLights, LightKind::point, "point light", "point lights"},
           Kind{Effect::spotLights, LightKind::spot, "spot light", "spot lights"}}) {
-      const std::vector<std::string> names = lightsOf(k.kind);
+      const std::vector<std::string> names =
+          lightsWhere([&](const Light& light) { return light.kind == k.kind; });
       if (allUnlit_)
         set(k.effect, false, "every used material is unlit");
       else
         set(k.effect, !names.empty(),
             names.empty() ? fmt::format("no {}", k.one) : listed(names, k.one, k.many, ""));
     }
+    planAreaLights();
     if (allUnlit_)
       set(Effect::sky, false, "every used material is unlit");
     else
@@ -157,20 +181,31 @@ class Planner {
   void planLightTransport() {
     const bool sun = plan_[Effect::directionalLights].calledFor;
     const bool local = plan_[Effect::pointLights].calledFor || plan_[Effect::spotLights].calledFor;
+    const bool area = plan_[Effect::areaLights].calledFor;
     const bool sky = plan_[Effect::sky].calledFor;
+    const auto wide = [](const Light& light) {
+      return (light.kind == LightKind::directional ? light.angularRadius : light.radius) > 0;
+    };
+    const std::vector<std::string> large = lightsWhere(wide);
+    const bool small = !lightsWhere([&](const Light& light) { return !wide(light); }).empty();
     const char* const noLight = allUnlit_ ? "every used material is unlit" : "the scene has no light";
-    if (sun || local)
+    if ((sun || local) && small)
       set(Effect::hardShadows, true, "lights without size cast hard shadows");
     else
-      set(Effect::hardShadows, false, allUnlit_ ? noLight : "no light casts shadows");
-    set(Effect::softShadows, false, allUnlit_ ? noLight : kNoSize);
+      set(Effect::hardShadows, false, allUnlit_ ? noLight : "no light without size");
+    if ((sun || local) && !large.empty())
+      set(Effect::softShadows, true, listed(large, "light", "lights", "with a size"));
+    else if (area)
+      set(Effect::softShadows, true, "surfaces that glow cast soft shadows");
+    else
+      set(Effect::softShadows, false, allUnlit_ ? noLight : "lights have no size");
     if (sky)
       set(Effect::ambientOcclusion, true, "light from the sky reaches corners less");
-    else if (local && !sun)
+    else if ((local || area) && !sun)
       set(Effect::ambientOcclusion, true, "stands in for bounced light: the scene has only local lights");
     else
       set(Effect::ambientOcclusion, false, sun ? "no light from the sky" : noLight);
-    const bool lit = sun || local || sky;
+    const bool lit = sun || local || area || sky;
     set(Effect::diffuseInterreflection, lit, lit ? kNoBounces : noLight);
     plan_[Effect::diffuseInterreflection].on = false;
   }
@@ -194,10 +229,8 @@ EffectPlan planEffects(const Scene& scene, const EffectOverrides& overrides) {
   EffectPlan plan = Planner(scene).plan();
   for (const auto& [effect, on] : overrides) {
     EffectState& state = plan[effect];
-    const bool impossible = effect == Effect::diffuseInterreflection || effect == Effect::softShadows;
-    if (on && impossible) {
-      state.reason =
-          fmt::format("cannot be switched on: {}", effect == Effect::softShadows ? kNoSize : kNoBounces);
+    if (on && effect == Effect::diffuseInterreflection) {
+      state.reason = fmt::format("cannot be switched on: {}", kNoBounces);
       continue;
     }
     state.on = on;

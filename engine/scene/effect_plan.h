@@ -21,6 +21,7 @@ enum class Effect : std::uint8_t {
   directionalLights,
   pointLights,
   spotLights,
+  areaLights,
   sky,
   hardShadows,
   softShadows,
@@ -31,7 +32,7 @@ enum class Effect : std::uint8_t {
   normalMaps,
   unlit,
 };
-inline constexpr int kEffectCount = 17;
+inline constexpr int kEffectCount = 18;
 
 const char* nameOf(Effect effect);   ///< camelCase word, for files and options
 const char* labelOf(Effect effect);  ///< for people

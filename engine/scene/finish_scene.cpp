@@ -143,6 +143,7 @@ class Finisher {
     light.direction = glm::vec3(glm::normalize(glm::dmat3(world) * glm::dvec3(light.direction)));
     light.position = glm::vec3(glm::dvec3(world * glm::dvec4(from.position, 1)) - scene_.origin);
     light.range *= float(metresPerUnit_);
+    light.radius *= float(metresPerUnit_);
     // The file's distances shrink with the unit; so that the picture stays, candela shrink with their square.
     if (light.kind != LightKind::directional) light.intensity *= float(metresPerUnit_ * metresPerUnit_);
     scene_.lights.push_back(std::move(light));

@@ -201,6 +201,13 @@ class GltfReader {
     out.light.range = positive(source.range, 0);
     out.light.outerCone = glm::clamp(positive(source.spot.outerConeAngle, 0.785398), 1e-3f, 1.570796f);
     out.light.innerCone = glm::clamp(positive(source.spot.innerConeAngle, 0), 0.0f, out.light.outerCone);
+    // glTF has no size of lights; these are the names under which Blender keeps it.
+    if (source.extras.IsObject() && out.light.kind == LightKind::directional)
+      out.light.angularRadius =
+          glm::clamp(0.5f * positive(numberOr(source.extras, "angle", 0), 0), 0.0f, 0.785398f);
+    else if (source.extras.IsObject())
+      out.light.radius =
+          positive(numberOr(source.extras, "radius", numberOr(source.extras, "shadow_soft_size", 0)), 0);
     const glm::dvec3 direction = -glm::dvec3(worldFromNode[2]);
     const double length = glm::length(direction);
     out.position = glm::dvec3(worldFromNode[3]);

@@ -48,6 +48,7 @@ void add(Hasher& hasher, const Light& light) {
   addVector(hasher, &light.position.x, 3);
   addVector(hasher, &light.direction.x, 3);
   hasher.value(light.range).value(light.innerCone).value(light.outerCone);
+  hasher.value(light.radius).value(light.angularRadius);
 }
 
 }  // namespace

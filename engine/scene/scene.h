@@ -80,6 +80,10 @@ struct Light {
   float range = 0;                ///< metres, 0 = unlimited
   float innerCone = 0;            ///< radians
   float outerCone = 0.785398f;
+  /// Size, which softens shadows; 0 = none. glTF has no word for it: read from the light's extras, see
+  /// docs/light.md.
+  float radius = 0;         ///< metres, of a point or spot light
+  float angularRadius = 0;  ///< radians, of a directional light
 };
 
 /// Light from all around: sky above, its bounce below. Radiance by direction's z: mix horizon->zenith above,

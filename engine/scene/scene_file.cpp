@@ -162,6 +162,8 @@ void write(ByteWriter& out, const Light& l) {
   out.value(l.range);
   out.value(l.innerCone);
   out.value(l.outerCone);
+  out.value(l.radius);
+  out.value(l.angularRadius);
 }
 
 void read(ByteReader& in, Light& l) {
@@ -174,6 +176,8 @@ void read(ByteReader& in, Light& l) {
   in.value(l.range);
   in.value(l.innerCone);
   in.value(l.outerCone);
+  in.value(l.radius);
+  in.value(l.angularRadius);
 }
 
 void write(ByteWriter& out, const std::string& line) { out.text(line); }

@@ -12,7 +12,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSceneFileVersion = 1;
+inline constexpr std::uint32_t kSceneFileVersion = 2;
 
 struct SceneFile {
   Scene scene;

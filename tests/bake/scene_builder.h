@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <memory>
 #include <utility>
@@ -87,6 +88,32 @@ class SceneBuilder {
     light.direction = glm::normalize(direction);
     light.innerCone = inner;
     light.outerCone = outer;
+    return *this;
+  }
+  /// Size of the light added last: metres of a lamp, radians of a sun.
+  SceneBuilder& size(float radius) {
+    Light& light = scene_.lights.back();
+    (light.kind == LightKind::directional ? light.angularRadius : light.radius) = radius;
+    return *this;
+  }
+  /// A sphere of `rings` x 2 `rings` faces, turned outwards.
+  SceneBuilder& sphere(int material, glm::vec3 centre, float radius, int rings) {
+    Mesh& mesh = newMesh(material);
+    const float pi = 3.14159265f;
+    for (int i = 0; i <= rings; ++i)
+      for (int j = 0; j <= 2 * rings; ++j) {
+        const float polar = pi * float(i) / float(rings), around = pi * float(j) / float(rings);
+        const glm::vec3 out(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+                            std::cos(polar));
+        mesh.positions.push_back(centre + radius * out);
+        mesh.normals.push_back(out);
+      }
+    const auto at = [&](int i, int j) { return std::uint32_t(i * (2 * rings + 1) + j); };
+    for (int i = 0; i < rings; ++i)
+      for (int j = 0; j < 2 * rings; ++j) {
+        if (i > 0) mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+        if (i + 1 < rings) mesh.triangles.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+      }
     return *this;
   }
   SceneBuilder& sky(glm::vec3 everywhere) { return sky(everywhere, everywhere, everywhere); }

@@ -65,13 +65,46 @@ TEST(EffectPlan, EachMaterialPropertyCallsForItsEffect) {
   EXPECT_EQ(calledBy([](Material& m) { m.baseColourTexture.texture = 0; }), std::set{Effect::textures});
   EXPECT_EQ(calledBy([](Material& m) { m.alphaMode = AlphaMode::mask; }), std::set{Effect::alphaTest});
   EXPECT_EQ(calledBy([](Material& m) { m.alphaMode = AlphaMode::blend; }), std::set{Effect::alphaBlend});
-  EXPECT_EQ(calledBy([](Material& m) { m.emissive = {0, 1, 0}; }), std::set{Effect::emission});
   EXPECT_EQ(calledBy([](Material& m) { m.metallic = 1, m.roughness = 0.05f; }),
             std::set{Effect::mirrorReflection});
   EXPECT_EQ(calledBy([](Material& m) { m.metallic = 1, m.roughness = 0.2f; }), std::set<Effect>{});
   EXPECT_EQ(calledBy([](Material& m) { m.transmission = 0.5f; }), std::set{Effect::transmission});
   EXPECT_EQ(calledBy([](Material& m) { m.normalTexture.texture = 0; }), std::set{Effect::normalMaps});
   EXPECT_EQ(calledBy([](Material& m) { m.unlit = true; }), std::set{Effect::unlit});
+}
+
+TEST(EffectPlan, WhatGlowsLightsOthersOnlyIfBrightAndLargeEnough) {
+  Material lamp = named("lamp");
+  lamp.emissive = {0, 1, 0};
+  Scene scene = sceneWith({lamp, named("wall")});
+  const EffectPlan alone = planEffects(scene);
+  for (const Effect effect :
+       {Effect::emission, Effect::areaLights, Effect::softShadows, Effect::ambientOcclusion})
+    EXPECT_TRUE(alone.on(effect)) << nameOf(effect);
+  EXPECT_FALSE(alone.on(Effect::hardShadows));
+  EXPECT_THAT(alone[Effect::areaLights].reason, HasSubstr("lamp"));
+
+  scene.lights = {lightOf(LightKind::directional, "sun")};
+  scene.lights[0].intensity = 5;
+  EXPECT_TRUE(planEffects(scene).on(Effect::areaLights));
+  scene.lights[0].intensity = 5000;
+  const EffectPlan outshone = planEffects(scene);
+  EXPECT_TRUE(outshone.on(Effect::emission));
+  EXPECT_FALSE(outshone.on(Effect::areaLights));
+  EXPECT_FALSE(outshone.on(Effect::softShadows));
+  EXPECT_THAT(outshone[Effect::areaLights].reason, HasSubstr("too faint or small"));
+}
+
+TEST(EffectPlan, LightsWithASizeCastSoftShadowsOnly) {
+  Scene scene = sceneWith({named("wall")});
+  scene.lights = {lightOf(LightKind::point, "bulb"), lightOf(LightKind::directional, "sun")};
+  scene.lights[0].radius = 0.1f;
+  const EffectPlan both = planEffects(scene);
+  EXPECT_TRUE(both.on(Effect::hardShadows) && both.on(Effect::softShadows));
+  EXPECT_THAT(both[Effect::softShadows].reason, HasSubstr("bulb"));
+  scene.lights[1].angularRadius = 0.005f;
+  EXPECT_FALSE(planEffects(scene).on(Effect::hardShadows));
+  EXPECT_THAT(planEffects(scene)[Effect::softShadows].reason, HasSubstr("2 lights with a size"));
 }
 
 TEST(EffectPlan, LightsCallForTheirKindAndShadows) {

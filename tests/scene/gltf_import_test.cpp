@@ -214,6 +214,27 @@ TEST_F(GltfImport, SpotLightsKeepPlaceDirectionAndCone) {
   EXPECT_FALSE(scene.sky.present());  // only local lights: no sky
 }
 
+TEST_F(GltfImport, SizesOfLightsComeFromTheirExtras) {
+  builder.triangle();
+  builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "point"}, {"extras", {{"radius", 0.25}}}},
+      {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.4}}}, {"extras", {{"shadow_soft_size", 0.1}}}},
+      {{"type", "directional"}, {"extras", {{"angle", 0.02}}}},
+      {{"type", "point"}, {"extras", {{"radius", -3}}}}};
+  builder.json["scenes"][0]["nodes"] = {0};
+  for (int i = 0; i < 4; ++i) {
+    builder.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    builder.json["scenes"][0]["nodes"].push_back(i + 1);
+  }
+  const Scene scene = parsed({0.5, UpAxis::guess, true});  // metres per unit
+  ASSERT_EQ(scene.lights.size(), 4u);
+  EXPECT_FLOAT_EQ(scene.lights[0].radius, 0.125f);
+  EXPECT_FLOAT_EQ(scene.lights[1].radius, 0.05f);
+  EXPECT_FLOAT_EQ(scene.lights[2].angularRadius, 0.01f);
+  EXPECT_EQ(scene.lights[3].radius, 0);
+}
+
 TEST_F(GltfImport, LightIsAddedOnlyWhereItIsMissing) {
   builder.triangle();
   const Scene dark = parsed();

@@ -128,6 +128,8 @@ TEST(SceneKey, ChangesWithEveryVisibleProperty) {
     s.images[0] = std::make_shared<const ColourImage>(ColourImage(2, 3, {9, 8, 7, 6}));
   }));
   EXPECT_TRUE(changed([](Scene& s) { s.lights[0].outerCone = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.lights[0].radius = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.lights[0].angularRadius = 0.1f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.sky.ground.r = 0.1f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.origin.x = 0; }));
   EXPECT_FALSE(

@@ -1,0 +1,254 @@
+#include "engine/bake/area_lights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "engine/bake/ray_scene.h"
+#include "engine/bake/spherical_triangle.h"
+#include "engine/scene/emitters.h"
+
+namespace acentric {
+namespace {
+
+/// A part of the hierarchy stands for its contents from this many radii on. Taken as a point it is up to 3 %
+/// off: of a round lamp the near side counts more than its middle says.
+constexpr float kFarRadii = 16;
+/// Groups at least this large get a table of intensities; smaller ones are always opened.
+constexpr std::uint32_t kTabledEmitters = 32;
+/// Directions of a table: corners of a grid over the octahedron unfolded to a square.
+constexpr int kTableCells = 16, kTableSide = kTableCells + 1;
+/// Shadow rays end this share before the light, so that it does not shade itself.
+constexpr float kShortOfLight = 1 - 1e-4f;
+
+float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+glm::dvec3 octahedronDirection(double x, double y) {
+  glm::dvec3 v(x, y, 1 - std::abs(x) - std::abs(y));
+  if (v.z < 0) v = {std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), v.z};
+  return glm::normalize(v);
+}
+
+glm::vec2 octahedronPlace(const glm::vec3& d) {
+  const glm::vec3 v = d / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  if (v.z >= 0) return {v.x, v.y};
+  return {std::copysign(1 - std::abs(v.y), v.x), std::copysign(1 - std::abs(v.x), v.y)};
+}
+
+}  // namespace
+
+AreaLights::AreaLights(const Scene& scene, const EffectPlan& plan) {
+  if (!plan.on(Effect::areaLights)) return;
+  lighting_ = lightingMeshes(scene);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    if (lighting_[m] == 0) continue;
+    const Mesh& mesh = scene.meshes[m];
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      Emitter e;
+      for (int c = 0; c < 3; ++c) e.corners[c] = mesh.positions[mesh.triangles[t][c]];
+      const glm::dvec3 a(e.corners[0]), b(e.corners[1]), c(e.corners[2]);
+      e.area = float(0.5 * glm::length(glm::cross(b - a, c - a)));
+      e.normal = triangleNormal(mesh, t);
+      e.radiance = meanEmission(scene, mesh, t);
+      e.twoSided = scene.materials[std::size_t(mesh.material)].doubleSided;
+      if (e.area > 0 && luminance(e.radiance) > 0) emitters_.push_back(e);
+    }
+  }
+  if (emitters_.empty()) return;
+  nodes_.reserve(2 * emitters_.size());
+  build(0, std::uint32_t(emitters_.size()));
+  strengthBefore_.push_back(0);
+  for (const Emitter& e : emitters_)
+    strengthBefore_.push_back(strengthBefore_.back() + double(luminance(e.radiance) * e.area));
+}
+
+std::uint32_t AreaLights::build(std::uint32_t first, std::uint32_t count) {
+  const auto index = std::uint32_t(nodes_.size());
+  Node node;
+  node.first = first, node.count = count;
+  Bounds middles;
+  glm::dvec3 centre(0);
+  double weights = 0;
+  const auto middle = [](const Emitter& e) { return (e.corners[0] + e.corners[1] + e.corners[2]) / 3.0f; };
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const double weight = double(luminance(emitters_[i].radiance) * emitters_[i].area);
+    centre += weight * glm::dvec3(middle(emitters_[i]));
+    weights += weight;
+    middles.add(middle(emitters_[i]));
+    node.strength += emitters_[i].radiance * emitters_[i].area;
+  }
+  node.centre = glm::vec3(centre / weights);
+  for (std::uint32_t i = first; i < first + count; ++i)
+    for (const glm::vec3& corner : emitters_[i].corners)
+      node.radius = std::max(node.radius, glm::distance(corner, node.centre));
+  nodes_.push_back(node);
+  if (count == 1) return index;
+  const glm::vec3 size = middles.size();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const std::uint32_t half = count / 2;
+  const auto begin = emitters_.begin() + first;
+  std::nth_element(begin, begin + half, begin + count,
+                   [&](const Emitter& a, const Emitter& b) { return middle(a)[axis] < middle(b)[axis]; });
+  build(first, half);
+  const std::uint32_t second = build(first + half, count - half);
+  nodes_[index].second = second;
+  if (count >= kTabledEmitters) fillTable(index);
+  return index;
+}
+
+/// Intensity by direction over the sum of strengths, in luminance; from the children's tables where they have
+/// some.
+void AreaLights::fillTable(std::uint32_t index) {
+  Node& node = nodes_[index];
+  const Node &left = nodes_[index + 1], &right = nodes_[node.second];
+  node.table = std::int32_t(tables_.size());
+  const double whole = double(luminance(node.strength));
+  const auto intensity = [&](const Node& child, std::size_t place, const glm::vec3& direction) {
+    if (child.table >= 0)
+      return double(luminance(child.strength) * tables_[std::size_t(child.table) + place]);
+    double sum = 0;
+    for (std::uint32_t i = child.first; i < child.first + child.count; ++i)
+      sum += double(luminance(emitters_[i].radiance) * emitters_[i].area * shareOf(emitters_[i], direction));
+    return sum;
+  };
+  std::size_t place = 0;
+  for (int y = 0; y < kTableSide; ++y)
+    for (int x = 0; x < kTableSide; ++x, ++place) {
+      const glm::vec3 direction(octahedronDirection(2.0 * x / kTableCells - 1, 2.0 * y / kTableCells - 1));
+      const double sum = intensity(left, place, direction) + intensity(right, place, direction);
+      tables_.push_back(whole > 0 ? float(sum / whole) : 0);
+    }
+}
+
+/// Of a facet's intensity along its normal, what it sends in a direction.
+float AreaLights::shareOf(const Emitter& emitter, const glm::vec3& direction) {
+  const float cosine = glm::dot(emitter.normal, direction);
+  return emitter.twoSided ? std::abs(cosine) : std::max(cosine, 0.0f);
+}
+
+/// `direction` unit, away from the light.
+float AreaLights::shareTowards(const Node& node, const glm::vec3& direction) const {
+  if (node.second == 0) return shareOf(emitters_[node.first], direction);
+  const glm::vec2 place = (octahedronPlace(direction) + 1.0f) * (0.5f * kTableCells);
+  const int x = std::clamp(int(place.x), 0, kTableCells - 1),
+            y = std::clamp(int(place.y), 0, kTableCells - 1);
+  const float fx = place.x - float(x), fy = place.y - float(y);
+  const float* row = tables_.data() + node.table + y * kTableSide + x;
+  return glm::mix(glm::mix(row[0], row[1], fx), glm::mix(row[kTableSide], row[kTableSide + 1], fx), fy);
+}
+
+std::vector<AreaLights::Part> AreaLights::cut(const Surface& surface) const {
+  std::vector<Part> parts;
+  parts.reserve(32);
+  float weights = 0;
+  const auto add = [&](std::uint32_t node, bool far, const glm::vec3& irradiance) {
+    const float weight = luminance(irradiance);
+    if (!(weight > 0)) return;
+    weights += weight;
+    parts.push_back({irradiance, weights, node, far});
+  };
+  std::array<std::uint32_t, 64> open;  // halving 2^32 emitters leaves at most 33 waiting
+  std::size_t waiting = 0;
+  open[waiting++] = 0;
+  while (waiting > 0) {
+    const std::uint32_t index = open[--waiting];
+    const Node& node = nodes_[index];
+    const glm::vec3 way = node.centre - surface.rayOrigin;
+    const float height = glm::dot(way, surface.normal);
+    if (height <= -node.radius || glm::dot(way, surface.geometricNormal) <= -node.radius) continue;
+    const float square = glm::dot(way, way);
+    const bool single = node.second == 0;
+    if ((single || node.table >= 0) && height > node.radius &&
+        square > kFarRadii * kFarRadii * node.radius * node.radius) {
+      const glm::vec3 direction = way / std::sqrt(square);
+      add(index, true,
+          node.strength * (shareTowards(node, -direction) * glm::dot(direction, surface.normal) / square));
+    } else if (single) {
+      const Emitter& e = emitters_[node.first];
+      if (!e.twoSided && glm::dot(e.normal, surface.rayOrigin - e.corners[0]) <= 0) continue;
+      const glm::dvec3 from(surface.rayOrigin);
+      add(index, false,
+          e.radiance *
+              float(triangleIrradiance({glm::dvec3(e.corners[0]) - from, glm::dvec3(e.corners[1]) - from,
+                                        glm::dvec3(e.corners[2]) - from},
+                                       glm::dvec3(surface.normal))));
+    } else {
+      open[waiting++] = node.second;
+      open[waiting++] = index + 1;
+    }
+  }
+  return parts;
+}
+
+AreaLights::Sample AreaLights::sample(const Part& part, const Surface& surface, glm::vec2 u) const {
+  const Node& node = nodes_[part.node];
+  if (!part.far) {
+    const Emitter& e = emitters_[node.first];
+    const glm::dvec3 from(surface.rayOrigin);
+    const glm::dvec3 a = glm::dvec3(e.corners[0]) - from;
+    const SphericalTriangle seen({a, glm::dvec3(e.corners[1]) - from, glm::dvec3(e.corners[2]) - from});
+    const glm::dvec3 direction = seen.directionAt(glm::dvec2(u));
+    const double cosine = glm::dot(direction, glm::dvec3(surface.normal));
+    const double slope = glm::dot(direction, glm::dvec3(e.normal));
+    if (!(cosine > 0) || !(seen.solidAngle() > 0) || slope == 0) return {};
+    const double distance = glm::dot(a, glm::dvec3(e.normal)) / slope;
+    if (!(distance > 0) || !std::isfinite(distance)) return {};
+    const double mean = double(luminance(part.irradiance) / luminance(e.radiance)) / seen.solidAngle();
+    return {glm::vec3(from + direction * distance), float(cosine / mean)};
+  }
+  // A triangle by its strength, and a place on it by area; what is left of the random number is used again.
+  const double whole = strengthBefore_[node.first + node.count] - strengthBefore_[node.first];
+  const double wanted = strengthBefore_[node.first] + double(u.x) * whole;
+  const auto begin = strengthBefore_.begin() + node.first;
+  const auto found = std::upper_bound(begin + 1, begin + node.count, wanted) - 1;
+  const Emitter& e = emitters_[std::size_t(found - strengthBefore_.begin())];
+  const double own = *(found + 1) - *found;
+  const float rest = own > 0 ? float(std::clamp((wanted - *found) / own, 0.0, 1.0)) : 0;
+  const float root = std::sqrt(rest);
+  Sample out;
+  out.target = e.corners[0] * (1 - root) + (e.corners[1] * (1 - u.y) + e.corners[2] * u.y) * root;
+  const glm::vec3 way = surface.rayOrigin - node.centre;
+  const glm::vec3 direction = way / glm::length(way);
+  const float share = shareTowards(node, direction);
+  out.weight = share > 0 ? shareOf(e, direction) / share : 0;
+  return out;
+}
+
+glm::vec3 AreaLights::irradiance(const Surface& surface) const {
+  glm::vec3 sum(0);
+  for (const Part& part : cut(surface)) sum += part.irradiance;
+  return sum;
+}
+
+glm::vec3 AreaLights::irradiance(const RayScene& scene, const Surface& surface,
+                                 const PositionSamples& samples, int count, RayCounts& rays) const {
+  const std::vector<Part> parts = cut(surface);
+  if (parts.empty()) return glm::vec3(0);
+  const auto points = samples.at(surface.position, 0);
+  glm::vec3 arriving(0), sent(0);
+  for (std::uint32_t k = 0; k < std::uint32_t(count); ++k) {
+    glm::vec2 u = points.at(k);
+    const float wanted = u.x * parts.back().upTo;
+    auto part = std::upper_bound(parts.begin(), parts.end() - 1, wanted,
+                                 [](float value, const Part& p) { return value < p.upTo; });
+    const float before = part == parts.begin() ? 0 : (part - 1)->upTo;
+    const float weight = part->upTo - before;
+    u.x = std::clamp((wanted - before) / weight, 0.0f, 1 - 1e-6f);
+    const Sample drawn = sample(*part, surface, u);
+    if (!(drawn.weight > 0)) continue;
+    const glm::vec3 light = part->irradiance * (drawn.weight / weight);
+    sent += light;
+    const glm::vec3 way = drawn.target - surface.rayOrigin;
+    const float distance = glm::length(way);
+    if (!(distance > 0) || glm::dot(way, surface.geometricNormal) <= 0) continue;
+    ++rays.softShadow;
+    arriving += light * scene.transmittance({surface.rayOrigin, way / distance, 0, distance * kShortOfLight});
+  }
+  glm::vec3 all(0);
+  for (const Part& part : parts) all += part.irradiance;
+  for (int c = 0; c < 3; ++c) all[c] *= sent[c] > 0 ? arriving[c] / sent[c] : 0;
+  return all;
+}
+
+}  // namespace acentric
