@@ -40,6 +40,7 @@ std::vector<BakeRequest> requestsFor(std::span<const OpenProject> storeys, const
       request.cameras = bakingOrder(open);
       std::erase_if(*request.cameras, [&](int camera) { return !shard.takes(first + std::size_t(camera)); });
     }
+    request.verify = options.verify;
     request.surfaceLight = options.light != "without" && shard.takes(light++);
     first += open.keys.size();
     requests.push_back(std::move(request));
@@ -76,9 +77,12 @@ Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, c
                   {{"asked", request.surfaceLight},
                    {"baked", baked->surfaceLightBaked},
                    {"seconds", baked->surfaceLightSeconds}}},
+                 {"damaged", baked->damaged},
                  {"bytes", baked->bytes},
                  {"cameras", std::move(cameras)}};
-  report.text = fmt::format(
+  for (const std::string& damaged : baked->damaged)
+    report.text += fmt::format("damaged, set aside and baked again: {}\n", damaged);
+  report.text += fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
       captures.baked, storeyText(open.project), captures.seconds, countText(captures.samples),

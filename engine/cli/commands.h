@@ -78,8 +78,20 @@ struct BakeOptions {
   std::string light = "with";  ///< surface light: with, without or only
   bool dryRun = false;
   bool prune = false;
+  bool verify = false;  ///< read what is there to its end first
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);
+
+struct FarmSlurmOptions {
+  std::filesystem::path project;
+  std::filesystem::path output;   ///< folder of the scripts and logs; empty = beside the project
+  std::filesystem::path program;  ///< acentric on the nodes; empty = where this one is
+  std::string partition;
+  int nodes = 1;
+  double taskSeconds = 30;
+  bool submit = false, print = false;
+};
+Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& common);
 
 /// Frames of the tour that commands make where no path is given.
 inline constexpr int kTourFrames = 60;

@@ -124,6 +124,30 @@ void addBake(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
+  c->add_flag("--verify", o.verify, "Read what is baked to its end first, and bake again what is damaged");
+}
+
+void addFarm(CLI::App& app, Chosen& chosen) {
+  CLI::App* farm = app.add_subcommand("farm", "Bake on several machines");
+  farm->require_subcommand(1);
+  auto [c, o] = add(*farm, chosen, "slurm",
+                    "Write the scripts of a bake as Slurm jobs, one after all that verifies; submit them",
+                    "  acentric farm slurm kitchen.acentric.json --nodes 4 --submit\n"
+                    "  acentric farm slurm kitchen.acentric.json --nodes 8 --partition night --threads 16 "
+                    "--print",
+                    runFarmSlurm);
+  c->add_option("project", o.project, "Project file, in a folder that all nodes share")->required();
+  addStoreyOption(*c, chosen, "all of them");
+  c->add_option("--nodes", o.nodes, "How many nodes bake at once")->check(CLI::Range(1, 100'000));
+  c->add_option("--partition", o.partition, "Partition of the cluster (default: the cluster's)");
+  c->add_option("--task-seconds", o.taskSeconds, "A task's cameras are worth at least so many seconds")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  c->add_option("-o,--out", o.output,
+                "Folder of the scripts and logs, shared too (default: beside the project)");
+  c->add_option("--program", o.program, "acentric on the nodes (default: where this one is)");
+  c->add_flag("--print", o.print, "Print the scripts");
+  c->add_flag("--submit", o.submit, "Submit them with sbatch");
 }
 
 void addValidate(CLI::App& app, Chosen& chosen) {
@@ -149,6 +173,7 @@ void addProjectCommands(CLI::App& app, Chosen& chosen) {
   addStoreys(app, chosen);
   addLayout(app, chosen);
   addBake(app, chosen);
+  addFarm(app, chosen);
   addValidate(app, chosen);
 }
 

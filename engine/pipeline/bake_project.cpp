@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
@@ -19,9 +20,34 @@ class StoreSink final : public CaptureSink {
   const CaptureStore& store_;
 };
 
+/// Sets aside what is damaged of `keys`.
+Result<std::vector<std::string>> verified(const CaptureStore& store, const std::vector<ContentKey>& keys,
+                                          TaskRunner& runner, const Progress& progress,
+                                          const std::stop_token& stop) {
+  std::vector<std::string> damaged;
+  std::optional<Error> trouble;
+  std::mutex mutex;
+  double done = 0;
+  runner.parallelFor(keys.size(), [&](std::size_t k) {
+    if (stop.stop_requested()) return;
+    const std::vector<Error> problems = store.setDamagedAside(keys[k]);
+    const std::lock_guard lock(mutex);
+    for (const Error& problem : problems) {
+      if (problem.kind == ErrorKind::unreadable || problem.kind == ErrorKind::outOfSpace) trouble = problem;
+      damaged.push_back(problem.describe());
+    }
+    if (progress) progress({++done, double(keys.size()), "reading what is baked"});
+  });
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+  if (trouble) return tl::unexpected(*trouble);
+  std::ranges::sort(damaged);
+  return damaged;
+}
+
 }  // namespace
 
 void ProjectBakeReport::add(const ProjectBakeReport& other) {
+  damaged.insert(damaged.end(), other.damaged.begin(), other.damaged.end());
   captures.cameras.clear();
   captures.baked += other.captures.baked;
   captures.reused += other.captures.reused;
@@ -54,6 +80,13 @@ std::vector<bool> bakedCameras(const OpenProject& open) {
   return baked;
 }
 
+bool surfaceLightBaked(const OpenProject& open) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(captureFolderFor(open.file), error)) return false;
+  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  return store && store->hasSurfaceLight(open.surfaceLightKey);
+}
+
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress, std::stop_token stop) {
   const auto store = CaptureStore::open(captureFolderFor(open.file));
@@ -64,10 +97,18 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
+  ProjectBakeReport report;
+  if (request.verify) {
+    std::vector<ContentKey> keys;
+    for (const int camera : cameras) keys.push_back(open.keys[std::size_t(camera)]);
+    if (request.surfaceLight) keys.push_back(open.surfaceLightKey);
+    auto damaged = verified(*store, keys, runner, progress, stop);
+    if (!damaged) return tl::unexpected(damaged.error());
+    report.damaged = std::move(*damaged);
+  }
   StoreSink sink(*store);
   auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop);
   if (!captures) return tl::unexpected(captures.error());
-  ProjectBakeReport report;
   report.captures = std::move(*captures);
 
   if (request.surfaceLight && store->hasSurfaceLight(open.surfaceLightKey)) {

@@ -82,9 +82,11 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
 struct BakeRequest {
   std::optional<std::vector<int>> cameras;  ///< indices, baked in this order; none given: all of them
   bool surfaceLight = true;
+  bool verify = false;  ///< reads what is there to its end first; what is damaged is baked again
 };
 struct ProjectBakeReport {
   BakeReport captures;
+  std::vector<std::string> damaged;  ///< what `verify` found and set aside; each names its file
   bool surfaceLightBaked = false;
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
@@ -97,6 +99,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
 
 /// Which cameras are on disk.
 std::vector<bool> bakedCameras(const OpenProject& open);
+bool surfaceLightBaked(const OpenProject& open);
 
 /// Cameras in baking order: nearest to the spawn first.
 std::vector<int> bakingOrder(const OpenProject& open);

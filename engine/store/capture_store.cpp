@@ -1,6 +1,7 @@
 #include "engine/store/capture_store.h"
 
 #include <algorithm>
+#include <functional>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -51,6 +52,11 @@ void setAside(const fs::path& path) {
   fs::rename(path, path.string() + kDamagedExtension, ignored);
 }
 
+/// Only contents that are wrong count as damage: a disk or memory in trouble says nothing about the file.
+bool isDamage(const Error& error) {
+  return error.kind == ErrorKind::malformed || error.kind == ErrorKind::unsupported;
+}
+
 /// A file made for another key is as useless as a damaged one.
 template <class Value>
 Result<Keyed<Value>> expectKey(Result<Keyed<Value>>&& read, const ContentKey& key, const fs::path& path) {
@@ -66,14 +72,26 @@ Result<Value> getWhole(const ContentKey& key, const fs::path& path,
                        Result<Keyed<Value>> (*readKeyed)(const fs::path&)) {
   if (!isFile(path)) return fail(ErrorKind::notFound, "is not baked", path.string());
   auto whole = expectKey(readKeyed(path), key, path);
-  if (!whole &&
-      (whole.error().kind == ErrorKind::malformed || whole.error().kind == ErrorKind::unsupported)) {
+  if (!whole && isDamage(whole.error())) {
     setAside(path);
     return fail(ErrorKind::malformed,
                 "is damaged and was set aside as *.damaged; bake again (" + whole.error().message + ")",
                 path.string());
   }
   return withoutKey(std::move(whole));
+}
+
+/// Reads every file that is there under a key to its end; `report`s what is wrong with each.
+void lookAt(const fs::path& folder, const ContentKey& key,
+            const std::function<void(const fs::path&, Error)>& report) {
+  const auto look = [&](const fs::path& path, const auto& readKeyed) {
+    if (!isFile(path)) return;
+    if (auto read = expectKey(readKeyed(path), key, path); !read) report(path, std::move(read.error()));
+  };
+  look(packOf(folder, key), readKeyedCapturePack);
+  look(exrOf(folder, key), readKeyedCaptureExr);
+  look(lightOf(folder, key), readKeyedSurfaceLight);
+  look(simplifiedOf(folder, key), readKeyedSimplified);
 }
 
 /// The key in the name of one of the store's files (also of one set aside).
@@ -117,17 +135,14 @@ Result<Capture> CaptureStore::get(const ContentKey& key) const {
   if (!has(key)) return fail(ErrorKind::notFound, "is not baked", pack.string());
   auto packed = expectKey(readKeyedCapturePack(pack), key, pack);
   if (packed) return withoutKey(std::move(packed));
-  // Only contents that are wrong count as damage: a disk or memory in trouble says nothing about the file.
-  if (packed.error().kind != ErrorKind::malformed && packed.error().kind != ErrorKind::unsupported)
-    return tl::unexpected(packed.error());
+  if (!isDamage(packed.error())) return tl::unexpected(packed.error());
   auto original = expectKey(readKeyedCaptureExr(exr), key, exr);
   if (original) {
     // Should the pack not be writable now, the capture is still sound; the next get tries again.
     (void)writeCapturePack(original->value, key, pack);
     return withoutKey(std::move(original));
   }
-  if (original.error().kind != ErrorKind::malformed && original.error().kind != ErrorKind::unsupported)
-    return tl::unexpected(original.error());
+  if (!isDamage(original.error())) return tl::unexpected(original.error());
   setAside(exr);
   setAside(pack);
   return fail(ErrorKind::malformed,
@@ -158,14 +173,16 @@ Result<SimplifiedLocal> CaptureStore::getSimplified(const ContentKey& key) const
 
 std::vector<Error> CaptureStore::check(const ContentKey& key) const {
   std::vector<Error> problems;
-  const auto look = [&](const fs::path& path, const auto& readKeyed) {
-    if (!isFile(path)) return;
-    if (auto read = expectKey(readKeyed(path), key, path); !read) problems.push_back(std::move(read.error()));
-  };
-  look(packOf(folder_, key), readKeyedCapturePack);
-  look(exrOf(folder_, key), readKeyedCaptureExr);
-  look(lightOf(folder_, key), readKeyedSurfaceLight);
-  look(simplifiedOf(folder_, key), readKeyedSimplified);
+  lookAt(folder_, key, [&](const fs::path&, Error error) { problems.push_back(std::move(error)); });
+  return problems;
+}
+
+std::vector<Error> CaptureStore::setDamagedAside(const ContentKey& key) const {
+  std::vector<Error> problems;
+  lookAt(folder_, key, [&](const fs::path& path, Error error) {
+    if (isDamage(error)) setAside(path);
+    problems.push_back(std::move(error));
+  });
   return problems;
 }
 

@@ -54,6 +54,8 @@ class CaptureStore {
   /// Reads every file that is there under the key (both of a capture, surface light, simplified geometry)
   /// to its end; what is wrong with each, that it was made for another key too. Sets nothing aside.
   std::vector<Error> check(const ContentKey& key) const;
+  /// The same, and each file that is damaged is set aside (renamed *.damaged): the next bake replaces it.
+  std::vector<Error> setDamagedAside(const ContentKey& key) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set

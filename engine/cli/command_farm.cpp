@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "engine/base/file.h"
+#include "engine/base/stopwatch.h"
+#include "engine/cli/commands.h"
+#include "engine/cli/run_command.h"
+#include "engine/pipeline/estimate_bake.h"
+#include "engine/pipeline/slurm_farm.h"
+
+namespace acentric::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// A task opens the project first; that should be a small part of it.
+constexpr double kLeastOpenings = 10;
+constexpr double kProbeSeconds = 2;
+
+/// What is still to be baked of all storeys, by this machine's pace.
+struct Work {
+  int cameras = 0, lights = 0;
+  double cameraSeconds = 0, lightSeconds = 0, bytes = 0;
+};
+
+Result<Work> workOf(std::span<const OpenProject> storeys, const Common& common) {
+  Work work;
+  const auto runner = common.runner();
+  for (const OpenProject& open : storeys) {
+    const std::vector<bool> baked = bakedCameras(open);
+    std::vector<int> missing;
+    for (std::size_t camera = 0; camera < baked.size(); ++camera)
+      if (!baked[camera]) missing.push_back(int(camera));
+    EstimateOptions options;
+    options.captureSeconds = 0.65 * kProbeSeconds / double(storeys.size());
+    options.lightSeconds = 0.35 * kProbeSeconds / double(storeys.size());
+    options.surfaceLight = !surfaceLightBaked(open);
+    if (missing.empty() && !options.surfaceLight) continue;
+    const auto estimate = estimateProjectBake(open, missing, options, *runner, common.progress, common.stop);
+    if (!estimate) return tl::unexpected(estimate.error());
+    work.cameras += int(missing.size());
+    work.lights += options.surfaceLight ? 1 : 0;
+    work.cameraSeconds += missing.empty() ? 0 : estimate->captureSeconds.value;
+    work.lightSeconds += estimate->lightSeconds.value;
+    work.bytes += estimate->bytes.value;
+  }
+  return work;
+}
+
+Status writeScripts(const FarmScripts& scripts, const fs::path& folder) {
+  for (const auto& [name, text] :
+       {std::pair{kFarmBakeScript, &scripts.bake}, std::pair{kFarmMergeScript, &scripts.merge},
+        std::pair{kFarmSubmitScript, &scripts.submit}}) {
+    if (Status written = writeTextAtomically(folder / name, *text); !written) return written;
+    std::error_code error;
+    fs::permissions(folder / name, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add,
+                    error);
+    if (error)
+      return fail(ErrorKind::unreadable, "cannot be made executable: " + error.message(),
+                  (folder / name).string());
+  }
+  return {};
+}
+
+struct Jobs {
+  std::string array, merge;
+};
+
+Result<Jobs> submit(const fs::path& script) {
+  const auto ran = runCommand({"bash", script.string()});
+  if (!ran) return tl::unexpected(ran.error());
+  Jobs jobs;
+  std::istringstream words(ran->text);
+  words >> jobs.array >> jobs.merge;
+  const auto isNumber = [](const std::string& word) {
+    return !word.empty() && std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
+  };
+  if (ran->exitCode == 0 && isNumber(jobs.array) && isNumber(jobs.merge)) return jobs;
+  return fail(ErrorKind::internal, "Slurm did not take the jobs: " + ran->text, script.string());
+}
+
+}  // namespace
+
+Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& common) {
+  if (options.submit && !onPath("sbatch"))
+    return fail(ErrorKind::notFound,
+                "is not on PATH: install Slurm's programs (Debian: slurm-client), or leave --submit away and "
+                "run the script that is written on a machine that has them",
+                "sbatch");
+  const Stopwatch opening;
+  const auto storeys = openStoreys(options.project, common);
+  if (!storeys) return tl::unexpected(storeys.error());
+  const double taskSeconds = std::max(options.taskSeconds, kLeastOpenings * opening.seconds());
+  const auto work = workOf(*storeys, common);
+  if (!work) return tl::unexpected(work.error());
+
+  std::error_code error;
+  FarmOptions farm;
+  farm.program = fs::read_symlink("/proc/self/exe", error);
+  if (!options.program.empty()) farm.program = options.program;
+  farm.project = fs::absolute(options.project, error).lexically_normal();
+  farm.storey = common.storey;
+  farm.partition = options.partition;
+  farm.nodes = options.nodes;
+  farm.threads = common.threads;
+  farm.cameraTasks = farmTasks(work->cameraSeconds, work->cameras, taskSeconds);
+  farm.light = work->lights > 0;
+
+  Report report;
+  report.json = {{"missingCameras", work->cameras},
+                 {"cameraTasks", farm.cameraTasks},
+                 {"lightTask", farm.light},
+                 {"taskSeconds", farm.cameraTasks > 0 ? work->cameraSeconds / farm.cameraTasks : 0},
+                 {"lightSeconds", work->lightSeconds},
+                 {"bytes", work->bytes},
+                 {"submitted", nullptr}};
+  if (work->cameras == 0 && work->lights == 0) {
+    report.text = "everything is baked: there is nothing to submit\n";
+    return report;
+  }
+  if (Status sound = farm.check(); !sound) return tl::unexpected(sound.error());
+  fs::path folder = options.output;
+  if (folder.empty()) folder = captureFolderFor(farm.project).replace_extension(".farm");
+  folder = fs::absolute(folder, error).lexically_normal();
+  const FarmScripts scripts = slurmScripts(farm);
+  if (Status written = writeScripts(scripts, folder); !written) return tl::unexpected(written.error());
+  report.json["folder"] = folder.string();
+  report.text = fmt::format(
+      "{} cameras in {} tasks of about {:.0f} s{}, {} at once, then one that verifies; by this machine's "
+      "pace "
+      "with {} threads\n",
+      work->cameras, farm.cameraTasks, report.json["taskSeconds"].get<double>(),
+      farm.light ? fmt::format(" and the light on local geometry in one of {:.0f} s", work->lightSeconds)
+                 : "",
+      options.nodes, common.threadCount());
+  if (options.print) {
+    report.json["scripts"] = {{kFarmBakeScript, scripts.bake},
+                              {kFarmMergeScript, scripts.merge},
+                              {kFarmSubmitScript, scripts.submit}};
+    report.text += fmt::format("\n--- {}\n{}\n--- {}\n{}\n--- {}\n{}\n", kFarmBakeScript, scripts.bake,
+                               kFarmMergeScript, scripts.merge, kFarmSubmitScript, scripts.submit);
+  }
+  if (!options.submit) {
+    report.text += fmt::format("submit with: {}\n", shellQuoted((folder / kFarmSubmitScript).string()));
+    return report;
+  }
+  const auto jobs = submit(folder / kFarmSubmitScript);
+  if (!jobs) return tl::unexpected(jobs.error());
+  report.json["submitted"] = {{"array", jobs->array}, {"merge", jobs->merge}};
+  report.text +=
+      fmt::format("submitted as jobs {} and {}; they log to {}\n", jobs->array, jobs->merge, folder.string());
+  return report;
+}
+
+}  // namespace acentric::cli
