@@ -205,9 +205,10 @@ void drawBake(PanelContext& context) {
            return setBakeSettings(project, bake, "samples per degree");
          });
   int rays = bake.ambientRays;
-  const ui::FieldEdit raysEdit = ui::numberField(
-      {"Ambient rays", "%.0f", 0.2, 0, 1024, "Per sample, for soft shade in corners; 0 to 1024."}, rays,
-      kLabelWidth);
+  const ui::FieldEdit raysEdit =
+      ui::numberField({"Ambient rays", "%.0f", 0.2, 0, 1024,
+                       "Per place on a surface, for soft shade in corners and bounced light; 0 to 1024."},
+                      rays, kLabelWidth);
   if (raysEdit) {
     bake.ambientRays = rays;
     applyFieldEdit(context, raysEdit, setBakeSettings(project, bake, "ambient rays"));
@@ -226,12 +227,22 @@ void drawBake(PanelContext& context) {
     bake.shadowRays = shadowRays;
     applyFieldEdit(context, shadowEdit, setBakeSettings(project, bake, "shadow rays"));
   }
-  number(context, "surfaceTexel",
-         {"Surface texel", "%.3f m", 0.001, 0.002, 10, "Distance of light samples on near geometry."},
-         bake.surfaceTexel, [&](double v) {
-           bake.surfaceTexel = v;
-           return setBakeSettings(project, bake, "surface texel");
-         });
+  int bounces = bake.bounces;
+  const ui::FieldEdit bouncesEdit = ui::numberField(
+      {"Bounces", "%.0f", 0.05, 1, 8, "Of light between surfaces, where interreflection is on; 1 to 8."},
+      bounces, kLabelWidth);
+  if (bouncesEdit) {
+    bake.bounces = bounces;
+    applyFieldEdit(context, bouncesEdit, setBakeSettings(project, bake, "bounces"));
+  }
+  number(
+      context, "surfaceTexel",
+      {"Surface texel", "%.3f m", 0.001, 0.002, 10,
+       "Distance of light samples on near geometry, and of places where light from all around is gathered."},
+      bake.surfaceTexel, [&](double v) {
+        bake.surfaceTexel = v;
+        return setBakeSettings(project, bake, "surface texel");
+      });
   int layers = bake.maxLayers;
   const ui::FieldEdit layersEdit = ui::numberField(
       {"Most layers", "%.0f", 0.05, 1, 64, "Samples kept per pixel at most: what opens up behind edges."},

@@ -16,10 +16,6 @@ float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2
 
 }  // namespace
 
-bool tracesOcclusion(const EffectPlan& plan, const BakeSettings& settings) {
-  return plan.on(Effect::ambientOcclusion) && settings.ambientRays > 0;
-}
-
 glm::vec3 bouncedLightStandIn(const LightSet& lights, const Bounds& bounds) {
   if (lights.empty() || bounds.empty()) return glm::vec3(0);
   constexpr int kGrid = 5;
@@ -41,8 +37,10 @@ glm::vec3 bouncedLightStandIn(const LightSet& lights, const Bounds& bounds) {
 Ambient::Ambient(const RayScene& scene, const LightSet& lights, const BakeSettings& settings)
     : sky_(scene.scene().sky), radius_(float(settings.ambientRadius)) {
   hasSky_ = scene.plan().on(Effect::sky) && sky_.present();
-  if (!hasSky_) standIn_ = bouncedLightStandIn(lights, scene.scene().bounds);
-  const int count = tracesOcclusion(scene.plan(), settings) ? settings.ambientRays : kFreeDirections;
+  const bool bounced = scene.plan().on(Effect::diffuseInterreflection) && settings.ambientRays > 0;
+  if (!hasSky_ && !bounced) standIn_ = bouncedLightStandIn(lights, scene.scene().bounds);
+  const bool occluded = scene.plan().on(Effect::ambientOcclusion) && settings.ambientRays > 0;
+  const int count = occluded ? settings.ambientRays : kFreeDirections;
   for (int i = 0; i < count; ++i) {
     // A spiral of equal areas; with the opposites it covers the sphere, and of each pair one lies in any
     // hemisphere.

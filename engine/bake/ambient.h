@@ -44,7 +44,4 @@ class Ambient {
 /// in the typical light (the median of a fixed grid in the middle of the scene).
 glm::vec3 bouncedLightStandIn(const LightSet& lights, const Bounds& bounds);
 
-/// Are occlusion rays traced at all?
-bool tracesOcclusion(const EffectPlan& plan, const BakeSettings& settings);
-
 }  // namespace acentric

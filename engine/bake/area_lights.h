@@ -27,7 +27,7 @@ class AreaLights {
   /// Does this mesh's glow arrive through here?
   bool include(std::uint32_t mesh) const { return !empty() && lighting_[mesh] != 0; }
 
-  /// Irradiance with nothing in between.
+  /// Irradiance with nothing in between; not of an empty set.
   glm::vec3 irradiance(const Surface& surface) const;
   /// Irradiance with shadows, by `count` rays.
   glm::vec3 irradiance(const RayScene& scene, const Surface& surface, const PositionSamples& samples,

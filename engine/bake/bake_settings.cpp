@@ -20,6 +20,7 @@ Status BakeSettings::check() const {
     return bad(fmt::format("{} ambient rays: must lie in 0..1024", ambientRays));
   if (shadowRays < 1 || shadowRays > 1024)
     return bad(fmt::format("{} shadow rays: must lie in 1..1024", shadowRays));
+  if (bounces < 1 || bounces > 8) return bad(fmt::format("{} bounces: must lie in 1..8", bounces));
   for (const auto& [what, metres] :
        {std::pair{"ambient radius", ambientRadius}, std::pair{"surface texel", surfaceTexel}})
     if (!inRange(metres, kLeastBakeLength, kLargestBakeLength))
@@ -35,7 +36,8 @@ void BakeSettings::addTo(Hasher& hasher) const {
       .value(ambientRadius)
       .value(surfaceTexel)
       .value(maxLayers)
-      .value(shadowRays);
+      .value(shadowRays)
+      .value(bounces);
 }
 
 }  // namespace acentric

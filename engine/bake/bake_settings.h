@@ -11,10 +11,11 @@ inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
 
 struct BakeSettings {
   double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
-  int ambientRays = 12;         ///< per sample, 0..1024; used where the plan has ambient occlusion
+  int ambientRays = 32;         ///< per place that light is gathered for, 0..1024; for occlusion and bounces
   double ambientRadius = 2.0;   ///< metres; occluders beyond fade out
   int shadowRays = 16;          ///< per sample towards each light with a size, 1..1024
-  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry
+  int bounces = 2;              ///< of light between surfaces, 1..8; used where the plan has interreflection
+  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, and of gathered light
   int maxLayers = 8;            ///< samples kept per pixel at most, 1..64
 
   Status check() const;

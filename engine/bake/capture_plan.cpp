@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/bake/ambient.h"
 #include "engine/bake/bake.h"
+#include "engine/bake/gathered_light.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric {
@@ -53,12 +53,13 @@ ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSett
   hasher.text(kBakeVersion);
   hasher.value(scene.key.high).value(scene.key.low);
   plan.addTo(hasher);
-  // Not all settings: the texel of surface light, say, changes no capture, and must not bake them all again.
+  // Not all settings: what an absent effect would use changes no capture, and must not bake them all again.
   hasher.value(settings.maxLayers);
-  if (tracesOcclusion(plan, settings))
-    hasher.value(settings.ambientRays).value(settings.ambientRadius);
+  if (gathersLight(plan, settings))
+    hasher.value(settings.ambientRays).value(settings.ambientRadius).value(settings.surfaceTexel);
   else
     hasher.value(0);
+  if (plan.on(Effect::diffuseInterreflection)) hasher.value(settings.bounces);
   if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
   columnCamera.addTo(hasher);
   hasher.value(std::uint64_t(camera.served.size()));

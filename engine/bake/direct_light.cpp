@@ -14,16 +14,6 @@ bool reaches(const Surface& surface, const glm::vec3& towards) {
   return glm::dot(surface.normal, towards) > 0 && glm::dot(surface.geometricNormal, towards) > 0;
 }
 
-/// Two directions across a unit one.
-struct Across {
-  glm::vec3 first, second;
-  explicit Across(const glm::vec3& axis) {
-    const glm::vec3 other = std::abs(axis.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
-    first = glm::normalize(glm::cross(other, axis));
-    second = glm::cross(axis, first);
-  }
-};
-
 template <bool kShadows>
 glm::vec3 arriving(const RayScene& scene, const Surface& surface, const glm::vec3& irradiance,
                    const glm::vec3& towards, float distance, RayCounts& rays) {
@@ -61,8 +51,7 @@ glm::vec3 shareOf(const RayScene& scene, const Surface& surface, const PositionS
     const glm::vec2 u = points.at(k);
     const float along = 1 - u.x * (1 - cone.cosine), angle = 2 * std::numbers::pi_v<float> * u.y;
     const float aside = std::sqrt(std::max(0.0f, 1 - along * along));
-    const glm::vec3 towards =
-        cone.axis * along + (across.first * std::cos(angle) + across.second * std::sin(angle)) * aside;
+    const glm::vec3 towards = cone.axis * along + across.at(aside * std::cos(angle), aside * std::sin(angle));
     const float cosine = std::max(0.0f, glm::dot(surface.normal, towards));
     weights += cosine;
     if (!reaches(surface, towards)) continue;
@@ -85,7 +74,9 @@ DirectLights::DirectLights(const RayScene& scene, const BakeSettings& settings)
       set_(lightSet(scene.scene(), scene.plan())),
       area_(&scene.areaLights()),
       samples_(sampleCell(scene.scene().bounds)),
-      shadowRays_(settings.shadowRays) {}
+      shadowRays_(settings.shadowRays),
+      hardShadows_(scene.plan().on(Effect::hardShadows)),
+      softShadows_(scene.plan().on(Effect::softShadows)) {}
 
 template <bool kShadows>
 glm::vec3 DirectLights::small(const Surface& surface, RayCounts& rays) const {
@@ -105,7 +96,8 @@ glm::vec3 DirectLights::small(const Surface& surface, RayCounts& rays) const {
 template <bool kShadows>
 glm::vec3 DirectLights::wide(const Surface& surface, RayCounts& rays) const {
   if constexpr (!kShadows) {
-    return area_->irradiance(surface);  // lamps with a size count as small ones then
+    return area_->empty() ? glm::vec3(0)
+                          : area_->irradiance(surface);  // lamps with a size count as small ones then
   } else {
     glm::vec3 sum(0);
     std::uint32_t stream = 1;
@@ -131,6 +123,11 @@ glm::vec3 DirectLights::wide(const Surface& surface, RayCounts& rays) const {
     if (!area_->empty()) sum += area_->irradiance(*scene_, surface, samples_, shadowRays_, rays);
     return sum;
   }
+}
+
+glm::vec3 DirectLights::at(const Surface& surface, RayCounts& rays) const {
+  const glm::vec3 small = hardShadows_ ? this->small<true>(surface, rays) : this->small<false>(surface, rays);
+  return small + (softShadows_ ? wide<true>(surface, rays) : wide<false>(surface, rays));
 }
 
 template glm::vec3 DirectLights::small<true>(const Surface&, RayCounts&) const;

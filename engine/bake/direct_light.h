@@ -29,12 +29,16 @@ class DirectLights {
   template <bool kShadows>
   glm::vec3 wide(const Surface& surface, RayCounts& rays) const;
 
+  /// Irradiance of all of them, with the shadows that the plan has on.
+  glm::vec3 at(const Surface& surface, RayCounts& rays) const;
+
  private:
   const RayScene* scene_;
   LightSet set_;
   const AreaLights* area_;
   PositionSamples samples_;
   int shadowRays_;
+  bool hardShadows_, softShadows_;
 };
 
 }  // namespace acentric

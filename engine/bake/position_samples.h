@@ -17,6 +17,20 @@ inline std::uint32_t mixBits(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
+/// Two directions across a unit one.
+class Across {
+ public:
+  explicit Across(const glm::vec3& axis) {
+    const glm::vec3 other = std::abs(axis.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+    first_ = glm::normalize(glm::cross(other, axis));
+    second_ = glm::cross(axis, first_);
+  }
+  glm::vec3 at(float x, float y) const { return first_ * x + second_ * y; }
+
+ private:
+  glm::vec3 first_, second_;
+};
+
 class PositionSamples {
  public:
   /// Metres, the side of the cubes that share a scramble: coarser than positions' rounding, finer than a

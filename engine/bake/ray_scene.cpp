@@ -8,6 +8,7 @@
 #include "engine/bake/area_lights.h"
 #include "engine/bake/embree_handles.h"
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/gathered_light.h"
 #include "engine/bake/material_rules.h"
 #include "engine/bake/surface.h"
 
@@ -237,11 +238,14 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const Ef
   }
 }
 
-Hit RayScene::trace(const Ray& ray) const {
+Hit RayScene::trace(const Ray& ray) const { return trace(ray, kSolidMask | kClearMask); }
+Hit RayScene::traceSolid(const Ray& ray) const { return trace(ray, kSolidMask); }
+
+Hit RayScene::trace(const Ray& ray, unsigned mask) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
-  query.ray = embreeRay(ray, kSolidMask | kClearMask);
+  query.ray = embreeRay(ray, mask);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &context, &query);
   Hit hit;
@@ -271,6 +275,13 @@ float RayScene::occluderDistance(const Ray& ray) const {
   rtcIntersect1(embree_->scene.get(), &context, &query);
   return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
                                                      : query.ray.tfar;
+}
+
+std::shared_ptr<const GatheredLight> RayScene::gatheredLight(const BakeSettings& settings) const {
+  const std::lock_guard lock(gatheredMutex_);
+  if (!gathered_ || gathered_->settings() != GatherSettings::of(settings))
+    gathered_ = std::make_shared<const GatheredLight>(*this, settings);
+  return gathered_;
 }
 
 }  // namespace acentric

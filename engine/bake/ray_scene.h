@@ -4,6 +4,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -42,6 +43,8 @@ struct RayCounts {
 };
 
 class AreaLights;
+class GatheredLight;
+struct BakeSettings;
 
 class RayScene {
  public:
@@ -52,22 +55,30 @@ class RayScene {
   ScenePtr sharedScene() const { return scene_; }
   const EffectPlan& plan() const { return plan_; }
   const AreaLights& areaLights() const { return *areaLights_; }
+  /// Light gathered from all around, kept from one asker to the next as long as the settings that shape it
+  /// stay.
+  std::shared_ptr<const GatheredLight> gatheredLight(const BakeSettings& settings) const;
 
   /// Nearest surface. Alpha-tested surfaces are cut out where the plan has alpha tests. Back sides count.
   Hit trace(const Ray& ray) const;
   /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended
   /// surfaces.
   glm::vec3 transmittance(const Ray& ray) const;
+  /// Nearest surface that light does not pass.
+  Hit traceSolid(const Ray& ray) const;
   /// Distance to the nearest occluder, alpha tests respected, transmissive surfaces ignored.
   float occluderDistance(const Ray& ray) const;
 
  private:
   struct Embree;
+  Hit trace(const Ray& ray, unsigned mask) const;
   RayScene(ScenePtr scene, const EffectPlan& plan);
   ScenePtr scene_;
   EffectPlan plan_;
   std::unique_ptr<Embree> embree_;
   std::unique_ptr<const AreaLights> areaLights_;
+  mutable std::mutex gatheredMutex_;
+  mutable std::shared_ptr<const GatheredLight> gathered_;
 };
 
 using RayScenePtr = std::shared_ptr<const RayScene>;

@@ -22,8 +22,29 @@ float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
 /// The instantiations, and the table that finds one.
 struct ShadingKernels {
   using DirectLight = Shader::DirectLight;
+  using Around = Shader::Around;
 
-  template <DirectLight kSmall, DirectLight kWide, bool kOcclusion, bool kDetail, bool kSpecial>
+  template <Around kAround>
+  static GatheredLight::Gathered around(const Shader& shader, const Hit& hit, const glm::vec3& toViewer,
+                                        const Surface& surface, RayCounts& rays) {
+    if constexpr (kAround == Around::free) {
+      const Ambient::Gathered ambient = shader.ambient_.gather<false>(*shader.scene_, surface, rays);
+      return {ambient.radiance, ambient.open};
+    } else {
+      return shader.gathered_->at(hit, glm::dot(hit.geometricNormal, toViewer) < 0, rays);
+    }
+  }
+
+  /// What lies in one direction, as far as light from all around tells.
+  template <Around kAround>
+  static glm::vec3 inMirror(const Shader& shader, const glm::vec3& direction,
+                            const GatheredLight::Gathered& ambient) {
+    glm::vec3 seen = shader.ambient_.radianceFrom(direction) * ambient.open;
+    if constexpr (kAround == Around::bounced) seen += ambient.radiance * (1 - ambient.open);
+    return seen;
+  }
+
+  template <DirectLight kSmall, DirectLight kWide, Around kAround, bool kDetail, bool kSpecial>
   static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
                       RayCounts& rays) {
     const RayScene& scene = *shader.scene_;
@@ -52,7 +73,7 @@ struct ShadingKernels {
       }
     }
 
-    const auto ambient = shader.ambient_.template gather<kOcclusion>(scene, surface, rays);
+    const GatheredLight::Gathered ambient = around<kAround>(shader, hit, toViewer, surface, rays);
     out.light = ambient.radiance;
     glm::vec3 direct(0);
     if constexpr (kSmall != DirectLight::none)
@@ -65,15 +86,14 @@ struct ShadingKernels {
     const float metal = std::clamp(surface.metallic, 0.0f, 1.0f);
     if (metal > 0) {
       const float rough = std::clamp(surface.roughness, 0.0f, 1.0f);
-      const glm::vec3 around =
-          glm::mix(shader.ambient_.radianceFrom(mirrored) * ambient.open, ambient.radiance, rough);
-      out.light = out.light * (1 - 0.5f * metal) + around * (0.5f * metal);
+      const glm::vec3 seen = glm::mix(inMirror<kAround>(shader, mirrored, ambient), ambient.radiance, rough);
+      out.light = out.light * (1 - 0.5f * metal) + seen * (0.5f * metal);
     }
     if constexpr (kSpecial) {
       if (rules.transmissive) {
         const GlassAlpha glass = glassAlpha(scene.scene().materials[material].transmission, out.baseColour,
                                             glm::dot(surface.normal, toViewer));
-        const glm::vec3 film = shader.ambient_.radianceFrom(mirrored) * ambient.open;
+        const glm::vec3 film = inMirror<kAround>(shader, mirrored, ambient);
         out.light = (out.light * glass.body + film * glass.film) / glass.alpha();
         out.alpha *= glass.alpha();
       }
@@ -83,16 +103,16 @@ struct ShadingKernels {
 
   template <std::size_t kIndex>
   static constexpr Shader::Kernel at() {
-    return &shade<static_cast<DirectLight>(kIndex / 24), static_cast<DirectLight>(kIndex / 8 % 3),
-                  (kIndex & 4) != 0, (kIndex & 2) != 0, (kIndex & 1) != 0>;
+    return &shade<static_cast<DirectLight>(kIndex / 36), static_cast<DirectLight>(kIndex / 12 % 3),
+                  static_cast<Around>(kIndex / 4 % 3), (kIndex & 2) != 0, (kIndex & 1) != 0>;
   }
   template <std::size_t... kIndices>
   static constexpr auto table(std::index_sequence<kIndices...>) {
     return std::array<Shader::Kernel, sizeof...(kIndices)>{at<kIndices>()...};
   }
   static Shader::Kernel find(const Shader::Switches& s) {
-    static constexpr auto kTable = table(std::make_index_sequence<72>{});
-    return kTable[std::size_t(s.direct) * 24 + std::size_t(s.wide) * 8 + (s.occlusion ? 4u : 0u) +
+    static constexpr auto kTable = table(std::make_index_sequence<108>{});
+    return kTable[std::size_t(s.direct) * 36 + std::size_t(s.wide) * 12 + std::size_t(s.around) * 4 +
                   (s.detail ? 2u : 0u) + (s.special ? 1u : 0u)];
   }
 };
@@ -110,7 +130,10 @@ Shader::Shader(const RayScene& scene, const BakeSettings& settings)
   };
   switches_.direct = use(lights_.hasSmall(), plan.on(Effect::hardShadows));
   switches_.wide = use(lights_.hasWide(), plan.on(Effect::softShadows));
-  switches_.occlusion = tracesOcclusion(plan, settings);
+  if (gathersLight(plan, settings)) {
+    switches_.around = plan.on(Effect::diffuseInterreflection) ? Around::bounced : Around::occluded;
+    gathered_ = scene.gatheredLight(settings);
+  }
   switches_.detail = detail_.any();
   switches_.special =
       std::any_of(rules_.begin(), rules_.end(), [](const MaterialRules& r) { return r.mirror || r.clear(); });

@@ -2,10 +2,11 @@
 /// The one shading routine, used by captures, surface light and the reference picture alike. It is composed
 /// at compile time from the effect plan: `Shader` picks the instantiation once, and what is off is not in it.
 ///
-/// Switches of an instantiation (72 in all): lights without size {none, unshadowed, shadowed} x lights with
-/// one and surfaces that glow {the same} x ambient occlusion x surface detail (textures, vertex colours,
-/// normal maps together: each is one test of a flag beside a texture read) x special materials (mirrors,
-/// glass, blending: a flag per material, since even where they exist few hits are on them).
+/// Switches of an instantiation (108 in all): lights without size {none, unshadowed, shadowed} x lights with
+/// one and surfaces that glow {the same} x light from all around {free, occluded, bounced} x surface detail
+/// (textures, vertex colours, normal maps together: each is one test of a flag beside a texture read) x
+/// special materials (mirrors, glass, blending: a flag per material, since even where they exist few hits are
+/// on them).
 ///
 /// Radiance leaving a surface = baseColour * light + emission. `light` does not depend on the viewer except
 /// on metals, mirrors and glass.
@@ -15,6 +16,7 @@
 
 #include "engine/bake/ambient.h"
 #include "engine/bake/direct_light.h"
+#include "engine/bake/gathered_light.h"
 #include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
 
@@ -59,10 +61,13 @@ class Shader {
   const RayScene& scene() const { return *scene_; }
 
   enum class DirectLight : std::uint8_t { none, unshadowed, shadowed };
+  /// Light from all around: as if nothing were in the way, less what occluders take, or bounced between
+  /// surfaces.
+  enum class Around : std::uint8_t { free, occluded, bounced };
   struct Switches {
     DirectLight direct = DirectLight::none;  ///< of lights without size
     DirectLight wide = DirectLight::none;    ///< of lights with one, and of surfaces that glow
-    bool occlusion = false;
+    Around around = Around::free;
     bool detail = false;
     bool special = false;
   };
@@ -78,6 +83,7 @@ class Shader {
   bool emission_ = false;
   DirectLights lights_;
   Ambient ambient_;
+  std::shared_ptr<const GatheredLight> gathered_;
   Switches switches_;
   Kernel kernel_;
 };

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/gathered_light.h"
 #include "engine/bake/shading.h"
 #include "engine/bake/surface.h"
 #include "engine/base/contract.h"
@@ -19,26 +20,12 @@ namespace {
 constexpr std::uint64_t kMaxSamples = 60'000'000;
 constexpr std::size_t kSamplesPerChunk = 2048;
 constexpr std::uint32_t kMaxResolution = 256;
-/// Samples move this share of their spacing towards the triangle's middle, so that those on an edge that
-/// touches a wall do not lie in the wall.
-constexpr float kNudge = 0.1f;
 
 struct TriangleRef {
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
   std::uint32_t sceneTriangle = 0;
 };
-
-/// Samples per edge: the longest edge by the texel, but not more samples than a few per texel of area
-/// (needles).
-std::uint32_t resolutionFor(const Mesh& mesh, std::uint32_t triangle, double texel) {
-  const glm::uvec3& t = mesh.triangles[triangle];
-  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-  const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-  const double wanted = std::min(longest / texel, 4 * std::sqrt(area) / texel);
-  return std::uint32_t(std::clamp(std::ceil(wanted), 1.0, double(kMaxResolution)));
-}
 
 struct Plan {
   std::vector<TriangleRef> triangles;  ///< wanted ones, in scene order
@@ -120,7 +107,7 @@ class SurfaceLightBaker {
   std::uint32_t resolution(const TriangleRef& ref, double texel) const {
     // Unlit surfaces have the light 1 everywhere.
     if (rules_[std::size_t(meshOf(ref).material)].unlit) return 1;
-    return resolutionFor(meshOf(ref), ref.triangle, texel);
+    return resolutionFor(meshOf(ref), ref.triangle, texel, kMaxResolution);
   }
   bool hasBack(const TriangleRef& ref) const {
     const auto material = std::size_t(meshOf(ref).material);
@@ -139,7 +126,6 @@ class SurfaceLightBaker {
     const glm::vec3 normal = triangleNormal(mesh, ref.triangle);
     const std::uint32_t r = light_.resolution[ref.sceneTriangle];
     const int sides = light_.hasBack[ref.sceneTriangle] ? 2 : 1;
-    const float inward = kNudge / float(r);
     RayCounts rays;
     for (int side = 0; side < sides; ++side) {
       const glm::vec3 facing = side == 0 ? normal : -normal;
@@ -148,8 +134,7 @@ class SurfaceLightBaker {
       for (std::uint32_t i = 0; i <= r; ++i) {
         if (stop.stop_requested()) return;
         for (std::uint32_t j = 0; i + j <= r; ++j) {
-          const glm::vec2 exact(float(i) / float(r), float(j) / float(r));
-          Hit hit{0, ref.mesh, ref.triangle, glm::mix(exact, glm::vec2(1.0f / 3), inward), normal};
+          const Hit hit{0, ref.mesh, ref.triangle, surfaceSamplePlace(r, i, j), normal};
           const glm::vec3 position = mesh.positions[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
                                      mesh.positions[corners.y] * hit.barycentric.x +
                                      mesh.positions[corners.z] * hit.barycentric.y;

@@ -17,6 +17,7 @@ ContentKey keyOfSurfaceLight(const Scene& scene, const EffectPlan& plan, const B
       .value(settings.ambientRadius)
       .value(settings.surfaceTexel)
       .value(layout.eyeZ());
+  if (plan.on(Effect::diffuseInterreflection)) hasher.value(settings.bounces);
   if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
   for (const Region& region : layout.regions) hasher.array(std::span<const glm::dvec2>(region.grown.corners));
   return hasher.finish();

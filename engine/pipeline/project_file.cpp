@@ -204,6 +204,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "ambientRays", project.bake.ambientRays);
     read(json["bake"], "ambientRadius", project.bake.ambientRadius);
     read(json["bake"], "shadowRays", project.bake.shadowRays);
+    read(json["bake"], "bounces", project.bake.bounces);
     read(json["bake"], "surfaceTexel", project.bake.surfaceTexel);
     read(json["bake"], "maxLayers", project.bake.maxLayers);
   }
@@ -339,6 +340,7 @@ std::string formatProject(const Project& project) {
         {"ambientRays", project.bake.ambientRays},
         {"ambientRadius", project.bake.ambientRadius},
         {"shadowRays", project.bake.shadowRays},
+        {"bounces", project.bake.bounces},
         {"surfaceTexel", project.bake.surfaceTexel},
         {"maxLayers", project.bake.maxLayers}}},
       {"budget",

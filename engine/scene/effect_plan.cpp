@@ -36,8 +36,6 @@ constexpr std::array<EffectNames, kEffectCount> kNames{{
     {"unlit", "Unlit materials"},
 }};
 
-constexpr const char* kNoBounces = "approximated by ambient light; bounces are not simulated by this version";
-
 /// "3 materials with textures: Floor, Wall, frame" (the first three by name).
 std::string listed(const std::vector<std::string>& names, const char* one, const char* many,
                    const char* what) {
@@ -50,7 +48,7 @@ std::string listed(const std::vector<std::string>& names, const char* one, const
 
 class Planner {
  public:
-  explicit Planner(const Scene& scene) : scene_(scene) {
+  Planner(const Scene& scene, const EffectOverrides& overrides) : scene_(scene), overrides_(overrides) {
     std::vector<bool> used(scene.materials.size());
     for (const Mesh& mesh : scene.meshes)
       if (!mesh.triangles.empty()) used[std::size_t(mesh.material)] = true;
@@ -199,18 +197,29 @@ class Planner {
       set(Effect::softShadows, true, "surfaces that glow cast soft shadows");
     else
       set(Effect::softShadows, false, allUnlit_ ? noLight : "lights have no size");
-    if (sky)
+    const bool lit = sun || local || area || sky;
+    if (!lit)
+      set(Effect::diffuseInterreflection, false, noLight);
+    else if (sun || sky)
+      set(Effect::diffuseInterreflection, false, "sun and sky reach most surfaces themselves");
+    else
+      set(Effect::diffuseInterreflection, true,
+          "lamps alone leave what they do not shine on to bounced light");
+    const auto overridden = overrides_.find(Effect::diffuseInterreflection);
+    const bool bounced = lit && (overridden == overrides_.end() ? plan_.on(Effect::diffuseInterreflection)
+                                                                : overridden->second);
+    if (bounced)
+      set(Effect::ambientOcclusion, false, "bounced light takes its place");
+    else if (sky)
       set(Effect::ambientOcclusion, true, "light from the sky reaches corners less");
     else if ((local || area) && !sun)
       set(Effect::ambientOcclusion, true, "stands in for bounced light: the scene has only local lights");
     else
       set(Effect::ambientOcclusion, false, sun ? "no light from the sky" : noLight);
-    const bool lit = sun || local || area || sky;
-    set(Effect::diffuseInterreflection, lit, lit ? kNoBounces : noLight);
-    plan_[Effect::diffuseInterreflection].on = false;
   }
 
   const Scene& scene_;
+  const EffectOverrides& overrides_;
   std::vector<int> materials_;  ///< those with triangles
   bool allUnlit_ = false;
   EffectPlan plan_;
@@ -226,13 +235,9 @@ void EffectPlan::addTo(Hasher& hasher) const {
 }
 
 EffectPlan planEffects(const Scene& scene, const EffectOverrides& overrides) {
-  EffectPlan plan = Planner(scene).plan();
+  EffectPlan plan = Planner(scene, overrides).plan();
   for (const auto& [effect, on] : overrides) {
     EffectState& state = plan[effect];
-    if (on && effect == Effect::diffuseInterreflection) {
-      state.reason = fmt::format("cannot be switched on: {}", kNoBounces);
-      continue;
-    }
     state.on = on;
     state.overridden = true;
   }

@@ -2,19 +2,8 @@
 
 namespace acentric {
 
-glm::vec3 SurfaceLight::at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const {
-  const std::uint32_t r = resolution[sceneTriangle];
-  if (r == 0) return glm::vec3(0);
-  std::uint32_t first = firstSample[sceneTriangle];
-  if (back) {
-    if (!hasBack[sceneTriangle]) return glm::vec3(0);
-    first += surfaceSampleCount(r);
-  }
-  const auto sampleAt = [&](std::uint32_t i, std::uint32_t j) {
-    return glm::vec3(unpackColour(light[first + surfaceSampleIndex(r, i, j)]));
-  };
-
-  // Weights slightly outside the triangle (rounding of clipped corners) read its border.
+SurfaceCell surfaceCellAt(std::uint32_t resolution, glm::vec2 barycentric) {
+  const std::uint32_t r = resolution;
   float x = glm::clamp(barycentric.x, 0.0f, 1.0f) * float(r);
   float y = glm::clamp(barycentric.y, 0.0f, 1.0f) * float(r);
   if (const float excess = x + y - float(r); excess > 0) {
@@ -26,10 +15,30 @@ glm::vec3 SurfaceLight::at(std::uint32_t sceneTriangle, glm::vec2 barycentric, b
   if (i + j > r - 1) (i > j ? i : j) = r - 1 - (i > j ? j : i);  // on the slanted side: its last whole cell
   const float fx = x - float(i);
   const float fy = y - float(j);
-  if (fx + fy <= 1 || i + j + 2 > r)
-    return (1 - fx - fy) * sampleAt(i, j) + fx * sampleAt(i + 1, j) + fy * sampleAt(i, j + 1);
-  return (fx + fy - 1) * sampleAt(i + 1, j + 1) + (1 - fy) * sampleAt(i + 1, j) +
-         (1 - fx) * sampleAt(i, j + 1);
+  if (fx + fy <= 1 || i + j + 2 > r) return {{{i, j}, {i + 1, j}, {i, j + 1}}, {1 - fx - fy, fx, fy}};
+  return {{{i + 1, j + 1}, {i + 1, j}, {i, j + 1}}, {fx + fy - 1, 1 - fy, 1 - fx}};
+}
+
+glm::vec2 surfaceSamplePlace(std::uint32_t resolution, std::uint32_t i, std::uint32_t j) {
+  constexpr float kNudge = 0.1f;
+  const glm::vec2 exact(float(i) / float(resolution), float(j) / float(resolution));
+  return glm::mix(exact, glm::vec2(1.0f / 3), kNudge / float(resolution));
+}
+
+glm::vec3 SurfaceLight::at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const {
+  const std::uint32_t r = resolution[sceneTriangle];
+  if (r == 0) return glm::vec3(0);
+  std::uint32_t first = firstSample[sceneTriangle];
+  if (back) {
+    if (!hasBack[sceneTriangle]) return glm::vec3(0);
+    first += surfaceSampleCount(r);
+  }
+  const SurfaceCell cell = surfaceCellAt(r, barycentric);
+  glm::vec3 sum(0);
+  for (int c = 0; c < 3; ++c)
+    sum += cell.weight[c] *
+           glm::vec3(unpackColour(light[first + surfaceSampleIndex(r, cell.sample[c].x, cell.sample[c].y)]));
+  return sum;
 }
 
 }  // namespace acentric

@@ -28,6 +28,18 @@ struct SurfaceLight {
   glm::vec3 at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const;
 };
 
+/// The three samples of one side around a place, and their weights, which sum to 1. Places slightly outside
+/// the triangle read its border. R >= 1.
+struct SurfaceCell {
+  glm::uvec2 sample[3];  ///< (i, j)
+  float weight[3];
+};
+SurfaceCell surfaceCellAt(std::uint32_t resolution, glm::vec2 barycentric);
+
+/// Where the light of sample (i, j) is taken: moved a tenth of the spacing towards the triangle's middle, so
+/// that a sample on an edge that touches a wall does not lie in the wall.
+glm::vec2 surfaceSamplePlace(std::uint32_t resolution, std::uint32_t i, std::uint32_t j);
+
 inline std::uint32_t surfaceSampleCount(std::uint32_t resolution) {
   return (resolution + 1) * (resolution + 2) / 2;
 }

@@ -200,7 +200,9 @@ TEST(WideLights, TwoCamerasFindTheSameLightAtOnePlace) {
       .point({-2, 1, 2}, 10)
       .size(0.2f);
   const auto scene = builder.rays();
-  const Shader shader(*scene, {});
+  BakeSettings settings;
+  settings.surfaceTexel = 0.2;
+  const Shader shader(*scene, settings);
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(0, 1);
   int same = 0, compared = 0;

@@ -200,7 +200,11 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
 
   settings = {};
   settings.surfaceTexel = 0.5;
-  EXPECT_EQ(keyFor(*scene, plan, settings, camera), key) << "the texel of surface light changes no capture";
+  changes("distance of places for gathered light", keyFor(*scene, plan, settings, camera));
+  settings = {};
+  settings.bounces = 3;
+  settings.shadowRays = 3;
+  EXPECT_EQ(keyFor(*scene, plan, settings, camera), key) << "bounces and soft shadows are off";
   other = camera;
   other.id.i = 77;
   EXPECT_EQ(keyFor(*scene, plan, {}, other), key) << "numbering is not a pixel";

@@ -36,7 +36,7 @@ Probe probe(const RayScenePtr& scene, glm::vec3 from, glm::vec3 to, const BakeSe
 
 /// Light on the floor less the stand-in for bounced light, which tests of direct light leave aside.
 glm::vec3 directAt(const SceneBuilder& builder, glm::vec3 at) {
-  const auto scene = builder.rays();
+  const auto scene = builder.rays({Effect::diffuseInterreflection});
   const Probe p = probe(scene, at + glm::vec3(0.01f, 0.02f, 0.5f), at);
   const glm::vec3 standIn =
       bouncedLightStandIn(lightSet(scene->scene(), scene->plan()), scene->scene().bounds);
@@ -159,7 +159,9 @@ TEST(Shading, AnOpenSkyLightsAnySurfaceByItsRadianceAndCornersLess) {
   settings.ambientRadius = 1;
   const Probe open = probe(scene, {0, 0, 1}, {0.1f, 0.2f, 0}, settings);
   expectNear(open.shaded.radiance(), glm::vec3(2), 1e-5f);
-  EXPECT_NEAR(double(open.rays.ambient), 256, 1) << "one of each pair of opposite directions";
+  EXPECT_NEAR(double(open.rays.ambient), 3 * 256, 3)
+      << "for three places around it, one of each pair of opposite directions";
+  EXPECT_EQ(probe(scene, {0, 0, 1}, {0.1f, 0.2f, 0}, settings).rays.ambient, 0u) << "once";
   const float corner = probe(scene, {9.9f, 0, 1}, {9.999f, 0.1f, 0}, settings).shaded.radiance().x;
   EXPECT_NEAR(corner, 1, 0.04) << "at the foot of a wall half the light is gone";
   const float near = probe(scene, {9.5f, 0, 1}, {9.6f, 0.1f, 0}, settings).shaded.radiance().x;
@@ -296,13 +298,15 @@ TEST(Shading, PicksTheInstantiationByThePlan) {
   const auto bare = builder.rays();
   const Shader plain(*bare, {});
   EXPECT_EQ(plain.switches().direct, Shader::DirectLight::none);
-  EXPECT_FALSE(plain.switches().occlusion || plain.switches().detail || plain.switches().special);
+  EXPECT_EQ(plain.switches().around, Shader::Around::free);
+  EXPECT_FALSE(plain.switches().detail || plain.switches().special);
   builder.sun(kDown, 1).sky(glm::vec3(1));
   builder.lastMesh().colours.assign(4, glm::u8vec4(9));
   const auto rays = builder.rays();
   const Shader full(*rays, {});
   EXPECT_EQ(full.switches().direct, Shader::DirectLight::shadowed);
-  EXPECT_TRUE(full.switches().occlusion && full.switches().detail);
+  EXPECT_EQ(full.switches().around, Shader::Around::occluded);
+  EXPECT_TRUE(full.switches().detail);
   EXPECT_FALSE(full.switches().special);
 }
 

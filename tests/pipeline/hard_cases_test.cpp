@@ -124,7 +124,7 @@ Walk walkThrough(const ScenePtr& room, const Place& place, const glm::dvec3& mov
 
   BakeSettings settings;
   settings.samplesPerDegree = 1.5;
-  settings.ambientRays = 4;
+  settings.ambientRays = 32;  // so that one which rounding sends past an edge does not show
   settings.ambientRadius = 2 * place.scale;
   settings.surfaceTexel = 0.25 * place.scale;
   TaskRunner runner(1);

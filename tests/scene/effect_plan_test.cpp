@@ -79,7 +79,7 @@ TEST(EffectPlan, WhatGlowsLightsOthersOnlyIfBrightAndLargeEnough) {
   Scene scene = sceneWith({lamp, named("wall")});
   const EffectPlan alone = planEffects(scene);
   for (const Effect effect :
-       {Effect::emission, Effect::areaLights, Effect::softShadows, Effect::ambientOcclusion})
+       {Effect::emission, Effect::areaLights, Effect::softShadows, Effect::diffuseInterreflection})
     EXPECT_TRUE(alone.on(effect)) << nameOf(effect);
   EXPECT_FALSE(alone.on(Effect::hardShadows));
   EXPECT_THAT(alone[Effect::areaLights].reason, HasSubstr("lamp"));
@@ -118,8 +118,7 @@ TEST(EffectPlan, LightsCallForTheirKindAndShadows) {
   EXPECT_TRUE(local.on(Effect::hardShadows));
   EXPECT_FALSE(local.on(Effect::softShadows));
   EXPECT_THAT(local[Effect::softShadows].reason, HasSubstr("no size"));
-  EXPECT_TRUE(local.on(Effect::ambientOcclusion));
-  EXPECT_THAT(local[Effect::ambientOcclusion].reason, HasSubstr("bounced light"));
+  EXPECT_TRUE(local.on(Effect::diffuseInterreflection));
 
   scene.lights = {lightOf(LightKind::directional, "sun")};
   EXPECT_FALSE(planEffects(scene).on(Effect::ambientOcclusion));
@@ -149,14 +148,23 @@ TEST(EffectPlan, AllUnlitMeansNoLightAtAll) {
   EXPECT_TRUE(plan.on(Effect::unlit));
 }
 
-TEST(EffectPlan, BouncesAreCalledForButNotSimulatedAndCannotBeForced) {
+TEST(EffectPlan, BouncesAreCalledForByLampsAloneAndTakeTheOcclusionsPlace) {
   Scene scene = sceneWith({named("wall")});
+  scene.lights = {lightOf(LightKind::point, "lamp")};
+  const EffectPlan lamp = planEffects(scene);
+  EXPECT_TRUE(lamp.on(Effect::diffuseInterreflection));
+  EXPECT_FALSE(lamp.on(Effect::ambientOcclusion));
+  const EffectPlan without = planEffects(scene, {{Effect::diffuseInterreflection, false}});
+  EXPECT_FALSE(without.on(Effect::diffuseInterreflection));
+  EXPECT_TRUE(without.on(Effect::ambientOcclusion));
+  EXPECT_THAT(without[Effect::ambientOcclusion].reason, HasSubstr("stands in for bounced light"));
+
   scene.sky.zenith = glm::vec3(1);
-  const EffectPlan plan = planEffects(scene, {{Effect::diffuseInterreflection, true}});
-  EXPECT_TRUE(plan[Effect::diffuseInterreflection].calledFor);
-  EXPECT_FALSE(plan.on(Effect::diffuseInterreflection));
-  EXPECT_FALSE(plan[Effect::diffuseInterreflection].overridden);
-  EXPECT_THAT(plan[Effect::diffuseInterreflection].reason, HasSubstr("bounces are not simulated"));
+  EXPECT_FALSE(planEffects(scene).on(Effect::diffuseInterreflection));
+  EXPECT_TRUE(planEffects(scene).on(Effect::ambientOcclusion));
+  const EffectPlan wanted = planEffects(scene, {{Effect::diffuseInterreflection, true}});
+  EXPECT_TRUE(wanted.on(Effect::diffuseInterreflection));
+  EXPECT_FALSE(wanted.on(Effect::ambientOcclusion));
 }
 
 TEST(EffectPlan, OverridesWinAndChangeTheKey) {

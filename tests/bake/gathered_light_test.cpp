@@ -1,0 +1,225 @@
+#include "engine/bake/gathered_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "engine/bake/shading.h"
+#include "scene_builder.h"
+
+namespace acentric {
+namespace {
+
+using test::expectNear;
+using test::matte;
+using test::SceneBuilder;
+
+RayScenePtr withBounces(const SceneBuilder& builder, std::initializer_list<Effect> off = {}) {
+  EffectOverrides overrides{{Effect::diffuseInterreflection, true}};
+  for (const Effect effect : off) overrides[effect] = false;
+  const ScenePtr scene = builder.scene();
+  auto rays = RayScene::build(scene, planEffects(*scene, overrides));
+  EXPECT_TRUE(rays.has_value());
+  return rays ? *rays : nullptr;
+}
+
+BakeSettings bouncing(int bounces) {
+  BakeSettings settings;
+  settings.bounces = bounces;
+  settings.surfaceTexel = 0.25;
+  return settings;
+}
+
+struct Probe {
+  glm::vec3 radiance{0};
+  RayCounts rays;
+};
+Probe probe(const RayScenePtr& scene, glm::vec3 from, glm::vec3 to, const BakeSettings& settings) {
+  Probe out;
+  out.radiance = Shader(*scene, settings)
+                     .seenAlong({from, glm::normalize(to - from)}, &RayCounts::primary, out.rays)
+                     .radiance;
+  return out;
+}
+
+/// In a closed room of albedo a whose walls all emit E, radiance after n bounces is E (1 + a + ... + a^n)
+/// everywhere, and E / (1 - a) in the limit.
+TEST(GatheredLight, AFurnaceGlowsAsTheSumOfItsBounces) {
+  const glm::vec3 albedo(0.7f, 0.5f, 0.2f), emission(1, 2, 3);
+  SceneBuilder builder;
+  Material wall = matte(albedo);
+  wall.emissive = emission;
+  builder.box(builder.material(wall), {-2, -1.5f, 0}, {2, 1.5f, 2.5f}, true);
+  // Not as area lights: the glow itself is what bounces.
+  const auto scene = withBounces(builder, {Effect::areaLights});
+  glm::vec3 sum = emission;
+  for (int n = 1; n <= 8; ++n) {
+    sum = emission + albedo * sum;
+    for (const glm::vec3 to :
+         {glm::vec3(2, 0.3f, 1.1f), glm::vec3(-0.4f, 0.7f, 0), glm::vec3(0.3f, -1.5f, 2.4f)})
+      expectNear(probe(scene, {0, 0, 1}, to, bouncing(n)).radiance, sum, 5e-3f);
+  }
+  expectNear(sum, emission / (1.0f - albedo), 0.05f);
+}
+
+/// The same room where the glow counts among the lights: its direct light is exact, and is one bounce more.
+TEST(GatheredLight, WhatIsAmongTheLightsIsNotCountedTwice) {
+  const float albedo = 0.5f;
+  SceneBuilder builder;
+  Material wall = matte(glm::vec3(albedo));
+  wall.emissive = glm::vec3(2);
+  builder.box(builder.material(wall), {-2, -1.5f, 0}, {2, 1.5f, 2.5f}, true);
+  const auto scene = withBounces(builder);
+  ASSERT_TRUE(scene->plan().on(Effect::areaLights));
+  float sum = 2 + albedo * 2;
+  for (int n = 1; n <= 3; ++n) {
+    sum = 2 + albedo * sum;
+    expectNear(probe(scene, {0, 0, 1}, {2, 0.3f, 1.1f}, bouncing(n)).radiance, glm::vec3(sum), 5e-3f);
+  }
+}
+
+/// A lamp between two endless white planes: what a floor sends to the ceiling over it.
+TEST(GatheredLight, OneBounceOfALampIsWhatTheLitFloorSends) {
+  SceneBuilder builder;
+  const int white = builder.material(matte(glm::vec3(0.5f)));
+  const float radius = 0.5f, height = 2;
+  // A floor lit evenly by a narrow sun through nothing, seen by a shelf that faces down at `height`.
+  builder.floor(white, radius)
+      .quad(white, {-9, 9, height}, {9, 9, height}, {9, -9, height}, {-9, -9, height})
+      .spot({0, 0, 1.999f}, {0, 0, -1}, 40, 0.9f, 1.0f);
+  const auto scene = withBounces(builder);
+  BakeSettings settings = bouncing(1);
+  settings.ambientRays = 1024;
+  settings.surfaceTexel = 0.02;
+  // Reference: the floor's radiance integrated over its area.
+  const double pi = std::numbers::pi;
+  double expected = 0;
+  constexpr int kGrid = 400;
+  for (int i = 0; i < kGrid; ++i)
+    for (int j = 0; j < kGrid; ++j) {
+      const double x = radius * (2 * (i + 0.5) / kGrid - 1), y = radius * (2 * (j + 0.5) / kGrid - 1);
+      const double lamp = x * x + y * y + 1.999 * 1.999, up = x * x + y * y + height * height;
+      const double radiance = 0.5 / pi * 40 * 1.999 / std::pow(lamp, 1.5);
+      expected += radiance * height * height / (up * up) * std::pow(2 * radius / kGrid, 2);
+    }
+  const Probe p = probe(scene, {0.01f, 0.02f, 1}, {0.011f, 0.021f, 2}, settings);
+  EXPECT_NEAR(p.radiance.x, 0.5 / pi * expected, 0.05 * 0.5 / pi * expected);
+  EXPECT_GT(p.rays.bounce, 0u);
+}
+
+TEST(GatheredLight, MoreBouncesAddLessAndLess) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte(glm::vec3(0.6f))), {-2, -2, 0}, {2, 2, 3}, true)
+      .box(builder.material(matte(glm::vec3(0.3f))), {0.5f, 0.5f, 0}, {1, 1, 1.5f})
+      .point({-1, -1, 2.5f}, 50);
+  const auto scene = withBounces(builder);
+  float before = 0, gained = std::numeric_limits<float>::infinity();
+  for (int n = 1; n <= 5; ++n) {
+    const float now = probe(scene, {-1, 0, 1.5f}, {1.5f, 1.9f, 0}, bouncing(n)).radiance.x;
+    EXPECT_GT(now, before);
+    if (n > 1) {
+      EXPECT_LT(now - before, gained);
+      gained = now - before;
+    }
+    before = now;
+  }
+}
+
+TEST(GatheredLight, TheSkyLightsARoomThroughItsWindowOnly) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte(glm::vec3(0.5f))), {-2, -2, 0}, {2, 2, 3}, true).sky(glm::vec3(1));
+  const Probe closed = probe(withBounces(builder), {0, 0, 1}, {0.5f, 0.4f, 0}, bouncing(2));
+  EXPECT_EQ(closed.radiance, glm::vec3(0));
+  SceneBuilder open;
+  open.floor(open.material(matte(glm::vec3(0.5f))), 5).sky(glm::vec3(2));
+  expectNear(probe(withBounces(open), {0, 0, 1}, {0.5f, 0.4f, 0}, bouncing(2)).radiance, glm::vec3(1), 2e-3f);
+}
+
+TEST(GatheredLight, IsGatheredOnceWhoeverReadsIt) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {-2, -2, 0}, {2, 2, 3}, true).point({0, 0, 2}, 9);
+  const auto scene = withBounces(builder);
+  const Probe first = probe(scene, {0, 0, 1}, {1, 0.3f, 0}, bouncing(2));
+  const Probe second = probe(scene, {0.5f, 0.5f, 1.5f}, {1, 0.3f, 0}, bouncing(2));
+  EXPECT_GT(first.rays.bounce, 0u);
+  EXPECT_EQ(second.rays.bounce, 0u);
+  EXPECT_NEAR(first.radiance.x, second.radiance.x, 1e-5f * first.radiance.x);
+  EXPECT_EQ(scene->gatheredLight(bouncing(2)), scene->gatheredLight(bouncing(2)));
+  EXPECT_NE(scene->gatheredLight(bouncing(2)), scene->gatheredLight(bouncing(3)));
+}
+
+TEST(GatheredLight, ReadByManyThreadsAtOnceItIsTheSameAndCountsEachRayOnce) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {-2, -2, 0}, {2, 2, 3}, true).point({0, 0, 2}, 9);
+  const auto look = [&](int threads) {
+    const auto scene = withBounces(builder);
+    std::vector<RayCounts> rays(std::size_t(threads) + 1);
+    std::vector<std::vector<glm::vec3>> seen(std::size_t(threads) + 1);
+    const auto run = [&](std::size_t n) {
+      const Shader shader(*scene, bouncing(2));
+      for (int i = 0; i < 300; ++i) {
+        const glm::vec3 way =
+            glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.4f), std::sin(i * 1.1f)));
+        seen[n].push_back(shader.seenAlong({{0, 0, 1}, way}, &RayCounts::primary, rays[n]).radiance);
+      }
+    };
+    std::vector<std::thread> pool;
+    for (int t = 0; t < threads; ++t) pool.emplace_back(run, std::size_t(t));
+    run(std::size_t(threads));
+    for (std::thread& t : pool) t.join();
+    RayCounts sum;
+    for (const RayCounts& r : rays) sum += r;
+    for (const auto& each : seen) EXPECT_EQ(each, seen[0]);
+    return std::pair(seen[0], sum.bounce);
+  };
+  EXPECT_EQ(look(0), look(3));
+}
+
+TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  builder.box(white, {-4, -3, 0}, {4, 3, 3}, true)
+      .box(white, {0.5f, 0.5f, 0.2f}, {1.5f, 1.2f, 1})
+      .sky(glm::vec3(1));
+  const auto scene = builder.rays();
+  ASSERT_TRUE(scene->plan().on(Effect::ambientOcclusion));
+  BakeSettings settings;
+  settings.ambientRays = 512;
+  const auto gathered = scene->gatheredLight(settings);
+  const Ambient exact(*scene, {}, settings);
+  RayCounts rays;
+  double square = 0, sum = 0;
+  int count = 0;
+  for (int i = 0; i < 400; ++i) {
+    const glm::vec3 way =
+        glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
+    const Hit hit = scene->trace({{-1, -1, 1.5f}, way});
+    ASSERT_TRUE(hit.found());
+    const float read = gathered->at(hit, glm::dot(hit.geometricNormal, way) > 0, rays).radiance.x;
+    const float there =
+        exact.gather<true>(*scene, surfaceAt<false>(scene->scene(), hit, -way, {}, false), rays).radiance.x;
+    square += (read - there) * (read - there), sum += there, ++count;
+  }
+  EXPECT_LT(std::sqrt(square / count), 0.01 * sum / count);
+}
+
+TEST(ValuesOnDemand, AreMadeOnceAndKept) {
+  const ValuesOnDemand values(3);
+  RayCounts rays;
+  int made = 0;
+  for (int again = 0; again < 2; ++again)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const HalfColour value = values.at(i, rays, [&](RayCounts& own) {
+        ++made, ++own.bounce;
+        return packColour({float(i), 0, 0, 1});
+      });
+      EXPECT_EQ(unpackColour(value).r, float(i));
+    }
+  EXPECT_EQ(made, 3);
+  EXPECT_EQ(rays.bounce, 3u);
+}
+
+}  // namespace
+}  // namespace acentric
