@@ -1,5 +1,5 @@
 #pragma once
-/// Shared by the scene tests: where the shared scenes lie, and small scenes and glTF files made on the spot.
+/// Shared by the scene tests: small scenes and glTF files made on the spot.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,18 +15,9 @@
 #include "engine/scene/import.h"
 #include "engine/scene/scene.h"
 #include "tests/support/process.h"
+#include "tests/support/scenes.h"
 
 namespace acentric::test {
-
-inline std::filesystem::path scenesFolder() {
-  const char* given = std::getenv("ACENTRIC_SCENES");
-  return given ? std::filesystem::path(given)
-               : std::filesystem::path(ACENTRIC_SOURCE_DIR) / "../shared/scenes";
-}
-
-#define ACENTRIC_NEEDS_SCENES()                       \
-  if (!std::filesystem::is_directory(scenesFolder())) \
-  GTEST_SKIP() << "no scenes at " << scenesFolder() << "; set ACENTRIC_SCENES"
 
 inline std::string base64(const std::vector<unsigned char>& bytes) {
   static const char* const kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
