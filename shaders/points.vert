@@ -9,7 +9,7 @@
 // samples of a pixel, in theirs by exchanging which sample a vertex number stands for.
 
 struct Sample {
-  float inverseDistance;
+  uint inverseDistanceAndRoles;  // a float whose last 8 bits are always zero, and in their place who needs the sample
   uint rowAndColumn;  // row in the low half, column in the high half: the column costs no byte and no search
   uint colour;        // sRGB codes, straight alpha
 };
@@ -22,6 +22,8 @@ struct Column {
   float leastInverse;  // of a clipped piece: farther samples are another's
 };
 
+float inverseDistanceOf(Sample s) { return uintBitsToFloat(s.inverseDistanceAndRoles & 0xffffff00u); }
+
 layout(std430, binding = 0) readonly buffer Samples { Sample samples[]; };
 layout(std430, binding = 1) readonly buffer RowTangents { float rowTangent[]; };
 layout(std430, binding = 2) readonly buffer Columns { Column columns[]; };
@@ -29,6 +31,7 @@ layout(std430, binding = 2) readonly buffer Columns { Column columns[]; };
 uniform vec3 upInPicture;        // K M z
 uniform vec3 baselineInPicture;  // K M b
 uniform vec2 pictureSize;        // pixels
+uniform uint roles;              // of the region that the picture is drawn for: samples for others are left out
 uniform float clipMargin;        // pixels that the viewport reaches beyond the picture on each side
 #ifdef SPLAT
 uniform float footprint;     // pixels: side of the splat at q.z = 1, straight ahead, row tangent 0
@@ -65,7 +68,7 @@ uint orderedSample(uint vertex, Column column) {
   while (end < last && samples[end].rowAndColumn == row) ++end;
   if (end - begin > 1u) {
     uint beforeFoot = begin;  // these as stored, the others reversed
-    while (beforeFoot < end && samples[beforeFoot].inverseDistance > column.footInverse) ++beforeFoot;
+    while (beforeFoot < end && inverseDistanceOf(samples[beforeFoot]) > column.footInverse) ++beforeFoot;
     uint position = begin + (descending ? end - 1u - index : index - begin);
     index = position < beforeFoot ? position : end - 1u - (position - beforeFoot);
   }
@@ -91,14 +94,14 @@ void main() {
   Column column = columns[own];
   uint index = orderedSample(uint(gl_VertexID), column);
   Sample s = samples[index];
-  float w = s.inverseDistance;
+  float w = inverseDistanceOf(s);
   float t = rowTangent[s.rowAndColumn & 0xffffu];
   vec3 q = column.inPicture.xyz + t * upInPicture + w * baselineInPicture;
   vec4 colour = unpackUnorm4x8(s.colour);
   pointColour = colour;
   gl_PointSize = 1.0;
   gl_Position = kOutside;
-  if (w > column.inPicture.w || !(q.z > 0.0)) return;
+  if ((s.inverseDistanceAndRoles & roles) == 0u || w > column.inPicture.w || !(q.z > 0.0)) return;
 #ifdef CLIP_TO_PIECE
   if (w < column.leastInverse) return;
 #endif

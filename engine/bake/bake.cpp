@@ -26,14 +26,17 @@ class BakeRun {
         sink_(sink),
         runner_(runner),
         stop_(stop),
+        baker_(scene, settings),
         writer_(sink) {}
 
   Status bakeOne(int index) {
     const LayoutCamera& camera = layout_.cameras[std::size_t(index)];
     const EffectPlan& plan = scene_.plan();
-    const ColumnCamera columns = columnCameraFor(camera, layout_.eyeZ(), layout_.spec.nearBand,
-                                                 scene_.scene().bounds, plan.on(Effect::sky), settings_);
-    BakedCamera baked{index, captureKey(scene_.scene(), plan, settings_, camera, columns)};
+    const ColumnCamera columns =
+        columnCameraFor(camera, layout_.eyeZ(), layout_.spec.nearBand, scene_.scene().bounds, settings_);
+    BakedCamera baked;
+    baked.camera = index;
+    baked.key = captureKey(scene_.scene(), plan, settings_, camera, columns);
     if (sink_.has(baked.key)) {
       baked.reused = true;
       ++report_.reused;
@@ -41,10 +44,14 @@ class BakeRun {
       return {};
     }
     const auto start = Clock::now();
-    auto capture = bakeCamera(scene_, camera, columns, settings_, runner_, report_.rays, stop_);
+    CaptureCounts counts;
+    auto capture = baker_.bake(camera, columns, runner_, counts, stop_);
+    report_.rays += counts.rays;
+    report_.eyeViews += counts.eyeViews;
+    report_.eyeViewSeconds += counts.eyeViewSeconds;
     if (!capture) return tl::unexpected(capture.error());
     baked.seconds = secondsSince(start);
-    baked.samples = capture->sampleCount();
+    baked.samples = counts.samples;
     if (auto put = writer_.put(baked.key, std::move(*capture)); !put) return put;
     ++report_.baked;
     report_.samples += baked.samples;
@@ -63,6 +70,7 @@ class BakeRun {
   TaskRunner& runner_;
   std::stop_token stop_;
   BakeReport report_;
+  CameraBaker baker_;
   CaptureWriter writer_;
 };
 

@@ -2,7 +2,10 @@
 /// Bakes the captures of a layout. Camera by camera: what is finished is put into the sink at once and never
 /// again.
 
-#include <atomic>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <numeric>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -16,10 +19,13 @@
 
 namespace acentric {
 
-/// The column camera by which a layout camera is baked: columns and rows from the settings; elevation range
-/// from the scene's bounds: nothing steeper than what lies beyond the near band needs to be seen.
+class EyeViews;
+class Shader;
+
+/// The column camera by which a layout camera is baked: columns and rows from the settings; elevations from
+/// the scene's bounds: above and below them nothing that lies beyond the near band can be but the background.
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
-                             const Bounds& sceneBounds, bool skyVisible, const BakeSettings& settings);
+                             const Bounds& sceneBounds, const BakeSettings& settings);
 
 /// Everything that can change the pixels: scene, plan, settings, column camera, served regions.
 ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
@@ -29,11 +35,45 @@ ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSett
 std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                                     const Layout& layout);
 
-/// One capture: for every served region the first surface beyond its grown polygon, and the blended surfaces
-/// in front of it. Empty samples (stop requested) are never returned as a result: the Result is `cancelled`.
-Result<Capture> bakeCamera(const RayScene& scene, const LayoutCamera& camera,
-                           const ColumnCamera& columnCamera, const BakeSettings& settings, TaskRunner& runner,
-                           RayCounts& rays, std::stop_token stop = {});
+/// What became of the surfaces that the rays of one capture or more met beyond the regions.
+struct SampleCounts {
+  static constexpr std::size_t kLayers = 8;
+  std::array<std::uint64_t, kLayers> kept{};  ///< by place in the pixel, nearest first; the last: and farther
+  std::uint64_t hidden = 0;                   ///< no region sees them
+  std::uint64_t overLimit = 0;                ///< more layers than the settings allow
+  std::uint64_t keptInAll() const { return std::accumulate(kept.begin(), kept.end(), std::uint64_t(0)); }
+  SampleCounts& operator+=(const SampleCounts& other);
+};
+struct CaptureCounts {
+  RayCounts rays;
+  SampleCounts samples;
+  int eyeViews = 0;           ///< traced for pruning
+  double eyeViewSeconds = 0;  ///< that it took
+};
+
+/// Bakes captures one after the other, and remembers between them what the regions' eyes see.
+class CameraBaker {
+ public:
+  /// `memory` bounds what is remembered, bytes.
+  CameraBaker(const RayScene& scene, const BakeSettings& settings, std::size_t memory = kSightMemory);
+  ~CameraBaker();
+
+  /// One capture: along each pixel's ray the surfaces beyond the regions that the camera serves, each for the
+  /// roles that need it: it lies beyond the role's grown polygon and within its part, and (with pruning) its
+  /// region sees it. What is behind everything is a sample without distance. Counts are added. A stop gives
+  /// the error `cancelled`, never part of a capture.
+  Result<Capture> bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
+                       CaptureCounts& counts, std::stop_token stop = {});
+
+  static constexpr std::size_t kSightMemory = std::size_t(512) << 20;
+
+ private:
+  const RayScene& scene_;
+  BakeSettings settings_;
+  std::size_t memory_;
+  std::unique_ptr<Shader> shader_;
+  std::unique_ptr<EyeViews> views_;
+};
 
 /// Where captures go. `put` may be called from another thread than bake's caller, one call at a time; `has`
 /// may be called meanwhile.
@@ -49,7 +89,7 @@ struct BakedCamera {
   ContentKey key;
   bool reused = false;
   double seconds = 0;  ///< tracing
-  std::size_t samples = 0;
+  SampleCounts samples;
 };
 
 struct BakeReport {
@@ -57,8 +97,10 @@ struct BakeReport {
   int baked = 0;
   int reused = 0;
   double seconds = 0;
-  std::size_t samples = 0;
+  SampleCounts samples;
   RayCounts rays;
+  int eyeViews = 0;           ///< traced for pruning
+  double eyeViewSeconds = 0;  ///< that it took, of `seconds`
 };
 
 /// Bakes `which` cameras (indices, in this order), those that the sink has are skipped. Progress counts

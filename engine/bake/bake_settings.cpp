@@ -26,6 +26,9 @@ Status BakeSettings::check() const {
     if (!inRange(metres, kLeastBakeLength, kLargestBakeLength))
       return bad(
           fmt::format("{} {} m: must lie in {}..{:.0f}", what, metres, kLeastBakeLength, kLargestBakeLength));
+  if (testEyes < 1 || testEyes > 64) return bad(fmt::format("{} test eyes: must lie in 1..64", testEyes));
+  if (!inRange(eyeRange, 0, kLargestBakeLength))
+    return bad(fmt::format("eye range {} m: must lie in 0..{:.0f}", eyeRange, kLargestBakeLength));
   if (maxLayers < 1 || maxLayers > 64) return bad(fmt::format("{} layers: must lie in 1..64", maxLayers));
   return {};
 }
@@ -38,6 +41,7 @@ void BakeSettings::addTo(Hasher& hasher) const {
       .value(maxLayers)
       .value(shadowRays)
       .value(bounces);
+  hasher.value(int(pruning)).value(testEyes).value(eyeRange);
 }
 
 }  // namespace acentric

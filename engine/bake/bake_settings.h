@@ -16,7 +16,10 @@ struct BakeSettings {
   int shadowRays = 16;          ///< per sample towards each light with a size, 1..1024
   int bounces = 2;              ///< of light between surfaces, 1..8; used where the plan has interreflection
   double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, and of gathered light
-  int maxLayers = 8;            ///< samples kept per pixel at most, 1..64
+  int maxLayers = 8;            ///< samples kept per pixel for one region at most, 1..64
+  bool pruning = true;          ///< keep only what a served region sees from one of its test eyes
+  int testEyes = 8;             ///< per served region, 1..64
+  double eyeRange = 0.15;       ///< metres: how far above and below eye height the eye may stand, 0..1e6
 
   Status check() const;
   void addTo(Hasher& hasher) const;

@@ -1,12 +1,16 @@
-// One capture: per pixel a march along the camera's ray through the exits of the regions it serves.
+// One capture: per pixel a march along the camera's ray, from surface to surface beyond the regions it
+// serves.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "engine/bake/bake.h"
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/region_sight.h"
 #include "engine/bake/shading.h"
+#include "engine/base/stopwatch.h"
 
 namespace acentric {
 namespace {
@@ -14,6 +18,12 @@ namespace {
 constexpr int kColumnsPerChunk = 4;
 /// Surfaces met along one ray at most; a guard, not a quality setting.
 constexpr int kMaxMarch = 4096;
+/// A surface on a region's border itself lies beyond it, whichever way the distance was rounded.
+constexpr double kBorderSlack = 1e-6;
+/// Of a sample's footprint: what lies nearer behind it than this is still the same surface.
+constexpr double kSameDepth = 0.5;
+/// Of a sample's spacing: how far the picture may shift by the rounding of a distance.
+constexpr double kShiftByRounding = 0.1;
 
 /// Samples of some neighbouring columns, in capture order.
 struct Samples {
@@ -21,97 +31,211 @@ struct Samples {
   std::vector<std::uint16_t> row;
   std::vector<float> inverseDistance;
   std::vector<HalfColour> colour;
-  RayCounts rays;
+  std::vector<std::uint8_t> roles;
+  CaptureCounts counts;
 
-  void add(int r, float w, const glm::vec3& radiance, float alpha) {
+  void add(int r, float w, const glm::vec3& radiance, float alpha, std::uint8_t mask) {
     row.push_back(std::uint16_t(r));
     inverseDistance.push_back(w);
     colour.push_back(packColour({radiance, alpha}));
+    roles.push_back(mask);
   }
 };
 
-/// Plan distances at which a column's ray leaves each served polygon, sorted, each once.
-std::vector<double> exitDistances(const LayoutCamera& camera, const glm::dvec2& origin,
-                                  const glm::dvec2& direction) {
-  std::vector<double> exits;
+/// A role as one column of the camera meets it.
+struct ColumnRole {
+  double exit = 0;  ///< horizontal metres: where the column's rays leave the grown polygon
+  std::size_t index = 0;
+  std::uint8_t bit = 0;
+  const Clip* clip = nullptr;
+};
+
+/// By rising exit.
+std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& origin,
+                                   const glm::dvec2& direction) {
+  std::vector<ColumnRole> roles;
   const double nearest = nearestSample(camera);
-  for (const ConvexPolygon& polygon : camera.served) {
-    const auto span = polygon.raySpan(origin, direction);
-    exits.push_back(span ? std::max(span->second, nearest) : nearest);
+  for (std::size_t i = 0; i < camera.roles.size(); ++i) {
+    const Role& role = camera.roles[i];
+    const auto span = role.grown.raySpan(origin, direction);
+    roles.push_back({span ? std::max(span->second, nearest) : nearest, i, roleBit(camera, int(i)),
+                     role.clip ? &*role.clip : nullptr});
   }
-  std::sort(exits.begin(), exits.end());
-  exits.erase(std::unique(exits.begin(), exits.end()), exits.end());
-  return exits;
+  std::ranges::stable_sort(roles, {}, &ColumnRole::exit);
+  return roles;
 }
 
-class PixelMarch {
- public:
-  PixelMarch(const Shader& shader, const BakeSettings& settings)
-      : shader_(shader), maxLayers_(settings.maxLayers) {}
+/// The largest step of inverse distances that shifts no picture from a served region by more than a share of
+/// a sample: a sample off by dw is seen off by dw times the eye's distance from the camera.
+double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns) {
+  double reach = 0;
+  for (const Role& role : camera.roles)
+    for (const glm::dvec2& corner : role.polygon.corners)
+      reach = std::max(reach, glm::distance(corner, camera.position));
+  if (!(reach > 0)) return 0;
+  const double largest = kShiftByRounding * std::min(columns.columnPitch(), columns.rowPitch()) / reach;
+  return std::ldexp(1.0, std::ilogb(largest));
+}
 
-  /// `exits` sorted. Each surface found beyond some exits serves all of those; an opaque one settles them,
-  /// and the march goes on from the next exit beyond it.
-  void run(const glm::dvec3& origin, const glm::dvec2& columnDirection, double elevation, int row,
-           const std::vector<double>& exits, Samples& out) const {
-    const double flat = std::cos(elevation);
-    const glm::vec3 direction(columnDirection.x * flat, columnDirection.y * flat, std::sin(elevation));
-    Ray ray{glm::vec3(origin), direction, float(exits.front() / flat)};
-    std::size_t next = 0;  // first exit not yet settled
-    int stored = 0;
-    for (int step = 0; step < kMaxMarch && stored < maxLayers_; ++step) {
-      ++out.rays.primary;
-      const Hit hit = shader_.scene().trace(ray);
-      if (!hit.found()) {
-        out.add(row, 0, shader_.background(direction), 1);
-        return;
-      }
-      const Shaded shaded = shader_.shade(hit, -direction, out.rays);
-      const bool opaque = shaded.alpha >= kOpaqueAlpha;
-      const double horizontal = double(hit.distance) * flat;
-      // The last place is kept for an opaque surface: a blended sample never stands alone.
-      if (opaque || (shaded.alpha >= kInvisibleAlpha && stored + 1 < maxLayers_)) {
-        out.add(row, float(1 / horizontal), shaded.radiance(), opaque ? 1 : shaded.alpha);
-        ++stored;
-      }
-      ray.nearest = justBehind(hit.distance);
-      if (!opaque) continue;
-      // A surface on the border itself settles its region too, whichever way the distance was rounded.
-      while (next < exits.size() && exits[next] < horizontal * (1 + 1e-6)) ++next;
-      if (next == exits.size()) return;
-      ray.nearest = std::max(ray.nearest, float(exits[next] / flat));
+/// What is the same for all pixels of a capture.
+struct March {
+  const Shader& shader;
+  const LayoutCamera& camera;
+  const ColumnCamera& columns;
+  const BakeSettings& settings;
+  const RegionSight* sight;  ///< null: no pruning
+  double distanceStep;
+};
+
+/// Marches along the rays of one column after the other, on one thread.
+class ColumnMarch {
+ public:
+  ColumnMarch(const March& march, Samples& out)
+      : march_(march), out_(out), stored_(march.camera.roles.size()) {
+    if (march.sight != nullptr) hints_ = march.sight->hints();
+  }
+
+  /// False when stopped.
+  bool run(int column, const std::stop_token& stop) {
+    direction_ = march_.columns.directionAt(column + 0.5);
+    roles_ = rolesAlong(march_.camera, glm::dvec2(march_.columns.centreOfProjection), direction_);
+    const std::size_t before = out_.row.size();
+    for (int row = 0; row < march_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
+      if (stop.stop_requested()) return false;
+      runRows(row, std::min(row + RayPacket::kSize, march_.columns.rows));
     }
+    out_.perColumn.push_back(std::uint32_t(out_.row.size() - before));
+    return true;
   }
 
  private:
-  const Shader& shader_;
-  int maxLayers_;
+  void runRows(int first, int last) {
+    RayPacket packet;
+    packet.origin = glm::vec3(march_.columns.centreOfProjection);
+    packet.count = last - first;
+    std::array<double, RayPacket::kSize> flat;
+    for (int row = first; row < last; ++row) {
+      const auto n = std::size_t(row - first);
+      const double elevation = march_.columns.elevationAt(row + 0.5);
+      flat[n] = std::cos(elevation);
+      packet.direction[n] = glm::vec3(direction_.x * flat[n], direction_.y * flat[n], std::sin(elevation));
+      packet.nearest[n] = float(roles_.front().exit / flat[n]);
+    }
+    std::array<Hit, RayPacket::kSize> hits;
+    march_.shader.scene().trace(packet, hits);
+    out_.counts.rays.primary += std::uint64_t(packet.count);
+    for (int row = first; row < last; ++row) {
+      const auto n = std::size_t(row - first);
+      runPixel(row, {packet.origin, packet.direction[n], packet.nearest[n]}, flat[n], hits[n]);
+    }
+  }
+
+  /// From surface to surface, until every role has all it may have, or nothing is left that it could see.
+  void runPixel(int row, Ray ray, double flat, Hit hit) {
+    std::ranges::fill(stored_, 0);
+    int layer = 0;
+    for (int step = 0; step < kMaxMarch; ++step) {
+      if (!hit.found()) {
+        addBackground(row, ray.direction, layer);
+        return;
+      }
+      const double horizontal = double(hit.distance) * flat;
+      addSurface(row, ray, hit, horizontal, layer);
+      // The next role that may still have samples: ahead of its exit nobody needs anything.
+      const auto next = std::ranges::find_if(roles_, [&](const ColumnRole& r) { return !isFull(r); });
+      if (next == roles_.end()) return;
+      ray.nearest = std::max(justBehind(hit.distance), float(next->exit / flat));
+      ++out_.counts.rays.primary;
+      hit = march_.shader.scene().trace(ray);
+    }
+  }
+  bool isFull(const ColumnRole& role) const { return stored_[role.index] >= march_.settings.maxLayers; }
+
+  void addSurface(int row, const Ray& ray, const Hit& hit, double horizontal, int& layer) {
+    const glm::dvec3 point = glm::dvec3(ray.origin) + double(hit.distance) * glm::dvec3(ray.direction);
+    const double tolerance = kSameDepth * double(hit.distance) * march_.columns.rowPitch();
+    needed_.clear();
+    bool limited = false;
+    for (const ColumnRole& role : roles_) {
+      if (role.exit > horizontal * (1 + kBorderSlack)) break;
+      if (role.clip != nullptr && !role.clip->holds(glm::dvec2(point))) continue;
+      if (isFull(role))
+        limited = true;
+      else if (march_.sight == nullptr ||
+               march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays))
+        needed_.push_back(&role);
+    }
+    if (needed_.empty()) {
+      ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+      return;
+    }
+    const Shaded shaded = march_.shader.shade(hit, -ray.direction, out_.counts.rays);
+    const bool opaque = shaded.alpha >= kOpaqueAlpha;
+    if (shaded.alpha < kInvisibleAlpha) return;
+    // The last place is kept for an opaque surface: there is always something behind glass.
+    if (!opaque)
+      std::erase_if(needed_, [&](const ColumnRole* role) {
+        return stored_[role->index] + 1 >= march_.settings.maxLayers;
+      });
+    if (needed_.empty()) {
+      ++out_.counts.samples.overLimit;
+      return;
+    }
+    add(row, storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
+        opaque ? 1 : shaded.alpha, layer);
+  }
+
+  void addBackground(int row, const glm::vec3& direction, int& layer) {
+    // Infinitely far as seen from any region, so that its part can be told.
+    constexpr double kFar = 1e6;
+    const glm::dvec2 away = march_.camera.position + kFar * nearestRegionSize() * direction_;
+    needed_.clear();
+    for (const ColumnRole& role : roles_) {
+      if (role.clip != nullptr && !role.clip->holds(away)) continue;
+      if (!isFull(role) &&
+          (march_.sight == nullptr ||
+           march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
+        needed_.push_back(&role);
+    }
+    if (!needed_.empty()) add(row, 0, march_.shader.background(direction), 1, layer);
+  }
+
+  double nearestRegionSize() const {
+    const auto& corners = march_.camera.roles.front().grown.corners;
+    return corners.size() < 2 ? 1 : glm::distance(corners[0], corners[1]);
+  }
+
+  /// A sample for the roles in needed_.
+  void add(int row, float w, const glm::vec3& radiance, float alpha, int& layer) {
+    std::uint8_t mask = 0;
+    for (const ColumnRole* role : needed_) {
+      mask |= role->bit;
+      ++stored_[role->index];
+    }
+    out_.add(row, w, radiance, alpha, mask);
+    ++out_.counts.samples.kept[std::min(std::size_t(layer++), SampleCounts::kLayers - 1)];
+  }
+
+  const March& march_;
+  Samples& out_;
+  RegionSight::Hints hints_;
+  glm::dvec2 direction_{0};        ///< of the column
+  std::vector<ColumnRole> roles_;  ///< of the column
+  std::vector<int> stored_;        ///< of the pixel, by role
+  std::vector<const ColumnRole*> needed_;
 };
 
-void bakeColumns(const Shader& shader, const LayoutCamera& camera, const ColumnCamera& columns,
-                 const BakeSettings& settings, int first, int last, const std::stop_token& stop,
-                 Samples& out) {
-  const PixelMarch march(shader, settings);
-  const glm::dvec3& origin = columns.centreOfProjection;
-  for (int k = first; k < last; ++k) {
-    const std::size_t before = out.row.size();
-    const glm::dvec2 direction = columns.directionAt(k + 0.5);
-    const auto exits = exitDistances(camera, glm::dvec2(origin), direction);
-    for (int r = 0; r < columns.rows && !exits.empty(); ++r) {
-      if (stop.stop_requested()) return;
-      march.run(origin, direction, columns.elevationAt(r + 0.5), r, exits, out);
-    }
-    out.perColumn.push_back(std::uint32_t(out.row.size() - before));
-  }
-}
-
-Capture joined(const ColumnCamera& columns, const std::vector<Samples>& chunks, std::size_t total) {
+Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total) {
   Capture capture;
+  const ColumnCamera& columns = march.columns;
   capture.camera = columns;
+  capture.distanceStep = march.distanceStep;
   capture.columnStart.reserve(std::size_t(columns.columns) + 1);
   capture.columnStart.push_back(0);
   capture.row.reserve(total);
   capture.inverseDistance.reserve(total);
   capture.colour.reserve(total);
+  capture.roles.reserve(total);
   for (const Samples& s : chunks) {
     for (const std::uint32_t count : s.perColumn)
       capture.columnStart.push_back(capture.columnStart.back() + count);
@@ -119,25 +243,50 @@ Capture joined(const ColumnCamera& columns, const std::vector<Samples>& chunks, 
     capture.inverseDistance.insert(capture.inverseDistance.end(), s.inverseDistance.begin(),
                                    s.inverseDistance.end());
     capture.colour.insert(capture.colour.end(), s.colour.begin(), s.colour.end());
+    capture.roles.insert(capture.roles.end(), s.roles.begin(), s.roles.end());
   }
   return capture;
 }
 
 }  // namespace
 
-Result<Capture> bakeCamera(const RayScene& scene, const LayoutCamera& camera,
-                           const ColumnCamera& columnCamera, const BakeSettings& settings, TaskRunner& runner,
-                           RayCounts& rays, std::stop_token stop) {
-  if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
-  if (auto sound = columnCamera.check(); !sound) return tl::unexpected(sound.error());
+SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
+  for (std::size_t layer = 0; layer < kLayers; ++layer) kept[layer] += other.kept[layer];
+  hidden += other.hidden;
+  overLimit += other.overLimit;
+  return *this;
+}
+
+CameraBaker::CameraBaker(const RayScene& scene, const BakeSettings& settings, std::size_t memory)
+    : scene_(scene), settings_(settings), memory_(memory) {}
+CameraBaker::~CameraBaker() = default;
+
+Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
+                                  CaptureCounts& counts, std::stop_token stop) {
+  if (auto sound = settings_.check(); !sound) return tl::unexpected(sound.error());
+  if (auto sound = columns.check(); !sound) return tl::unexpected(sound.error());
   const auto noMemory = [&] {
     return fail(ErrorKind::outOfSpace, "not enough memory for this capture; lower the samples per degree",
-                scene.scene().name);
+                scene_.scene().name);
   };
+  const auto stopped = [] { return fail(ErrorKind::cancelled, "the bake was stopped"); };
   try {
-    const Shader shader(scene, settings);
-    const std::size_t chunkCount =
-        std::size_t((columnCamera.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
+    if (!shader_) shader_ = std::make_unique<Shader>(scene_, settings_);
+    std::optional<RegionSight> sight;
+    if (settings_.pruning) {
+      const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
+      if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, memory_);
+      const Stopwatch watch;
+      const int before = views_->traced();
+      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, settings_, *views_, runner,
+                                counts.rays, stop);
+      if (!sight) return stopped();
+      counts.eyeViews += views_->traced() - before;
+      counts.eyeViewSeconds += watch.seconds();
+    }
+    const March march{
+        *shader_, camera, columns, settings_, sight ? &*sight : nullptr, distanceStepFor(camera, columns)};
+    const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<Samples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;
     std::atomic<bool> full = false;  // of memory
@@ -145,21 +294,25 @@ Result<Capture> bakeCamera(const RayScene& scene, const LayoutCamera& camera,
       if (stop.stop_requested() || full || total > kMaxCaptureSamples) return;
       const FlushDenormals flush;
       const int first = int(chunk) * kColumnsPerChunk;
-      const int last = std::min(first + kColumnsPerChunk, columnCamera.columns);
+      const int last = std::min(first + kColumnsPerChunk, columns.columns);
       try {
-        bakeColumns(shader, camera, columnCamera, settings, first, last, stop, chunks[chunk]);
+        ColumnMarch columnMarch(march, chunks[chunk]);
+        for (int column = first; column < last && columnMarch.run(column, stop);) ++column;
         total += chunks[chunk].row.size();
       } catch (const std::bad_alloc&) {
         full = true;
       }
     });
-    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+    if (stop.stop_requested()) return stopped();
     if (full) return noMemory();
     if (total > kMaxCaptureSamples)
       return fail(ErrorKind::tooLarge, "more than 2^31 samples in one capture; lower the samples per degree",
-                  scene.scene().name);
-    for (const Samples& s : chunks) rays += s.rays;
-    return joined(columnCamera, chunks, total);
+                  scene_.scene().name);
+    for (const Samples& s : chunks) {
+      counts.rays += s.counts.rays;
+      counts.samples += s.counts.samples;
+    }
+    return joined(march, chunks, total);
   } catch (const std::bad_alloc&) {
     return noMemory();
   }

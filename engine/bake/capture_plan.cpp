@@ -12,11 +12,16 @@ namespace {
 /// Raised whenever the same input bakes to other pixels.
 constexpr std::string_view kBakeVersion = "acentric capture 2";
 
-constexpr double kSteepest =
-    radians(85);  ///< rows are never wasted on the poles, which local geometry covers
-constexpr double kFlattest = radians(10);  ///< a view reaches this far up and down even in a flat scene
-constexpr double kSkyTop = radians(50);    ///< where sky shows, views look up to it
+/// Rows are never wasted on the poles, which local geometry covers.
+constexpr double kSteepest = radians(85);
+/// So that a surface at eye height has a row.
+constexpr double kFlattest = radians(0.5);
 constexpr int kMaxSide = 65535;
+
+void addTo(Hasher& hasher, const HalfPlane& side) {
+  for (const glm::dvec2& p : {side.line.from, side.line.to}) hasher.value(p.x).value(p.y);
+  hasher.value(int(side.left));
+}
 
 int samplesFor(double angle, double samplesPerDegree) {
   return int(std::clamp(std::ceil(degrees(angle) * samplesPerDegree - 1e-6), 1.0, double(kMaxSide)));
@@ -25,16 +30,17 @@ int samplesFor(double angle, double samplesPerDegree) {
 }  // namespace
 
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
-                             const Bounds& sceneBounds, bool skyVisible, const BakeSettings& settings) {
+                             const Bounds& sceneBounds, const BakeSettings& settings) {
   // What is captured lies beyond the near band, so the scene's top and bottom are seen no steeper than across
-  // it.
+  // it, from the lowest eye and the highest.
   double top = kFlattest, bottom = -kFlattest;
   if (!sceneBounds.empty()) {
     const double across = std::max(nearBand, 0.0);
-    top = std::clamp(std::atan2(double(sceneBounds.max.z) - eyeZ, across), kFlattest, kSteepest);
-    bottom = std::clamp(std::atan2(double(sceneBounds.min.z) - eyeZ, across), -kSteepest, -kFlattest);
+    const double rise = double(sceneBounds.max.z) - (eyeZ - settings.eyeRange);
+    const double fall = double(sceneBounds.min.z) - (eyeZ + settings.eyeRange);
+    top = std::clamp(std::atan2(rise, across), kFlattest, kSteepest);
+    bottom = std::clamp(std::atan2(fall, across), -kSteepest, -kFlattest);
   }
-  if (skyVisible) top = std::max(top, kSkyTop);
 
   ColumnCamera columns;
   columns.centreOfProjection = glm::dvec3(camera.position, eyeZ);
@@ -54,7 +60,8 @@ ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSett
   hasher.value(scene.key.high).value(scene.key.low);
   plan.addTo(hasher);
   // Not all settings: what an absent effect would use changes no capture, and must not bake them all again.
-  hasher.value(settings.maxLayers);
+  hasher.value(settings.maxLayers).value(int(settings.pruning));
+  if (settings.pruning) hasher.value(settings.testEyes).value(settings.eyeRange);
   if (gathersLight(plan, settings))
     hasher.value(settings.ambientRays).value(settings.ambientRadius).value(settings.surfaceTexel);
   else
@@ -62,10 +69,16 @@ ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSett
   if (plan.on(Effect::diffuseInterreflection)) hasher.value(settings.bounces);
   if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
   columnCamera.addTo(hasher);
-  hasher.value(std::uint64_t(camera.served.size()));
-  for (const ConvexPolygon& polygon : camera.served) {
-    hasher.value(std::uint64_t(polygon.corners.size()));
-    for (const glm::dvec2& corner : polygon.corners) hasher.value(corner.x).value(corner.y);
+  hasher.value(std::uint64_t(camera.roles.size()));
+  for (const Role& role : camera.roles) {
+    hasher.value(std::uint64_t(role.grown.corners.size()));
+    for (const ConvexPolygon* polygon : {&role.polygon, &role.grown})
+      for (const glm::dvec2& corner : polygon->corners) hasher.value(corner.x).value(corner.y);
+    hasher.value(int(role.clip.has_value()));
+    if (!role.clip) continue;
+    addTo(hasher, role.clip->side);
+    hasher.value(int(role.clip->claim.has_value()));
+    if (role.clip->claim) addTo(hasher, *role.clip->claim);
   }
   return hasher.finish();
 }
@@ -75,9 +88,9 @@ std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, 
   std::vector<ContentKey> keys;
   keys.reserve(layout.cameras.size());
   for (const LayoutCamera& camera : layout.cameras)
-    keys.push_back(captureKey(scene, plan, settings, camera,
-                              columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.bounds,
-                                              plan.on(Effect::sky), settings)));
+    keys.push_back(
+        captureKey(scene, plan, settings, camera,
+                   columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.bounds, settings)));
   return keys;
 }
 

@@ -119,6 +119,30 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
+/// Traces a packet; what its rays hit is in the result.
+RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) int valid[RayPacket::kSize];
+  RTCRayHit8 query{};
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    const auto n = std::size_t(i);
+    valid[i] = i < rays.count ? -1 : 0;
+    if (i >= rays.count) continue;
+    query.ray.org_x[i] = rays.origin.x, query.ray.org_y[i] = rays.origin.y,
+    query.ray.org_z[i] = rays.origin.z;
+    query.ray.dir_x[i] = rays.direction[n].x, query.ray.dir_y[i] = rays.direction[n].y;
+    query.ray.dir_z[i] = rays.direction[n].z;
+    query.ray.tnear[i] = rays.nearest[n];
+    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    query.ray.mask[i] = mask;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  rtcIntersect8(valid, scene, &context, &query);
+  return query;
+}
+
 Status checkMesh(const Scene& scene, const Mesh& mesh) {
   const auto bad = [&](const char* message) {
     return fail(ErrorKind::malformed, message, fmt::format("{}, mesh {}", scene.name, mesh.name));
@@ -139,6 +163,7 @@ Status checkMesh(const Scene& scene, const Mesh& mesh) {
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
   primary += other.primary;
+  visibility += other.visibility;
   shadow += other.shadow;
   softShadow += other.softShadow;
   ambient += other.ambient;
@@ -256,6 +281,28 @@ Hit RayScene::trace(const Ray& ray, unsigned mask) const {
   hit.barycentric = {query.hit.u, query.hit.v};
   hit.geometricNormal = triangleNormal(scene_->meshes[hit.mesh], hit.triangle);
   return hit;
+}
+
+void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
+  const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
+  for (int i = 0; i < rays.count; ++i) {
+    Hit& hit = hits[std::size_t(i)] = {};
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    hit.distance = query.ray.tfar[i];
+    hit.mesh = query.hit.geomID[i];
+    hit.triangle = query.hit.primID[i];
+    hit.barycentric = {query.hit.u[i], query.hit.v[i]};
+    hit.geometricNormal = triangleNormal(scene_->meshes[hit.mesh], hit.triangle);
+  }
+}
+
+void RayScene::occluderDistances(const RayPacket& rays,
+                                 std::array<float, RayPacket::kSize>& distances) const {
+  const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask);
+  for (int i = 0; i < rays.count; ++i)
+    distances[std::size_t(i)] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                                    ? std::numeric_limits<float>::infinity()
+                                    : query.ray.tfar[i];
 }
 
 glm::vec3 RayScene::transmittance(const Ray& ray) const {

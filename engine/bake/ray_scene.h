@@ -1,6 +1,7 @@
 #pragma once
 /// A Scene made traceable (Embree) for one EffectPlan. Immutable; tracing is safe from any number of threads.
 
+#include <array>
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
@@ -29,16 +30,26 @@ struct Hit {
   bool found() const { return distance < std::numeric_limits<float>::infinity(); }
 };
 
+/// Rays from one place in neighbouring directions, traced together.
+struct RayPacket {
+  static constexpr int kSize = 8;
+  glm::vec3 origin{0};
+  std::array<glm::vec3, kSize> direction;  ///< unit
+  std::array<float, kSize> nearest{};      ///< metres
+  int count = 0;                           ///< of them that are traced
+};
+
 /// Rays traced, by purpose; a plan that lacks an effect traces none of its rays.
 struct RayCounts {
   std::uint64_t primary = 0;
+  std::uint64_t visibility = 0;  ///< from the regions' eyes, for pruning
   std::uint64_t shadow = 0;      ///< towards lights without size
   std::uint64_t softShadow = 0;  ///< towards lights with a size, and surfaces that glow
   std::uint64_t ambient = 0;
   std::uint64_t bounce = 0;
   std::uint64_t mirror = 0;
   std::uint64_t through = 0;  ///< of the others: those that met glass or a blended surface
-  std::uint64_t total() const { return primary + shadow + softShadow + ambient + bounce + mirror; }
+  std::uint64_t total() const { return primary + visibility + shadow + softShadow + ambient + bounce + mirror; }
   RayCounts& operator+=(const RayCounts& other);
 };
 
@@ -61,6 +72,8 @@ class RayScene {
 
   /// Nearest surface. Alpha-tested surfaces are cut out where the plan has alpha tests. Back sides count.
   Hit trace(const Ray& ray) const;
+  /// The same for each ray of a packet; those beyond its count are left as they are.
+  void trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const;
   /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended
   /// surfaces.
   glm::vec3 transmittance(const Ray& ray) const;
@@ -68,6 +81,8 @@ class RayScene {
   Hit traceSolid(const Ray& ray) const;
   /// Distance to the nearest occluder, alpha tests respected, transmissive surfaces ignored.
   float occluderDistance(const Ray& ray) const;
+  /// The same for each ray of a packet.
+  void occluderDistances(const RayPacket& rays, std::array<float, RayPacket::kSize>& distances) const;
 
  private:
   struct Embree;

@@ -173,7 +173,7 @@ ImportOptions importOptions(const std::string& up, double metresPerUnit) {
 
 double pixelsOf(const OpenProject& open, const LayoutCamera& camera) {
   const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
-                                         open.scene->bounds, open.plan.on(Effect::sky), open.project.bake);
+                                         open.scene->bounds, open.project.bake);
   return double(c.columns) * c.rows;
 }
 
@@ -197,9 +197,16 @@ std::string countText(std::uint64_t count) {
 }
 
 Json toJson(const RayCounts& rays) {
-  return {{"primary", rays.primary}, {"shadow", rays.shadow}, {"softShadow", rays.softShadow},
-          {"ambient", rays.ambient}, {"bounce", rays.bounce}, {"mirror", rays.mirror},
-          {"through", rays.through}};
+  return {{"primary", rays.primary}, {"visibility", rays.visibility}, {"shadow", rays.shadow},
+          {"softShadow", rays.softShadow}, {"ambient", rays.ambient}, {"bounce", rays.bounce},
+          {"mirror", rays.mirror}, {"through", rays.through}};
+}
+
+Json toJson(const SampleCounts& samples) {
+  return {{"kept", samples.keptInAll()},
+          {"keptByLayer", samples.kept},
+          {"droppedHidden", samples.hidden},
+          {"droppedOverLimit", samples.overLimit}};
 }
 
 Json toJson(const FrameStats& stats) {

@@ -98,6 +98,7 @@ double megapixelsOf(const OpenProject& open);
 std::string bytesText(std::uint64_t bytes);
 std::string countText(std::uint64_t count);
 Json toJson(const RayCounts& rays);
+Json toJson(const SampleCounts& samples);
 Json toJson(const FrameStats& stats);
 Json toJson(const glm::dvec3& v);
 

@@ -67,12 +67,13 @@ Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, c
                        {"key", camera.key.toHex()},
                        {"reused", camera.reused},
                        {"seconds", camera.seconds},
-                       {"samples", camera.samples}});
+                       {"samples", toJson(camera.samples)}});
   report.json = {{"baked", captures.baked},
                  {"reused", captures.reused},
                  {"seconds", captures.seconds},
-                 {"samples", captures.samples},
+                 {"samples", toJson(captures.samples)},
                  {"rays", toJson(captures.rays)},
+                 {"eyeViews", {{"traced", captures.eyeViews}, {"seconds", captures.eyeViewSeconds}}},
                  {"surfaceLight",
                   {{"asked", request.surfaceLight},
                    {"baked", baked->surfaceLightBaked},
@@ -85,7 +86,7 @@ Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, c
   report.text += fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
-      captures.baked, storeyText(open.project), captures.seconds, countText(captures.samples),
+      captures.baked, storeyText(open.project), captures.seconds, countText(captures.samples.keptInAll()),
       captures.reused,
       !request.surfaceLight      ? std::string("was not asked for")
       : baked->surfaceLightBaked ? fmt::format("{:.1f} s", baked->surfaceLightSeconds)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
@@ -41,6 +42,15 @@ glm::vec4 unpackColour(const HalfColour& colour) {
                    glm::unpackHalf1x16(colour.b), glm::unpackHalf1x16(colour.a));
 }
 
+float storedInverseDistance(double inverseDistance, double step) {
+  if (!(inverseDistance > 0)) return 0;
+  const double own = std::ldexp(1.0, std::ilogb(inverseDistance) - 15);  // of 16 significant bits
+  constexpr double kSmallest = 0x1p-141;  // of the smallest floats the last 8 bits
+  const double coarser = std::max({step, own, kSmallest});
+  const double stored = std::nearbyint(inverseDistance / coarser) * coarser;
+  return float(std::max(stored, step));
+}
+
 int Capture::maxLayers() const {
   int most = 0;
   for (std::size_t column = 0; column + 1 < columnStart.size(); ++column) {
@@ -61,9 +71,12 @@ Status Capture::check() const {
     return malformed(fmt::format("has {} column offsets, needs {}", columnStart.size(), columns + 1));
   if (row.size() > kMaxCaptureSamples)
     return fail(ErrorKind::tooLarge, fmt::format("has {} samples, the limit is 2^31", row.size()), "capture");
-  if (inverseDistance.size() != row.size() || colour.size() != row.size())
-    return malformed(fmt::format("has {} rows, {} distances and {} colours: they must be equally many",
-                                 row.size(), inverseDistance.size(), colour.size()));
+  if (inverseDistance.size() != row.size() || colour.size() != row.size() || roles.size() != row.size())
+    return malformed(
+        fmt::format("has {} rows, {} distances, {} colours and {} roles: they must be equally many",
+                    row.size(), inverseDistance.size(), colour.size(), roles.size()));
+  if (!(distanceStep >= 0) || !std::isfinite(distanceStep))
+    return malformed("the step of its distances is not a finite number >= 0");
   if (columnStart.front() != 0 || columnStart.back() != row.size())
     return malformed("column offsets do not span the samples");
   if (!std::is_sorted(columnStart.begin(), columnStart.end())) return malformed("column offsets do not rise");
@@ -77,6 +90,9 @@ Status Capture::check() const {
       if (row[i] >= camera.rows) return bad("row lies below the image");
       if (!(inverseDistance[i] >= 0) || !std::isfinite(inverseDistance[i]))
         return bad("inverse distance is not a finite number >= 0");
+      if ((std::bit_cast<std::uint32_t>(inverseDistance[i]) & 0xffu) != 0)
+        return bad("inverse distance has more than 16 significant bits");
+      if (roles[i] == 0) return bad("no role needs it");
       if (!isStorable(colour[i])) return bad("radiance must be finite and >= 0, alpha within [0,1]");
       if (i == first) continue;
       if (row[i] < row[i - 1]) return bad("rows are not sorted");

@@ -3,9 +3,8 @@
 /// list priority (apv.md section 2). This is the data type that bake, store and view share.
 ///
 /// Within a column samples are sorted by row, and within one pixel by decreasing inverseDistance (nearest
-/// first). An opaque sample has alpha 1. Blended samples (glass, alpha blend) have alpha < 1 and never stand
-/// alone by design: what is behind them follows in the same pixel. A pixel without any sample was not needed
-/// by any region.
+/// first). An opaque sample has alpha 1, a blended one (glass, alpha blend) less. A pixel without any sample
+/// was not needed by any region. Each sample says who needs it: bit r for role r of the camera (layout.h).
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -23,18 +22,26 @@ using HalfColour = glm::u16vec4;
 HalfColour packColour(const glm::vec4& linearRgba);
 glm::vec4 unpackColour(const HalfColour& colour);
 
+/// An inverse distance as captures store it: the nearest of those `step` apart, and of the floats with 16
+/// significant bits, so that its last 8 bits are zero. Off by at most half a step, or by 2^-17 of itself;
+/// what is not 0 stays at least one step. `step` is a power of two, or 0 for the second alone.
+float storedInverseDistance(double inverseDistance, double step);
+
 struct Capture {
   ColumnCamera camera;
+  double distanceStep = 0;                 ///< 1/m, see storedInverseDistance
   std::vector<std::uint32_t> columnStart;  ///< columns + 1 offsets into the arrays below
   std::vector<std::uint16_t> row;
   std::vector<float> inverseDistance;  ///< 1/m, horizontal; 0 = sky
   std::vector<HalfColour> colour;
+  std::vector<std::uint8_t> roles;  ///< that need the sample, at least one
 
   std::size_t sampleCount() const { return row.size(); }
   /// Largest number of samples in one pixel.
   int maxLayers() const;
   /// Every invariant above that a single capture shows: the camera, array sizes, order of rows and layers,
-  /// finite inverseDistance >= 0, finite radiance >= 0, alpha in [0,1]. Used on whatever comes from a file.
+  /// finite inverseDistance >= 0 with 16 significant bits, finite radiance >= 0, alpha in [0,1]. Used on
+  /// whatever comes from a file.
   Status check() const;
 };
 

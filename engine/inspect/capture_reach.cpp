@@ -52,8 +52,8 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
   const LayoutCamera& served = layout_.cameras[std::size_t(camera)];
   const double nearest = nearestSample(served);
-  for (const ConvexPolygon& polygon : served.served) {
-    const auto span = polygon.raySpan(glm::dvec2(way.origin), glm::dvec2(direction) / way.flat);
+  for (const Role& role : served.roles) {
+    const auto span = role.grown.raySpan(glm::dvec2(way.origin), glm::dvec2(direction) / way.flat);
     const double exit = span ? std::max(span->second, nearest) : nearest;
     if (exit <= horizontal * (1 + kBorderSlack)) way.exits.push_back(exit);
   }
@@ -61,19 +61,16 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   return !way.exits.empty();
 }
 
-/// Does the march of the bake end, or run out of layers, before it comes to `distance` metres along the ray?
+/// Are the layers of the bake's march used up before it comes to `distance` metres along the ray? Of the roles
+/// that need the place, the one left last has the fewest surfaces in front of it.
 bool CaptureReach::endsBefore(const Way& way, double distance) const {
-  // The last exit decides, since the march goes on from it; the others only cost layers.
-  if (tracer_.trace(way.origin, way.direction, way.exits.back() / way.flat, distance).found()) return true;
-  if (int(way.exits.size()) <= maxLayers_) return false;
-  int layers = 0;
-  for (std::size_t next = 0; next + 1 < way.exits.size();) {
-    const OpaqueHit hit = tracer_.trace(way.origin, way.direction, way.exits[next] / way.flat, distance);
-    if (!hit.found()) break;
+  double from = way.exits.back() / way.flat;
+  for (int layers = 0;;) {
+    const OpaqueHit hit = tracer_.trace(way.origin, way.direction, from, distance);
+    if (!hit.found()) return false;
     if (++layers >= maxLayers_) return true;
-    while (next < way.exits.size() && way.exits[next] < hit.distance * way.flat * (1 + kBorderSlack)) ++next;
+    from = hit.distance * (1 + kSameSurface) + roundingAt(way.origin + hit.distance * way.direction);
   }
-  return false;
 }
 
 bool CaptureReach::holds(int camera, const glm::dvec3& point) const {
@@ -87,6 +84,9 @@ bool CaptureReach::holds(int camera, const glm::dvec3& point) const {
 
 bool CaptureReach::holdsSky(int camera, const glm::dvec3& direction) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double elevation = std::asin(std::clamp(direction.z, -1.0, 1.0));
+  const ColumnCamera& columns = columns_[std::size_t(camera)];
+  if (elevation > columns.topElevation || elevation < columns.bottomElevation) return true;
   Way way;
   return wayTo(camera, direction, kInfinity, way) && !endsBefore(way, kInfinity);
 }

@@ -1,10 +1,11 @@
 #pragma once
 /// Which surface points a capture holds, told by the rule of the bake without baking: along each of a
-/// camera's rays the first opaque surface beyond each served region's grown polygon, within the camera's
-/// elevations. A point that none of these rays ends on is in no capture of that camera.
+/// camera's rays the opaque surfaces beyond the served regions, within the camera's elevations, as many as
+/// the settings allow.
 ///
-/// Two things are not modelled: that samples lie at pixel centres (sampling_rate.h judges how dense they
-/// are), and blended surfaces that use up the layers of a pixel.
+/// It is asked about points that some eye of a served region sees. Three things are not modelled: that samples
+/// lie at pixel centres (sampling_rate.h judges how dense they are), that surfaces which no region sees use up
+/// no layers (so that it foretells too little rather than too much), and that the bake's test eyes are few.
 
 #include <span>
 #include <vector>
@@ -28,7 +29,7 @@ class CaptureReach {
   /// Does the camera's capture hold this point of a surface? Whether the point lies in the camera's sector is
   /// the cover's business (Piece::holds).
   bool holds(int camera, const glm::dvec3& point) const;
-  /// Does it hold the sky in this direction (unit)?
+  /// Does it hold the sky in this direction (unit)? Above and below its rows there is nothing else.
   bool holdsSky(int camera, const glm::dvec3& direction) const;
 
  private:

@@ -120,7 +120,9 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   const Figure& faster = tracing ? estimate.writeSeconds : estimate.traceSeconds;
   const auto pace = measurePace(pixels, order, *probes, *overhead, prober);
   if (!pace) return tl::unexpected(pace.error());
-  estimate.captureSeconds = product(sum(slower, times(faster, 1 / cameras)), *pace);
+  estimate.sightSeconds = prober.sightSeconds();
+  estimate.captureSeconds =
+      sum(product(sum(slower, times(faster, 1 / cameras)), *pace), {}, estimate.sightSeconds);
   estimate.traceSeconds = product(estimate.traceSeconds, *pace);
   estimate.writeSeconds = product(estimate.writeSeconds, *pace);
   return {};

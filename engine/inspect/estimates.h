@@ -58,6 +58,8 @@ class BakeProber {
   /// Bakes these cameras whole, one after another as a bake does; seconds of each, from its beginning to that
   /// of the next, of the last until all is written.
   virtual Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) = 0;
+  /// Seconds to find out what the regions of all cameras see; by the views of the cameras probed so far.
+  virtual double sightSeconds() = 0;
   virtual Result<LightOverhead> lightOverhead() = 0;
   /// Another part each time; nothing probed once all of that kind has been.
   virtual Result<LightProbe> probeLight(int kind) = 0;
@@ -82,7 +84,8 @@ struct BakeEstimate {
   Figure samples, rays;
   Figure captureBytes;
   Figure traceSeconds, writeSeconds;  ///< they overlap ...
-  Figure captureSeconds;              ///< ... in this
+  Figure captureSeconds;              ///< ... in this, with `sightSeconds`
+  double sightSeconds = 0;            ///< looking what the regions see
   Figure lightSamples, lightBytes, lightSeconds;
   Figure bytes, seconds;  ///< captures and surface light
   int probedCameras = 0;

@@ -14,6 +14,33 @@
 namespace acentric {
 namespace {
 
+std::optional<Clip> clipOf(const Lattice& lattice, const ConvexPolygon& polygon, const PieceTemplate& piece) {
+  if (!piece.clip) return std::nullopt;
+  Clip clip{{lattice.lineOf(polygon, piece.clip->line), piece.clip->left}};
+  if (piece.clip->claim)
+    clip.claim = HalfPlane{lattice.lineOf(polygon, *piece.clip->claim), !piece.clip->left};
+  return clip;
+}
+
+/// The role of a camera that draws this part for a region; -1 if there is none.
+int findRole(const LayoutCamera& camera, const CellId& region, const std::optional<Clip>& clip) {
+  const auto found =
+      std::ranges::find_if(camera.roles, [&](const Role& r) { return r.region == region && r.clip == clip; });
+  return found == camera.roles.end() ? -1 : int(found - camera.roles.begin());
+}
+
+/// What a region draws from a camera, each part once, whichever of its covers it belongs to.
+void addRoles(const Lattice& lattice, const CellId& cell, double nearBand, LayoutCamera& camera) {
+  const ConvexPolygon polygon = lattice.polygonOf(cell);
+  for (const CoverTemplate& cover : lattice.coversOf(cell.slot))
+    for (const PieceTemplate& piece : cover.pieces) {
+      if (lattice.cameraOf(cell, piece) != camera.id) continue;
+      const std::optional<Clip> clip = clipOf(lattice, polygon, piece);
+      if (findRole(camera, cell, clip) < 0)
+        camera.roles.push_back({cell, polygon, polygon.grown(nearBand), clip});
+    }
+}
+
 /// The cameras of the placed lattice regions, in order of their ids.
 std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vector<CellId>& cells,
                                          const LayoutSpec& spec) {
@@ -34,21 +61,22 @@ std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vect
                         lattice.cameraFov(),
                         {}};
     for (const CellId& cell : lattice.servedBy(id, spec.split))
-      camera.served.push_back(lattice.polygonOf(cell).grown(spec.nearBand));
+      addRoles(lattice, cell, spec.nearBand, camera);
     cameras.push_back(std::move(camera));
   }
   return cameras;
 }
 
 /// Lattice regions (placed or not) that come within `reach` of a point.
-std::vector<ConvexPolygon> regionsAround(const Lattice& lattice, const glm::dvec2& point, double reach) {
-  std::vector<ConvexPolygon> around;
+std::vector<Role> regionsAround(const Lattice& lattice, const glm::dvec2& point, double reach) {
+  std::vector<Role> around;
   Outline box;
   box.loops = {
       {point - reach, {point.x + reach, point.y - reach}, point + reach, {point.x - reach, point.y + reach}}};
   for (const CellId& cell : cellsOverlapping(box, lattice, std::size_t(kMaxRegions))) {
     ConvexPolygon polygon = lattice.polygonOf(cell);
-    if (glm::distance(polygon.nearestPoint(point), point) <= reach) around.push_back(std::move(polygon));
+    if (glm::distance(polygon.nearestPoint(point), point) <= reach)
+      around.push_back({cell, std::move(polygon), {}});
   }
   return around;
 }
@@ -56,19 +84,19 @@ std::vector<ConvexPolygon> regionsAround(const Lattice& lattice, const glm::dvec
 /// A free APV serves its own polygon. A free panorama has none: it helps the regions around it.
 void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, std::vector<LayoutCamera>& cameras) {
   for (const auto& [number, apv] : spec.freeApvs) {
-    std::vector<ConvexPolygon> served;
+    std::vector<Role> roles;
     if (apv.traditional())
-      served = regionsAround(lattice, apv.centre, panoramaReach(spec));
+      roles = regionsAround(lattice, apv.centre, panoramaReach(spec));
     else
-      served.push_back(polygonOf(apv));
-    for (ConvexPolygon& polygon : served) polygon = polygon.grown(spec.nearBand);
+      roles.push_back({{number, 0, kFreeSlot}, polygonOf(apv), {}});
+    for (Role& role : roles) role.grown = role.polygon.grown(spec.nearBand);
     for (const Piece& piece : captureCoverOf(apv).pieces) {
       const glm::dvec2 low = piece.low.direction();
       cameras.push_back({{number, 0, kFreeCorner, piece.camera},
                          piece.apex,
                          wrapAngle(std::atan2(low.y, low.x)),
                          radians(apv.fovDegrees) / apv.subCameras(),
-                         served});
+                         roles});
     }
   }
 }
@@ -90,14 +118,13 @@ Cover makeCover(const Lattice& lattice, const CellId& id, const ConvexPolygon& p
   Cover cover{coverTemplate.hand, {}, coverTemplate.wedges};
   cover.pieces.reserve(coverTemplate.pieces.size());
   for (const PieceTemplate& piece : coverTemplate.pieces) {
-    cover.pieces.push_back({cameraIndex(cameras, lattice.cameraOf(id, piece)),
-                            polygon.corners[std::size_t(piece.apex)], lattice.lineOf(polygon, piece.low),
-                            lattice.lineOf(polygon, piece.high)});
-    if (!piece.clip) continue;
-    Clip clip{{lattice.lineOf(polygon, piece.clip->line), piece.clip->left}};
-    if (piece.clip->claim)
-      clip.claim = HalfPlane{lattice.lineOf(polygon, *piece.clip->claim), !piece.clip->left};
-    cover.pieces.back().clip = clip;
+    const int camera = cameraIndex(cameras, lattice.cameraOf(id, piece));
+    const std::optional<Clip> clip = clipOf(lattice, polygon, piece);
+    const int role = findRole(cameras[std::size_t(camera)], id, clip);
+    require(role >= 0, "a placed region has a role at each of its cameras");
+    cover.pieces.push_back({camera, polygon.corners[std::size_t(piece.apex)],
+                            lattice.lineOf(polygon, piece.low), lattice.lineOf(polygon, piece.high), clip,
+                            role});
   }
   return cover;
 }
@@ -114,11 +141,13 @@ Region makeRegion(const Lattice& lattice, const CellId& id, double nearBand,
   return region;
 }
 
-/// The cover of a free APV with its cameras' places in the layout.
-Cover freeCover(int number, const Apv& apv, const std::vector<LayoutCamera>& cameras) {
+/// The cover of a free APV with its cameras' places in the layout, as a region draws it.
+Cover freeCover(int number, const Apv& apv, const CellId& region, const std::vector<LayoutCamera>& cameras) {
   Cover cover = captureCoverOf(apv);
-  for (Piece& piece : cover.pieces)
+  for (Piece& piece : cover.pieces) {
     piece.camera = cameraIndex(cameras, {number, 0, kFreeCorner, piece.camera});
+    piece.role = findRole(cameras[std::size_t(piece.camera)], region, std::nullopt);
+  }
   return cover;
 }
 
@@ -127,7 +156,7 @@ Region freeRegion(int number, const Apv& apv, double nearBand, const std::vector
   region.id = {number, 0, kFreeSlot};
   region.polygon = polygonOf(apv);
   region.grown = region.polygon.grown(nearBand);
-  region.covers = {freeCover(number, apv, cameras)};
+  region.covers = {freeCover(number, apv, region.id, cameras)};
   return region;
 }
 
@@ -168,9 +197,16 @@ std::optional<Lattice> latticeFor(const LayoutSpec& spec) {
 
 double nearestSample(const LayoutCamera& camera) {
   constexpr double kShareOfEdge = 2.5e-6;
-  if (camera.served.empty() || camera.served.front().size() < 3) return 0;
-  const auto& corners = camera.served.front().corners;
+  if (camera.roles.empty() || camera.roles.front().grown.size() < 3) return 0;
+  const auto& corners = camera.roles.front().grown.corners;
   return kShareOfEdge * glm::distance(corners[0], corners[1]);
+}
+
+std::uint8_t roleBit(const LayoutCamera& camera, int role) {
+  if (role < 0) return 0xff;
+  const int count = int(camera.roles.size());
+  require(role < count, "the camera has this role");
+  return std::uint8_t(1u << (count <= kRoleBits ? role : role * kRoleBits / count));
 }
 
 bool HalfPlane::holds(const glm::dvec2& point) const {
@@ -214,7 +250,7 @@ std::vector<Cover> Layout::panoramasFor(int region) const {
   for (const auto& [number, apv] : spec.freeApvs)
     if (apv.traditional() &&
         glm::distance(home.polygon.nearestPoint(apv.centre), apv.centre) <= panoramaReach(spec))
-      covers.push_back(freeCover(number, apv, cameras));
+      covers.push_back(freeCover(number, apv, home.id, cameras));
   return covers;
 }
 

@@ -31,29 +31,13 @@ struct CameraId {
 };
 inline constexpr int kFreeCorner = -1;
 
-/// A capture camera: at most 60 degrees; wider lattice cameras are several of these at one corner.
-struct LayoutCamera {
-  CameraId id;
-  glm::dvec2 position{0};  ///< plan, metres
-  double lowAzimuth = 0;   ///< sector [low, low + fov), half-open
-  double fovRadians = 0;
-  /// Plan polygons, each grown by the near band, of all the regions of the full lattice that this camera
-  /// serves, placed or not (so that a camera's pixels do not depend on which neighbours are placed; they do
-  /// depend on which are split).
-  std::vector<ConvexPolygon> served;
-};
-
-/// Nothing nearer to the camera than this is captured, horizontal metres: so that inverse distances stay
-/// finite and a wall through the centre of projection leaves no rounding noise; a share of the regions' size,
-/// whatever their unit.
-double nearestSample(const LayoutCamera& camera);
-
 /// A border of a sector as the line through two points, directed away from the sector's apex. Neighbouring
 /// pieces share the very same points, so that an exact predicate puts each point on one side for both of
 /// them.
 struct BorderLine {
   glm::dvec2 from{0}, to{0};  ///< plan, metres
   glm::dvec2 direction() const { return to - from; }
+  bool operator==(const BorderLine&) const = default;
 };
 
 /// One side of a line: with `left`, points left of it and on it; else those right of it.
@@ -61,6 +45,7 @@ struct HalfPlane {
   BorderLine line;
   bool left = true;
   bool holds(const glm::dvec2& point) const;  ///< exact
+  bool operator==(const HalfPlane&) const = default;
 };
 
 /// Where the sectors of a gap's cameras overlap, the part that is one piece's.
@@ -70,7 +55,37 @@ struct Clip {
   /// one point never quite do after rounding; this way nothing is lost between them.
   std::optional<HalfPlane> claim = std::nullopt;
   bool holds(const glm::dvec2& point) const { return (claim && !claim->holds(point)) || side.holds(point); }
+  bool operator==(const Clip&) const = default;
 };
+
+/// One of the things that a camera is for: a region of the full lattice, placed or not (so that a camera's
+/// pixels do not depend on which neighbours are placed; they do depend on which are split), and the part of
+/// the camera's sector that the region draws from it.
+struct Role {
+  CellId region;
+  ConvexPolygon polygon;  ///< where the eye stands, plan
+  ConvexPolygon grown;    ///< by the near band: nothing in it is drawn from captures
+  std::optional<Clip> clip = std::nullopt;
+};
+
+/// A capture camera: at most 60 degrees; wider lattice cameras are several of these at one corner.
+struct LayoutCamera {
+  CameraId id;
+  glm::dvec2 position{0};  ///< plan, metres
+  double lowAzimuth = 0;   ///< sector [low, low + fov), half-open
+  double fovRadians = 0;
+  std::vector<Role> roles;  ///< of one region next to each other
+};
+
+/// A sample says by one bit a role which ones need it. A camera with more roles than bits shares them out.
+inline constexpr int kRoleBits = 8;
+/// The bit of one role; all of them for -1, what draws whatever the camera has.
+std::uint8_t roleBit(const LayoutCamera& camera, int role);
+
+/// Nothing nearer to the camera than this is captured, horizontal metres: so that inverse distances stay
+/// finite and a wall through the centre of projection leaves no rounding noise; a share of the regions' size,
+/// whatever their unit.
+double nearestSample(const LayoutCamera& camera);
 
 /// One piece of a cover: what of the camera's sector lies outside the region, within `clip`.
 struct Piece {
@@ -80,6 +95,7 @@ struct Piece {
   /// Gap squares and hexagons. `side` holds the sector's beginning at the apex, so a ray from the apex leaves
   /// the piece once, or never.
   std::optional<Clip> clip = std::nullopt;
+  int role = -1;  ///< of the camera's; -1: a panorama that helps out, drawn whole
 
   /// Does the piece's sector hold the point? (exact; only meaningful outside the region)
   bool holds(const glm::dvec2& point) const;

@@ -54,6 +54,8 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   captures.seconds += other.captures.seconds;
   captures.samples += other.captures.samples;
   captures.rays += other.captures.rays;
+  captures.eyeViews += other.captures.eyeViews;
+  captures.eyeViewSeconds += other.captures.eyeViewSeconds;
   surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
   surfaceLightSeconds += other.surfaceLightSeconds;

@@ -60,7 +60,7 @@ std::vector<ColumnCamera> columnsOf(const OpenProject& open) {
   std::vector<ColumnCamera> columns;
   for (const LayoutCamera& camera : open.layout->cameras)
     columns.push_back(columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
-                                      open.scene->bounds, open.plan.on(Effect::sky), open.project.bake));
+                                      open.scene->bounds, open.project.bake));
   return columns;
 }
 

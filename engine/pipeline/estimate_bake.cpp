@@ -9,9 +9,11 @@
 #include <cstdlib>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/bake/capture_writer.h"
+#include "engine/bake/eye_views.h"
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
@@ -134,12 +136,13 @@ class ProjectProber final : public BakeProber {
         cameras_(cameras),
         runner_(runner),
         stop_(std::move(stop)),
+        baker_(*open.rays, open.project.bake),
         lightFile_(folder.path() / "trial.light"),
         sink_(folder.path()) {}
 
   ColumnCamera columnsOf(int camera) const {
     return columnCameraFor(layoutCamera(camera), open_.layout->eyeZ(), open_.project.layout().nearBand,
-                           open_.scene->bounds, open_.plan.on(Effect::sky), open_.project.bake);
+                           open_.scene->bounds, open_.project.bake);
   }
 
   Result<CaptureOverhead> captureOverhead() override {
@@ -148,11 +151,10 @@ class ProjectProber final : public BakeProber {
     constexpr int kRepeats = 3;  // the first also warms up
     for (int n = 0; n < kRepeats; ++n) {
       const Stopwatch watch;
-      RayCounts rays;
-      const auto capture =
-          bakeCamera(*open_.rays, layoutCamera(0), one, open_.project.bake, runner_, rays, stop_);
+      CaptureCounts counts;
+      const auto capture = bake(0, one, counts);
       if (!capture) return tl::unexpected(capture.error());
-      overhead_.traceSeconds = watch.seconds();
+      overhead_.traceSeconds = watch.seconds() - counts.eyeViewSeconds;
       TrialSink sink(lightFile_.parent_path());
       if (Status done = sink.put({}, *capture); !done) return tl::unexpected(done.error());
       smallest_ = sink.written().front();
@@ -204,17 +206,26 @@ class ProjectProber final : public BakeProber {
     Stopwatch watch;
     for (const int camera : cameras) {
       watch = {};
-      RayCounts rays;
-      auto capture = bakeCamera(*open_.rays, layoutCamera(camera), columnsOf(camera), open_.project.bake,
-                                runner_, rays, stop_);
+      CaptureCounts counts;
+      auto capture = bake(camera, columnsOf(camera), counts);
       if (!capture) return tl::unexpected(capture.error());
       if (Status put = writer.put({}, std::move(*capture)); !put) return tl::unexpected(put.error());
-      seconds.push_back(watch.seconds());
+      seconds.push_back(watch.seconds() - counts.eyeViewSeconds);
     }
     watch = {};
     if (Status done = writer.finish(); !done) return tl::unexpected(done.error());
     seconds.back() += watch.seconds();
     return seconds;
+  }
+
+  double sightSeconds() override {
+    if (eyeViews_ == 0) return 0;
+    std::set<std::array<double, 3>> eyes;
+    for (int camera = 0; camera < int(cameras_.size()); ++camera)
+      for (const Role& role : layoutCamera(camera).roles)
+        for (const glm::dvec3& eye : testEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake))
+          eyes.insert({eye.x, eye.y, eye.z});
+    return eyeViewSeconds_ / eyeViews_ * double(eyes.size());
   }
 
   Result<LightOverhead> lightOverhead() override {
@@ -252,17 +263,23 @@ class ProjectProber final : public BakeProber {
     return open_.layout->cameras[std::size_t(cameras_[std::size_t(camera)])];
   }
 
+  Result<Capture> bake(int camera, const ColumnCamera& columns, CaptureCounts& counts) {
+    auto capture = baker_.bake(layoutCamera(camera), columns, runner_, counts, stop_);
+    eyeViews_ += counts.eyeViews;
+    eyeViewSeconds_ += counts.eyeViewSeconds;
+    return capture;
+  }
+
   Status traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
-    RayCounts rays;
+    CaptureCounts counts;
     const Stopwatch watch;
-    auto capture =
-        bakeCamera(*open_.rays, layoutCamera(camera), columns, open_.project.bake, runner_, rays, stop_);
-    const double seconds = watch.seconds();
+    auto capture = bake(camera, columns, counts);
+    const double seconds = watch.seconds() - counts.eyeViewSeconds;
     if (!capture) return tl::unexpected(capture.error());
     CaptureProbe& probe = probes_.back();
     probe.pixels += double(columns.columns) * columns.rows;
     probe.samples += double(capture->sampleCount());
-    probe.rays += double(rays.total());
+    probe.rays += double(counts.rays.total());
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
     return writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(*capture));
   }
@@ -297,6 +314,9 @@ class ProjectProber final : public BakeProber {
   const std::vector<int>& cameras_;
   TaskRunner& runner_;
   std::stop_token stop_;
+  CameraBaker baker_;
+  int eyeViews_ = 0;
+  double eyeViewSeconds_ = 0;
   fs::path lightFile_;
   TrialSink sink_;
   std::optional<CaptureWriter> writer_;

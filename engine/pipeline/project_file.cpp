@@ -207,6 +207,9 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "bounces", project.bake.bounces);
     read(json["bake"], "surfaceTexel", project.bake.surfaceTexel);
     read(json["bake"], "maxLayers", project.bake.maxLayers);
+    read(json["bake"], "pruning", project.bake.pruning);
+    read(json["bake"], "testEyes", project.bake.testEyes);
+    read(json["bake"], "eyeRange", project.bake.eyeRange);
   }
   if (json.contains("budget")) {
     read(json["budget"], "trianglesPerRegion", project.budget.trianglesPerRegion);
@@ -342,7 +345,10 @@ std::string formatProject(const Project& project) {
         {"shadowRays", project.bake.shadowRays},
         {"bounces", project.bake.bounces},
         {"surfaceTexel", project.bake.surfaceTexel},
-        {"maxLayers", project.bake.maxLayers}}},
+        {"maxLayers", project.bake.maxLayers},
+        {"pruning", project.bake.pruning},
+        {"testEyes", project.bake.testEyes},
+        {"eyeRange", project.bake.eyeRange}}},
       {"budget",
        {{"trianglesPerRegion", project.budget.trianglesPerRegion},
         {"maxErrorMetres", project.budget.maxErrorMetres},

@@ -13,7 +13,7 @@ namespace acentric {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;
 constexpr std::size_t kTableEntryBytes = 8;

@@ -31,8 +31,10 @@ ContentKey checksumOf(const ContentKey& key, const Capture& capture,
   Hasher hasher;
   hasher.value(key.high).value(key.low);
   capture.camera.addTo(hasher);
+  hasher.value(capture.distanceStep);
   hasher.array(std::span(capture.columnStart)).array(std::span(capture.row));
   hasher.array(std::span(capture.inverseDistance)).array(std::span(premultipliedColours));
+  hasher.array(std::span(capture.roles));
   return hasher.finish();
 }
 

@@ -10,10 +10,12 @@
 
 namespace acentric {
 
-inline constexpr int kCaptureExrVersion = 1;
+inline constexpr int kCaptureExrVersion = 2;
 /// Value of channel W where a flat file's pixel has no sample.
 inline constexpr float kNoSample = -1.0f;
 
+/// Who needs a sample: bit r for role r.
+inline constexpr char kRolesChannel[] = "roles";
 inline constexpr char kAttributeVersion[] = "acentricVersion";
 inline constexpr char kAttributeKey[] = "acentricKey";
 inline constexpr char kAttributeChecksum[] = "acentricChecksum";
@@ -22,6 +24,7 @@ inline constexpr char kAttributeLowAzimuth[] = "acentricLowAzimuth";
 inline constexpr char kAttributeFov[] = "acentricFov";
 inline constexpr char kAttributeTop[] = "acentricTopElevation";
 inline constexpr char kAttributeBottom[] = "acentricBottomElevation";
+inline constexpr char kAttributeStep[] = "acentricDistanceStep";
 
 /// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else each direction
 /// rounds to the nearest half, and the colour under alpha 0 is lost.

@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <stdexcept>
@@ -84,11 +85,17 @@ char* slicePointer(T& value) {
   return reinterpret_cast<char*>(&value);
 }
 
+std::uint8_t rolesOf(std::uint32_t stored) {
+  if (stored > 0xff) refuse(fmt::format("a sample names roles that no capture has ({:#x})", stored));
+  return static_cast<std::uint8_t>(stored);
+}
+
 /// Colours stay premultiplied, as they are in the file.
 void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
   struct Pixel {
     HalfColour colour;
     float w;
+    std::uint32_t roles;
   };
   const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
   const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
@@ -100,6 +107,8 @@ void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
         kColourChannels[static_cast<std::size_t>(channel)],
         Imf::Slice(Imf::HALF, slicePointer(pixels[0].colour[channel]), columnStride, sizeof(Pixel)));
   buffer.insert("W", Imf::Slice(Imf::FLOAT, slicePointer(pixels[0].w), columnStride, sizeof(Pixel)));
+  buffer.insert(kRolesChannel,
+                Imf::Slice(Imf::UINT, slicePointer(pixels[0].roles), columnStride, sizeof(Pixel)));
   Imf::InputPart part(file, 0);
   part.setFrameBuffer(buffer);
   part.readPixels(0, capture.camera.rows - 1);
@@ -109,6 +118,7 @@ void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
   capture.row.reserve(samples);
   capture.inverseDistance.reserve(samples);
   capture.colour.reserve(samples);
+  capture.roles.reserve(samples);
   for (std::size_t column = 0; column < columns; ++column) {
     const Pixel* pixel = &pixels[(columns - 1 - column) * rows];
     for (std::size_t row = 0; row < rows; ++row, ++pixel) {
@@ -116,6 +126,7 @@ void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
       capture.row.push_back(static_cast<std::uint16_t>(row));
       capture.inverseDistance.push_back(pixel->w);
       capture.colour.push_back(pixel->colour);
+      capture.roles.push_back(rolesOf(pixel->roles));
     }
     capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
   }
@@ -128,7 +139,7 @@ void placeSamples(std::vector<unsigned int>& counts, Capture& capture, std::uint
   const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
   std::uint64_t total = 0;
   for (unsigned int count : counts) total += count;
-  constexpr std::uint64_t bytesPerSample = 12;  // R, G, B, A as half and W as float, before compression
+  constexpr std::uint64_t bytesPerSample = 16;  // R, G, B, A as half, W as float, roles, before compression
   if (total > kMaxCaptureSamples || bytesPerSample * total > kMaxDeflateRatio * fileBytes)
     refuse("claims more samples than a file of its size holds");
   capture.row.reserve(total);
@@ -149,7 +160,7 @@ void readDeep(Imf::MultiPartInputFile& file, Capture& capture, std::uint64_t fil
   const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
   const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
   std::vector<unsigned int> counts(columns * rows);  // column after column
-  std::array<std::vector<char*>, 5> pointers;        // of one line: to the first sample of each pixel
+  std::array<std::vector<char*>, 6> pointers;        // of one line: to the first sample of each pixel
   for (auto& channel : pointers) channel.resize(columns);
   Imf::DeepFrameBuffer buffer;
   buffer.insertSampleCountSlice(
@@ -159,14 +170,18 @@ void readDeep(Imf::MultiPartInputFile& file, Capture& capture, std::uint64_t fil
                                                            sizeof(char*), 0, sizeof(HalfColour)));
   buffer.insert("W",
                 Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[4][0]), sizeof(char*), 0, sizeof(float)));
+  buffer.insert(kRolesChannel, Imf::DeepSlice(Imf::UINT, slicePointer(pointers[5][0]), sizeof(char*), 0,
+                                              sizeof(std::uint32_t)));
   Imf::DeepScanLineInputPart part(file, 0);
   part.setFrameBuffer(buffer);
   part.readPixelSampleCounts(0, capture.camera.rows - 1);
 
   std::vector<unsigned int> firstSample = counts;  // the part goes on reading `counts` itself
   placeSamples(firstSample, capture, fileBytes);
+  std::vector<std::uint32_t> roles(capture.row.size());
   HalfColour nothing;
   float nowhere = 0;
+  std::uint32_t nobody = 0;
   const bool empty = capture.row.empty();
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t x = 0; x < columns; ++x) {
@@ -178,9 +193,12 @@ void readDeep(Imf::MultiPartInputFile& file, Capture& capture, std::uint64_t fil
       for (std::size_t channel = 0; channel < 4; ++channel)
         pointers[channel][x] = reinterpret_cast<char*>(colour) + 2 * channel;
       pointers[4][x] = reinterpret_cast<char*>(w);
+      pointers[5][x] = reinterpret_cast<char*>(empty ? &nobody : roles.data() + first);
     }
     part.readPixels(static_cast<int>(row), static_cast<int>(row));
   }
+  capture.roles.resize(roles.size());
+  std::ranges::transform(roles, capture.roles.begin(), rolesOf);
 }
 
 Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
@@ -199,10 +217,12 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
     refuse("is compressed in a way that captures are not; save it with ZIP or ZIPS", ErrorKind::unsupported);
   for (const char* channel : kColourChannels) checkChannel(header, channel, Imf::HALF);
   checkChannel(header, "W", Imf::FLOAT);
+  checkChannel(header, kRolesChannel, Imf::UINT);
 
   Keyed<Capture> result{keyAttribute(header, kAttributeKey), {}};
   Capture& capture = result.value;
   capture.camera = cameraOf(header, bytes.size());
+  capture.distanceStep = attribute<Imf::DoubleAttribute>(header, kAttributeStep);
   capture.columnStart.reserve(static_cast<std::size_t>(capture.camera.columns) + 1);
   capture.columnStart.push_back(0);
   const std::string type = header.hasType() ? header.type() : Imf::SCANLINEIMAGE;

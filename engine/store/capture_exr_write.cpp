@@ -60,6 +60,7 @@ Imf::Header headerFor(const Capture& capture, const ContentKey& key, const Conte
   for (const char* name : kColourChannels) header.channels().insert(name, Imf::Channel(Imf::HALF));
   header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
   header.channels().insert("W", Imf::Channel(Imf::FLOAT));
+  header.channels().insert(kRolesChannel, Imf::Channel(Imf::UINT));
   header.insert(kAttributeVersion, Imf::IntAttribute(kCaptureExrVersion));
   header.insert(kAttributeKey, Imf::StringAttribute(key.toHex()));
   header.insert(kAttributeChecksum, Imf::StringAttribute(checksum.toHex()));
@@ -69,6 +70,7 @@ Imf::Header headerFor(const Capture& capture, const ContentKey& key, const Conte
   header.insert(kAttributeFov, Imf::DoubleAttribute(camera.fovRadians));
   header.insert(kAttributeTop, Imf::DoubleAttribute(camera.topElevation));
   header.insert(kAttributeBottom, Imf::DoubleAttribute(camera.bottomElevation));
+  header.insert(kAttributeStep, Imf::DoubleAttribute(capture.distanceStep));
   return header;
 }
 
@@ -93,6 +95,7 @@ void writeFlat(const Capture& capture, const std::vector<HalfColour>& colours, c
     HalfColour colour;
     float z;
     float w;
+    std::uint32_t roles;
   };
   const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
   std::vector<Pixel> line(columns);
@@ -102,6 +105,7 @@ void writeFlat(const Capture& capture, const std::vector<HalfColour>& colours, c
                   Imf::Slice(Imf::HALF, slicePointer(line[0].colour[channel]), sizeof(Pixel), 0));
   buffer.insert("Z", Imf::Slice(Imf::FLOAT, slicePointer(line[0].z), sizeof(Pixel), 0));
   buffer.insert("W", Imf::Slice(Imf::FLOAT, slicePointer(line[0].w), sizeof(Pixel), 0));
+  buffer.insert(kRolesChannel, Imf::Slice(Imf::UINT, slicePointer(line[0].roles), sizeof(Pixel), 0));
   Imf::OutputFile file(stream, header, 0);
   file.setFrameBuffer(buffer);
   RowWalk walk(capture);
@@ -110,11 +114,11 @@ void writeFlat(const Capture& capture, const std::vector<HalfColour>& colours, c
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
       if (count == 0) {
-        line[x] = {HalfColour(0), kInfinity, kNoSample};
+        line[x] = {HalfColour(0), kInfinity, kNoSample, 0};
         continue;
       }
       const float w = capture.inverseDistance[first];
-      line[x] = {colours[first], rayDistance(perHorizontal, w), w};
+      line[x] = {colours[first], rayDistance(perHorizontal, w), w, capture.roles[first]};
     }
     file.writePixels(1);
   }
@@ -125,10 +129,11 @@ void writeDeep(const Capture& capture, std::vector<HalfColour>& colours, Imf::He
   header.setType(Imf::DEEPSCANLINE);
   const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
   std::vector<float> w = capture.inverseDistance, z(capture.sampleCount());
+  std::vector<std::uint32_t> roles(capture.roles.begin(), capture.roles.end());
   std::vector<unsigned int> counts(columns);
   // Pointers to the first sample of each pixel of one line, for every channel; its samples lie one behind the
   // other.
-  std::array<std::vector<char*>, 6> pointers;
+  std::array<std::vector<char*>, 7> pointers;
   for (auto& channel : pointers) channel.resize(columns);
   Imf::DeepFrameBuffer buffer;
   buffer.insertSampleCountSlice(Imf::Slice(Imf::UINT, slicePointer(counts[0]), sizeof(unsigned int), 0));
@@ -139,6 +144,8 @@ void writeDeep(const Capture& capture, std::vector<HalfColour>& colours, Imf::He
                 Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[4][0]), sizeof(char*), 0, sizeof(float)));
   buffer.insert("W",
                 Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[5][0]), sizeof(char*), 0, sizeof(float)));
+  buffer.insert(kRolesChannel, Imf::DeepSlice(Imf::UINT, slicePointer(pointers[6][0]), sizeof(char*), 0,
+                                              sizeof(std::uint32_t)));
   Imf::DeepScanLineOutputFile file(stream, header, 0);
   file.setFrameBuffer(buffer);
   RowWalk walk(capture);
@@ -153,6 +160,7 @@ void writeDeep(const Capture& capture, std::vector<HalfColour>& colours, Imf::He
         pointers[channel][x] = slicePointer(colours[first][static_cast<int>(channel)]);
       pointers[4][x] = slicePointer(z[first]);
       pointers[5][x] = slicePointer(w[first]);
+      pointers[6][x] = slicePointer(roles[first]);
     }
     file.writePixels(1);
   }

@@ -9,13 +9,14 @@
 namespace acentric {
 namespace {
 
-/// Row, inverse distance, and the four halves of the colour.
+/// Row, inverse distance, the four halves of the colour, roles.
 template <class AnyCapture>
 auto sampleLanes(AnyCapture& capture) {
   static_assert(sizeof(HalfColour) == 8);
   return std::array{laneOf(capture.row),          laneOf(capture.inverseDistance),
                     laneOf(capture.colour, 0, 2), laneOf(capture.colour, 2, 2),
-                    laneOf(capture.colour, 4, 2), laneOf(capture.colour, 6, 2)};
+                    laneOf(capture.colour, 4, 2), laneOf(capture.colour, 6, 2),
+                    laneOf(capture.roles)};
 }
 
 /// Samples of each column: small numbers, unlike the offsets.
@@ -31,7 +32,8 @@ Status writePack(const Capture& capture, const ContentKey& key, const std::files
   const ColumnCamera& camera = capture.camera;
   BlockFileWriter file(BlockFileKind::capture, key);
   for (double value : {camera.centreOfProjection.x, camera.centreOfProjection.y, camera.centreOfProjection.z,
-                       camera.lowAzimuth, camera.fovRadians, camera.topElevation, camera.bottomElevation})
+                       camera.lowAzimuth, camera.fovRadians, camera.topElevation, camera.bottomElevation,
+                       capture.distanceStep})
     file.describe(value);
   file.describe(static_cast<std::uint32_t>(camera.columns));
   file.describe(static_cast<std::uint32_t>(camera.rows));
@@ -48,9 +50,9 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
   if (!file) return tl::unexpected(file.error());
   Capture capture;
   ColumnCamera& camera = capture.camera;
-  for (double* value :
-       {&camera.centreOfProjection.x, &camera.centreOfProjection.y, &camera.centreOfProjection.z,
-        &camera.lowAzimuth, &camera.fovRadians, &camera.topElevation, &camera.bottomElevation})
+  for (double* value : {&camera.centreOfProjection.x, &camera.centreOfProjection.y,
+                        &camera.centreOfProjection.z, &camera.lowAzimuth, &camera.fovRadians,
+                        &camera.topElevation, &camera.bottomElevation, &capture.distanceStep})
     *value = file->described<double>();
   const auto columns = file->described<std::uint32_t>();
   const auto rows = file->described<std::uint32_t>();
@@ -59,7 +61,7 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
     return file->malformed("its description makes no sense");
   camera.columns = static_cast<int>(columns);
   camera.rows = static_cast<int>(rows);
-  if (samples > kMaxCaptureSamples || file->rawBytes() != 4 * std::uint64_t(columns) + 14 * samples)
+  if (samples > kMaxCaptureSamples || file->rawBytes() != 4 * std::uint64_t(columns) + 15 * samples)
     return file->malformed("its number of samples contradicts its size");
 
   std::vector<std::uint32_t> counts(columns);
@@ -76,6 +78,7 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
   capture.row.resize(samples);
   capture.inverseDistance.resize(samples);
   capture.colour.resize(samples);
+  capture.roles.resize(samples);
   if (Status read = file->nextRecords(sampleLanes(capture), samples); !read)
     return tl::unexpected(read.error());
   if (!file->atEnd()) return file->malformed("has more blocks than its description needs");

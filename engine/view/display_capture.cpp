@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include "engine/base/contract.h"
 #include "engine/view/walk_scene.h"
@@ -26,6 +28,7 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   display.columnStart = capture.columnStart;
   display.row = capture.row;
   display.inverseDistance = capture.inverseDistance;
+  display.roles = capture.roles;
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
@@ -42,8 +45,12 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
     display.columnRange[k] = rangeOf(capture, begin, end);
     display.columnBlock[k] = static_cast<std::uint32_t>(display.blockRange.size());
-    for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock)
-      display.blockRange.push_back(rangeOf(capture, i, std::min(i + kSamplesPerBlock, end)));
+    for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock) {
+      const std::uint32_t last = std::min(i + kSamplesPerBlock, end);
+      display.blockRange.push_back(rangeOf(capture, i, last));
+      display.blockRoles.push_back(std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
+                                                   std::uint8_t(0), std::bit_or<std::uint8_t>()));
+    }
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];
   }

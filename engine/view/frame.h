@@ -14,6 +14,13 @@ inline constexpr PixelSource kSourceHole = 0;
 inline constexpr PixelSource kSourceLocal = 0xffff;  ///< local geometry
 inline constexpr PixelSource kSourceInvented =
     0xfffe;  ///< screen-space fill: counts as a hole, never as covered
+inline constexpr PixelSource kSourceBackground =
+    0xfffd;  ///< steeper than anything that a capture could hold (background.h)
+
+/// Source of what a camera captured.
+constexpr PixelSource sourceOfCamera(int camera) {
+  return camera + 1 < kSourceBackground ? static_cast<PixelSource>(camera + 1) : kSourceBackground - 1;
+}
 
 struct FrameStats {
   int images = 0;         ///< captures drawn

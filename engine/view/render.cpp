@@ -1,4 +1,5 @@
 #include "engine/view/render.h"
+#include "engine/view/background.h"
 
 #include <algorithm>
 #include <new>
@@ -21,9 +22,9 @@ constexpr int kFillRingsWhileLoading = 8;
 /// Turns the canvas the right way round: rows of colours and sources, and depth for the passes that follow.
 void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImage& inverseZDepth,
              TaskRunner& runner) {
-  std::vector<PixelSource> sources(plan.pieces.size() + 1, kSourceHole);
-  for (std::size_t i = 0; i < plan.pieces.size(); ++i)
-    sources[i + 1] = static_cast<PixelSource>(std::min(plan.pieces[i].camera + 1, kSourceInvented - 1));
+  std::vector<PixelSource> sources{kSourceHole};
+  for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
+  sources.push_back(kSourceBackground);
   constexpr int kBlock = 16;
   const std::size_t blocks = static_cast<std::size_t>((canvas.height + kBlock - 1) / kBlock);
   runner.parallelFor(blocks, [&](std::size_t block) {
@@ -62,6 +63,8 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.bands = runner.threads();
   Canvas canvas = makeCanvas(view, blended);
+  if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
+    paintBackground(scene, view, limits, static_cast<std::uint32_t>(plan.pieces.size()) + 1, canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
   develop(canvas, plan, frame, inverseZDepth, runner);
   stats.images = static_cast<int>(images.size());

@@ -55,6 +55,13 @@ std::vector<char> visibleColumns(const DisplayCapture& capture, const PieceDraw&
   return visible;
 }
 
+int roleIn(const Cover& cover, const OrderedPiece& ordered) {
+  const auto found = std::ranges::find_if(cover.pieces, [&](const Piece& piece) {
+    return piece.camera == ordered.camera && piece.clip == ordered.clip;
+  });
+  return found == cover.pieces.end() ? -1 : found->role;
+}
+
 /// Do most drawn columns end before the foot of the perpendicular from the eye? (Renderers that cannot order
 /// the samples of each pixel on their own go by this.)
 bool mostlyBeforeFoot(const DisplayCapture& capture, const PieceDraw& piece) {
@@ -114,6 +121,7 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
       piece.clipToPart = ordered.part.azimuths.low != sector.azimuths.low ||
                          ordered.part.azimuths.width != sector.azimuths.width;
       piece.secondary = secondary;
+      piece.roles = roleBit(layout.cameras[camera], roleIn(cover, ordered));
       piece.baseline = glm::vec3(capture.camera.centreOfProjection - view.eye);
       piece.maxInverseDistance = largestInverseDistances(capture, region.grown);
       if (ordered.clip) piece.minInverseDistance = leastInverseDistances(capture, *ordered.clip);

@@ -26,6 +26,7 @@ struct PieceDraw {
   ViewSector part;  ///< samples outside this azimuth range (from the eye) are not drawn, if `clipToPart`
   bool clipToPart = false;
   bool secondary = false;                 ///< the other hand, painted behind
+  std::uint8_t roles = 0xff;              ///< samples that none of these needs are not drawn
   std::vector<ColumnRun> runs;            ///< after culling columns that cannot fall on the picture
   std::vector<float> maxInverseDistance;  ///< per column of the capture; infinity = all
   std::vector<float> minInverseDistance;  ///< the same for a piece that is clipped; else empty

@@ -23,11 +23,13 @@ struct DisplayCapture {
   std::vector<std::uint16_t> row;
   std::vector<float> inverseDistance;      ///< 1/m, horizontal
   std::vector<Rgba8> colour;               ///< sRGB, straight alpha
+  std::vector<std::uint8_t> roles;         ///< that need the sample
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
   /// The same per kSamplesPerBlock successive samples of a column: column k's blocks start at columnBlock[k].
   std::vector<glm::vec2> blockRange;
+  std::vector<std::uint8_t> blockRoles;  ///< that need any of them
   std::vector<std::uint32_t> columnBlock;
   bool layered = false;  ///< some pixel has more than one sample
   bool blended = false;  ///< some sample has alpha < 255

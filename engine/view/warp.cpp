@@ -43,6 +43,7 @@ ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view
                          ? static_cast<float>(focal * pitch * kSlantAllowance)
                          : 0.0f;
   column.maxSide = static_cast<float>(settings.maxSplatPixels);
+  column.roles = piece.roles;
   column.centreX = 0.5f * static_cast<float>(view.width);
   column.centreY = 0.5f * static_cast<float>(view.height);
   column.inverseFocal = static_cast<float>(1 / focal);
@@ -147,18 +148,21 @@ class BandWarp {
     const auto flush = [&](std::size_t to) {
       if (to <= from) return;
       count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
-                                capture.inverseDistance.data() + from, static_cast<int>(to - from),
-                                static_cast<std::uint32_t>(from - begin), splats_.data() + count);
+                                capture.inverseDistance.data() + from, capture.roles.data() + from,
+                                static_cast<int>(to - from), static_cast<std::uint32_t>(from - begin),
+                                splats_.data() + count);
       counts_.samplesRead += to - from;
     };
     for (std::size_t block = (begin - start) / kSamplesPerBlock; start + block * kSamplesPerBlock < end;
          ++block) {
       const std::size_t first = std::max(begin, start + block * kSamplesPerBlock);
       const std::size_t last = std::min(end, start + (block + 1) * kSamplesPerBlock);
+      const bool needed = (capture.blockRoles[capture.columnBlock[k] + block] & piece.roles) != 0;
       const glm::dvec2 range(capture.blockRange[capture.columnBlock[k] + block]);
       const TangentRange tangents{static_cast<double>(capture.rowTangent[capture.row[last - 1]]),
                                   static_cast<double>(capture.rowTangent[capture.row[first]])};
-      if (mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
+      if (needed &&
+          mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
                        {std::max(range.x, double(drawn.x)), std::min(range.y, double(drawn.y))}, tangents))
         continue;
       flush(first);
@@ -210,7 +214,7 @@ Canvas makeCanvas(const PerspectiveView& view, bool withStamps) {
 
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner) {
-  require(plan.pieces.size() <= static_cast<std::size_t>(kMaxSlots),
+  require(plan.pieces.size() < static_cast<std::size_t>(kMaxSlots),
           "more pieces than a canvas pixel can name");
   const int bands = std::clamp(options.bands, 1, view.height);
   std::vector<WarpCounts> counts(static_cast<std::size_t>(bands));

@@ -36,6 +36,7 @@ struct ProjectColumn {
   float minInverseDistance;  ///< farther ones too; 0: none
   float footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
   float maxSide;
+  std::uint32_t roles;          ///< samples that none of these needs are dropped
   float centreX, centreY;       ///< picture centre, pixels
   float inverseFocal;           ///< 1/pixels
   std::int32_t x0, y0, x1, y1;  ///< splats that miss this rectangle are dropped
@@ -48,12 +49,15 @@ struct ProjectColumn {
 /// Writes the splats that touch the rectangle to `out` (room for count + 8), in the order of the samples, and
 /// returns how many. `rowTangent` is the capture's table.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                               const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
+                               const float* inverseDistance, const std::uint8_t* roles, int count,
+                               std::uint32_t firstIndex, Splat* out);
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
+                         const float* inverseDistance, const std::uint8_t* roles, int count,
+                         std::uint32_t firstIndex, Splat* out);
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out);
+                       const float* inverseDistance, const std::uint8_t* roles, int count,
+                       std::uint32_t firstIndex, Splat* out);
 
 /// The fastest kernel that this processor runs.
 ProjectSamples fastestProjectSamples();

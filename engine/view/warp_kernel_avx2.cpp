@@ -37,6 +37,12 @@ struct EightLanes {
     const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(index));
     return {_mm256_i32gather_ps(table, _mm256_cvtepu16_epi32(narrow), 4)};
   }
+  static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
+    const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(roles));
+    const __m256i common =
+        _mm256_and_si256(_mm256_cvtepu8_epi32(narrow), _mm256_set1_epi32(static_cast<int>(wanted)));
+    return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(common, _mm256_setzero_si256()))};
+  }
   static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
   static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
   static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
@@ -79,9 +85,10 @@ struct EightLanes {
 }  // namespace
 
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, count, firstIndex,
-                                                out);
+                       const float* inverseDistance, const std::uint8_t* roles, int count,
+                       std::uint32_t firstIndex, Splat* out) {
+  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, roles, count,
+                                                firstIndex, out);
 }
 
 }  // namespace acentric

@@ -23,14 +23,16 @@ inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
 /// Lanes beyond `count` must hold an inverse distance of NaN.
 template <class B>
 inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const std::uint16_t* row,
-                        const float* inverseDistance, std::uint32_t firstIndex, Splat* out) {
+                        const float* inverseDistance, const std::uint8_t* roles, std::uint32_t firstIndex,
+                        Splat* out) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
   const F w = B::load(inverseDistance);
   const F t = B::gather(rowTangent, row);
   const F qz = B::set(c.a[2]) + t * B::set(c.z[2]) + w * B::set(c.b[2]);
-  M accepted = B::less(B::set(0), qz) & B::notLess(B::set(c.maxInverseDistance), w);
+  M accepted =
+      B::needed(roles, c.roles) & B::less(B::set(0), qz) & B::notLess(B::set(c.maxInverseDistance), w);
   if (c.minInverseDistance > 0) accepted = accepted & B::notLess(w, B::set(c.minInverseDistance));
   if (c.partTest != PartTest::none) accepted = accepted & insidePart<B>(c, w);
   if (!B::any(accepted)) return 0;
@@ -60,19 +62,22 @@ inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const s
 
 template <class B>
 inline int projectColumn(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
+                         const float* inverseDistance, const std::uint8_t* roles, int count,
+                         std::uint32_t firstIndex, Splat* out) {
   int written = 0, i = 0;
   for (; i + B::kWidth <= count; i += B::kWidth)
-    written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i,
+    written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i, roles + i,
                                firstIndex + static_cast<std::uint32_t>(i), out + written);
   if (i < count) {
     std::uint16_t lastRow[B::kWidth];
     float lastInverse[B::kWidth];
+    std::uint8_t lastRoles[B::kWidth];
     for (int lane = 0; lane < B::kWidth; ++lane) {
       lastRow[lane] = i + lane < count ? row[i + lane] : row[i];
       lastInverse[lane] = i + lane < count ? inverseDistance[i + lane] : __builtin_nanf("");
+      lastRoles[lane] = i + lane < count ? roles[i + lane] : std::uint8_t(0);
     }
-    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse,
+    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse, lastRoles,
                                firstIndex + static_cast<std::uint32_t>(i), out + written);
   }
   return written;

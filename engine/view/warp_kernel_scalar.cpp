@@ -14,6 +14,7 @@ struct OneLane {
   static I seti(std::int32_t value) { return value; }
   static F load(const float* p) { return *p; }
   static F gather(const float* table, const std::uint16_t* index) { return table[*index]; }
+  static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
   static M less(F a, F b) { return a < b; }
   static M notLess(F a, F b) { return a >= b; }
   static M greater(I a, I b) { return a > b; }
@@ -42,9 +43,10 @@ struct OneLane {
 }  // namespace
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, int count, std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, count, firstIndex,
-                                             out);
+                         const float* inverseDistance, const std::uint8_t* roles, int count,
+                         std::uint32_t firstIndex, Splat* out) {
+  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, roles, count,
+                                             firstIndex, out);
 }
 
 ProjectSamples fastestProjectSamples() {

@@ -12,7 +12,7 @@ namespace acentric {
 namespace {
 
 struct PackedSample {
-  float inverseDistance;
+  std::uint32_t inverseDistanceAndRoles;
   std::uint32_t rowAndColumn;
   std::uint32_t colour;
 };
@@ -27,7 +27,8 @@ Status checkArrays(const DisplayCapture& capture, const char* name) {
   if (capture.columnStart.size() != columns + 1 || capture.columnDirection.size() != columns ||
       capture.columnRange.size() != columns || capture.rowTangent.size() != rows)
     return bad("the capture's column and row tables do not fit its camera");
-  if (capture.inverseDistance.size() != samples || capture.colour.size() != samples)
+  if (capture.inverseDistance.size() != samples || capture.colour.size() != samples ||
+      capture.roles.size() != samples)
     return bad("the capture's sample arrays differ in length");
   if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
       !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
@@ -45,7 +46,8 @@ std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, i
   for (int column = firstColumn; column < lastColumn; ++column)
     for (std::size_t s = capture.columnStart[std::size_t(column)];
          s < capture.columnStart[std::size_t(column) + 1]; ++s)
-      packed.push_back({capture.inverseDistance[s], capture.row[s] | std::uint32_t(column) << 16,
+      packed.push_back({std::bit_cast<std::uint32_t>(capture.inverseDistance[s]) | capture.roles[s],
+                        capture.row[s] | std::uint32_t(column) << 16,
                         std::bit_cast<std::uint32_t>(capture.colour[s])});
   return packed;
 }

@@ -21,7 +21,7 @@ struct CaptureChunk {
   int firstColumn = 0;
   int lastColumn = 0;             ///< one behind
   std::uint32_t firstSample = 0;  ///< in the capture
-  GlBuffer samples;               ///< 12 bytes each: inverse distance, row | column << 16, colour
+  GlBuffer samples;               ///< 12 bytes each: inverse distance | roles, row | column << 16, colour
 };
 
 struct CaptureBuffers {

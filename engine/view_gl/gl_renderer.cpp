@@ -9,6 +9,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
+#include "engine/view_gl/background_pass.h"
 #include "engine/view_gl/capture_buffers.h"
 #include "engine/view_gl/fill_pass.h"
 #include "engine/view_gl/frame_target.h"
@@ -49,6 +50,7 @@ struct GlRenderer::Impl {
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
+  BackgroundPass background{programs};
   PointPass points{programs, captures};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
@@ -75,6 +77,7 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
   target.begin();
   const Clock::time_point warpStart = Clock::now();
+  if (Status drawn = background.draw(scene, view, target); !drawn) return tl::unexpected(drawn.error());
   if (Status drawn = points.draw(scene, *plan, view, settings, target, stats); !drawn)
     return tl::unexpected(drawn.error());
   stats.warpSeconds = secondsOfDrawing(warpStart);

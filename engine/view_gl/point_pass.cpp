@@ -176,8 +176,8 @@ Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   setUniform(program, "baselineInPicture", glm::vec3(pictureFromWorld * glm::dvec3(piece.plan.baseline)));
   setUniform(program, "pictureSize", glm::vec2(view.width, view.height));
   glUniform1f(program.location("clipMargin"), float(piece.margin()));
-  glUniform1ui(program.location("sourceOfPiece"),
-               GLuint(std::min(piece.plan.camera + 1, kSourceInvented - 1)));
+  glUniform1ui(program.location("roles"), piece.plan.roles);
+  glUniform1ui(program.location("sourceOfPiece"), GLuint(sourceOfCamera(piece.plan.camera)));
   if (piece.splat()) {
     const double focal = view.focalPixels();
     const double pitch = std::max(piece.capture.camera.columnPitch(), piece.capture.camera.rowPitch());

@@ -159,7 +159,7 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   const EffectPlan plan = planEffects(*scene);
   const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
   const auto keyFor = [](const Scene& s, const EffectPlan& p, const BakeSettings& b, const LayoutCamera& c) {
-    return captureKey(s, p, b, c, columnCameraFor(c, 1.6, 1, s.bounds, p.on(Effect::sky), b));
+    return captureKey(s, p, b, c, columnCameraFor(c, 1.6, 1, s.bounds, b));
   };
   const ContentKey key = keyFor(*scene, plan, {}, camera);
   EXPECT_EQ(keyFor(*builder.scene(), planEffects(*builder.scene()), {}, camera), key)
@@ -181,6 +181,14 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   settings = {};
   settings.maxLayers = 5;
   changes("layers", keyFor(*scene, plan, settings, camera));
+  settings = {};
+  settings.testEyes = 5;
+  changes("test eyes", keyFor(*scene, plan, settings, camera));
+  settings.pruning = false;
+  changes("pruning", keyFor(*scene, plan, settings, camera));
+  const ContentKey unpruned = keyFor(*scene, plan, settings, camera);
+  settings.testEyes = 6;
+  EXPECT_EQ(keyFor(*scene, plan, settings, camera), unpruned) << "no eye is asked without pruning";
   changes("an effect", keyFor(*scene, planEffects(*scene, {{Effect::hardShadows, false}}), {}, camera));
   LayoutCamera other = camera;
   other.position.x = 0.5;
@@ -189,11 +197,17 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   other.lowAzimuth += 0.1;
   changes("direction", keyFor(*scene, plan, {}, other));
   other = camera;
-  other.served[0] = square(1.5);
-  changes("served region", keyFor(*scene, plan, {}, other));
+  other.roles[0].grown = square(1.5);
+  changes("near band", keyFor(*scene, plan, {}, other));
   other = camera;
-  other.served.push_back(square(1.5));
-  changes("another served region", keyFor(*scene, plan, {}, other));
+  other.roles[0].polygon = square(0.5);
+  changes("where the eye stands", keyFor(*scene, plan, {}, other));
+  other = camera;
+  other.roles[0].clip = Clip{{{{0, 0}, {1, 0}}, true}};
+  changes("part of the sector", keyFor(*scene, plan, {}, other));
+  other = camera;
+  other.roles.push_back(other.roles[0]);
+  changes("another role", keyFor(*scene, plan, {}, other));
   SceneBuilder brighter = builder;
   brighter.point({1, 1, 2}, 5);
   changes("scene", keyFor(*brighter.scene(), plan, {}, camera));
@@ -214,24 +228,29 @@ TEST(ColumnCameraFor, CoversTheSceneAcrossTheNearBand) {
   const LayoutCamera camera = cameraAt({1, 2}, {});
   BakeSettings settings;
   settings.samplesPerDegree = 4;
+  settings.eyeRange = 0.1;
   Bounds bounds;
   bounds.add({-5, -5, 0});
   bounds.add({5, 5, 3});
-  const ColumnCamera c = columnCameraFor(camera, 1.6, 1, bounds, false, settings);
+  const ColumnCamera c = columnCameraFor(camera, 1.6, 1, bounds, settings);
   EXPECT_TRUE(c.check().has_value());
   EXPECT_EQ(c.centreOfProjection, glm::dvec3(1, 2, 1.6));
-  EXPECT_NEAR(c.topElevation, std::atan(1.4), 1e-6);
-  EXPECT_NEAR(c.bottomElevation, -std::atan(1.6), 1e-6);
+  EXPECT_NEAR(c.topElevation, std::atan(1.5), 1e-6);
+  EXPECT_NEAR(c.bottomElevation, -std::atan(1.7), 1e-6);
   EXPECT_EQ(c.columns, 240);
   EXPECT_EQ(c.rows, int(std::ceil(degrees(c.topElevation - c.bottomElevation) * 4)));
 
   bounds.add({0, 0, 1000});
-  EXPECT_NEAR(columnCameraFor(camera, 1.6, 1, bounds, false, settings).topElevation, radians(85), 1e-9);
-  EXPECT_TRUE(columnCameraFor(camera, 1.6, 0, bounds, true, settings).check().has_value());
-  const ColumnCamera flat = columnCameraFor(camera, 1.6, 1, {}, false, settings);
-  EXPECT_NEAR(flat.topElevation, radians(10), 1e-9);
-  EXPECT_NEAR(flat.bottomElevation, -radians(10), 1e-9);
-  EXPECT_NEAR(columnCameraFor(camera, 1.6, 1, {}, true, settings).topElevation, radians(50), 1e-9);
+  EXPECT_NEAR(columnCameraFor(camera, 1.6, 1, bounds, settings).topElevation, radians(85), 1e-9);
+  EXPECT_TRUE(columnCameraFor(camera, 1.6, 0, bounds, settings).check().has_value());
+  const ColumnCamera flat = columnCameraFor(camera, 1.6, 1, {}, settings);
+  EXPECT_EQ(flat.rows, 4) << "an empty scene has next to no height";
+  Bounds floorAlone;
+  floorAlone.add({-5, -5, 0});
+  floorAlone.add({5, 5, 0});
+  const ColumnCamera low = columnCameraFor(camera, 1.6, 1, floorAlone, settings);
+  EXPECT_LT(low.topElevation, radians(1)) << "nothing is above the horizon";
+  EXPECT_GT(low.topElevation, 0);
 }
 
 TEST(BakeSettings, RefusesEveryValueOutOfItsRange) {

@@ -18,13 +18,13 @@ using test::square;
 
 Capture bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, double eyeZ, double nearBand) {
   BakeSettings settings;
+  settings.eyeRange = 0;  // heights are chosen by place, and would differ from scale to scale
   settings.samplesPerDegree = 1;
   settings.ambientRays = 0;
   TaskRunner runner(0);
-  RayCounts rays;
-  const ColumnCamera columns =
-      columnCameraFor(camera, eyeZ, nearBand, scene->scene().bounds, false, settings);
-  auto capture = bakeCamera(*scene, camera, columns, settings, runner, rays);
+  CaptureCounts counts;
+  const ColumnCamera columns = columnCameraFor(camera, eyeZ, nearBand, scene->scene().bounds, settings);
+  auto capture = CameraBaker(*scene, settings).bake(camera, columns, runner, counts);
   EXPECT_TRUE(capture.has_value()) << (capture ? "" : capture.error().describe());
   return capture ? std::move(*capture) : Capture{};
 }

@@ -19,7 +19,10 @@ inline LayoutCamera cameraAt(glm::dvec2 position, std::vector<ConvexPolygon> ser
   camera.position = position;
   camera.lowAzimuth = radians(-30);
   camera.fovRadians = radians(60);
-  camera.served = std::move(served);
+  for (ConvexPolygon& polygon : served) {
+    const int number = int(camera.roles.size());
+    camera.roles.push_back({{number, 0, 0}, polygon, std::move(polygon)});
+  }
   return camera;
 }
 

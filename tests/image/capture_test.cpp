@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -22,6 +23,7 @@ Capture smallCapture() {
   capture.inverseDistance = {0.5f, 0.25f, 1.0f, 0.0f};
   const HalfColour wall = packColour({0.5f, 0.25f, 2, 1});
   capture.colour = {packColour({0.1f, 0.2f, 0.3f, 0.25f}), wall, wall, wall};
+  capture.roles = {1, 3, 2, 0x80};
   return capture;
 }
 
@@ -50,6 +52,25 @@ TEST(PackColour, MakesEveryColourStorable) {
   EXPECT_EQ(packColour({-0.0f, 0, 0, -1}), HalfColour(0));
 }
 
+TEST(StoredInverseDistance, IsOffByHalfAStepOrBySixteenBitsAtMost) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-30, 30);
+  for (const double step : {0.0, 0x1p-15, 0x1p-3})
+    for (int i = 0; i < 20000; ++i) {
+      const double w = std::exp2(exponent(random));
+      const float stored = storedInverseDistance(w, step);
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(stored) & 0xffu, 0u) << w;
+      ASSERT_EQ(storedInverseDistance(double(stored), step), stored) << "stored once, stored for good";
+      ASSERT_GT(stored, 0);
+      if (step > 0 && w < step / 2)
+        ASSERT_EQ(double(stored), step) << "a surface stays one, however far";
+      else
+        ASSERT_LE(std::abs(double(stored) - w), std::max(step / 2, w * 0x1p-16)) << w;
+    }
+  EXPECT_EQ(storedInverseDistance(0, 0.5), 0) << "sky";
+  EXPECT_EQ(storedInverseDistance(-1, 0.5), 0);
+}
+
 TEST(Capture, CountsLayersOfAPixel) {
   Capture capture = smallCapture();
   EXPECT_EQ(capture.maxLayers(), 2);
@@ -70,6 +91,7 @@ TEST(Capture, SoundOnesPass) {
   empty.row.clear();
   empty.inverseDistance.clear();
   empty.colour.clear();
+  empty.roles.clear();
   EXPECT_TRUE(empty.check());
 }
 
@@ -90,6 +112,11 @@ TEST(Capture, EveryBrokenInvariantIsFound) {
       {"negative distance", [](Capture& c) { c.inverseDistance[2] = -1; }},
       {"distance NaN", [](Capture& c) { c.inverseDistance[1] = kNan; }},
       {"distance infinite", [](Capture& c) { c.inverseDistance[0] = kInfinity; }},
+      {"distance too fine", [](Capture& c) { c.inverseDistance[0] = std::nextafter(0.5f, 1.0f); }},
+      {"step NaN", [](Capture& c) { c.distanceStep = double(kNan); }},
+      {"step negative", [](Capture& c) { c.distanceStep = -1; }},
+      {"fewer roles", [](Capture& c) { c.roles.pop_back(); }},
+      {"needed by nobody", [](Capture& c) { c.roles[1] = 0; }},
       {"radiance infinite", [](Capture& c) { c.colour[2].r = 0x7c00; }},
       {"radiance NaN", [](Capture& c) { c.colour[2].b = 0x7e00; }},
       {"radiance negative", [](Capture& c) { c.colour[2].g = 0xbc00; }},

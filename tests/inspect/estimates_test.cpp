@@ -57,6 +57,9 @@ class KnownBake final : public BakeProber {
     return total([&](const Camera& c) { return overhead.traceSeconds + c.pixels * c.secondsPerPixel; });
   }
 
+  double sight = 0;  ///< seconds for what the regions see
+
+  double sightSeconds() override { return sight; }
   Result<CaptureOverhead> captureOverhead() override { return overhead; }
   Status probeCapture(int camera) override {
     probed.push_back(camera);
@@ -119,6 +122,12 @@ TEST(Estimates, OfEveryCameraProbedWholeAreExact) {
   EXPECT_NEAR(estimate->lightBytes.value, 1e5 + 3 * 7e5, 1e-3);
   EXPECT_NEAR(estimate->lightSeconds.value, 0.5 + 5e5 * 4e-6 + 2e5 * 1e-6, 1e-9);
   EXPECT_NEAR(estimate->bytes.value, estimate->captureBytes.value + estimate->lightBytes.value, 1e-3);
+  bake.sight = 5;
+  bake.probed.clear();
+  const auto slower = estimateBake(bake.pixels(), {60, 0, false}, bake);
+  ASSERT_TRUE(slower) << slower.error().describe();
+  EXPECT_EQ(slower->sightSeconds, 5);
+  EXPECT_NEAR(slower->captureSeconds.value, estimate->captureSeconds.value + 5, 1e-9);
 }
 
 TEST(Estimates, OfAFewCamerasLieWithinTheErrorTheyState) {

@@ -184,9 +184,11 @@ TEST(Cameras, AreSortedUniqueAndIndependentOfTheNeighboursPlaced) {
       ASSERT_NE(same, many.cameras.end());
       EXPECT_EQ(camera.position, same->position);
       EXPECT_EQ(camera.lowAzimuth, same->lowAzimuth);
-      ASSERT_EQ(camera.served.size(), same->served.size());
-      for (std::size_t s = 0; s < camera.served.size(); ++s)
-        EXPECT_EQ(camera.served[s].corners, same->served[s].corners);
+      ASSERT_EQ(camera.roles.size(), same->roles.size());
+      for (std::size_t s = 0; s < camera.roles.size(); ++s) {
+        EXPECT_EQ(camera.roles[s].region, same->roles[s].region);
+        EXPECT_EQ(camera.roles[s].grown.corners, same->roles[s].grown.corners);
+      }
     }
   }
 }
@@ -197,11 +199,44 @@ TEST(Cameras, ServeTheRegionsAroundThemGrownByTheNearBand) {
     for (const Cover& cover : region.covers)
       for (const Piece& piece : cover.pieces) {
         const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
-        EXPECT_EQ(camera.served.size(), 4u) << "two hexagons and two triangles meet at a kagome corner";
-        EXPECT_TRUE(std::ranges::any_of(
-            camera.served, [&](const ConvexPolygon& p) { return p.corners == region.grown.corners; }));
+        EXPECT_EQ(camera.roles.size(), 4u) << "two hexagons and two triangles meet at a kagome corner";
+        const Role& role = camera.roles[std::size_t(piece.role)];
+        EXPECT_EQ(role.region, region.id);
+        EXPECT_EQ(role.polygon.corners, region.polygon.corners);
+        EXPECT_EQ(role.grown.corners, region.grown.corners);
       }
-  for (const LayoutCamera& camera : makeLayout(Configuration::e).cameras) EXPECT_EQ(camera.served.size(), 2u);
+  for (const LayoutCamera& camera : makeLayout(Configuration::e).cameras) EXPECT_EQ(camera.roles.size(), 2u);
+}
+
+TEST(Cameras, HaveARoleForEachPartThatARegionDrawsAndABitForEachRole) {
+  for (const Configuration configuration : kAllConfigurations) {
+    const Layout layout = makeLayout(configuration, {}, 4);
+    for (const LayoutCamera& camera : layout.cameras) {
+      ASSERT_FALSE(camera.roles.empty());
+      EXPECT_EQ(roleBit(camera, -1), 0xff);
+      std::uint8_t all = 0;
+      for (int role = 0; role < int(camera.roles.size()); ++role) {
+        EXPECT_EQ(std::popcount(roleBit(camera, role)), 1);
+        EXPECT_EQ(all & roleBit(camera, role), 0) << "configuration " << nameOf(configuration);
+        all |= roleBit(camera, role);
+      }
+    }
+    for (const Region& region : layout.regions)
+      for (const Cover& cover : region.covers)
+        for (const Piece& piece : cover.pieces) {
+          const Role& role = layout.cameras[std::size_t(piece.camera)].roles[std::size_t(piece.role)];
+          EXPECT_EQ(role.region, region.id);
+          EXPECT_EQ(role.clip, piece.clip);
+        }
+  }
+}
+
+TEST(Cameras, ShareOutTheirBitsWhereTheyHaveMoreRoles) {
+  LayoutCamera camera;
+  camera.roles.resize(20);
+  std::array<int, kRoleBits> uses{};
+  for (int role = 0; role < 20; ++role) ++uses[std::size_t(std::countr_zero(roleBit(camera, role)))];
+  for (const int n : uses) EXPECT_TRUE(n == 2 || n == 3) << n;
 }
 
 }  // namespace

@@ -122,16 +122,15 @@ TEST_P(SplitOf, RegionsOfDifferentSizesShareTheCamerasOfTheirCorners) {
   for (const LayoutCamera& camera : layout.cameras) {
     places.emplace(camera.position.x, camera.position.y);
     corners.emplace(camera.id.i, camera.id.j, camera.id.level);
-    for (const ConvexPolygon& polygon : camera.served) EXPECT_TRUE(polygon.containsClosed(camera.position));
+    for (const Role& role : camera.roles) EXPECT_TRUE(role.grown.containsClosed(camera.position));
   }
   EXPECT_EQ(places.size(), corners.size());
   // Every placed region is served, as grown by the near band, by each of its cameras.
   for (const Region& region : layout.regions)
     for (const Cover& cover : region.covers)
       for (const Piece& piece : cover.pieces)
-        EXPECT_TRUE(std::ranges::any_of(
-            layout.cameras[std::size_t(piece.camera)].served,
-            [&](const ConvexPolygon& polygon) { return polygon.corners == region.grown.corners; }));
+        EXPECT_EQ(layout.cameras[std::size_t(piece.camera)].roles[std::size_t(piece.role)].grown.corners,
+                  region.grown.corners);
 }
 
 TEST_P(SplitOf, PanoramasStandAtCornersWhereAllCamerasArePlaced) {
@@ -206,10 +205,8 @@ TEST(FreeApv, WithoutOffsetIsAPanoramaThatHelpsTheRegionsAround) {
   const Cover panorama = layout.panoramasFor(near)[0];
   ASSERT_EQ(panorama.pieces.size(), 6u);
   for (const Piece& piece : panorama.pieces)
-    EXPECT_TRUE(
-        std::ranges::any_of(layout.cameras[std::size_t(piece.camera)].served, [&](const ConvexPolygon& p) {
-          return p.corners == layout.regions[std::size_t(near)].grown.corners;
-        }));
+    EXPECT_EQ(layout.cameras[std::size_t(piece.camera)].roles[std::size_t(piece.role)].grown.corners,
+              layout.regions[std::size_t(near)].grown.corners);
   // Painted back to front for an eye beside it: along any ray the sectors come in the reverse of that order.
   Random random(56);
   for (int n = 0; n < 3000; ++n) {

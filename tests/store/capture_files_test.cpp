@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -27,6 +28,8 @@ void expectSame(const Capture& a, const Capture& b, bool coloursExact) {
   EXPECT_EQ(a.columnStart, b.columnStart);
   EXPECT_EQ(a.row, b.row);
   EXPECT_EQ(a.inverseDistance, b.inverseDistance);
+  EXPECT_EQ(a.distanceStep, b.distanceStep);
+  EXPECT_EQ(a.roles, b.roles);
   ASSERT_EQ(a.colour.size(), b.colour.size());
   for (std::size_t i = 0; i < a.colour.size(); ++i) {
     ASSERT_EQ(a.colour[i].a, b.colour[i].a) << i;
@@ -45,6 +48,7 @@ Capture emptyCapture() {
   capture.row.clear();
   capture.inverseDistance.clear();
   capture.colour.clear();
+  capture.roles.clear();
   std::fill(capture.columnStart.begin(), capture.columnStart.end(), 0u);
   return capture;
 }
@@ -54,6 +58,7 @@ Capture deepButEmptyColumns() {
   capture.row = {3, 3};
   capture.inverseDistance = {1, 0};
   capture.colour = {packColour({1, 2, 3, 0.5f}), packColour({0, 0, 0, 1})};
+  capture.roles = {1, 0xff};
   for (std::size_t k = 8; k < capture.columnStart.size(); ++k) capture.columnStart[k] = 2;
   return capture;
 }
@@ -86,7 +91,10 @@ TEST_P(CaptureFiles, RoundTripsEveryShape) {
 
 TEST_P(CaptureFiles, KeepExtremeDistancesBitForBit) {
   Capture capture = syntheticCapture({4, 8, false, false, 1});
-  const float extremes[] = {0, 1e-38f, 1e-45f, 1e-4f, 3.4e38f, 1000, std::nextafter(1.0f, 2.0f), 1.0f / 3};
+  const double exact[] = {0, 1e-38, 1e-40, 1e-4, 3.3e38, 1000, 1 + 0x1p-15, 1.0 / 3};
+  float extremes[8];
+  std::transform(std::begin(exact), std::end(exact), extremes,
+                 [](double w) { return storedInverseDistance(w, 0); });
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) capture.inverseDistance[i] = extremes[i % 8];
   capture.colour[0] = HalfColour(0x7bff, 1, 0, 0x3c00);
   ASSERT_TRUE(GetParam()->write(capture, kKey, folder_ / GetParam()->name));

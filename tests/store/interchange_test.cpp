@@ -38,7 +38,7 @@ double rayDistanceOf(const Capture& capture, std::size_t sample) {
 void expectAttributes(const OIIO::ImageSpec& spec, const ColumnCamera& camera) {
   EXPECT_EQ(spec.width, camera.columns);
   EXPECT_EQ(spec.height, camera.rows);
-  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 1);
+  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 2);
   EXPECT_EQ(spec.get_string_attribute("acentricKey"), "00000000000000070000000000000009");
   double centre[3] = {0, 0, 0}, fov = 0;
   EXPECT_TRUE(spec.getattribute("acentricCentreOfProjection",

@@ -24,10 +24,12 @@ inline Capture syntheticCapture(const SyntheticOptions& options) {
   Capture capture;
   capture.camera = {{1.25, -3.5, 1.6}, 0.3,         kPi / 3, radians(40), radians(-46),
                     options.columns,   options.rows};
+  capture.distanceStep = 1.0 / (1 << 14);
   capture.columnStart.push_back(0);
   const auto add = [&](int row, double w, float alpha) {
     capture.row.push_back(static_cast<std::uint16_t>(row));
-    capture.inverseDistance.push_back(static_cast<float>(w));
+    capture.inverseDistance.push_back(storedInverseDistance(w, capture.distanceStep));
+    capture.roles.push_back(static_cast<std::uint8_t>(1 + capture.row.size() % 255));
     const float light = static_cast<float>(0.1 + 0.5 * w) * noise(random);
     capture.colour.push_back(packColour({light, 0.8f * light, 0.6f * light, alpha}));
   };

@@ -68,7 +68,8 @@ Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const Co
       int kept = 0;
       const auto add = [&](double inverseDistance, const glm::vec4& colour) {
         out.row.push_back(static_cast<std::uint16_t>(r));
-        out.inverseDistance.push_back(static_cast<float>(inverseDistance));
+        out.inverseDistance.push_back(storedInverseDistance(inverseDistance, 0));
+        out.roles.push_back(0xff);
         out.colour.push_back(packColour(colour));
         ++kept;
       };

@@ -86,6 +86,7 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     column.maxInverseDistance = round % 3 == 0 ? 0.5f : std::numeric_limits<float>::infinity();
     column.footprint = round % 5 == 0 ? 0 : uniform(0, 20);
     column.maxSide = 16;
+    column.roles = round % 4 == 0 ? 0xffu : std::uint32_t(random() % 256);
     column.centreX = 320, column.centreY = 200, column.inverseFocal = 1 / uniform(100, 500);
     column.x0 = 0, column.y0 = 50, column.x1 = 640, column.y1 = 300;
     column.partTest = static_cast<PartTest>(round % 3);
@@ -94,17 +95,21 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     const int count = 1 + round % 70;
     std::vector<std::uint16_t> rows;
     std::vector<float> inverse;
+    std::vector<std::uint8_t> roles;
     for (int i = 0; i < count; ++i) {
       rows.push_back(static_cast<std::uint16_t>(random() % tangents.size()));
+      roles.push_back(static_cast<std::uint8_t>(random()));
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
       inverse.push_back(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1));
     }
     std::vector<Splat> one(static_cast<std::size_t>(count) + 8), eight(one.size());
-    const int n1 =
-        projectSamplesScalar(column, tangents.data(), rows.data(), inverse.data(), count, 7, one.data());
-    const int n8 =
-        fastestProjectSamples()(column, tangents.data(), rows.data(), inverse.data(), count, 7, eight.data());
+    const int n1 = projectSamplesScalar(column, tangents.data(), rows.data(), inverse.data(), roles.data(),
+                                        count, 7, one.data());
+    const int n8 = fastestProjectSamples()(column, tangents.data(), rows.data(), inverse.data(), roles.data(),
+                                           count, 7, eight.data());
     ASSERT_EQ(n1, n8);
+    for (int i = 0; i < n1; ++i)
+      ASSERT_NE(roles[one[static_cast<std::size_t>(i)].index - 7] & column.roles, 0u);
     for (int i = 0; i < n1; ++i) {
       const Splat &a = one[static_cast<std::size_t>(i)], &b = eight[static_cast<std::size_t>(i)];
       ASSERT_EQ(a.x, b.x);
@@ -127,7 +132,7 @@ TEST(Warp, PutsASampleWhereItsPointLies) {
     const ColumnCamera camera =
         cameraAt({unit(random), unit(random), 1.6 + unit(random)}, 180 * unit(random), 1, 1);
     const float w = static_cast<float>(std::abs(unit(random)));
-    Capture capture{camera, {0, 1}, {0}, {w}, {packColour({1, 1, 1, 1})}};
+    Capture capture{camera, 0, {0, 1}, {0}, {w}, {packColour({1, 1, 1, 1})}, {1}};
     PerspectiveView view;
     view.eye = {unit(random), unit(random), 1.6 + unit(random)};
     view.yawRadians = camera.azimuthAt(0.5) + 0.8 * unit(random);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -229,6 +230,27 @@ TEST_F(GlPoints, RefusesWhatTheCpuRefuses) {
   ViewSettings settings;
   settings.maxSplatPixels = 65;
   EXPECT_EQ(renderer_->draw(scene, view, settings).error().kind, ErrorKind::invalidArgument);
+}
+
+TEST_F(GlPoints, PaintsTheBackgroundWhereTheCpuDoes) {
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  WalkScene walk =
+      test::walkScene(test::randomBoxes(3, 60, 3.4), layout, *layout->regionAt({0.1, 0.05}), 2.5);
+  Scene scene;
+  scene.bounds.add({-9, -9, 0});
+  scene.bounds.add({9, 9, 5});
+  scene.sky = {{0.1f, 0.2f, 0.7f}, {0.6f, 0.6f, 0.6f}, {0.2f, 0.1f, 0.1f}};
+  walk.scene = std::make_shared<const Scene>(std::move(scene));
+  walk.plan = planEffects(*walk.scene);
+  for (const double pitch : {0.0, 60.0, 90.0, -80.0}) {
+    PerspectiveView view = nextView(*layout, *layout->regionAt({0.1, 0.05}), 70);
+    view.eye.z = layout->eyeZ();
+    view.pitchRadians = radians(pitch);
+    const Frame cpu = onCpu(walk, view, withoutFill()), gl = onGl(walk, view, withoutFill());
+    EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare) << pitch;
+    EXPECT_LE(test::differingShare(cpu.colour, gl.colour, 1), kMostDifferingShare) << pitch;
+    EXPECT_EQ(std::ranges::count(cpu.source.pixels, kSourceBackground) > 0, std::abs(pitch) > 1);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+#pragma once
+/// What is seen from where an eye may stand: the test eyes of a region, and around each of them a cube map of
+/// the nearest opaque surfaces, traced once and shared by all cameras that serve the region, and by regions
+/// that meet at a corner.
+///
+/// A bake asks millions of times whether an eye sees a point. The map answers nearly all of it by a look at
+/// four neighbouring rays; where they disagree, along edges, the point itself is traced.
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "engine/bake/bake_settings.h"
+#include "engine/bake/ray_scene.h"
+#include "engine/base/task_runner.h"
+#include "engine/geometry/convex_polygon.h"
+
+namespace acentric {
+
+/// Elevations, radians.
+struct ElevationRange {
+  double bottom = 0, top = 0;
+};
+
+/// Places in a region that stand for all the others, `settings.testEyes` of them: the corners first, where
+/// surfaces shift most against each other, then the centre, the middles of the edges, and places spread
+/// evenly inside. Heights lie within `settings.eyeRange` of `eyeZ`, and follow from the place alone, so that
+/// regions share the eyes at their corners.
+std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, const BakeSettings& settings);
+
+class EyeView {
+ public:
+  /// Traces the map, `texelsPerEdge` to a face's edge. Directions outside the elevations are not looked at.
+  /// Null when stopped.
+  static std::shared_ptr<const EyeView> trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
+                                              const ElevationRange& elevations, TaskRunner& runner,
+                                              RayCounts& rays, const std::stop_token& stop);
+
+  enum class Sees { no, yes, unsure };
+  /// Does the map show the point? Unsure along edges, and in directions that were not looked at.
+  Sees looksAt(const glm::dvec3& point) const;
+  /// The same for what lies infinitely far in a direction.
+  Sees looksAlong(const glm::dvec3& direction) const;
+
+  const glm::dvec3& eye() const { return eye_; }
+  std::size_t bytes() const { return inverseZ_.size() * sizeof(float); }
+
+ private:
+  EyeView(const glm::dvec3& eye, int texelsPerEdge);
+  glm::dvec3 directionOf(int face, int column, int row) const;
+  Sees look(const glm::dvec3& way, double far) const;
+
+  glm::dvec3 eye_;
+  int side_;  ///< texels along a face's edge; samples lie at their corners
+  /// By face, row, column: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
+  std::vector<float> inverseZ_;
+};
+
+/// Does an eye see a point? The map's answer, or else a ray's: nothing opaque on the way but the last
+/// `tolerance` metres.
+bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
+               RayCounts& rays);
+bool seesAlong(const RayScene& scene, const EyeView& view, const glm::dvec3& direction, RayCounts& rays);
+
+/// Views by eye, those used longest ago dropped first when they take more than `memory` bytes. Not safe from
+/// several threads.
+class EyeViews {
+ public:
+  EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,
+           std::size_t memory);
+
+  /// Null when stopped.
+  std::shared_ptr<const EyeView> at(const glm::dvec3& eye, TaskRunner& runner, RayCounts& rays,
+                                    const std::stop_token& stop);
+  std::size_t bytes() const { return bytes_; }
+  int traced() const { return traced_; }  ///< so far
+
+ private:
+  struct Kept {
+    std::shared_ptr<const EyeView> view;
+    std::uint64_t lastUse = 0;
+  };
+  void dropOldest();
+
+  const RayScene& scene_;
+  ElevationRange elevations_;
+  int texelsPerEdge_;
+  std::size_t memory_;
+  std::size_t bytes_ = 0;
+  std::uint64_t uses_ = 0;
+  int traced_ = 0;
+  std::map<std::array<double, 3>, Kept> views_;
+};
+
+}  // namespace acentric

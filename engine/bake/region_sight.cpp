@@ -1,0 +1,53 @@
+#include "engine/bake/region_sight.h"
+
+namespace acentric {
+
+std::optional<RegionSight> RegionSight::look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
+                                             const BakeSettings& settings, EyeViews& views,
+                                             TaskRunner& runner, RayCounts& rays,
+                                             const std::stop_token& stop) {
+  RegionSight sight;
+  sight.scene_ = &scene;
+  const Role* former = nullptr;
+  for (const Role& role : camera.roles) {
+    if (former == nullptr || former->region != role.region) {
+      sight.eyes_.emplace_back();
+      for (const glm::dvec3& eye : testEyes(role.polygon, eyeZ, settings)) {
+        auto view = views.at(eye, runner, rays, stop);
+        if (!view) return std::nullopt;
+        sight.eyes_.back().push_back(std::move(view));
+      }
+    }
+    sight.region_.push_back(sight.eyes_.size() - 1);
+    former = &role;
+  }
+  return sight;
+}
+
+template <class Test>
+bool RegionSight::any(std::size_t role, Hints& hints, const Test& test) const {
+  const std::size_t region = region_[role];
+  const auto& eyes = eyes_[region];
+  std::size_t& hint = hints.eye[region];
+  if (hint < eyes.size() && test(*eyes[hint])) return true;
+  for (std::size_t e = 0; e < eyes.size(); ++e)
+    if (e != hint && test(*eyes[e])) {
+      hint = e;
+      return true;
+    }
+  return false;
+}
+
+bool RegionSight::sees(std::size_t role, const glm::dvec3& point, double tolerance, Hints& hints,
+                       RayCounts& rays) const {
+  return any(role, hints,
+             [&](const EyeView& view) { return seesPoint(*scene_, view, point, tolerance, rays); });
+}
+
+bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,
+                            RayCounts& rays) const {
+  return any(role, hints,
+             [&](const EyeView& view) { return acentric::seesAlong(*scene_, view, direction, rays); });
+}
+
+}  // namespace acentric

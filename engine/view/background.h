@@ -1,0 +1,29 @@
+#pragma once
+/// Directions in which a view shows nothing but the background: steeper than the scene's top and bottom are
+/// seen across the near band. Captures have no rows there (columnCameraFor); local geometry is drawn over it.
+
+#include "engine/base/task_runner.h"
+#include "engine/geometry/perspective_view.h"
+#include "engine/view/canvas.h"
+#include "engine/view/walk_scene.h"
+
+namespace acentric {
+
+/// Row tangents; +-infinity where there is no such direction.
+struct BackgroundLimits {
+  float above = std::numeric_limits<float>::infinity();
+  float below = -std::numeric_limits<float>::infinity();
+  bool holds(const glm::vec3& direction) const;
+};
+
+/// Of an eye in one of the layout's regions. None without a scene.
+BackgroundLimits backgroundLimits(const WalkScene& scene, const glm::dvec3& eye);
+
+/// Does the view show such a direction?
+bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view);
+
+/// Paints it, at the distance of the sky, as the piece of slot `slot`.
+void paintBackground(const WalkScene& scene, const PerspectiveView& view, const BackgroundLimits& limits,
+                     std::uint32_t slot, Canvas& canvas, TaskRunner& runner);
+
+}  // namespace acentric

@@ -1,0 +1,138 @@
+#include "engine/bake/eye_views.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "engine/geometry/conventions.h"
+#include "tests/bake/layout_builder.h"
+#include "tests/bake/scene_builder.h"
+
+namespace acentric {
+namespace {
+
+using test::matte;
+using test::SceneBuilder;
+using test::square;
+
+constexpr ElevationRange kAll{-kPi / 2, kPi / 2};
+
+TEST(TestEyes, BeginWithTheCornersAndStayInTheRegion) {
+  const ConvexPolygon triangle{{{0, 0}, {2, 0}, {0.5, 1.5}}};
+  for (const int count : {1, 2, 3, 4, 7, 20}) {
+    BakeSettings settings;
+    settings.testEyes = count;
+    settings.eyeRange = 0.2;
+    const auto eyes = testEyes(triangle, 1.6, settings);
+    ASSERT_EQ(eyes.size(), std::size_t(count));
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      EXPECT_LT(glm::distance(triangle.nearestPoint(glm::dvec2(eyes[i])), glm::dvec2(eyes[i])), 1e-5);
+      EXPECT_NEAR(eyes[i].z, 1.6, 0.2 + 1e-12);
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(glm::distance(eyes[i], eyes[j]), 0.05) << i << " " << j;
+      if (count >= 3 && i < 3) {
+        EXPECT_LT(glm::distance(glm::dvec2(eyes[i]), triangle.corners[i]), 1e-5);
+      }
+    }
+  }
+}
+
+TEST(TestEyes, AreSharedByRegionsThatMeetInACorner) {
+  const auto left = testEyes(square(0.5, {-0.5 + 1e-13, 0.3}), 1.6, {});
+  const auto right = testEyes(square(0.5, {0.5, 0.3}), 1.6, {});
+  int shared = 0;
+  for (const glm::dvec3& eye : left) shared += int(std::ranges::count(right, eye));
+  EXPECT_EQ(shared, 2);
+}
+
+TEST(EyeView, SaysWhatARayWouldWhereItIsSure) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  builder.box(white, {-6, -5, 0}, {6, 5, 3}, true);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(-4, 4), size(0.05f, 0.5f);
+  for (int n = 0; n < 25; ++n) {
+    const glm::vec3 at(place(random), place(random), 1.5f + 0.3f * place(random));
+    if (glm::length(at - glm::vec3(0.2f, 0.1f, 1.6f)) < 0.8f) continue;
+    builder.box(white, at - size(random), at + size(random));
+  }
+  const auto scene = builder.rays();
+  TaskRunner runner(1);
+  RayCounts rays;
+  const glm::dvec3 eye(0.2, 0.1, 1.6);
+  const auto view = EyeView::trace(*scene, eye, 180, kAll, runner, rays, {});
+  ASSERT_NE(view, nullptr);
+  EXPECT_EQ(rays.visibility, 6u * 181 * 181);
+  int sure = 0, wrong = 0, seen = 0;
+  constexpr int kPoints = 20000;
+  std::uniform_real_distribution<double> x(-5.9, 5.9), y(-4.9, 4.9), z(0.1, 2.9);
+  for (int n = 0; n < kPoints; ++n) {
+    const glm::dvec3 point(x(random), y(random), z(random)), way = point - eye;
+    const double distance = glm::length(way);
+    const bool truth =
+        double(scene->occluderDistance({glm::vec3(eye), glm::vec3(way / distance)})) > distance * (1 - 1e-4);
+    const EyeView::Sees sees = view->looksAt(point);
+    const std::uint64_t before = rays.visibility;
+    EXPECT_EQ(seesPoint(*scene, *view, point, 1e-4, rays),
+              sees == EyeView::Sees::unsure ? truth : sees == EyeView::Sees::yes);
+    EXPECT_EQ(rays.visibility - before, sees == EyeView::Sees::unsure ? 1u : 0u);
+    if (sees == EyeView::Sees::unsure) continue;
+    ++sure;
+    seen += truth ? 1 : 0;
+    wrong += (sees == EyeView::Sees::yes) != truth ? 1 : 0;
+  }
+  EXPECT_GT(sure, kPoints * 9 / 10);
+  EXPECT_GT(seen, kPoints / 4);
+  EXPECT_LT(wrong, kPoints / 400);
+  // On the walls themselves, whichever way a face is cut.
+  int lost = 0;  // in gaps finer than the map
+  for (int n = 0; n < 2000; ++n) {
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(x(random), y(random), z(random) - 1.5));
+    const Hit hit = scene->trace({glm::vec3(eye), glm::vec3(direction)});
+    lost += view->looksAt(eye + double(hit.distance) * direction) == EyeView::Sees::no ? 1 : 0;
+  }
+  EXPECT_LE(lost, 10);
+}
+
+TEST(EyeView, IsUnsureWhereItDidNotLook) {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte()), 30);
+  const auto scene = builder.rays();
+  TaskRunner runner;
+  RayCounts rays;
+  const auto view = EyeView::trace(*scene, {0, 0, 2}, 90, {radians(-30), radians(20)}, runner, rays, {});
+  EXPECT_EQ(view->looksAlong({1, 0, 0.1}), EyeView::Sees::yes) << "the sky";
+  EXPECT_EQ(view->looksAlong({1, 0, -0.3}), EyeView::Sees::no) << "the floor";
+  EXPECT_EQ(view->looksAlong({0.1, 0, 1}), EyeView::Sees::unsure);
+  EXPECT_TRUE(seesAlong(*scene, *view, glm::normalize(glm::dvec3(0.1, 0, 1)), rays));
+  EXPECT_EQ(view->looksAt({0, 0, 0}), EyeView::Sees::unsure);
+  EXPECT_TRUE(seesPoint(*scene, *view, {0, 0, 0}, 1e-3, rays));
+  EXPECT_FALSE(seesPoint(*scene, *view, {0, 0, -1}, 1e-3, rays));
+}
+
+TEST(EyeViews, TraceEachEyeOnceUntilMemoryRunsShort) {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte()), 30);
+  const auto scene = builder.rays();
+  TaskRunner runner;
+  RayCounts rays;
+  BakeSettings settings;
+  settings.samplesPerDegree = 2;
+  EyeViews generous(*scene, kAll, settings, std::size_t(1) << 30);
+  const auto first = generous.at({0, 0, 1}, runner, rays, {});
+  EXPECT_EQ(generous.at({0, 0, 1}, runner, rays, {}), first);
+  generous.at({1, 0, 1}, runner, rays, {});
+  EXPECT_EQ(generous.traced(), 2);
+  EXPECT_EQ(generous.bytes(), 2 * first->bytes());
+
+  EyeViews tight(*scene, kAll, settings, 2 * first->bytes());
+  for (const double x : {0.0, 1.0, 2.0, 1.0, 0.0}) ASSERT_NE(tight.at({x, 0, 1}, runner, rays, {}), nullptr);
+  EXPECT_EQ(tight.traced(), 4) << "the one at 0 was used longest ago when the third came";
+  EXPECT_LE(tight.bytes(), 2 * first->bytes());
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(tight.at({9, 0, 1}, runner, rays, stop.get_token()), nullptr);
+}
+
+}  // namespace
+}  // namespace acentric
