@@ -75,6 +75,11 @@ class CameraBaker {
   std::unique_ptr<EyeViews> views_;
 };
 
+/// Traces the first ray of every pixel of a capture and does nothing with what it hits: what the ray tracer
+/// alone takes. How many hit something.
+std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, const ColumnCamera& columns,
+                             TaskRunner& runner);
+
 /// Where captures go. `put` may be called from another thread than bake's caller, one call at a time; `has`
 /// may be called meanwhile.
 class CaptureSink {

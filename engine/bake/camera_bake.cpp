@@ -77,6 +77,24 @@ double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns) 
   return std::ldexp(1.0, std::ilogb(largest));
 }
 
+/// The rays of rows [first, last) of a column from horizontal distance `nearest` on; `flat` receives their
+/// horizontal metres per metre.
+RayPacket firstRays(const ColumnCamera& columns, const glm::dvec2& columnDirection, int first, int last,
+                    double nearest, std::array<double, RayPacket::kSize>& flat) {
+  RayPacket packet;
+  packet.origin = glm::vec3(columns.centreOfProjection);
+  packet.count = last - first;
+  for (int row = first; row < last; ++row) {
+    const auto n = std::size_t(row - first);
+    const double elevation = columns.elevationAt(row + 0.5);
+    flat[n] = std::cos(elevation);
+    packet.direction[n] =
+        glm::vec3(columnDirection.x * flat[n], columnDirection.y * flat[n], std::sin(elevation));
+    packet.nearest[n] = float(nearest / flat[n]);
+  }
+  return packet;
+}
+
 /// What is the same for all pixels of a capture.
 struct March {
   const Shader& shader;
@@ -110,17 +128,8 @@ class ColumnMarch {
 
  private:
   void runRows(int first, int last) {
-    RayPacket packet;
-    packet.origin = glm::vec3(march_.columns.centreOfProjection);
-    packet.count = last - first;
     std::array<double, RayPacket::kSize> flat;
-    for (int row = first; row < last; ++row) {
-      const auto n = std::size_t(row - first);
-      const double elevation = march_.columns.elevationAt(row + 0.5);
-      flat[n] = std::cos(elevation);
-      packet.direction[n] = glm::vec3(direction_.x * flat[n], direction_.y * flat[n], std::sin(elevation));
-      packet.nearest[n] = float(roles_.front().exit / flat[n]);
-    }
+    const RayPacket packet = firstRays(march_.columns, direction_, first, last, roles_.front().exit, flat);
     std::array<Hit, RayPacket::kSize> hits;
     march_.shader.scene().trace(packet, hits);
     out_.counts.rays.primary += std::uint64_t(packet.count);
@@ -249,6 +258,24 @@ Capture joined(const March& march, const std::vector<Samples>& chunks, std::size
 }
 
 }  // namespace
+
+std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, const ColumnCamera& columns,
+                             TaskRunner& runner) {
+  std::atomic<std::uint64_t> hits = 0;
+  runner.parallelFor(std::size_t(columns.columns), [&](std::size_t column) {
+    const FlushDenormals flush;
+    const glm::dvec2 direction = columns.directionAt(double(column) + 0.5);
+    const auto roles = rolesAlong(camera, glm::dvec2(columns.centreOfProjection), direction);
+    std::uint64_t found = 0;
+    std::array<double, RayPacket::kSize> flat;
+    for (int row = 0; row < columns.rows && !roles.empty(); row += RayPacket::kSize)
+      found += std::uint64_t(
+          scene.countHits(firstRays(columns, direction, row, std::min(row + RayPacket::kSize, columns.rows),
+                                    roles.front().exit, flat)));
+    hits += found;
+  });
+  return hits;
+}
 
 SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
   for (std::size_t layer = 0; layer < kLayers; ++layer) kept[layer] += other.kept[layer];

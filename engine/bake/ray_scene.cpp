@@ -296,6 +296,13 @@ void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& h
   }
 }
 
+int RayScene::countHits(const RayPacket& rays) const {
+  const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
+  int hits = 0;
+  for (int i = 0; i < rays.count; ++i) hits += query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+  return hits;
+}
+
 void RayScene::occluderDistances(const RayPacket& rays,
                                  std::array<float, RayPacket::kSize>& distances) const {
   const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask);

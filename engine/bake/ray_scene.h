@@ -49,7 +49,9 @@ struct RayCounts {
   std::uint64_t bounce = 0;
   std::uint64_t mirror = 0;
   std::uint64_t through = 0;  ///< of the others: those that met glass or a blended surface
-  std::uint64_t total() const { return primary + visibility + shadow + softShadow + ambient + bounce + mirror; }
+  std::uint64_t total() const {
+    return primary + visibility + shadow + softShadow + ambient + bounce + mirror;
+  }
   RayCounts& operator+=(const RayCounts& other);
 };
 
@@ -74,6 +76,8 @@ class RayScene {
   Hit trace(const Ray& ray) const;
   /// The same for each ray of a packet; those beyond its count are left as they are.
   void trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const;
+  /// How many of them hit something: the ray tracer alone.
+  int countHits(const RayPacket& rays) const;
   /// Fraction of light that passes, per channel: 0 behind an opaque surface, the tint behind glass or blended
   /// surfaces.
   glm::vec3 transmittance(const Ray& ray) const;

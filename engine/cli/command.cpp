@@ -197,9 +197,9 @@ std::string countText(std::uint64_t count) {
 }
 
 Json toJson(const RayCounts& rays) {
-  return {{"primary", rays.primary}, {"visibility", rays.visibility}, {"shadow", rays.shadow},
-          {"softShadow", rays.softShadow}, {"ambient", rays.ambient}, {"bounce", rays.bounce},
-          {"mirror", rays.mirror}, {"through", rays.through}};
+  return {{"primary", rays.primary},       {"visibility", rays.visibility}, {"shadow", rays.shadow},
+          {"softShadow", rays.softShadow}, {"ambient", rays.ambient},       {"bounce", rays.bounce},
+          {"mirror", rays.mirror},         {"through", rays.through}};
 }
 
 Json toJson(const SampleCounts& samples) {

@@ -6,6 +6,7 @@
 
 #include "engine/cli/command.h"
 #include "engine/cli/layout_edits.h"
+#include "engine/pipeline/bench_bake.h"
 
 namespace acentric::cli {
 
@@ -145,6 +146,12 @@ struct BenchOptions {
   int frames = 30, repeats = 3;
 };
 Result<Report> runBench(const BenchOptions& options, const Common& common);
+
+struct BenchBakeOptions {
+  std::filesystem::path project;
+  BakeBenchOptions bench;
+};
+Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& common);
 
 struct EstimateCommandOptions {
   std::filesystem::path project, output;

@@ -75,9 +75,9 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
   c->add_option("--images", o.images, "Folder for pictures: frame, truth, difference, holes");
 }
 
-void addBench(CLI::App& app, Chosen& chosen) {
-  auto [c, o] = add(app, chosen, "bench", "Time the renderers against each other on a tour of the project",
-                    "  acentric bench kitchen.acentric.json --renderers list,zbuffer --json", runBench);
+void addBenchView(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] = add(bench, chosen, "view", "Time the renderers against each other on a tour of the project",
+                    "  acentric bench view kitchen.acentric.json --renderers list,zbuffer --json", runBench);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "where the walk begins");
   c->add_option("--renderers", o.renderers, "Which, separated by commas")
@@ -91,6 +91,30 @@ void addBench(CLI::App& app, Chosen& chosen) {
   c->add_option("--repeats", o.repeats, "Times each frame is rendered, after one warm-up")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+}
+
+void addBenchBake(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] = add(bench, chosen, "bake", "Time what a bake does, against the ray tracer alone",
+                    "  acentric bench bake kitchen.acentric.json --json", runBenchBake);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--cameras", o.bench.cameras, "Of the ring that is baked, at the spawn")
+      ->check(CLI::Range(6, 72))
+      ->capture_default_str();
+  c->add_option("--side", o.bench.side, "Columns, and rows, of each camera")
+      ->check(CLI::Range(8, 16384))
+      ->capture_default_str();
+  c->add_option("--repeats", o.bench.repeats, "Times each set of effects is baked; the fastest counts")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+}
+
+void addBench(CLI::App& app, Chosen& chosen) {
+  CLI::App* bench = app.add_subcommand("bench", "Time what the program does on this machine");
+  bench->require_subcommand(1);
+  bench->fallthrough();
+  addBenchView(*bench, chosen);
+  addBenchBake(*bench, chosen);
 }
 
 }  // namespace

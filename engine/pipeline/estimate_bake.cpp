@@ -1,12 +1,10 @@
 #include "engine/pipeline/estimate_bake.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <new>
 #include <optional>
 #include <set>
@@ -18,6 +16,7 @@
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/local_triangles.h"
+#include "engine/pipeline/trial_folder.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -28,31 +27,6 @@ namespace {
 constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
-
-/// A folder that goes with its owner.
-class TrialFolder {
- public:
-  static Result<TrialFolder> make(const fs::path& preferred) {
-    std::error_code error;
-    for (const fs::path& parent : {preferred, fs::temp_directory_path(error)}) {
-      std::string name = (parent / (temporaryNameStart() + "estimate-XXXXXX")).string();
-      if (::mkdtemp(name.data()) != nullptr) return TrialFolder(name);
-    }
-    return fail(ErrorKind::unreadable, "no folder for trial files can be made here, nor a temporary one",
-                preferred.string());
-  }
-  TrialFolder(TrialFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-  TrialFolder& operator=(TrialFolder&&) = delete;
-  ~TrialFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  explicit TrialFolder(fs::path path) : path_(std::move(path)) {}
-  fs::path path_;
-};
 
 /// Which of a trial capture's two files has the size that the whole capture's would have in proportion: with
 /// rows left out the rows of the EXR stay as they are, with columns left out the columns of the pack.

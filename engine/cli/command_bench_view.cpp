@@ -1,24 +1,12 @@
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
+#include "engine/cli/machine.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
 
 namespace acentric::cli {
-namespace {
-
-std::string processorName() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
-}  // namespace
-
 Result<Report> runBench(const BenchOptions& options, const Common& common) {
   const auto walk = openAlong(options.project, {}, options.size, 0, options.frames, common);
   if (!walk) return tl::unexpected(walk.error());

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include "engine/cli/commands.h"
+#include "engine/cli/machine.h"
+
+namespace acentric::cli {
+namespace {
+
+double perSecond(double count, double seconds) { return seconds > 0 ? count / seconds / 1e6 : 0; }
+
+Json toJson(const BakeBenchSet& set, const BakeBench& bench) {
+  return {{"name", set.name},
+          {"effects", set.effects},
+          {"seconds", set.seconds},
+          {"megapixelsPerSecond", perSecond(bench.firstRays, set.seconds)},
+          {"primaryMegaraysPerSecond", perSecond(double(set.counts.rays.primary), set.seconds)},
+          {"megaraysPerSecond", perSecond(double(set.counts.rays.total()), set.seconds)},
+          {"shareOfTracer", set.primaryShare},
+          {"rays", cli::toJson(set.counts.rays)},
+          {"samples", cli::toJson(set.counts.samples)}};
+}
+
+}  // namespace
+
+Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& common) {
+  const auto open = openChosen(options.project, common);
+  if (!open) return tl::unexpected(open.error());
+  const auto runner = common.runner();
+  const auto bench = benchBake(*open, options.bench, *runner, common.progress, common.stop);
+  if (!bench) return tl::unexpected(bench.error());
+  const double scaling =
+      bench->oneThreadSeconds > 0 ? bench->oneThreadSeconds / bench->sets.back().seconds : 1;
+  Report report;
+  report.json = {{"version", ACENTRIC_VERSION},
+                 {"processor", processorName()},
+                 {"threads", bench->threads},
+                 {"project", options.project.string()},
+                 {"cameras", bench->cameras},
+                 {"side", bench->side},
+                 {"tracer",
+                  {{"seconds", bench->tracerSeconds},
+                   {"megaraysPerSecond", perSecond(bench->firstRays, bench->tracerSeconds)}}},
+                 {"sets", Json::array()},
+                 {"ringToFilesSeconds", bench->ringSeconds},
+                 {"oneThreadSeconds", bench->oneThreadSeconds},
+                 {"scaling", scaling},
+                 {"seconds",
+                  {{"tracing", bench->sets.front().seconds},
+                   {"shading", bench->shadingSeconds},
+                   {"pruning", bench->pruningSeconds},
+                   {"encoding", bench->encodingSeconds},
+                   {"writing", bench->writingSeconds}}},
+                 {"bytes", {{"pack", bench->packBytes}, {"exr", bench->exrBytes}}}};
+  report.text = fmt::format(
+      "{}, {} threads: a ring of {} cameras of {} x {} pixels\n  {:<16} {:7.2f} s, {:6.1f} M rays/s\n",
+      processorName(), bench->threads, bench->cameras, bench->side, bench->side, "tracer alone",
+      bench->tracerSeconds, perSecond(bench->firstRays, bench->tracerSeconds));
+  for (const BakeBenchSet& set : bench->sets) {
+    report.json["sets"].push_back(toJson(set, *bench));
+    report.text +=
+        fmt::format("  {:<16} {:7.2f} s, {:6.1f} M rays/s, {:6.1f} M primary ({:.0f} %); {} samples\n",
+                    set.name, set.seconds, perSecond(double(set.counts.rays.total()), set.seconds),
+                    perSecond(double(set.counts.rays.primary), set.seconds), 100 * set.primaryShare,
+                    countText(set.counts.samples.keptInAll()));
+  }
+  report.text += fmt::format(
+      "  one shadow ray, files written: {:.2f} s\n"
+      "  everything: tracing {:.2f} s, shading {:.2f} s, pruning and deeper layers {:.2f} s; encoding {:.2f} "
+      "s "
+      "and writing {:.2f} s on one thread behind them\n"
+      "  {} packed, {} OpenEXR; {} to {} threads: {:.2f} times as fast\n",
+      bench->ringSeconds, bench->sets.front().seconds, bench->shadingSeconds, bench->pruningSeconds,
+      bench->encodingSeconds, bench->writingSeconds, bytesText(std::uint64_t(bench->packBytes)),
+      bytesText(std::uint64_t(bench->exrBytes)), 1, bench->threads, scaling);
+  return report;
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,261 @@
+#include "engine/pipeline/bench_bake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/bake/capture_writer.h"
+#include "engine/base/file.h"
+#include "engine/base/stopwatch.h"
+#include "engine/pipeline/trial_folder.h"
+
+namespace acentric {
+namespace {
+
+/// What a set leaves on of the plan's effects.
+enum class Lighting { none, hardShadows, all };
+
+EffectPlan planWith(const EffectPlan& plan, Lighting light) {
+  EffectPlan out = plan;
+  if (light == Lighting::all) return out;
+  for (const Effect effect :
+       {Effect::emission, Effect::directionalLights, Effect::pointLights, Effect::spotLights,
+        Effect::areaLights, Effect::sky, Effect::hardShadows, Effect::softShadows, Effect::ambientOcclusion,
+        Effect::diffuseInterreflection, Effect::mirrorReflection, Effect::transmission})
+    out[effect].on = false;
+  if (light == Lighting::hardShadows) {
+    out[Effect::directionalLights].on = plan.on(Effect::directionalLights);
+    out[Effect::hardShadows].on = out.on(Effect::directionalLights);
+  }
+  return out;
+}
+
+std::string effectsOf(const EffectPlan& plan) {
+  std::string names;
+  for (int e = 0; e < kEffectCount; ++e)
+    if (plan.on(Effect(e))) names += (names.empty() ? "" : ", ") + std::string(labelOf(Effect(e)));
+  return names.empty() ? "none" : names;
+}
+
+/// A ring around the spawn, about as large as a region.
+Result<Layout> ringAt(const OpenProject& open, int cameras) {
+  const LayoutSpec& spec = open.project.layout();
+  Apv apv;
+  apv.centre = open.project.spawn().position;
+  apv.fovDegrees = 360.0 / cameras;
+  apv.offset = {spec.cellSize, 0};
+  LayoutSpec alone;
+  alone.configuration = spec.configuration;
+  alone.cellSize = spec.cellSize;
+  alone.floorHeight = spec.floorHeight;
+  alone.eyeHeight = spec.eyeHeight;
+  alone.nearBand = spec.nearBand;
+  alone.freeApvs[1] = apv;
+  return buildLayout(alone);
+}
+
+class Bench {
+ public:
+  Bench(const OpenProject& open, const BakeBenchOptions& options, const Layout& ring, std::stop_token stop)
+      : open_(open), options_(options), ring_(ring), stop_(std::move(stop)) {}
+
+  ColumnCamera columnsOf(const LayoutCamera& camera) const {
+    ColumnCamera columns =
+        columnCameraFor(camera, ring_.eyeZ(), ring_.spec.nearBand, open_.scene->bounds, open_.project.bake);
+    columns.columns = columns.rows = options_.side;
+    return columns;
+  }
+
+  BakeSettings settings(bool layered) const {
+    BakeSettings settings = open_.project.bake;
+    settings.pruning = layered && settings.pruning;
+    if (!layered) settings.maxLayers = 1;
+    return settings;
+  }
+
+  /// Seconds of the fastest repeat.
+  Result<double> bakeRing(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
+                          CaptureCounts& counts, std::vector<Capture>* captures = nullptr) const {
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+      counts = {};
+      if (captures != nullptr) captures->clear();
+      CameraBaker baker(rays, settings);
+      const Stopwatch watch;
+      for (const LayoutCamera& camera : ring_.cameras) {
+        auto capture = baker.bake(camera, columnsOf(camera), runner, counts, stop_);
+        if (!capture) return tl::unexpected(capture.error());
+        if (captures != nullptr) captures->push_back(std::move(*capture));
+      }
+      fastest = std::min(fastest, watch.seconds());
+    }
+    return fastest;
+  }
+
+  /// The same ring from start to files.
+  Result<double> ringToFiles(const RayScene& rays, TaskRunner& runner,
+                             const std::filesystem::path& folder) const {
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+      const Stopwatch watch;
+      auto written = writeRing(rays, runner, folder);
+      if (!written) return tl::unexpected(written.error());
+      fastest = std::min(fastest, watch.seconds());
+      std::error_code ignored;
+      std::filesystem::remove_all(folder, ignored);
+    }
+    return fastest;
+  }
+
+  double firstRays() const { return double(ring_.cameras.size()) * options_.side * options_.side; }
+
+  /// The ray tracer alone on each camera's first rays, those of the march.
+  double traceAlone(const RayScene& rays, TaskRunner& runner) const {
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+      const Stopwatch watch;
+      for (const LayoutCamera& camera : ring_.cameras)
+        traceFirstRays(rays, camera, columnsOf(camera), runner);
+      fastest = std::min(fastest, watch.seconds());
+    }
+    return fastest;
+  }
+
+ private:
+  Status writeRing(const RayScene& rays, TaskRunner& runner, const std::filesystem::path& folder) const;
+
+  const OpenProject& open_;
+  const BakeBenchOptions& options_;
+  const Layout& ring_;
+  std::stop_token stop_;
+};
+
+Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::filesystem::path& folder) const {
+  const auto store = CaptureStore::open(folder);
+  if (!store) return tl::unexpected(store.error());
+  class Sink final : public CaptureSink {
+   public:
+    explicit Sink(const CaptureStore& s) : store(s) {}
+    bool has(const ContentKey&) const override { return false; }
+    Status put(const ContentKey& key, const Capture& capture) override { return store.put(key, capture); }
+    const CaptureStore& store;
+  } sink(*store);
+  CaptureWriter writer(sink);
+  CameraBaker baker(rays, settings(false));
+  std::uint64_t number = 0;
+  for (const LayoutCamera& camera : ring_.cameras) {
+    CaptureCounts counts;
+    auto capture = baker.bake(camera, columnsOf(camera), runner, counts, stop_);
+    if (!capture) return tl::unexpected(capture.error());
+    if (Status put = writer.put({0, ++number}, std::move(*capture)); !put) return put;
+  }
+  return writer.finish();
+}
+
+struct FileCosts {
+  double encodingSeconds = 0, writingSeconds = 0, packBytes = 0, exrBytes = 0;
+};
+
+Result<FileCosts> fileCosts(const std::vector<Capture>& captures, const std::filesystem::path& folder) {
+  FileCosts costs;
+  const auto again = [&](const std::filesystem::path& path, double& bytes) -> Status {
+    const auto content = readFile(path);
+    if (!content) return tl::unexpected(content.error());
+    bytes += double(content->size());
+    const Stopwatch watch;
+    if (Status done = writeFileAtomically(path, *content); !done) return done;
+    costs.writingSeconds += watch.seconds();
+    return {};
+  };
+  const auto pack = folder / "trial.pack", exr = folder / "trial.exr";
+  for (const Capture& capture : captures) {
+    const Stopwatch watch;
+    if (Status done = writeCaptureExr(capture, {}, exr); !done) return tl::unexpected(done.error());
+    if (Status done = writeCapturePack(capture, {}, pack); !done) return tl::unexpected(done.error());
+    costs.encodingSeconds += watch.seconds();
+    if (Status done = again(exr, costs.exrBytes); !done) return tl::unexpected(done.error());
+    if (Status done = again(pack, costs.packBytes); !done) return tl::unexpected(done.error());
+  }
+  costs.encodingSeconds = std::max(0.0, costs.encodingSeconds - costs.writingSeconds);
+  return costs;
+}
+
+}  // namespace
+
+Status BakeBenchOptions::check() const {
+  const auto bad = [](std::string message) {
+    return fail(ErrorKind::invalidArgument, std::move(message), "bench bake");
+  };
+  if (cameras < 6 || cameras > 72) return bad(fmt::format("{} cameras: must lie in 6..72", cameras));
+  if (side < 8 || side > 16384) return bad(fmt::format("{} columns and rows: must lie in 8..16384", side));
+  if (repeats < 1 || repeats > 100) return bad(fmt::format("{} repeats: must lie in 1..100", repeats));
+  return {};
+}
+
+Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& options, TaskRunner& runner,
+                            const Progress& progress, std::stop_token stop) {
+  if (Status sound = options.check(); !sound) return tl::unexpected(sound.error());
+  const auto ring = ringAt(open, options.cameras);
+  if (!ring) return tl::unexpected(ring.error());
+  const auto folder = TrialFolder::make(std::filesystem::absolute(open.file).parent_path());
+  if (!folder) return tl::unexpected(folder.error());
+  const Bench bench(open, options, *ring, stop);
+  BakeBench out;
+  out.cameras = int(ring->cameras.size());
+  out.side = options.side;
+  out.threads = runner.threads();
+  out.firstRays = bench.firstRays();
+
+  struct Kind {
+    const char* name;
+    Lighting light;
+    bool layered;
+  };
+  constexpr Kind kKinds[] = {{"geometry", Lighting::none, false},
+                             {"one shadow ray", Lighting::hardShadows, false},
+                             {"all effects", Lighting::all, false},
+                             {"everything", Lighting::all, true}};
+  std::vector<Capture> captures;
+  double step = 0;
+  for (const Kind& kind : kKinds) {
+    if (progress) progress({step++, 4, fmt::format("baking a ring: {}", kind.name)});
+    const EffectPlan plan = planWith(open.plan, kind.light);
+    const auto rays = RayScene::build(open.scene, plan);
+    if (!rays) return tl::unexpected(rays.error());
+    if (kind.light == Lighting::none) out.tracerSeconds = bench.traceAlone(**rays, runner);
+    BakeBenchSet set;
+    set.name = kind.name;
+    set.effects = effectsOf(plan);
+    const auto seconds = bench.bakeRing(**rays, bench.settings(kind.layered), runner, set.counts,
+                                        kind.layered ? &captures : nullptr);
+    if (!seconds) return tl::unexpected(seconds.error());
+    set.seconds = *seconds;
+    set.primaryShare = out.tracerSeconds / set.seconds * double(set.counts.rays.primary) / out.firstRays;
+    out.sets.push_back(std::move(set));
+    if (kind.light == Lighting::hardShadows) {
+      const auto ringSeconds = bench.ringToFiles(**rays, runner, folder->path() / "ring");
+      if (!ringSeconds) return tl::unexpected(ringSeconds.error());
+      out.ringSeconds = *ringSeconds;
+    }
+    if (kind.layered && runner.threads() > 1) {
+      TaskRunner one(0);
+      CaptureCounts counts;
+      const auto alone = bench.bakeRing(**rays, bench.settings(true), one, counts);
+      if (!alone) return tl::unexpected(alone.error());
+      out.oneThreadSeconds = *alone;
+    }
+  }
+  out.shadingSeconds = std::max(0.0, out.sets[2].seconds - out.sets[0].seconds);
+  out.pruningSeconds = std::max(0.0, out.sets[3].seconds - out.sets[2].seconds);
+  const auto costs = fileCosts(captures, folder->path());
+  if (!costs) return tl::unexpected(costs.error());
+  out.encodingSeconds = costs->encodingSeconds;
+  out.writingSeconds = costs->writingSeconds;
+  out.packBytes = costs->packBytes;
+  out.exrBytes = costs->exrBytes;
+  return out;
+}
+
+}  // namespace acentric
