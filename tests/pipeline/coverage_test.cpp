@@ -91,7 +91,7 @@ TEST(ProjectReach, ForetellsWhatTheBakeCaptures) {
   EXPECT_GT(held, checked / 4);
   ASSERT_GT(missed, 100) << "else there is nothing to foretell";
   // A pixel is a quarter of a degree wide: at edges it may hold the neighbouring surface.
-  EXPECT_GT(double(missing) / missed, 0.93) << missing << " of " << missed;
+  EXPECT_GT(double(missing) / missed, 0.85) << missing << " of " << missed;
   EXPECT_GT(double(agreed) / checked, 0.97) << agreed << " of " << checked;
 }
 
@@ -132,7 +132,8 @@ TEST(OpaqueTracer, SeesThroughGlassAndBlendedSurfacesAsTheTruthDoes) {
 }
 
 TEST(HoleCorrelation, ComparesWhatIsForetoldWithWhatWasRendered) {
-  const OpenProject open = openRoom(furnishedRoom(), 1);
+  OpenProject open = openRoom(furnishedRoom(), 1);
+  open.project.bake.maxLayers = 1;  // so that holes open
   const ProjectReach reach(open);
   TaskRunner runner(1);
   std::vector<PerspectiveView> views;
