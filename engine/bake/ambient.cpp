@@ -34,12 +34,13 @@ glm::vec3 bouncedLightStandIn(const LightSet& lights, const Bounds& bounds) {
   return *middle * (kShare * std::numbers::inv_pi_v<float>);
 }
 
-Ambient::Ambient(const RayScene& scene, const LightSet& lights, const BakeSettings& settings)
+Ambient::Ambient(const RayScene& scene, const EffectPlan& plan, const LightSet& lights,
+                 const BakeSettings& settings)
     : sky_(scene.scene().sky), radius_(float(settings.ambientRadius)) {
-  hasSky_ = scene.plan().on(Effect::sky) && sky_.present();
-  const bool bounced = scene.plan().on(Effect::diffuseInterreflection) && settings.ambientRays > 0;
+  hasSky_ = plan.on(Effect::sky) && sky_.present();
+  const bool bounced = plan.on(Effect::diffuseInterreflection) && settings.ambientRays > 0;
   if (!hasSky_ && !bounced) standIn_ = bouncedLightStandIn(lights, scene.scene().bounds);
-  const bool occluded = scene.plan().on(Effect::ambientOcclusion) && settings.ambientRays > 0;
+  const bool occluded = plan.on(Effect::ambientOcclusion) && settings.ambientRays > 0;
   const int count = occluded ? settings.ambientRays : kFreeDirections;
   for (int i = 0; i < count; ++i) {
     // A spiral of equal areas; with the opposites it covers the sphere, and of each pair one lies in any

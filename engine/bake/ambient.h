@@ -15,7 +15,10 @@ namespace acentric {
 
 class Ambient {
  public:
-  Ambient(const RayScene& scene, const LightSet& lights, const BakeSettings& settings);
+  Ambient(const RayScene& scene, const EffectPlan& plan, const LightSet& lights,
+          const BakeSettings& settings);
+  Ambient(const RayScene& scene, const LightSet& lights, const BakeSettings& settings)
+      : Ambient(scene, scene.plan(), lights, settings) {}
 
   struct Gathered {
     glm::vec3 radiance{0};  ///< cosine-weighted mean, i.e. what a white Lambert surface sends back

@@ -69,14 +69,14 @@ float sampleCell(const Bounds& bounds) {
   return largest > 0 ? std::exp2(std::round(std::log2(largest)) - 13) : 1;
 }
 
-DirectLights::DirectLights(const RayScene& scene, const BakeSettings& settings)
+DirectLights::DirectLights(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings)
     : scene_(&scene),
-      set_(lightSet(scene.scene(), scene.plan())),
-      area_(&scene.areaLights()),
+      set_(lightSet(scene.scene(), plan)),
+      area_(plan.on(Effect::areaLights) && !scene.areaLights().empty() ? &scene.areaLights() : nullptr),
       samples_(sampleCell(scene.scene().bounds)),
       shadowRays_(settings.shadowRays),
-      hardShadows_(scene.plan().on(Effect::hardShadows)),
-      softShadows_(scene.plan().on(Effect::softShadows)) {}
+      hardShadows_(plan.on(Effect::hardShadows)),
+      softShadows_(plan.on(Effect::softShadows)) {}
 
 template <bool kShadows>
 glm::vec3 DirectLights::small(const Surface& surface, RayCounts& rays) const {
@@ -96,8 +96,8 @@ glm::vec3 DirectLights::small(const Surface& surface, RayCounts& rays) const {
 template <bool kShadows>
 glm::vec3 DirectLights::wide(const Surface& surface, RayCounts& rays) const {
   if constexpr (!kShadows) {
-    return area_->empty() ? glm::vec3(0)
-                          : area_->irradiance(surface);  // lamps with a size count as small ones then
+    return area_ == nullptr ? glm::vec3(0)
+                            : area_->irradiance(surface);  // lamps with a size count as small ones then
   } else {
     glm::vec3 sum(0);
     std::uint32_t stream = 1;
@@ -120,7 +120,7 @@ glm::vec3 DirectLights::wide(const Surface& surface, RayCounts& rays) const {
       cone.cosine = std::sqrt(1 - sine * sine);
       sum += irradiance * cosine * shareOf(*scene_, surface, points, shadowRays_, cone, rays);
     }
-    if (!area_->empty()) sum += area_->irradiance(*scene_, surface, samples_, shadowRays_, rays);
+    if (area_ != nullptr) sum += area_->irradiance(*scene_, surface, samples_, shadowRays_, rays);
     return sum;
   }
 }

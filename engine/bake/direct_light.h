@@ -16,11 +16,13 @@ float sampleCell(const Bounds& bounds);
 
 class DirectLights {
  public:
-  DirectLights(const RayScene& scene, const BakeSettings& settings);
+  DirectLights(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings);
+  DirectLights(const RayScene& scene, const BakeSettings& settings)
+      : DirectLights(scene, scene.plan(), settings) {}
 
   const LightSet& set() const { return set_; }
   bool hasSmall() const { return set_.hasSmall(); }
-  bool hasWide() const { return set_.hasWide() || !area_->empty(); }
+  bool hasWide() const { return set_.hasWide() || area_ != nullptr; }
 
   /// Irradiance of the lights without size.
   template <bool kShadows>
@@ -35,7 +37,7 @@ class DirectLights {
  private:
   const RayScene* scene_;
   LightSet set_;
-  const AreaLights* area_;
+  const AreaLights* area_;  ///< null where nothing that glows is a light
   PositionSamples samples_;
   int shadowRays_;
   bool hardShadows_, softShadows_;

@@ -12,7 +12,6 @@
 namespace acentric {
 namespace {
 
-constexpr std::uint32_t kMaxResolution = 2048;
 /// Cells that bounces are read from are this much larger than places: what a surface sends is seen from afar,
 /// and averaged over many cells.
 constexpr double kCellTexels = 4;

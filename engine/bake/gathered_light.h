@@ -67,6 +67,8 @@ class GatheredLight {
  public:
   static constexpr std::uint64_t kMaxPlaces = 64ull << 20;  ///< both sides counted
 
+  static constexpr std::uint32_t kMaxResolution = 2048;  ///< places along an edge
+
   GatheredLight(const RayScene& scene, const BakeSettings& settings);
 
   struct Gathered {

@@ -118,13 +118,18 @@ struct ShadingKernels {
 };
 
 Shader::Shader(const RayScene& scene, const BakeSettings& settings)
+    : Shader(scene, scene.plan(), settings,
+             gathersLight(scene.plan(), settings) ? scene.gatheredLight(settings) : nullptr) {}
+
+Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings,
+               std::shared_ptr<const GatheredLight> gathered)
     : scene_(&scene),
-      rules_(materialRules(scene.scene(), scene.plan())),
-      detail_(detailRules(scene.plan())),
-      emission_(scene.plan().on(Effect::emission)),
-      lights_(scene, settings),
-      ambient_(scene, lights_.set(), settings) {
-  const EffectPlan& plan = scene.plan();
+      rules_(materialRules(scene.scene(), plan)),
+      detail_(detailRules(plan)),
+      emission_(plan.on(Effect::emission)),
+      lights_(scene, plan, settings),
+      ambient_(scene, plan, lights_.set(), settings),
+      gathered_(std::move(gathered)) {
   const auto use = [](bool any, bool shadows) {
     return !any ? DirectLight::none : shadows ? DirectLight::shadowed : DirectLight::unshadowed;
   };
@@ -132,7 +137,6 @@ Shader::Shader(const RayScene& scene, const BakeSettings& settings)
   switches_.wide = use(lights_.hasWide(), plan.on(Effect::softShadows));
   if (gathersLight(plan, settings)) {
     switches_.around = plan.on(Effect::diffuseInterreflection) ? Around::bounced : Around::occluded;
-    gathered_ = scene.gatheredLight(settings);
   }
   switches_.detail = detail_.any();
   switches_.special =

@@ -40,6 +40,10 @@ float justBehind(float distance);
 class Shader {
  public:
   Shader(const RayScene& scene, const BakeSettings& settings);
+  /// With fewer effects than the scene was built for, and with gathered light of one's own (null where the
+  /// plan gathers none).
+  Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings,
+         std::shared_ptr<const GatheredLight> gathered);
 
   /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
   /// only.

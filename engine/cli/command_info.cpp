@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/bake/effect_costs.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/region_report.h"
 #include "engine/inspect/budgets.h"
@@ -10,7 +11,7 @@
 namespace acentric::cli {
 namespace {
 
-Json effectsJson(const EffectPlan& plan) {
+Json effectsJson(const EffectPlan& plan, const EffectCosts& costs) {
   Json out = Json::array();
   for (int i = 0; i < kEffectCount; ++i) {
     const EffectState& state = plan[Effect(i)];
@@ -18,17 +19,20 @@ Json effectsJson(const EffectPlan& plan) {
                    {"on", state.on},
                    {"calledFor", state.calledFor},
                    {"overridden", state.overridden},
+                   {"shareOfBakeTime", costs.of(Effect(i))},
                    {"reason", state.reason}});
   }
   return out;
 }
 
-std::string effectsText(const EffectPlan& plan) {
-  std::string text = "effects\n";
+std::string effectsText(const EffectPlan& plan, const EffectCosts& costs) {
+  std::string text = "effects  (share of a bake's tracing and shading, measured on pixels of all cameras)\n";
   for (int i = 0; i < kEffectCount; ++i) {
     const EffectState& state = plan[Effect(i)];
-    text += fmt::format("  {:<3} {:<24} {}{}\n", state.on ? "on" : "off", labelOf(Effect(i)), state.reason,
-                        state.overridden ? " (overridden)" : "");
+    const std::string share =
+        state.on && costs.pixels > 0 ? fmt::format("{:.0f} %", 100 * costs.of(Effect(i))) : std::string();
+    text += fmt::format("  {:<3} {:<26} {:>5}  {}{}\n", state.on ? "on" : "off", labelOf(Effect(i)), share,
+                        state.reason, state.overridden ? " (overridden)" : "");
   }
   return text;
 }
@@ -49,6 +53,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
       for (const ContentKey& key : open->keys) bytes += store->bytesOf(key);
   const auto triangles = countLocalTriangles(scene, layout);
   const Spread budget = spreadOf(std::vector<double>(triangles.begin(), triangles.end()));
+  const EffectCosts costs = measureEffectCosts(*open->rays, layout, open->project.bake);
   const double megapixels = megapixelsOf(*open);
   const glm::vec3 size = scene.bounds.size();
 
@@ -76,7 +81,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
         {"dropped", scene.report.dropped},
         {"ignored", scene.report.ignored},
         {"guessed", scene.report.guessed}}},
-      {"effects", effectsJson(open->plan)},
+      {"effects", effectsJson(open->plan, costs)},
       {"layout",
        {{"configuration", nameOf(layout.spec.configuration)},
         {"description", describe(layout.spec.configuration)},
@@ -109,7 +114,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
        {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
         std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})
     for (const std::string& line : *lines) report.text += fmt::format("{:<8} {}\n", label, line);
-  report.text += effectsText(open->plan);
+  report.text += effectsText(open->plan, costs);
 
   if (options.regions) {
     Json regions = Json::array();
