@@ -32,8 +32,8 @@ class CostProbe {
     if (gathersLight(scene.plan(), settings))
       gathered_ = std::make_shared<const GatheredLight>(scene, settings);
     for (const LayoutCamera& camera : layout.cameras)
-      columns_.push_back(columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.scene().bounds,
-                                         scene.plan().on(Effect::sky), settings));
+      columns_.push_back(
+          columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.scene().bounds, settings));
     for (int n = 0; n < kPixels && !columns_.empty(); ++n) addPixel(n);
   }
   const std::vector<Pixel>& pixels() const { return pixels_; }
@@ -98,9 +98,9 @@ class CostProbe {
     const glm::dvec2 direction = columns.directionAt(u * columns.columns);
     const double elevation = columns.elevationAt(v * columns.rows), flat = std::cos(elevation);
     const LayoutCamera& camera = layout_.cameras[index];
-    double exit = camera.served.empty() ? nearestSample(camera) : std::numeric_limits<double>::infinity();
-    for (const ConvexPolygon& polygon : camera.served) {
-      const auto span = polygon.raySpan(camera.position, direction);
+    double exit = camera.roles.empty() ? nearestSample(camera) : std::numeric_limits<double>::infinity();
+    for (const Role& role : camera.roles) {
+      const auto span = role.grown.raySpan(camera.position, direction);
       exit = std::min(exit, span ? std::max(span->second, nearestSample(camera)) : nearestSample(camera));
     }
     const Ray ray{glm::vec3(columns.centreOfProjection),
