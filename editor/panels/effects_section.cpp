@@ -15,6 +15,11 @@ void drawEffect(PanelContext& context, Effect effect, const EffectState& effectS
     context.session().apply(setEffect(project, effect, asCalledFor ? std::nullopt : std::optional(on)));
   }
   ui::tooltip(effectState.reason);
+  if (const EffectCosts* costs = context.session().effectCosts(); costs && effectState.on) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%.0f %%", 100 * costs->of(effect));
+    ui::tooltip("Share of a bake's tracing and shading, measured with the last estimate.");
+  }
   if (effectState.overridden) {
     ImGui::SameLine();
     ui::wrappedText(ui::palette::warning, "overridden");

@@ -20,6 +20,7 @@
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
+#include "engine/bake/effect_costs.h"
 #include "engine/inspect/estimates.h"
 #include "engine/pipeline/pipeline.h"
 
@@ -100,6 +101,8 @@ class Session {
   void estimateBake();
   /// Null until asked for, and when something has changed since.
   const BakeEstimate* estimate() const;
+  /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
+  const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
   std::optional<double> bakeSecondsLeft(double now) const { return eta_.secondsLeft(now); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
@@ -198,6 +201,7 @@ class Session {
     std::shared_ptr<const OpenProject> of;
     int threads = 0;
     BakeEstimate figures;
+    EffectCosts costs;
   };
   std::optional<Estimate> estimate_;
   Eta eta_;

@@ -75,9 +75,11 @@ void Session::estimateBake() {
           TaskRunner runner(threads - 1);
           estimate = estimateProjectBake(*open, missing, options, runner, context.progress(), context.stop());
         }
-        context.post([this, open, threads, estimate] {
+        const EffectCosts costs =
+            measureEffectCosts(*open->rays, *open->layout, open->project.bake, context.stop());
+        context.post([this, open, threads, estimate, costs] {
           if (!estimate) return messages_.addFailure("Estimating the bake", estimate.error());
-          estimate_ = Estimate{open, threads, *estimate};
+          estimate_ = Estimate{open, threads, *estimate, costs};
         });
       });
 }
@@ -87,6 +89,13 @@ const BakeEstimate* Session::estimate() const {
                        estimate_->of->surfaceLightKey == built_->surfaceLightKey &&
                        estimate_->threads == bakeThreads();
   return current ? &estimate_->figures : nullptr;
+}
+
+const EffectCosts* Session::effectCosts() const {
+  const bool current = estimate_ && built_ && estimate_->costs.pixels > 0 &&
+                       estimate_->of->rays == built_->rays &&
+                       estimate_->of->project.bake == built_->project.bake;
+  return current ? &estimate_->costs : nullptr;
 }
 
 }  // namespace acentric::editor
