@@ -12,10 +12,14 @@
 namespace acentric {
 namespace {
 
-/// A part of the hierarchy stands for its contents from this many radii on. Taken as a point it is up to 3 %
-/// off: of a round lamp the near side counts more than its middle says.
+/// A part of the hierarchy is opened while taking it as a point may be wrong by more than this share of all
+/// light that arrives (Walter et al., "Lightcuts", SIGGRAPH 2005) ...
+constexpr float kMostError = 0.005f;
+/// ... as long as there are no more parts than this.
+constexpr std::size_t kMostParts = 96;
+/// A single triangle is taken as a point from this many radii on.
 constexpr float kFarRadii = 16;
-/// Groups at least this large get a table of intensities; smaller ones are always opened.
+/// Groups at least this large get a table of intensities; smaller ones are added up.
 constexpr std::uint32_t kTabledEmitters = 32;
 /// Directions of a table: corners of a grid over the octahedron unfolded to a square.
 constexpr int kTableCells = 16, kTableSide = kTableCells + 1;
@@ -129,7 +133,12 @@ float AreaLights::shareOf(const Emitter& emitter, const glm::vec3& direction) {
 
 /// `direction` unit, away from the light.
 float AreaLights::shareTowards(const Node& node, const glm::vec3& direction) const {
-  if (node.second == 0) return shareOf(emitters_[node.first], direction);
+  if (node.table < 0) {
+    float sum = 0;
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      sum += luminance(emitters_[i].radiance) * emitters_[i].area * shareOf(emitters_[i], direction);
+    return sum / luminance(node.strength);
+  }
   const glm::vec2 place = (octahedronPlace(direction) + 1.0f) * (0.5f * kTableCells);
   const int x = std::clamp(int(place.x), 0, kTableCells - 1),
             y = std::clamp(int(place.y), 0, kTableCells - 1);
@@ -138,47 +147,68 @@ float AreaLights::shareTowards(const Node& node, const glm::vec3& direction) con
   return glm::mix(glm::mix(row[0], row[1], fx), glm::mix(row[kTableSide], row[kTableSide + 1], fx), fy);
 }
 
-std::vector<AreaLights::Part> AreaLights::cut(const Surface& surface) const {
-  std::vector<Part> parts;
-  parts.reserve(32);
-  float weights = 0;
-  const auto add = [&](std::uint32_t node, bool far, const glm::vec3& irradiance) {
-    const float weight = luminance(irradiance);
-    if (!(weight > 0)) return;
-    weights += weight;
-    parts.push_back({irradiance, weights, node, far});
-  };
-  std::array<std::uint32_t, 64> open;  // halving 2^32 emitters leaves at most 33 waiting
-  std::size_t waiting = 0;
-  open[waiting++] = 0;
-  while (waiting > 0) {
-    const std::uint32_t index = open[--waiting];
-    const Node& node = nodes_[index];
-    const glm::vec3 way = node.centre - surface.rayOrigin;
-    const float height = glm::dot(way, surface.normal);
-    if (height <= -node.radius || glm::dot(way, surface.geometricNormal) <= -node.radius) continue;
-    const float square = glm::dot(way, way);
-    const bool single = node.second == 0;
-    if ((single || node.table >= 0) && height > node.radius &&
-        square > kFarRadii * kFarRadii * node.radius * node.radius) {
-      const glm::vec3 direction = way / std::sqrt(square);
-      add(index, true,
-          node.strength * (shareTowards(node, -direction) * glm::dot(direction, surface.normal) / square));
-    } else if (single) {
-      const Emitter& e = emitters_[node.first];
-      if (!e.twoSided && glm::dot(e.normal, surface.rayOrigin - e.corners[0]) <= 0) continue;
-      const glm::dvec3 from(surface.rayOrigin);
-      add(index, false,
-          e.radiance *
-              float(triangleIrradiance({glm::dvec3(e.corners[0]) - from, glm::dvec3(e.corners[1]) - from,
-                                        glm::dvec3(e.corners[2]) - from},
-                                       glm::dvec3(surface.normal))));
-    } else {
-      open[waiting++] = node.second;
-      open[waiting++] = index + 1;
-    }
+/// What a part sends to a surface, and how wrong that may be, in luminance.
+AreaLights::Estimate AreaLights::estimate(std::uint32_t index, const Surface& surface) const {
+  const Node& node = nodes_[index];
+  const glm::vec3 way = node.centre - surface.rayOrigin;
+  const float height = glm::dot(way, surface.normal);
+  if (height <= -node.radius || glm::dot(way, surface.geometricNormal) <= -node.radius) return {};
+  const float square = glm::dot(way, way), nearness = node.radius * node.radius / square;
+  const bool single = node.second == 0;
+  if (single && (nearness > 1 / (kFarRadii * kFarRadii) || height <= node.radius)) {
+    const Emitter& e = emitters_[node.first];
+    if (!e.twoSided && glm::dot(e.normal, surface.rayOrigin - e.corners[0]) <= 0) return {};
+    const glm::dvec3 from(surface.rayOrigin);
+    return {e.radiance *
+                float(triangleIrradiance({glm::dvec3(e.corners[0]) - from, glm::dvec3(e.corners[1]) - from,
+                                          glm::dvec3(e.corners[2]) - from},
+                                         glm::dvec3(surface.normal))),
+            0, false};
   }
-  return parts;
+  // So near that it says nothing of what is sent: to be opened in any case.
+  if (nearness > 0.25f) return {node.strength * (0.25f / square), std::numeric_limits<float>::max(), true};
+  const glm::vec3 direction = way / std::sqrt(square);
+  const glm::vec3 facing = node.strength * (shareTowards(node, -direction) / square);
+  const float cosine = std::max(0.0f, glm::dot(direction, surface.normal));
+  const float most = luminance(node.strength) / square;  // were all of it turned this way
+  return {facing * cosine, single ? 0 : 4 * nearness * most, true};
+}
+
+std::vector<AreaLights::Part> AreaLights::cut(const Surface& surface) const {
+  struct Open {
+    Estimate estimate;
+    std::uint32_t node;
+    bool operator<(const Open& other) const { return estimate.error < other.estimate.error; }
+  };
+  std::vector<Open> parts{{estimate(0, surface), 0}};
+  parts.reserve(32);
+  float total = luminance(parts[0].estimate.irradiance);
+  while (parts.size() < kMostParts) {
+    const Open worst = parts.front();  // of a heap
+    if (!(worst.estimate.error > kMostError * total)) break;
+    std::pop_heap(parts.begin(), parts.end());
+    parts.pop_back();
+    total -= luminance(worst.estimate.irradiance);
+    for (const std::uint32_t child : {worst.node + 1, nodes_[worst.node].second}) {
+      const Estimate part = estimate(child, surface);
+      total += luminance(part.irradiance);
+      parts.push_back({part, child});
+      std::push_heap(parts.begin(), parts.end());
+    }
+    if (parts.empty()) break;
+  }
+  // In the order of the hierarchy, where neighbours are near each other: so samples spread over all of it.
+  std::ranges::sort(parts, {}, &Open::node);
+  std::vector<Part> cut;
+  cut.reserve(parts.size());
+  float weights = 0;
+  for (const Open& part : parts) {
+    const float weight = luminance(part.estimate.irradiance);
+    if (!(weight > 0)) continue;
+    weights += weight;
+    cut.push_back({part.estimate.irradiance, weights, part.node, part.estimate.far});
+  }
+  return cut;
 }
 
 AreaLights::Sample AreaLights::sample(const Part& part, const Surface& surface, glm::vec2 u) const {

@@ -49,6 +49,11 @@ class AreaLights {
     std::int32_t table = -1;   ///< intensities by direction; -1 = none
     glm::vec3 strength{0};     ///< sum of radiance * area
   };
+  struct Estimate {
+    glm::vec3 irradiance{0};
+    float error = 0;
+    bool far = false;  ///< taken as a point
+  };
   /// A part of the cut, and what it sends here.
   struct Part {
     glm::vec3 irradiance;
@@ -65,6 +70,7 @@ class AreaLights {
   void fillTable(std::uint32_t index);
   static float shareOf(const Emitter& emitter, const glm::vec3& direction);
   float shareTowards(const Node& node, const glm::vec3& direction) const;
+  Estimate estimate(std::uint32_t index, const Surface& surface) const;
   std::vector<Part> cut(const Surface& surface) const;
   Sample sample(const Part& part, const Surface& surface, glm::vec2 u) const;
 

