@@ -28,6 +28,8 @@ class Ambient {
   template <bool kOcclusion>
   Gathered gather(const RayScene& scene, const Surface& surface, RayCounts& rays) const;
 
+  /// Is it the same from every direction?
+  bool even() const { return !hasSky_; }
   /// Arriving from one direction, nothing in between.
   glm::vec3 radianceFrom(const glm::vec3& direction) const;
   /// Share of light that passes an occluder at this distance: 0 at 0 m, 1 from the radius on, smooth between.

@@ -34,6 +34,12 @@ struct Samples {
   std::vector<std::uint8_t> roles;
   CaptureCounts counts;
 
+  void reserve(std::size_t samples) {
+    row.reserve(samples);
+    inverseDistance.reserve(samples);
+    colour.reserve(samples);
+    roles.reserve(samples);
+  }
   void add(int r, float w, const glm::vec3& radiance, float alpha, std::uint8_t mask) {
     row.push_back(std::uint16_t(r));
     inverseDistance.push_back(w);
@@ -77,20 +83,29 @@ double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns) 
   return std::ldexp(1.0, std::ilogb(largest));
 }
 
-/// The rays of rows [first, last) of a column from horizontal distance `nearest` on; `flat` receives their
-/// horizontal metres per metre.
-RayPacket firstRays(const ColumnCamera& columns, const glm::dvec2& columnDirection, int first, int last,
-                    double nearest, std::array<double, RayPacket::kSize>& flat) {
+/// Of each row's elevation.
+struct RowAngles {
+  std::vector<double> cosine, sine;
+
+  explicit RowAngles(const ColumnCamera& columns) {
+    for (int row = 0; row < columns.rows; ++row) {
+      cosine.push_back(std::cos(columns.elevationAt(row + 0.5)));
+      sine.push_back(std::sin(columns.elevationAt(row + 0.5)));
+    }
+  }
+};
+
+/// The rays of rows [first, last) of a column from horizontal distance `nearest` on.
+RayPacket firstRays(const ColumnCamera& columns, const RowAngles& rows, const glm::dvec2& columnDirection,
+                    int first, int last, double nearest) {
   RayPacket packet;
   packet.origin = glm::vec3(columns.centreOfProjection);
   packet.count = last - first;
   for (int row = first; row < last; ++row) {
-    const auto n = std::size_t(row - first);
-    const double elevation = columns.elevationAt(row + 0.5);
-    flat[n] = std::cos(elevation);
-    packet.direction[n] =
-        glm::vec3(columnDirection.x * flat[n], columnDirection.y * flat[n], std::sin(elevation));
-    packet.nearest[n] = float(nearest / flat[n]);
+    const auto n = std::size_t(row - first), r = std::size_t(row);
+    const double flat = rows.cosine[r];
+    packet.direction[n] = glm::vec3(columnDirection.x * flat, columnDirection.y * flat, rows.sine[r]);
+    packet.nearest[n] = float(nearest / flat);
   }
   return packet;
 }
@@ -100,6 +115,7 @@ struct March {
   const Shader& shader;
   const LayoutCamera& camera;
   const ColumnCamera& columns;
+  const RowAngles& rows;
   const BakeSettings& settings;
   const RegionSight* sight;  ///< null: no pruning
   double distanceStep;
@@ -109,7 +125,10 @@ struct March {
 class ColumnMarch {
  public:
   ColumnMarch(const March& march, Samples& out)
-      : march_(march), out_(out), stored_(march.camera.roles.size()) {
+      : march_(march),
+        out_(out),
+        sameDepth_(kSameDepth * march.columns.rowPitch()),
+        stored_(march.camera.roles.size()) {
     if (march.sight != nullptr) hints_ = march.sight->hints();
   }
 
@@ -128,14 +147,14 @@ class ColumnMarch {
 
  private:
   void runRows(int first, int last) {
-    std::array<double, RayPacket::kSize> flat;
-    const RayPacket packet = firstRays(march_.columns, direction_, first, last, roles_.front().exit, flat);
-    std::array<Hit, RayPacket::kSize> hits;
-    march_.shader.scene().trace(packet, hits);
+    const RayPacket packet =
+        firstRays(march_.columns, march_.rows, direction_, first, last, roles_.front().exit);
+    march_.shader.scene().trace(packet, hits_);
     out_.counts.rays.primary += std::uint64_t(packet.count);
     for (int row = first; row < last; ++row) {
       const auto n = std::size_t(row - first);
-      runPixel(row, {packet.origin, packet.direction[n], packet.nearest[n]}, flat[n], hits[n]);
+      runPixel(row, {packet.origin, packet.direction[n], packet.nearest[n]},
+               march_.rows.cosine[std::size_t(row)], hits_[n]);
     }
   }
 
@@ -162,7 +181,7 @@ class ColumnMarch {
 
   void addSurface(int row, const Ray& ray, const Hit& hit, double horizontal, int& layer) {
     const glm::dvec3 point = glm::dvec3(ray.origin) + double(hit.distance) * glm::dvec3(ray.direction);
-    const double tolerance = kSameDepth * double(hit.distance) * march_.columns.rowPitch();
+    const double tolerance = sameDepth_ * double(hit.distance);
     needed_.clear();
     bool limited = false;
     for (const ColumnRole& role : roles_) {
@@ -227,6 +246,8 @@ class ColumnMarch {
 
   const March& march_;
   Samples& out_;
+  double sameDepth_;  ///< metres per metre of ray
+  std::array<Hit, RayPacket::kSize> hits_;
   RegionSight::Hints hints_;
   glm::dvec2 direction_{0};        ///< of the column
   std::vector<ColumnRole> roles_;  ///< of the column
@@ -262,16 +283,16 @@ Capture joined(const March& march, const std::vector<Samples>& chunks, std::size
 std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, const ColumnCamera& columns,
                              TaskRunner& runner) {
   std::atomic<std::uint64_t> hits = 0;
+  const RowAngles rows(columns);
   runner.parallelFor(std::size_t(columns.columns), [&](std::size_t column) {
     const FlushDenormals flush;
     const glm::dvec2 direction = columns.directionAt(double(column) + 0.5);
     const auto roles = rolesAlong(camera, glm::dvec2(columns.centreOfProjection), direction);
     std::uint64_t found = 0;
-    std::array<double, RayPacket::kSize> flat;
     for (int row = 0; row < columns.rows && !roles.empty(); row += RayPacket::kSize)
       found += std::uint64_t(
-          scene.countHits(firstRays(columns, direction, row, std::min(row + RayPacket::kSize, columns.rows),
-                                    roles.front().exit, flat)));
+          scene.countHits(firstRays(columns, rows, direction, row,
+                                    std::min(row + RayPacket::kSize, columns.rows), roles.front().exit)));
     hits += found;
   });
   return hits;
@@ -311,8 +332,14 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       counts.eyeViews += views_->traced() - before;
       counts.eyeViewSeconds += watch.seconds();
     }
-    const March march{
-        *shader_, camera, columns, settings_, sight ? &*sight : nullptr, distanceStepFor(camera, columns)};
+    const RowAngles rows(columns);
+    const March march{*shader_,
+                      camera,
+                      columns,
+                      rows,
+                      settings_,
+                      sight ? &*sight : nullptr,
+                      distanceStepFor(camera, columns)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<Samples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;
@@ -323,9 +350,12 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       const int first = int(chunk) * kColumnsPerChunk;
       const int last = std::min(first + kColumnsPerChunk, columns.columns);
       try {
-        ColumnMarch columnMarch(march, chunks[chunk]);
+        Samples samples;  // not in `chunks`, where another thread works on the next
+        samples.reserve(std::size_t(last - first) * std::size_t(columns.rows));
+        ColumnMarch columnMarch(march, samples);
         for (int column = first; column < last && columnMarch.run(column, stop);) ++column;
-        total += chunks[chunk].row.size();
+        total += samples.row.size();
+        chunks[chunk] = std::move(samples);
       } catch (const std::bad_alloc&) {
         full = true;
       }

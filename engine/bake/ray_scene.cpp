@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <mutex>
 #include <new>
 
@@ -117,6 +118,13 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   r.tfar = ray.farthest;
   r.mask = mask;
   return r;
+}
+
+/// In double: the cross product of a small triangle's edges underflows in float once it is squared.
+glm::vec3 unitNormal(float x, float y, float z) {
+  const glm::dvec3 n(x, y, z);
+  const double length = glm::length(n);
+  return length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
 }
 
 /// Traces a packet; what its rays hit is in the result.
@@ -279,20 +287,21 @@ Hit RayScene::trace(const Ray& ray, unsigned mask) const {
   hit.mesh = query.hit.geomID;
   hit.triangle = query.hit.primID;
   hit.barycentric = {query.hit.u, query.hit.v};
-  hit.geometricNormal = triangleNormal(scene_->meshes[hit.mesh], hit.triangle);
+  hit.geometricNormal = unitNormal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
   return hit;
 }
 
 void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
   const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
   for (int i = 0; i < rays.count; ++i) {
-    Hit& hit = hits[std::size_t(i)] = {};
+    Hit& hit = hits[std::size_t(i)];
+    hit.distance = std::numeric_limits<float>::infinity();
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     hit.distance = query.ray.tfar[i];
     hit.mesh = query.hit.geomID[i];
     hit.triangle = query.hit.primID[i];
     hit.barycentric = {query.hit.u[i], query.hit.v[i]};
-    hit.geometricNormal = triangleNormal(scene_->meshes[hit.mesh], hit.triangle);
+    hit.geometricNormal = unitNormal(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]);
   }
 }
 

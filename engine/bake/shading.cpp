@@ -27,7 +27,9 @@ struct ShadingKernels {
   template <Around kAround>
   static GatheredLight::Gathered around(const Shader& shader, const Hit& hit, const glm::vec3& toViewer,
                                         const Surface& surface, RayCounts& rays) {
-    if constexpr (kAround == Around::free) {
+    if constexpr (kAround == Around::even) {
+      return {shader.ambient_.radianceFrom(surface.normal), 1};
+    } else if constexpr (kAround == Around::free) {
       const Ambient::Gathered ambient = shader.ambient_.gather<false>(*shader.scene_, surface, rays);
       return {ambient.radiance, ambient.open};
     } else {
@@ -44,12 +46,25 @@ struct ShadingKernels {
     return seen;
   }
 
+  /// A surface whose look depends on its material alone.
+  static Shaded evenly(const Shader& shader, std::size_t material, const MaterialRules& rules) {
+    const Material& look = shader.scene_->scene().materials[material];
+    Shaded out;
+    out.baseColour = glm::vec3(look.baseColour);
+    if (shader.emission_ && !rules.unlit) out.emission = look.emissive;
+    out.light = rules.unlit ? glm::vec3(1) : shader.ambient_.radianceFrom({0, 0, 1});
+    return out;
+  }
+
   template <DirectLight kSmall, DirectLight kWide, Around kAround, bool kDetail, bool kSpecial>
   static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
                       RayCounts& rays) {
     const RayScene& scene = *shader.scene_;
     const auto material = std::size_t(scene.scene().meshes[hit.mesh].material);
     const MaterialRules& rules = shader.rules_[material];
+    if constexpr (kSmall == DirectLight::none && kWide == DirectLight::none && kAround == Around::even &&
+                  !kDetail && !kSpecial)
+      return evenly(shader, material, rules);
     const Surface surface =
         surfaceAt<kDetail>(scene.scene(), hit, toViewer, shader.detail_, shader.emission_ && !rules.unlit);
 
@@ -103,16 +118,16 @@ struct ShadingKernels {
 
   template <std::size_t kIndex>
   static constexpr Shader::Kernel at() {
-    return &shade<static_cast<DirectLight>(kIndex / 36), static_cast<DirectLight>(kIndex / 12 % 3),
-                  static_cast<Around>(kIndex / 4 % 3), (kIndex & 2) != 0, (kIndex & 1) != 0>;
+    return &shade<static_cast<DirectLight>(kIndex / 48), static_cast<DirectLight>(kIndex / 16 % 3),
+                  static_cast<Around>(kIndex / 4 % 4), (kIndex & 2) != 0, (kIndex & 1) != 0>;
   }
   template <std::size_t... kIndices>
   static constexpr auto table(std::index_sequence<kIndices...>) {
     return std::array<Shader::Kernel, sizeof...(kIndices)>{at<kIndices>()...};
   }
   static Shader::Kernel find(const Shader::Switches& s) {
-    static constexpr auto kTable = table(std::make_index_sequence<108>{});
-    return kTable[std::size_t(s.direct) * 36 + std::size_t(s.wide) * 12 + std::size_t(s.around) * 4 +
+    static constexpr auto kTable = table(std::make_index_sequence<144>{});
+    return kTable[std::size_t(s.direct) * 48 + std::size_t(s.wide) * 16 + std::size_t(s.around) * 4 +
                   (s.detail ? 2u : 0u) + (s.special ? 1u : 0u)];
   }
 };
@@ -135,6 +150,7 @@ Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings
   };
   switches_.direct = use(lights_.hasSmall(), plan.on(Effect::hardShadows));
   switches_.wide = use(lights_.hasWide(), plan.on(Effect::softShadows));
+  if (!ambient_.even()) switches_.around = Around::free;
   if (gathersLight(plan, settings)) {
     switches_.around = plan.on(Effect::diffuseInterreflection) ? Around::bounced : Around::occluded;
   }

@@ -2,7 +2,7 @@
 /// The one shading routine, used by captures, surface light and the reference picture alike. It is composed
 /// at compile time from the effect plan: `Shader` picks the instantiation once, and what is off is not in it.
 ///
-/// Switches of an instantiation (108 in all): lights without size {none, unshadowed, shadowed} x lights with
+/// Switches of an instantiation (144 in all): lights without size {none, unshadowed, shadowed} x lights with
 /// one and surfaces that glow {the same} x light from all around {free, occluded, bounced} x surface detail
 /// (textures, vertex colours, normal maps together: each is one test of a flag beside a texture read) x
 /// special materials (mirrors, glass, blending: a flag per material, since even where they exist few hits are
@@ -65,13 +65,13 @@ class Shader {
   const RayScene& scene() const { return *scene_; }
 
   enum class DirectLight : std::uint8_t { none, unshadowed, shadowed };
-  /// Light from all around: as if nothing were in the way, less what occluders take, or bounced between
-  /// surfaces.
-  enum class Around : std::uint8_t { free, occluded, bounced };
+  /// Light from all around: the same everywhere, as if nothing were in the way, less what occluders take, or
+  /// bounced between surfaces.
+  enum class Around : std::uint8_t { even, free, occluded, bounced };
   struct Switches {
     DirectLight direct = DirectLight::none;  ///< of lights without size
     DirectLight wide = DirectLight::none;    ///< of lights with one, and of surfaces that glow
-    Around around = Around::free;
+    Around around = Around::even;
     bool detail = false;
     bool special = false;
   };

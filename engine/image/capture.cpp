@@ -34,7 +34,7 @@ tl::unexpected<Error> malformed(std::string message) {
 
 HalfColour packColour(const glm::vec4& linearRgba) {
   return HalfColour(packRadiance(linearRgba.r), packRadiance(linearRgba.g), packRadiance(linearRgba.b),
-                    packRadiance(std::min(linearRgba.a, 1.0f)));
+                    linearRgba.a >= 1 ? kHalfOne : packRadiance(linearRgba.a));
 }
 
 glm::vec4 unpackColour(const HalfColour& colour) {
@@ -44,10 +44,14 @@ glm::vec4 unpackColour(const HalfColour& colour) {
 
 float storedInverseDistance(double inverseDistance, double step) {
   if (!(inverseDistance > 0)) return 0;
-  const double own = std::ldexp(1.0, std::ilogb(inverseDistance) - 15);  // of 16 significant bits
+  // The power of two at or below the number, by its exponent's bits.
+  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
+  const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(inverseDistance) & kExponent);
+  const double own = power * 0x1p-15;     // of 16 significant bits
   constexpr double kSmallest = 0x1p-141;  // of the smallest floats the last 8 bits
   const double coarser = std::max({step, own, kSmallest});
-  const double stored = std::nearbyint(inverseDistance / coarser) * coarser;
+  constexpr double kRound = 0x1.8p52;  // leaves no bit behind the point
+  const double stored = (inverseDistance / coarser + kRound - kRound) * coarser;
   return float(std::max(stored, step));
 }
 

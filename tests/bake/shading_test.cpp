@@ -298,7 +298,7 @@ TEST(Shading, PicksTheInstantiationByThePlan) {
   const auto bare = builder.rays();
   const Shader plain(*bare, {});
   EXPECT_EQ(plain.switches().direct, Shader::DirectLight::none);
-  EXPECT_EQ(plain.switches().around, Shader::Around::free);
+  EXPECT_EQ(plain.switches().around, Shader::Around::even);
   EXPECT_FALSE(plain.switches().detail || plain.switches().special);
   builder.sun(kDown, 1).sky(glm::vec3(1));
   builder.lastMesh().colours.assign(4, glm::u8vec4(9));
