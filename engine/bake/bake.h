@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/bake/bake_settings.h"
@@ -30,6 +31,12 @@ ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nea
 /// Everything that can change the pixels: scene, plan, settings, column camera, served regions.
 ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                       const LayoutCamera& camera, const ColumnCamera& columnCamera);
+/// The same in parts: program, the scene's (scene, geometry, materials, lights), effects, settings, place,
+/// regions, image.
+KeyParts captureKeyParts(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
+                         const LayoutCamera& camera, const ColumnCamera& columnCamera);
+/// What every key begins with that depends on the scene and its effects, made by this version of the program.
+KeyParts sceneKeyParts(std::string_view version, const Scene& scene, const EffectPlan& plan);
 
 /// Keys of all cameras of a layout, in order of Layout::cameras.
 std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,

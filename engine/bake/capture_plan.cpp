@@ -27,6 +27,44 @@ int samplesFor(double angle, double samplesPerDegree) {
   return int(std::clamp(std::ceil(degrees(angle) * samplesPerDegree - 1e-6), 1.0, double(kMaxSide)));
 }
 
+/// Of all cameras alike.
+KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSettings& bake) {
+  // Not all settings: what an absent effect would use changes no capture, and must not bake them all again.
+  Hasher settings;
+  settings.value(bake.samplesPerDegree).value(bake.maxLayers).value(int(bake.pruning));
+  if (bake.pruning) settings.value(bake.testEyes).value(bake.eyeRange);
+  if (gathersLight(plan, bake))
+    settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
+  else
+    settings.value(0);
+  if (plan.on(Effect::diffuseInterreflection)) settings.value(bake.bounces);
+  if (plan.on(Effect::softShadows)) settings.value(bake.shadowRays);
+  KeyParts parts = sceneKeyParts(kBakeVersion, scene, plan);
+  parts.push_back({"settings", settings.finish()});
+  return parts;
+}
+
+void addCameraParts(KeyParts& parts, const LayoutCamera& camera, const ColumnCamera& columns) {
+  Hasher place, regions, image;
+  const glm::dvec3& centre = columns.centreOfProjection;
+  place.value(centre.x).value(centre.y).value(centre.z).value(columns.lowAzimuth).value(columns.fovRadians);
+  regions.value(std::uint64_t(camera.roles.size()));
+  for (const Role& role : camera.roles) {
+    regions.value(std::uint64_t(role.grown.corners.size()));
+    for (const ConvexPolygon* polygon : {&role.polygon, &role.grown})
+      for (const glm::dvec2& corner : polygon->corners) regions.value(corner.x).value(corner.y);
+    regions.value(int(role.clip.has_value()));
+    if (!role.clip) continue;
+    addTo(regions, role.clip->side);
+    regions.value(int(role.clip->claim.has_value()));
+    if (role.clip->claim) addTo(regions, *role.clip->claim);
+  }
+  columns.addTo(image);
+  parts.push_back({"place", place.finish()});
+  parts.push_back({"regions", regions.finish()});
+  parts.push_back({"image", image.finish()});
+}
+
 }  // namespace
 
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
@@ -53,44 +91,40 @@ ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nea
   return columns;
 }
 
+KeyParts sceneKeyParts(std::string_view version, const Scene& scene, const EffectPlan& plan) {
+  Hasher effects;
+  plan.addTo(effects);
+  return {{"program", Hasher().text(version).finish()},
+          {"scene", scene.key},
+          {"geometry", scene.parts.geometry},
+          {"materials", scene.parts.materials},
+          {"lights", scene.parts.lights},
+          {"effects", effects.finish()}};
+}
+
+KeyParts captureKeyParts(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
+                         const LayoutCamera& camera, const ColumnCamera& columnCamera) {
+  KeyParts parts = sharedParts(scene, plan, settings);
+  addCameraParts(parts, camera, columnCamera);
+  return parts;
+}
+
 ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                       const LayoutCamera& camera, const ColumnCamera& columnCamera) {
-  Hasher hasher;
-  hasher.text(kBakeVersion);
-  hasher.value(scene.key.high).value(scene.key.low);
-  plan.addTo(hasher);
-  // Not all settings: what an absent effect would use changes no capture, and must not bake them all again.
-  hasher.value(settings.maxLayers).value(int(settings.pruning));
-  if (settings.pruning) hasher.value(settings.testEyes).value(settings.eyeRange);
-  if (gathersLight(plan, settings))
-    hasher.value(settings.ambientRays).value(settings.ambientRadius).value(settings.surfaceTexel);
-  else
-    hasher.value(0);
-  if (plan.on(Effect::diffuseInterreflection)) hasher.value(settings.bounces);
-  if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
-  columnCamera.addTo(hasher);
-  hasher.value(std::uint64_t(camera.roles.size()));
-  for (const Role& role : camera.roles) {
-    hasher.value(std::uint64_t(role.grown.corners.size()));
-    for (const ConvexPolygon* polygon : {&role.polygon, &role.grown})
-      for (const glm::dvec2& corner : polygon->corners) hasher.value(corner.x).value(corner.y);
-    hasher.value(int(role.clip.has_value()));
-    if (!role.clip) continue;
-    addTo(hasher, role.clip->side);
-    hasher.value(int(role.clip->claim.has_value()));
-    if (role.clip->claim) addTo(hasher, *role.clip->claim);
-  }
-  return hasher.finish();
+  return keyOf(captureKeyParts(scene, plan, settings, camera, columnCamera));
 }
 
 std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                                     const Layout& layout) {
+  const KeyParts shared = sharedParts(scene, plan, settings);
   std::vector<ContentKey> keys;
   keys.reserve(layout.cameras.size());
-  for (const LayoutCamera& camera : layout.cameras)
-    keys.push_back(
-        captureKey(scene, plan, settings, camera,
-                   columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.bounds, settings)));
+  for (const LayoutCamera& camera : layout.cameras) {
+    KeyParts parts = shared;
+    addCameraParts(parts, camera,
+                   columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.bounds, settings));
+    keys.push_back(keyOf(parts));
+  }
   return keys;
 }
 

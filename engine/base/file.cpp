@@ -149,6 +149,16 @@ int removeStaleTemporaries(const fs::path& folder) {
   return removed;
 }
 
+Result<std::uint64_t> freeSpace(const fs::path& path) {
+  std::error_code error;
+  fs::path there = fs::absolute(path, error);
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  const fs::space_info space = fs::space(there, error);
+  if (error)
+    return fail(ErrorKind::unreadable, "has no known free space: " + error.message(), there.string());
+  return space.available;
+}
+
 fs::path userCacheFolder() {
   if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/') return fs::path(xdg) / "acentric";
   if (const char* home = std::getenv("HOME"); home && *home == '/')

@@ -38,6 +38,9 @@ std::string temporaryNameStart();
 /// gone, and all that nobody has written to for a day. Returns how many were removed.
 int removeStaleTemporaries(const std::filesystem::path& folder);
 
+/// Bytes that may be written where `path` is or would be made.
+Result<std::uint64_t> freeSpace(const std::filesystem::path& path);
+
 /// $XDG_CACHE_HOME/acentric, else ~/.cache/acentric, else a folder under the system's temporary one.
 std::filesystem::path userCacheFolder();
 

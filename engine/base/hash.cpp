@@ -53,6 +53,12 @@ ContentKey Hasher::finish() const {
   return {hash.high64, hash.low64};
 }
 
+ContentKey keyOf(const KeyParts& parts) {
+  Hasher hasher;
+  for (const KeyPart& part : parts) hasher.text(part.name).value(part.key.high).value(part.key.low);
+  return hasher.finish();
+}
+
 Result<ContentKey> hashFile(const std::filesystem::path& path) {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return fail(ErrorKind::notFound, "cannot be opened for reading", path.string());

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "engine/base/result.h"
 
@@ -51,6 +52,15 @@ class Hasher {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// A key made of named parts: when it changed, one can tell which of them did.
+struct KeyPart {
+  std::string name;  ///< one word
+  ContentKey key;
+  bool operator==(const KeyPart&) const = default;
+};
+using KeyParts = std::vector<KeyPart>;
+ContentKey keyOf(const KeyParts& parts);
 
 /// Key of a file's bytes.
 Result<ContentKey> hashFile(const std::filesystem::path& path);

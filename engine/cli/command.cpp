@@ -140,13 +140,25 @@ std::string storeyText(const Project& project) {
   return project.storeys.size() < 2 ? "" : fmt::format(" ({})", project.current().name);
 }
 
+std::string timeText(double seconds) {
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.1f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
 Report byStorey(std::span<const OpenProject> storeys, std::vector<Report> reports) {
-  require(!reports.empty() && reports.size() == storeys.size(), "each storey has a report");
+  std::vector<std::string> names;
+  for (const OpenProject& open : storeys) names.push_back(open.project.current().name);
+  return byStorey(names, std::move(reports));
+}
+
+Report byStorey(const std::vector<std::string>& names, std::vector<Report> reports) {
+  require(!reports.empty() && reports.size() == names.size(), "each storey has a report");
   if (reports.size() == 1) return std::move(reports.front());
   Report all;
   all.json["storeys"] = Json::array();
   for (std::size_t s = 0; s < reports.size(); ++s) {
-    Json json = {{"storey", storeys[s].project.current().name}};
+    Json json = {{"storey", names[s]}};
     json.update(reports[s].json);
     all.json["storeys"].push_back(std::move(json));
     all.text += reports[s].text;

@@ -57,6 +57,10 @@ std::string storeyText(const Project& project);
 /// The reports on storeys as one: the only one itself, else a list "storeys" of them with their names; the
 /// texts one after another.
 Report byStorey(std::span<const OpenProject> storeys, std::vector<Report> reports);
+Report byStorey(const std::vector<std::string>& names, std::vector<Report> reports);
+
+/// "85.0 s", "2.3 min", "1.2 h".
+std::string timeText(double seconds);
 
 /// Renders frames of a project by any renderer name, including "gl" (headless) and "truth". What is baked of
 /// a storey is loaded with the first frame there.

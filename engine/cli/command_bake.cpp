@@ -2,64 +2,15 @@
 
 #include <algorithm>
 
-#include "engine/cli/commands.h"
-#include "engine/pipeline/shard.h"
+#include "engine/cli/bake_requests.h"
 #include "engine/pipeline/simplified_regions.h"
 
 namespace acentric::cli {
 namespace {
 
-Report dryRun(const OpenProject& open) {
-  const std::vector<bool> baked = bakedCameras(open);
-  Report report;
-  Json missing = Json::array();
-  for (std::size_t i = 0; i < baked.size(); ++i)
-    if (!baked[i]) missing.push_back({{"camera", i}, {"key", open.keys[i].toHex()}});
-  report.text = fmt::format("{} of {} cameras would be baked{}\n", missing.size(), baked.size(),
-                            storeyText(open.project));
-  for (const Json& entry : missing)
-    report.text +=
-        fmt::format("  camera {} {}\n", entry["camera"].get<std::size_t>(), entry["key"].get<std::string>());
-  report.json = {{"dryRun", true}, {"of", baked.size()}, {"missing", std::move(missing)}};
-  return report;
-}
-
-/// What of each storey is to be baked.
-std::vector<BakeRequest> requestsFor(std::span<const OpenProject> storeys, const BakeOptions& options,
-                                     const Shard& shard) {
-  std::size_t first = 0, light = 0;  // numbers of what is to be baked, as the shard counts
-  for (const OpenProject& open : storeys) light += open.keys.size();
-  std::vector<BakeRequest> requests;
-  for (const OpenProject& open : storeys) {
-    BakeRequest request;
-    if (options.light == "only") {
-      request.cameras.emplace();
-    } else if (!options.only.empty()) {
-      request.cameras = options.only;
-    } else if (!shard.whole()) {
-      request.cameras = bakingOrder(open);
-      std::erase_if(*request.cameras, [&](int camera) { return !shard.takes(first + std::size_t(camera)); });
-    }
-    request.verify = options.verify;
-    request.surfaceLight = options.light != "without" && shard.takes(light++);
-    first += open.keys.size();
-    requests.push_back(std::move(request));
-  }
-  return requests;
-}
-
-Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, const Common& common,
-                          TaskRunner& runner) {
-  const auto baked = bakeProject(open, request, runner, common.progress, common.stop);
-  if (!baked) return tl::unexpected(baked.error());
-
-  const auto present = bakedCameras(open);
-  for (const int camera : request.cameras ? *request.cameras : bakingOrder(open))
-    if (!present[std::size_t(camera)])
-      return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
-                  captureFolderFor(open.file).string());
-
-  const BakeReport& captures = baked->captures;
+Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, const BakePlan& plan,
+                  const StoreyPlan& storey) {
+  const BakeReport& captures = baked.captures;
   Report report;
   Json cameras = Json::array();
   for (const BakedCamera& camera : captures.cameras)
@@ -76,23 +27,52 @@ Result<Report> bakeStorey(const OpenProject& open, const BakeRequest& request, c
                  {"eyeViews", {{"traced", captures.eyeViews}, {"seconds", captures.eyeViewSeconds}}},
                  {"surfaceLight",
                   {{"asked", request.surfaceLight},
-                   {"baked", baked->surfaceLightBaked},
-                   {"seconds", baked->surfaceLightSeconds}}},
-                 {"damaged", baked->damaged},
-                 {"bytes", baked->bytes},
+                   {"baked", baked.surfaceLightBaked},
+                   {"seconds", baked.surfaceLightSeconds}}},
+                 {"damaged", baked.damaged},
+                 {"bytes", baked.bytes},
                  {"cameras", std::move(cameras)}};
-  for (const std::string& damaged : baked->damaged)
-    report.text += fmt::format("damaged, set aside and baked again: {}\n", damaged);
+  for (const std::string& damaged : baked.damaged) report.text += fmt::format("baked again: {}\n", damaged);
   report.text += fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
-      captures.baked, storeyText(open.project), captures.seconds, countText(captures.samples.keptInAll()),
-      captures.reused,
-      !request.surfaceLight      ? std::string("was not asked for")
-      : baked->surfaceLightBaked ? fmt::format("{:.1f} s", baked->surfaceLightSeconds)
-                                 : std::string("was there already"),
-      bytesText(baked->bytes), captureFolderFor(open.file).string());
+      captures.baked, plan.storeys.size() > 1 ? fmt::format(" ({})", storey.storey) : "", captures.seconds,
+      countText(captures.samples.keptInAll()), captures.reused,
+      !request.surfaceLight     ? std::string("was not asked for")
+      : baked.surfaceLightBaked ? fmt::format("{:.1f} s", baked.surfaceLightSeconds)
+                                : std::string("was there already"),
+      bytesText(baked.bytes), captureFolderFor(plan.file).string());
   return report;
+}
+
+/// Of a storey of which everything asked for is on disk.
+Result<Report> nothingToDo(const BakeRequest& request, const BakePlan& plan, const StoreyPlan& storey) {
+  const auto store = CaptureStore::open(captureFolderFor(plan.file));
+  if (!store) return tl::unexpected(store.error());
+  ProjectBakeReport report;
+  report.surfaceLightReused = request.surfaceLight;
+  for (const int camera : *request.cameras) {
+    BakedCamera& reused = report.captures.cameras.emplace_back();
+    reused.camera = camera;
+    reused.key = storey.cameras[std::size_t(camera)].key;
+    reused.reused = true;
+  }
+  report.captures.reused = int(request.cameras->size());
+  for (const PlannedCapture& camera : storey.cameras) report.bytes += store->bytesOf(camera.key);
+  return bakeReport(report, request, plan, storey);
+}
+
+Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const BakePlan& plan,
+                          const Common& common, TaskRunner& runner) {
+  const OpenProject& open = plan.open[number];
+  const auto baked = bakeProject(open, request, runner, common.progress, common.stop);
+  if (!baked) return tl::unexpected(baked.error());
+  const auto present = bakedCameras(open);
+  for (const int camera : *request.cameras)
+    if (!present[std::size_t(camera)])
+      return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
+                  captureFolderFor(open.file).string());
+  return bakeReport(*baked, request, plan, plan.storeys[number]);
 }
 
 /// Deletes what none of the storeys uses.
@@ -108,48 +88,79 @@ Result<std::uint64_t> prune(std::span<const OpenProject> storeys) {
   return store->prune(used);
 }
 
+/// What is refused whatever the project holds.
+Status checkOptions(const BakeOptions& options, const Common& common) {
+  const auto bad = [](const char* message, const char* where) {
+    return fail(ErrorKind::invalidArgument, message, where);
+  };
+  if (options.prune && !options.shard.empty())
+    return bad("leave it to one command when all shares are baked", "--prune");
+  if (options.prune && !common.storey.empty())
+    return bad("what one storey does not use another may: leave --storey away", "--prune");
+  if (!options.only.empty() && (!options.shard.empty() || options.light == "only"))
+    return bad("cameras are either named, or a share of them is taken, or none", "--only");
+  return {};
+}
+
+/// The plan of the storey chosen, or of all.
+Result<BakePlan> planFor(const BakeOptions& options, const Common& common) {
+  std::optional<int> storey;
+  if (!common.storey.empty()) {
+    const auto project = loadProject(options.project);
+    if (!project) return tl::unexpected(project.error());
+    const auto chosen = storeyOf(*project, common.storey);
+    if (!chosen) return tl::unexpected(chosen.error());
+    storey = *chosen;
+  }
+  auto plan = planBake(options.project, storey, common.host, common.progress, common.stop);
+  if (!plan || options.only.empty()) return plan;
+  if (plan->storeys.size() > 1)
+    return fail(ErrorKind::invalidArgument,
+                "each storey numbers its cameras for itself: say with --storey whose are meant", "--only");
+  const int cameras = int(plan->storeys.front().cameras.size());
+  for (const int camera : options.only)
+    if (camera < 0 || camera >= cameras)
+      return fail(ErrorKind::invalidArgument,
+                  fmt::format("there is no camera {}; the layout has {}", camera, cameras), "--only");
+  return plan;
+}
+
 }  // namespace
 
 Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const auto shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
   if (!shard) return tl::unexpected(shard.error());
-  if (options.prune && !options.shard.empty())
-    return fail(ErrorKind::invalidArgument, "leave it to one command when all shares are baked", "--prune");
-  if (!options.only.empty() && (!options.shard.empty() || options.light == "only"))
-    return fail(ErrorKind::invalidArgument, "cameras are either named, or a share of them is taken, or none",
-                "--only");
-  auto storeys = openStoreys(options.project, common);
-  if (!storeys) return tl::unexpected(storeys.error());
-  if (!options.only.empty() && storeys->size() > 1)
-    return fail(ErrorKind::invalidArgument,
-                "each storey numbers its cameras for itself: say with --storey whose are meant", "--only");
-  if (options.prune && !common.storey.empty())
-    return fail(ErrorKind::invalidArgument, "what one storey does not use another may: leave --storey away",
-                "--prune");
-  const std::vector<BakeRequest> requests = requestsFor(*storeys, options, *shard);
+  if (Status sound = checkOptions(options, common); !sound) return tl::unexpected(sound.error());
+  auto plan = planFor(options, common);
+  if (!plan) return tl::unexpected(plan.error());
+  const std::vector<BakeRequest> requests = bakeRequests(*plan, options, *shard);
+  if (options.dryRun) return dryRun(*plan, requests, common);
+
+  const auto states = stateOf(*plan);
+  if (!states) return tl::unexpected(states.error());
+  const bool idle = !options.verify && allDone(requests, *states);
+  if (!idle || options.prune)
+    if (Status open = openStoreysOf(*plan, common); !open) return tl::unexpected(open.error());
   const auto runner = common.runner();
   std::vector<Report> reports;
-  for (std::size_t s = 0; s < storeys->size(); ++s) {
-    const OpenProject& open = (*storeys)[s];
-    if (options.dryRun) {
-      reports.push_back(dryRun(open));
-      continue;
-    }
-    auto report = bakeStorey(open, requests[s], common, *runner);
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
+    auto report = idle ? nothingToDo(requests[s], *plan, plan->storeys[s])
+                       : bakeStorey(s, requests[s], *plan, common, *runner);
     if (!report) return report;
     reports.push_back(std::move(*report));
+    names.push_back(plan->storeys[s].storey);
   }
-  Report report = byStorey(*storeys, std::move(reports));
-  if (options.dryRun) return report;
+  Report report = byStorey(names, std::move(reports));
   std::uint64_t freed = 0;
   if (options.prune) {
-    const auto pruned = prune(*storeys);
+    const auto pruned = prune(plan->open);
     if (!pruned) return tl::unexpected(pruned.error());
     freed = *pruned;
     report.text += fmt::format("pruned {} of captures that this project no longer uses\n", bytesText(freed));
   }
   report.json["prunedBytes"] = freed;
-  report.json["folder"] = captureFolderFor(storeys->front().file).string();
+  report.json["folder"] = captureFolderFor(plan->file).string();
   return report;
 }
 

@@ -13,12 +13,6 @@ Json toJson(const Figure& figure) {
   return {{"value", figure.value}, {"relativeError", figure.relativeError}};
 }
 
-std::string timeText(double seconds) {
-  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
-  if (seconds < 6000) return fmt::format("{:.1f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 std::string countOf(const Figure& figure) { return countText(std::uint64_t(std::llround(figure.value))); }
 std::string bytesOf(const Figure& figure) { return bytesText(std::uint64_t(std::llround(figure.value))); }
 double percent(const Figure& figure) { return 100 * figure.relativeError; }

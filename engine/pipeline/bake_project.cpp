@@ -1,48 +1,88 @@
 #include <algorithm>
+#include <atomic>
+#include <map>
 #include <mutex>
 #include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/stopwatch.h"
+#include "engine/pipeline/bake_plan.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/pipeline.h"
 
 namespace acentric {
 namespace {
 
+/// Puts captures into the store with their records; takes none for there that is damaged.
 class StoreSink final : public CaptureSink {
  public:
-  explicit StoreSink(const CaptureStore& store) : store_(store) {}
-  bool has(const ContentKey& key) const override { return store_.has(key); }
-  Status put(const ContentKey& key, const Capture& capture) override { return store_.put(key, capture); }
+  StoreSink(const CaptureStore& store, const StoreyPlan& plan) : store_(store) {
+    for (const PlannedCapture& camera : plan.cameras) planned_[camera.key] = &camera;
+    planned_[plan.light.key] = &plan.light;
+  }
+
+  bool has(const ContentKey& key) const override {
+    const auto found = verified_.find(key);
+    return found != verified_.end() ? found->second : look(key, false);
+  }
+  Status put(const ContentKey& key, const Capture& capture) override {
+    if (Status done = store_.put(key, capture); !done) return done;
+    return note(key);
+  }
+  Status note(const ContentKey& key) const {
+    const PlannedCapture& planned = *planned_.at(key);
+    return store_.putRecord(key, planned.subject, planned.parts);
+  }
+
+  /// Reads what is there of `keys` to its end.
+  Status verify(const std::vector<ContentKey>& keys, TaskRunner& runner, const Progress& progress,
+                const std::stop_token& stop) {
+    std::vector<char> sound(keys.size(), 0);
+    std::atomic<double> done = 0;
+    runner.parallelFor(keys.size(), [&](std::size_t k) {
+      if (stop.stop_requested()) return;
+      sound[k] = look(keys[k], true);
+      const std::lock_guard lock(mutex_);
+      if (progress) progress({done += 1, double(keys.size()), "reading what is baked"});
+    });
+    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+    for (std::size_t k = 0; k < keys.size(); ++k) verified_[keys[k]] = sound[k] != 0;
+    return status();
+  }
+
+  /// The first trouble in looking at what is there, other than damage.
+  Status status() const {
+    if (trouble_) return tl::unexpected(*trouble_);
+    return {};
+  }
+  std::vector<std::string> takeDamaged() {
+    std::ranges::sort(damaged_);
+    return std::move(damaged_);
+  }
 
  private:
-  const CaptureStore& store_;
-};
-
-/// Sets aside what is damaged of `keys`.
-Result<std::vector<std::string>> verified(const CaptureStore& store, const std::vector<ContentKey>& keys,
-                                          TaskRunner& runner, const Progress& progress,
-                                          const std::stop_token& stop) {
-  std::vector<std::string> damaged;
-  std::optional<Error> trouble;
-  std::mutex mutex;
-  double done = 0;
-  runner.parallelFor(keys.size(), [&](std::size_t k) {
-    if (stop.stop_requested()) return;
-    const std::vector<Error> problems = store.setDamagedAside(keys[k]);
-    const std::lock_guard lock(mutex);
-    for (const Error& problem : problems) {
-      if (problem.kind == ErrorKind::unreadable || problem.kind == ErrorKind::outOfSpace) trouble = problem;
-      damaged.push_back(problem.describe());
+  bool look(const ContentKey& key, bool toTheEnd) const {
+    const auto found = store_.inspect(key, toTheEnd);
+    if (found && found->condition == CaptureStore::Condition::sound) {
+      if (!found->recorded) (void)note(key);  // if it cannot be noted, it is read again the next time
+      return true;
     }
-    if (progress) progress({++done, double(keys.size()), "reading what is baked"});
-  });
-  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
-  if (trouble) return tl::unexpected(*trouble);
-  std::ranges::sort(damaged);
-  return damaged;
-}
+    // Should the bake end before it is baked again, the next one must not believe it by its size.
+    if (found && found->condition == CaptureStore::Condition::damaged) store_.forgetRecord(key);
+    const std::lock_guard lock(mutex_);
+    if (!found && !trouble_) trouble_ = found.error();
+    if (found)
+      for (const Error& error : found->damage) damaged_.push_back(error.describe());
+    return false;
+  }
+
+  const CaptureStore& store_;
+  std::map<ContentKey, const PlannedCapture*> planned_;
+  std::map<ContentKey, bool> verified_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::string> damaged_;
+  mutable std::optional<Error> trouble_;
+};
 
 }  // namespace
 
@@ -99,21 +139,20 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
-  ProjectBakeReport report;
+  const StoreyPlan plan = planStorey(open);
+  StoreSink sink(*store, plan);
   if (request.verify) {
     std::vector<ContentKey> keys;
     for (const int camera : cameras) keys.push_back(open.keys[std::size_t(camera)]);
     if (request.surfaceLight) keys.push_back(open.surfaceLightKey);
-    auto damaged = verified(*store, keys, runner, progress, stop);
-    if (!damaged) return tl::unexpected(damaged.error());
-    report.damaged = std::move(*damaged);
+    if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
   }
-  StoreSink sink(*store);
+  ProjectBakeReport report;
   auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop);
   if (!captures) return tl::unexpected(captures.error());
   report.captures = std::move(*captures);
 
-  if (request.surfaceLight && store->hasSurfaceLight(open.surfaceLightKey)) {
+  if (request.surfaceLight && sink.has(open.surfaceLightKey)) {
     report.surfaceLightReused = true;
   } else if (request.surfaceLight) {
     const Stopwatch watch;
@@ -123,9 +162,12 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (!light) return tl::unexpected(light.error());
     if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light); !put)
       return tl::unexpected(put.error());
+    if (Status noted = sink.note(open.surfaceLightKey); !noted) return tl::unexpected(noted.error());
     report.surfaceLightBaked = true;
     report.surfaceLightSeconds = watch.seconds();
   }
+  if (Status looked = sink.status(); !looked) return tl::unexpected(looked.error());
+  report.damaged = sink.takeDamaged();
   for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
   return report;
 }

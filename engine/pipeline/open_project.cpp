@@ -6,23 +6,6 @@
 namespace acentric {
 namespace {
 
-/// Surface light depends on which triangles some region draws as local geometry, and from where mirrors are
-/// seen.
-ContentKey keyOfSurfaceLight(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
-                             const Layout& layout) {
-  Hasher hasher;
-  hasher.text("surface light 2").value(scene.key.high).value(scene.key.low);
-  plan.addTo(hasher);
-  hasher.value(settings.ambientRays)
-      .value(settings.ambientRadius)
-      .value(settings.surfaceTexel)
-      .value(layout.eyeZ());
-  if (plan.on(Effect::diffuseInterreflection)) hasher.value(settings.bounces);
-  if (plan.on(Effect::softShadows)) hasher.value(settings.shadowRays);
-  for (const Region& region : layout.regions) hasher.array(std::span<const glm::dvec2>(region.grown.corners));
-  return hasher.finish();
-}
-
 std::filesystem::path sceneFileOf(const std::filesystem::path& projectFile, const Project& project) {
   return (projectFile.parent_path() / project.scene).lexically_normal();
 }
@@ -60,11 +43,33 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
     open.layout = std::make_shared<const Layout>(std::move(*layout));
   }
   open.keys = captureKeys(*open.scene, open.plan, project.bake, *open.layout);
-  open.surfaceLightKey = keyOfSurfaceLight(*open.scene, open.plan, project.bake, *open.layout);
+  open.surfaceLightKey = keyOf(surfaceLightKeyParts(open));
   return open;
 }
 
 }  // namespace
+
+KeyParts captureKeyParts(const OpenProject& open, int camera) {
+  const LayoutCamera& at = open.layout->cameras[std::size_t(camera)];
+  return captureKeyParts(*open.scene, open.plan, open.project.bake, at,
+                         columnCameraFor(at, open.layout->eyeZ(), open.layout->spec.nearBand,
+                                         open.scene->bounds, open.project.bake));
+}
+
+KeyParts surfaceLightKeyParts(const OpenProject& open) {
+  const BakeSettings& bake = open.project.bake;
+  Hasher settings, regions;
+  settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
+  if (open.plan.on(Effect::diffuseInterreflection)) settings.value(bake.bounces);
+  if (open.plan.on(Effect::softShadows)) settings.value(bake.shadowRays);
+  for (const Region& region : open.layout->regions)
+    regions.array(std::span<const glm::dvec2>(region.grown.corners));
+  KeyParts parts = sceneKeyParts("surface light 3", *open.scene, open.plan);
+  parts.push_back({"settings", settings.finish()});
+  parts.push_back({"place", Hasher().value(open.layout->eyeZ()).finish()});
+  parts.push_back({"regions", regions.finish()});
+  return parts;
+}
 
 Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
                                 const Progress& progress, std::stop_token stop) {

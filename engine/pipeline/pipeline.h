@@ -53,6 +53,12 @@ struct OpenProject {
   ContentKey surfaceLightKey;
 };
 
+/// What a capture's key is made of (engine/bake/bake.h).
+KeyParts captureKeyParts(const OpenProject& open, int camera);
+/// What the key of the surfaces' light is made of: it depends on which triangles some region draws as local
+/// geometry, and from where mirrors are seen.
+KeyParts surfaceLightKeyParts(const OpenProject& open);
+
 Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
                                 const Progress& progress = {}, std::stop_token stop = {});
 /// The same for a project that is not (or not as it is) in the file.
@@ -82,11 +88,11 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
 struct BakeRequest {
   std::optional<std::vector<int>> cameras;  ///< indices, baked in this order; none given: all of them
   bool surfaceLight = true;
-  bool verify = false;  ///< reads what is there to its end first; what is damaged is baked again
+  bool verify = false;  ///< reads what is there to its end first, instead of believing sizes and times
 };
 struct ProjectBakeReport {
   BakeReport captures;
-  std::vector<std::string> damaged;  ///< what `verify` found and set aside; each names its file
+  std::vector<std::string> damaged;  ///< what was found damaged and baked again; each names its file
   bool surfaceLightBaked = false;
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;

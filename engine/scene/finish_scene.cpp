@@ -188,7 +188,8 @@ class Finisher {
     reportDropped(counts_, report);
     report.ignored = source_.ignored.take();
     report.guessed = source_.guessed.take();
-    scene_.key = keyOf(scene_);
+    scene_.parts = partsOf(scene_);
+    scene_.key = keyOf(scene_.parts);
   }
 
   SourceScene source_;

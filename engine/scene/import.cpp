@@ -60,8 +60,7 @@ class Temporary {
  public:
   explicit Temporary(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-    path_ =
-        folder / fmt::format("{}import-{}{}", temporaryNameStart(), counter++, kEntryExtension);
+    path_ = folder / fmt::format("{}import-{}{}", temporaryNameStart(), counter++, kEntryExtension);
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
@@ -75,13 +74,17 @@ class Temporary {
   fs::path path_;
 };
 
+fs::path cacheFolderOf(const ImportHost& host) {
+  return host.cacheFolder.empty() ? userCacheFolder() / "scenes" : host.cacheFolder;
+}
+
 Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& options, const ImportHost& host,
                                  const Progress& progress, std::stop_token stop) {
   if (auto status = options.check(); !status) return tl::unexpected(status.error());
   if (auto status = checkModel(asked); !status) return tl::unexpected(status.error());
   std::error_code error;
   const fs::path path = fs::weakly_canonical(asked, error);
-  const fs::path folder = host.cacheFolder.empty() ? userCacheFolder() / "scenes" : host.cacheFolder;
+  const fs::path folder = cacheFolderOf(host);
   fs::create_directories(folder, error);
   if (error)
     return fail(ErrorKind::unreadable, "the cache folder cannot be made: " + error.message(),
@@ -123,6 +126,23 @@ Result<ScenePtr> importScene(const fs::path& path, const ImportOptions& options,
   } catch (const std::exception& error) {
     return fail(ErrorKind::internal, error.what(), path.string());
   }
+}
+
+std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& options,
+                                    const ImportHost& host) {
+  std::error_code error;
+  const fs::path model = fs::weakly_canonical(asked, error);
+  const auto content = hashFile(model);
+  if (error || !content || !host.useCache) return {};
+  std::vector<fs::path> files;
+  (void)readSceneFile(entryFor(cacheFolderOf(host), *content, options),
+                      [&](const std::vector<Dependency>& dependencies) {
+                        files.push_back(model);
+                        for (const Dependency& dependency : dependencies)
+                          files.push_back(model.parent_path() / dependency.path);
+                        return false;
+                      });
+  return files;
 }
 
 }  // namespace acentric

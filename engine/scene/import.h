@@ -8,6 +8,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
@@ -39,6 +40,11 @@ struct ImportHost {
 Result<ScenePtr> importScene(const std::filesystem::path& path, const ImportOptions& options,
                              const ImportHost& host = {}, const Progress& progress = {},
                              std::stop_token stop = {});
+
+/// The model file and all that it names, as the cache knows them; none if it does not hold this scene. Who
+/// keeps results of a scene can tell by them whether it may have changed.
+std::vector<std::filesystem::path> importedFiles(const std::filesystem::path& path,
+                                                 const ImportOptions& options, const ImportHost& host = {});
 
 /// What the child does, in this process: parse, check, convert. Only for the child and for tests of sound
 /// files.

@@ -79,29 +79,38 @@ std::vector<std::uint32_t> firstTrianglesOf(const std::vector<Mesh>& meshes) {
   return first;
 }
 
-ContentKey keyOf(const Scene& scene) {
-  Hasher hasher;
-  hasher.text("acentric scene 1");
-  hasher.value(scene.origin.x).value(scene.origin.y).value(scene.origin.z);
-  hasher.value(std::uint64_t(scene.materials.size()));
-  for (const Material& material : scene.materials) add(hasher, material);
-  hasher.value(std::uint64_t(scene.meshes.size()));
-  for (const Mesh& mesh : scene.meshes) add(hasher, mesh);
-  hasher.value(std::uint64_t(scene.textures.size()));
+SceneParts partsOf(const Scene& scene) {
+  Hasher geometry, materials, lights;
+  geometry.value(scene.origin.x).value(scene.origin.y).value(scene.origin.z);
+  geometry.value(std::uint64_t(scene.meshes.size()));
+  for (const Mesh& mesh : scene.meshes) add(geometry, mesh);
+  materials.value(std::uint64_t(scene.materials.size()));
+  for (const Material& material : scene.materials) add(materials, material);
+  materials.value(std::uint64_t(scene.textures.size()));
   for (const Texture& texture : scene.textures)
-    hasher.value(texture.image).value(texture.wrapU).value(texture.wrapV).value(texture.nearest);
-  hasher.value(std::uint64_t(scene.images.size()));
+    materials.value(texture.image).value(texture.wrapU).value(texture.wrapV).value(texture.nearest);
+  materials.value(std::uint64_t(scene.images.size()));
   for (const auto& image : scene.images) {
-    hasher.value(image ? image->width : 0).value(image ? image->height : 0);
-    if (image) addArray(hasher, image->pixels);
+    materials.value(image ? image->width : 0).value(image ? image->height : 0);
+    if (image) addArray(materials, image->pixels);
   }
-  hasher.value(std::uint64_t(scene.lights.size()));
-  for (const Light& light : scene.lights) add(hasher, light);
-  addVector(hasher, &scene.sky.zenith.x, 3);
-  addVector(hasher, &scene.sky.horizon.x, 3);
-  addVector(hasher, &scene.sky.ground.x, 3);
+  lights.value(std::uint64_t(scene.lights.size()));
+  for (const Light& light : scene.lights) add(lights, light);
+  addVector(lights, &scene.sky.zenith.x, 3);
+  addVector(lights, &scene.sky.horizon.x, 3);
+  addVector(lights, &scene.sky.ground.x, 3);
+  return {geometry.finish(), materials.finish(), lights.finish()};
+}
+
+ContentKey keyOf(const SceneParts& parts) {
+  Hasher hasher;
+  hasher.text("acentric scene 2");
+  for (const ContentKey& part : {parts.geometry, parts.materials, parts.lights})
+    hasher.value(part.high).value(part.low);
   return hasher.finish();
 }
+
+ContentKey keyOf(const Scene& scene) { return keyOf(partsOf(scene)); }
 
 Bounds boundsOf(const Scene& scene) {
   Bounds bounds;

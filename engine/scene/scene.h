@@ -114,9 +114,18 @@ struct ImportReport {
       guessed;  ///< "unit: metres (glTF)", "up axis: Y (glTF)", "no lights: a sun and sky were added"
 };
 
+/// What a scene's key is made of.
+struct SceneParts {
+  ContentKey geometry;   ///< meshes, origin
+  ContentKey materials;  ///< with textures and images
+  ContentKey lights;     ///< with the sky
+  bool operator==(const SceneParts&) const = default;
+};
+
 struct Scene {
   std::string name;      ///< file stem
   ContentKey key;        ///< of everything below that can change a pixel
+  SceneParts parts;      ///< of the key
   glm::dvec3 origin{0};  ///< project origin in source metres; world = position + origin
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
@@ -141,6 +150,8 @@ using ScenePtr = std::shared_ptr<const Scene>;
 /// Names and the report do not count. Import fills Scene::key with it; whoever makes a Scene by hand does the
 /// same.
 ContentKey keyOf(const Scene& scene);
+SceneParts partsOf(const Scene& scene);
+ContentKey keyOf(const SceneParts& parts);
 Bounds boundsOf(const Scene& scene);
 
 }  // namespace acentric

@@ -216,6 +216,7 @@ void readAll(ByteReader& in, std::vector<T>& things) {
 void write(ByteWriter& out, const Scene& scene) {
   out.text(scene.name);
   out.value(scene.key);
+  out.value(scene.parts);
   out.value(scene.origin);
   writeAll(out, scene.materials);
   writeAll(out, scene.meshes);
@@ -235,6 +236,7 @@ void write(ByteWriter& out, const Scene& scene) {
 void read(ByteReader& in, Scene& scene) {
   in.text(scene.name);
   in.value(scene.key);
+  in.value(scene.parts);
   in.value(scene.origin);
   readAll(in, scene.materials);
   readAll(in, scene.meshes);

@@ -12,7 +12,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSceneFileVersion = 2;
+inline constexpr std::uint32_t kSceneFileVersion = 3;
 
 struct SceneFile {
   Scene scene;

@@ -1,7 +1,6 @@
 #include "engine/store/capture_store.h"
 
 #include <algorithm>
-#include <functional>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -9,52 +8,15 @@
 
 #include "engine/base/file.h"
 #include "engine/store/keyed.h"
+#include "engine/store/store_names.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kExrExtension = ".exr";
-constexpr const char* kPackExtension = ".pack";
-constexpr const char* kDamagedExtension = ".damaged";
-constexpr const char* kLightExtension = ".light";
-constexpr std::string_view kLightPrefix = "surface-";
-constexpr const char* kSimplifiedExtension = ".local";
-constexpr std::string_view kSimplifiedPrefix = "simplified-";
-
-fs::path exrOf(const fs::path& folder, const ContentKey& key) {
-  return folder / (key.toHex() + kExrExtension);
-}
-fs::path packOf(const fs::path& folder, const ContentKey& key) {
-  return folder / (key.toHex() + kPackExtension);
-}
-fs::path lightOf(const fs::path& folder, const ContentKey& key) {
-  return folder / (std::string(kLightPrefix) + key.toHex() + kLightExtension);
-}
-
-fs::path simplifiedOf(const fs::path& folder, const ContentKey& key) {
-  return folder / (std::string(kSimplifiedPrefix) + key.toHex() + kSimplifiedExtension);
-}
-
-bool isFile(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored);
-}
-
-std::uint64_t sizeOf(const fs::path& path) {
-  std::error_code error;
-  const auto size = fs::file_size(path, error);
-  return error ? 0 : size;
-}
-
 void setAside(const fs::path& path) {
   std::error_code ignored;  // if it cannot be renamed, reading it fails the same way next time
   fs::rename(path, path.string() + kDamagedExtension, ignored);
-}
-
-/// Only contents that are wrong count as damage: a disk or memory in trouble says nothing about the file.
-bool isDamage(const Error& error) {
-  return error.kind == ErrorKind::malformed || error.kind == ErrorKind::unsupported;
 }
 
 /// A file made for another key is as useless as a damaged one.
@@ -81,19 +43,6 @@ Result<Value> getWhole(const ContentKey& key, const fs::path& path,
   return withoutKey(std::move(whole));
 }
 
-/// Reads every file that is there under a key to its end; `report`s what is wrong with each.
-void lookAt(const fs::path& folder, const ContentKey& key,
-            const std::function<void(const fs::path&, Error)>& report) {
-  const auto look = [&](const fs::path& path, const auto& readKeyed) {
-    if (!isFile(path)) return;
-    if (auto read = expectKey(readKeyed(path), key, path); !read) report(path, std::move(read.error()));
-  };
-  look(packOf(folder, key), readKeyedCapturePack);
-  look(exrOf(folder, key), readKeyedCaptureExr);
-  look(lightOf(folder, key), readKeyedSurfaceLight);
-  look(simplifiedOf(folder, key), readKeyedSimplified);
-}
-
 /// The key in the name of one of the store's files (also of one set aside).
 std::optional<ContentKey> keyInName(const fs::path& path) {
   fs::path name = path.filename();
@@ -103,7 +52,8 @@ std::optional<ContentKey> keyInName(const fs::path& path) {
     stem.erase(0, kLightPrefix.size());
   else if (name.extension() == kSimplifiedExtension && stem.starts_with(kSimplifiedPrefix))
     stem.erase(0, kSimplifiedPrefix.size());
-  else if (name.extension() != kExrExtension && name.extension() != kPackExtension)
+  else if (name.extension() != kExrExtension && name.extension() != kPackExtension &&
+           name.extension() != kRecordExtension)
     return std::nullopt;
   const auto key = ContentKey::fromHex(stem);
   return key ? std::optional(*key) : std::nullopt;
@@ -173,16 +123,14 @@ Result<SimplifiedLocal> CaptureStore::getSimplified(const ContentKey& key) const
 
 std::vector<Error> CaptureStore::check(const ContentKey& key) const {
   std::vector<Error> problems;
-  lookAt(folder_, key, [&](const fs::path&, Error error) { problems.push_back(std::move(error)); });
-  return problems;
-}
-
-std::vector<Error> CaptureStore::setDamagedAside(const ContentKey& key) const {
-  std::vector<Error> problems;
-  lookAt(folder_, key, [&](const fs::path& path, Error error) {
-    if (isDamage(error)) setAside(path);
-    problems.push_back(std::move(error));
-  });
+  const auto look = [&](const fs::path& path, const auto& readKeyed) {
+    if (!isFile(path)) return;
+    if (auto read = expectKey(readKeyed(path), key, path); !read) problems.push_back(std::move(read.error()));
+  };
+  look(packOf(folder_, key), readKeyedCapturePack);
+  look(exrOf(folder_, key), readKeyedCaptureExr);
+  look(lightOf(folder_, key), readKeyedSurfaceLight);
+  look(simplifiedOf(folder_, key), readKeyedSimplified);
   return problems;
 }
 

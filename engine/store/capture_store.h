@@ -5,7 +5,9 @@
 /// and reported, never used.
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/base/hash.h"
@@ -13,6 +15,7 @@
 #include "engine/image/capture.h"
 #include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
+#include "engine/store/capture_record.h"
 
 namespace acentric {
 
@@ -54,8 +57,25 @@ class CaptureStore {
   /// Reads every file that is there under the key (both of a capture, surface light, simplified geometry)
   /// to its end; what is wrong with each, that it was made for another key too. Sets nothing aside.
   std::vector<Error> check(const ContentKey& key) const;
-  /// The same, and each file that is damaged is set aside (renamed *.damaged): the next bake replaces it.
-  std::vector<Error> setDamagedAside(const ContentKey& key) const;
+
+  /// Notes what is now on disk under the key. Written last: what has a record was written to the end.
+  Status putRecord(const ContentKey& key, std::string subject, KeyParts parts) const;
+  Result<CaptureRecord> record(const ContentKey& key) const;
+  /// Without its record, what is on disk under the key is read to its end the next time it is asked for.
+  void forgetRecord(const ContentKey& key) const;
+  /// The newest record of each subject, of keys that are not in `known`.
+  std::map<std::string, CaptureRecord> formerRecords(const std::vector<ContentKey>& known) const;
+
+  enum class Condition { missing, sound, damaged };
+  struct Inspected {
+    Condition condition = Condition::missing;
+    std::vector<Error> damage;  ///< each names its file
+    bool recorded = false;
+  };
+  /// Are the files under the key as they were written? Files that are no newer than their record are believed
+  /// by their size, others by their content's hash; those without a record, and with `toTheEnd` all, are
+  /// read.
+  Result<Inspected> inspect(const ContentKey& key, bool toTheEnd = false) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set

@@ -1,5 +1,6 @@
 #include "engine/bake/bake.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -150,6 +151,44 @@ TEST(Bake, RefusesACameraThatDoesNotExist) {
   ASSERT_FALSE(outcome.has_value());
   EXPECT_EQ(outcome.error().kind, ErrorKind::notFound);
   EXPECT_EQ(sink.size(), 0u);
+}
+
+TEST(CaptureKey, HasPartsThatTellWhatChanged) {
+  SceneBuilder builder = smallRoom();
+  builder.sky(glm::vec3(1));
+  const ScenePtr scene = builder.scene();
+  const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
+  const auto partsFor = [](const Scene& s, const BakeSettings& b, const LayoutCamera& c) {
+    const EffectPlan plan = planEffects(s);
+    const ColumnCamera columns = columnCameraFor(c, 1.6, 1, s.bounds, b);
+    const KeyParts parts = captureKeyParts(s, plan, b, c, columns);
+    EXPECT_EQ(keyOf(parts), captureKey(s, plan, b, c, columns));
+    return parts;
+  };
+  const KeyParts parts = partsFor(*scene, {}, camera);
+  const auto changed = [&](const KeyParts& other) {
+    std::set<std::string> names;
+    EXPECT_EQ(other.size(), parts.size());
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (other[p] != parts[p]) names.insert(parts[p].name);
+    return names;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(changed(partsFor(*scene, {}, camera)), Names{});
+  BakeSettings settings;
+  settings.maxLayers = 5;
+  EXPECT_EQ(changed(partsFor(*scene, settings, camera)), Names{"settings"});
+  LayoutCamera other = camera;
+  other.roles.push_back(camera.roles.front());
+  EXPECT_EQ(changed(partsFor(*scene, {}, other)), Names{"regions"});
+  other = camera;
+  other.position.x = 0.5;
+  EXPECT_EQ(changed(partsFor(*scene, {}, other)), (Names{"place", "image"}));
+  Scene brighter = *scene;
+  brighter.sky.zenith.r = 2;
+  brighter.parts = partsOf(brighter);
+  brighter.key = keyOf(brighter.parts);
+  EXPECT_THAT(changed(partsFor(brighter, {}, camera)), testing::IsSupersetOf({"scene", "lights"}));
 }
 
 TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {

@@ -135,7 +135,8 @@ class SceneBuilder {
   ScenePtr scene() const {
     auto made = std::make_shared<Scene>(scene_);
     made->bounds = boundsOf(*made);
-    made->key = keyOf(*made);
+    made->parts = partsOf(*made);
+    made->key = keyOf(made->parts);
     return made;
   }
   /// Traceable, with the effects that the scene calls for less those named.

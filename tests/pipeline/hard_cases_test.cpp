@@ -194,7 +194,8 @@ Walk walkInWorldSpaceFloats(const glm::dvec3& move) {
     for (glm::vec3& p : mesh.positions) p = glm::vec3(glm::dvec3(p) + move);
   for (Light& light : room.lights) light.position = glm::vec3(glm::dvec3(light.position) + move);
   room.bounds = boundsOf(room);
-  room.key = keyOf(room);
+  room.parts = partsOf(room);
+  room.key = keyOf(room.parts);
   return walkThrough(std::make_shared<const Scene>(std::move(room)), {}, move);
 }
 

@@ -43,7 +43,8 @@ Scene sampleScene() {
   scene.bounds = boundsOf(scene);
   scene.report.found = {"2 triangles in 1 mesh"};
   scene.report.guessed = {"up axis: Y"};
-  scene.key = keyOf(scene);
+  scene.parts = partsOf(scene);
+  scene.key = keyOf(scene.parts);
   return scene;
 }
 
@@ -54,6 +55,7 @@ TEST(SceneFile, ARoundTripKeepsEverything) {
   const auto back = readSceneFile(folder.path() / "s.acscene");
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_EQ(back->key, scene.key);
+  EXPECT_EQ(back->parts, scene.parts);
   EXPECT_EQ(keyOf(*back), scene.key);  // whatever can change a pixel
   EXPECT_EQ(back->name, scene.name);
   EXPECT_EQ(back->materials[0].name, "glass");
@@ -132,6 +134,24 @@ TEST(SceneKey, ChangesWithEveryVisibleProperty) {
   EXPECT_TRUE(changed([](Scene& s) { s.lights[0].angularRadius = 0.1f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.sky.ground.r = 0.1f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.origin.x = 0; }));
+  const SceneParts parts = partsOf(sampleScene());
+  const auto partsAfter = [&](auto change) {
+    Scene scene = sampleScene();
+    change(scene);
+    return partsOf(scene);
+  };
+  SceneParts moved = partsAfter([](Scene& s) { s.meshes[0].positions[2].z = 1; });
+  EXPECT_NE(moved.geometry, parts.geometry);
+  moved.geometry = parts.geometry;
+  EXPECT_EQ(moved, parts) << "only the geometry";
+  SceneParts painted = partsAfter([](Scene& s) { s.textures[0].nearest = false; });
+  EXPECT_NE(painted.materials, parts.materials);
+  painted.materials = parts.materials;
+  EXPECT_EQ(painted, parts) << "only the materials";
+  SceneParts lit = partsAfter([](Scene& s) { s.sky.ground.r = 0.1f; });
+  EXPECT_NE(lit.lights, parts.lights);
+  lit.lights = parts.lights;
+  EXPECT_EQ(lit, parts) << "only the lights";
   EXPECT_FALSE(
       changed([](Scene& s) { s.name = "other", s.materials[0].name = "other", s.report.found.clear(); }));
 }
