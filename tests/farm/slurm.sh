@@ -79,7 +79,9 @@ note "the store is a local bake's, byte for byte: $(ls "$captures" | wc -l) file
 
 # --- The step after a bake bakes again what is damaged, and names it
 pack=$(find "$captures" -name '*.pack' | sort | head -1)
+touch -r "$pack" "$work/written"
 printf 'XXXX' | dd of="$pack" bs=1 seek=2000 conv=notrunc status=none
+touch -r "$work/written" "$pack" # so that reading it to its end alone can tell
 bash "$shared/gallery.farm/submit.sh" > "$work/again.txt"
 read -r array merge < "$work/again.txt"
 waitFor 100 "the second submission" jobsEnded
