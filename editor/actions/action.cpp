@@ -40,7 +40,7 @@ void proceed(ActionContext& context, const Continuation& continuation) {
       context.state.dialog = Dialog::openFile;
       break;
     case Continuation::Kind::bake:
-      context.session.startBake();
+      context.session.startBake(glm::dvec2(context.state.walker.pose().eye));
       break;
   }
 }

@@ -9,12 +9,12 @@ void addWalkActions(std::vector<Action>& table) {
                    "Bake",
                    {key::b, kCtrl},
                    {},
-                   "Bake what is missing, nearest to the start first",
+                   "Bake what is missing, nearest to where you stand first",
                    false,
                    [](const ActionContext& c) { return withBuilt(c) && !c.session.baking().running(); },
                    [](ActionContext& c) {
                      if (c.session.untitled()) return saveThen(c, {Continuation::Kind::bake, {}});
-                     c.session.startBake();
+                     c.session.startBake(glm::dvec2(c.state.walker.pose().eye));
                    },
                    {}});
   table.push_back({"bake.cancel",
@@ -29,6 +29,18 @@ void addWalkActions(std::vector<Action>& table) {
                    },
                    [](ActionContext& c) { c.session.cancelBake(); },
                    {}});
+  table.push_back({"bake.pause",
+                   "Walk",
+                   "Pause bake",
+                   {},
+                   {},
+                   "Leaves the processors to others until it goes on",
+                   true,
+                   [](const ActionContext& c) {
+                     return c.session.baking().running() && !c.session.baking().cancelling();
+                   },
+                   [](ActionContext& c) { c.session.pauseBake(!c.session.bakePaused()); },
+                   [](const ActionContext& c) { return c.session.bakePaused(); }});
   table.push_back({"bake.estimate",
                    "Walk",
                    "Estimate the bake",

@@ -15,8 +15,11 @@ void drawProgress(PanelContext& context) {
   const Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
   if (session.baking().running()) {
-    std::string text = session.baking().cancelling() ? "stopping…" : progressText(session.baking());
-    if (const auto left = session.bakeSecondsLeft(context.now); left && !session.baking().cancelling())
+    const bool stopping = session.baking().cancelling();
+    std::string text = stopping ? "stopping…" : progressText(session.baking());
+    if (session.bakePaused())
+      text = "paused: " + text;
+    else if (const auto left = session.bakeSecondsLeft(context.now); left && !stopping)
       text += fmt::format("   {} left", ui::formatDuration(*left));
     ui::progressBar(progressFraction(session.baking()), text, context.now);
   } else if (captures != nullptr) {
@@ -68,7 +71,11 @@ void drawFacts(PanelContext& context) {
                        "For baking and loading. One fewer than the processors keeps the window quick."},
                       threads, kValueX);
   if (edit.changed) session.preferences().bakeThreads = threads;
-  if (edit.finished) session.savePreferencesNow();
+  const ui::FieldEdit memory =
+      ui::numberField({"Memory", "%.0f MB", 16, 16, 65536,
+                       "Of finished captures that wait to be written; beyond that the bake waits."},
+                      session.preferences().bakeMegabytes, kValueX);
+  if (edit.finished || memory.finished) session.savePreferencesNow();
 }
 
 void drawLegend() {
@@ -107,12 +114,16 @@ void drawBakePanel(PanelContext& context) {
     return;
   }
   constexpr float kButtonWidth = 104;
-  if (context.session().baking().running())
+  if (context.session().baking().running()) {
     actionButton(context, "bake.cancel", ButtonLook::plain, {kButtonWidth, 0}, "Cancel");
-  else
+    ImGui::SameLine();
+    actionButton(context, "bake.pause", ButtonLook::plain, {},
+                 context.session().bakePaused() ? "Go on" : "Pause");
+  } else {
     actionButton(context, "bake.start", ButtonLook::primary, {kButtonWidth, 0});
-  ImGui::SameLine();
-  actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
+    ImGui::SameLine();
+    actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
+  }
   ImGui::SameLine();
   drawProgress(context);
   drawLegend();

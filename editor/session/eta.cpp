@@ -11,12 +11,18 @@ void Eta::report(double now, double done, double total) {
   while (samples_.size() > 2 && samples_.front().time < now - kWindow) samples_.pop_front();
 }
 
-std::optional<double> Eta::secondsLeft(double now) const {
+std::optional<double> Eta::perSecond() const {
   if (samples_.size() < 2) return std::nullopt;
   const double seconds = samples_.back().time - samples_.front().time;
   const double gained = samples_.back().done - samples_.front().done;
   if (seconds < 0.5 || gained <= 0) return std::nullopt;
-  const double left = (total_ - samples_.back().done) * seconds / gained;
+  return gained / seconds;
+}
+
+std::optional<double> Eta::secondsLeft(double now) const {
+  const auto rate = perSecond();
+  if (!rate) return std::nullopt;
+  const double left = (total_ - samples_.back().done) / *rate;
   return std::max(0.0, left - (now - samples_.back().time));
 }
 

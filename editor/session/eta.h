@@ -15,6 +15,7 @@ class Eta {
   void report(double now, double done, double total);
   /// Nothing until the rate is known: two reports at least half a second apart.
   std::optional<double> secondsLeft(double now) const;
+  std::optional<double> perSecond() const;
 
  private:
   struct Sample {

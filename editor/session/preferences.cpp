@@ -53,6 +53,8 @@ Preferences loadPreferences(const fs::path& file) {
     preferences.lastFolder = folder->get<std::string>();
   if (const auto threads = json.find("bakeThreads"); threads != json.end() && threads->is_number_integer())
     preferences.bakeThreads = std::clamp(threads->get<int>(), 0, 256);
+  if (const auto memory = json.find("bakeMegabytes"); memory != json.end() && memory->is_number_integer())
+    preferences.bakeMegabytes = std::clamp(memory->get<int>(), 16, 1'000'000);
   preferences.settingsWidth = readLength(json, "settingsWidth", preferences.settingsWidth);
   preferences.walkWidth = readLength(json, "walkWidth", preferences.walkWidth);
   preferences.bottomHeight = readLength(json, "bottomHeight", preferences.bottomHeight);
@@ -66,6 +68,7 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
   const Json json = {{"recent", std::move(recent)},
                      {"lastFolder", preferences.lastFolder.string()},
                      {"bakeThreads", preferences.bakeThreads},
+                     {"bakeMegabytes", preferences.bakeMegabytes},
                      {"settingsWidth", preferences.settingsWidth},
                      {"walkWidth", preferences.walkWidth},
                      {"bottomHeight", preferences.bottomHeight}};

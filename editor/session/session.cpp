@@ -11,7 +11,7 @@ Session::Session(SessionOptions options)
       inbox_(options_.wake),
       preferences_(loadPreferences(options_.preferencesFile)) {}
 
-Session::~Session() = default;
+Session::~Session() { bakeGate_.open(); }  // a paused bake must see that it is to stop
 
 bool onlyViewDiffers(const Project& a, const Project& b) {
   Project same = b;

@@ -21,6 +21,7 @@
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
 #include "engine/bake/effect_costs.h"
+#include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
 #include "engine/pipeline/pipeline.h"
 
@@ -94,9 +95,14 @@ class Session {
 
   // Bake
   // -------------------------------------------------------------------------------------------------------
-  /// Of all storeys, the current one first.
-  void startBake();
-  void cancelBake() { baking_.cancel(); }
+  /// Of all storeys, the current one first, and of each what is nearest to `from` (to the start of the walk).
+  void startBake(const std::optional<glm::dvec2>& from = {});
+  void cancelBake();
+  /// What was begun of a camera is kept, and gone on with.
+  void pauseBake(bool paused);
+  bool bakePaused() const { return baking_.running() && bakeGate_.closed(); }
+  /// Captures a second, as far as known.
+  std::optional<double> bakeRate() const { return eta_.perSecond(); }
   /// Of what the current storey lacks, by baking a little of it.
   void estimateBake();
   /// Null until asked for, and when something has changed since.
@@ -205,6 +211,7 @@ class Session {
   };
   std::optional<Estimate> estimate_;
   Eta eta_;
+  Gate bakeGate_;  // outlives the job
   std::optional<ProjectBakeReport> lastBake_;
   double bakeProgressSeen_ = 0;
   double nextLoad_ = 0;

@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "editor/session/session.h"
+#include "engine/base/priority.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric::editor {
 namespace {
 
 /// The current storey first; progress runs from 0 to 1 over all of them.
-Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const ImportHost& host, TaskRunner& runner,
+Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
+                                         std::size_t memoryBytes, const ImportHost& host, TaskRunner& runner,
                                          const Progress& progress, std::stop_token stop) {
   auto storeys = openStoreys(open, host, {}, stop);
   if (!storeys) return tl::unexpected(storeys.error());
@@ -22,7 +24,10 @@ Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const ImportHo
       progress({(double(s) + done) / double(storeys->size()), 1,
                 (*storeys)[s].project.current().name + ": " + state.stage});
     };
-    const auto report = bakeProject((*storeys)[s], {}, runner, part, stop);
+    BakeRequest request;
+    request.memoryBytes = memoryBytes;
+    if (from) request.cameras = bakingOrder((*storeys)[s], *from);
+    const auto report = bakeProject((*storeys)[s], request, runner, part, stop);
     if (!report) return report;
     all.add(*report);
   }
@@ -36,16 +41,30 @@ int Session::bakeThreads() const {
   return std::clamp(wanted, 1, processors_);
 }
 
-void Session::startBake() {
+void Session::startBake(const std::optional<glm::dvec2>& from) {
   if (!built_ || baking_.running()) return;
   eta_.reset();
   bakeProgressSeen_ = 0;
-  baking_.restart("Baking", [this, open = built_, threads = bakeThreads(),
+  bakeGate_.open();
+  baking_.restart("Baking", [this, open = built_, from, threads = bakeThreads(),
+                             memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
                              host = options_.importHost](const Job::Context& context) {
-    TaskRunner runner(threads - 1);
-    const auto report = bakeAllStoreys(*open, host, runner, context.progress(), context.stop());
+    lowerThreadPriority();  // the window comes first
+    TaskRunner runner(threads - 1, &bakeGate_);
+    const auto report = bakeAllStoreys(*open, from, memory, host, runner, context.progress(), context.stop());
     context.post([this, report] { bakeEnded(report); });
   });
+}
+
+void Session::pauseBake(bool paused) {
+  if (!baking_.running() || baking_.cancelling()) return;
+  eta_.reset();  // the pause is no part of the rate
+  paused ? bakeGate_.close() : bakeGate_.open();
+}
+
+void Session::cancelBake() {
+  baking_.cancel();
+  bakeGate_.open();  // what is paused must see that it is to stop
 }
 
 void Session::bakeEnded(const Result<ProjectBakeReport>& report) {

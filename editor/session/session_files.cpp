@@ -67,6 +67,7 @@ void Session::opened(Opened opened) {
 
 void Session::close() {
   baking_.abandon();
+  bakeGate_.open();
   loading_.abandon();
   rebuilding_.abandon();
   drawingBackdrop_.abandon();

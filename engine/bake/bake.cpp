@@ -19,7 +19,7 @@ double secondsSince(Clock::time_point start) {
 class BakeRun {
  public:
   BakeRun(const RayScene& scene, const Layout& layout, const BakeSettings& settings, CaptureSink& sink,
-          TaskRunner& runner, const std::stop_token& stop)
+          TaskRunner& runner, const std::stop_token& stop, std::size_t memoryBytes)
       : scene_(scene),
         layout_(layout),
         settings_(settings),
@@ -27,7 +27,7 @@ class BakeRun {
         runner_(runner),
         stop_(stop),
         baker_(scene, settings),
-        writer_(sink) {}
+        writer_(sink, memoryBytes) {}
 
   Status bakeOne(int index) {
     const LayoutCamera& camera = layout_.cameras[std::size_t(index)];
@@ -78,7 +78,7 @@ class BakeRun {
 
 Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::vector<int>& which,
                         const BakeSettings& settings, CaptureSink& sink, TaskRunner& runner,
-                        const Progress& progress, std::stop_token stop) {
+                        const Progress& progress, std::stop_token stop, std::size_t memoryBytes) {
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
   for (const int index : which)
     if (index < 0 || std::size_t(index) >= layout.cameras.size())
@@ -86,7 +86,7 @@ Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::
                                                    int(layout.cameras.size()) - 1));
   const auto start = Clock::now();
   try {
-    BakeRun run(scene, layout, settings, sink, runner, stop);
+    BakeRun run(scene, layout, settings, sink, runner, stop, memoryBytes);
     Status outcome;
     for (std::size_t n = 0; n < which.size() && outcome; ++n) {
       if (progress)

@@ -115,10 +115,14 @@ struct BakeReport {
   double eyeViewSeconds = 0;  ///< that it took, of `seconds`
 };
 
+/// Of finished captures that wait to be written, unless told otherwise.
+inline constexpr std::size_t kBakeMemory = std::size_t(1) << 30;
+
 /// Bakes `which` cameras (indices, in this order), those that the sink has are skipped. Progress counts
-/// cameras.
+/// cameras. Finished captures that wait to be written take at most `memoryBytes`, or are a single one.
 Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::vector<int>& which,
                         const BakeSettings& settings, CaptureSink& sink, TaskRunner& runner,
-                        const Progress& progress = {}, std::stop_token stop = {});
+                        const Progress& progress = {}, std::stop_token stop = {},
+                        std::size_t memoryBytes = kBakeMemory);
 
 }  // namespace acentric

@@ -16,9 +16,18 @@ Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& captur
   }
 }
 
+/// While it is encoded a capture is there twice more: as planes, and as the files' bytes.
+std::size_t heldBy(const Capture& capture) {
+  constexpr std::size_t kCopies = 3;
+  return kCopies * (capture.columnStart.size() * sizeof capture.columnStart[0] +
+                    capture.sampleCount() * (sizeof capture.row[0] + sizeof capture.roles[0] +
+                                             sizeof capture.inverseDistance[0] + sizeof capture.colour[0]));
+}
+
 }  // namespace
 
-CaptureWriter::CaptureWriter(CaptureSink& sink) : sink_(sink), thread_([this] { loop(); }) {}
+CaptureWriter::CaptureWriter(CaptureSink& sink, std::size_t memoryBytes)
+    : sink_(sink), memoryBytes_(memoryBytes), thread_([this] { loop(); }) {}
 
 CaptureWriter::~CaptureWriter() {
   const std::lock_guard lock(mutex_);
@@ -32,9 +41,11 @@ Status CaptureWriter::status() const {
 }
 
 Status CaptureWriter::put(const ContentKey& key, Capture capture) {
+  const std::size_t bytes = heldBy(capture);
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < kBound || error_; });
+  changed_.wait(lock, [&] { return heldBytes_ == 0 || heldBytes_ + bytes <= memoryBytes_ || error_; });
   if (error_) return status();
+  heldBytes_ += bytes;
   waiting_.push_back({key, std::move(capture)});
   changed_.notify_all();
   return {};
@@ -62,6 +73,8 @@ void CaptureWriter::loop() {
     lock.unlock();
     Status done = putSafely(sink_, job.key, job.capture);
     lock.lock();
+    heldBytes_ -= heldBy(job.capture);
+    changed_.notify_all();
     if (!done) {
       error_ = done.error();
       waiting_.clear();

@@ -1,6 +1,7 @@
 #pragma once
 /// Hands finished captures to the sink on a thread of its own, so that the next camera is traced while the
-/// last is compressed and written. At most two wait: beyond that the bake waits, and memory stays bounded.
+/// last is compressed and written. What waits or is being written keeps to a number of bytes: beyond that the
+/// bake waits, and memory stays bounded. A capture that is larger by itself goes alone.
 
 #include <condition_variable>
 #include <deque>
@@ -14,7 +15,7 @@ namespace acentric {
 
 class CaptureWriter {
  public:
-  explicit CaptureWriter(CaptureSink& sink);
+  explicit CaptureWriter(CaptureSink& sink, std::size_t memoryBytes = kBakeMemory);
   ~CaptureWriter();  ///< writes what waits
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
@@ -30,8 +31,6 @@ class CaptureWriter {
     ContentKey key;
     Capture capture;
   };
-  static constexpr std::size_t kBound = 2;
-
   void loop();
   Status status() const;  ///< with mutex_ held
 
@@ -39,6 +38,8 @@ class CaptureWriter {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> waiting_;
+  std::size_t memoryBytes_;
+  std::size_t heldBytes_ = 0;  ///< of what waits or is being written
   bool closed_ = false;
   std::optional<Error> error_;
   std::jthread thread_;

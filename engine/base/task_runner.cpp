@@ -4,7 +4,7 @@
 
 namespace acentric {
 
-TaskRunner::TaskRunner(int workers) {
+TaskRunner::TaskRunner(int workers, const Gate* gate) : gate_(gate) {
   require(workers >= 0 && workers <= 4096, "worker count out of range");
   for (int i = 0; i < workers; ++i) workers_.emplace_back([this](std::stop_token stop) { workerLoop(stop); });
 }
@@ -15,7 +15,10 @@ TaskRunner::~TaskRunner() {
 
 void TaskRunner::parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
   if (workers_.empty()) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (gate_) gate_->pass();
+      body(i);
+    }
     return;
   }
   std::unique_lock lock(mutex_);
@@ -38,6 +41,7 @@ void TaskRunner::drain() {
     const auto* body = body_;
     ++running_;
     lock.unlock();
+    if (gate_) gate_->pass();
     (*body)(index);
     lock.lock();
     --running_;

@@ -10,12 +10,15 @@
 #include <thread>
 #include <vector>
 
+#include "engine/base/gate.h"
+
 namespace acentric {
 
 class TaskRunner {
  public:
-  /// `workers` extra threads; the calling thread works too, so `threads() == workers + 1`.
-  explicit TaskRunner(int workers = 0);
+  /// `workers` extra threads; the calling thread works too, so `threads() == workers + 1`. Each piece of work
+  /// passes `gate`, if there is one, before it begins; it outlives the runner.
+  explicit TaskRunner(int workers = 0, const Gate* gate = nullptr);
   ~TaskRunner();
   TaskRunner(const TaskRunner&) = delete;
   TaskRunner& operator=(const TaskRunner&) = delete;
@@ -30,6 +33,7 @@ class TaskRunner {
   void workerLoop(std::stop_token stop);
   void drain();
 
+  const Gate* gate_;
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::condition_variable done_;

@@ -31,6 +31,8 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
                    {"seconds", baked.surfaceLightSeconds}}},
                  {"damaged", baked.damaged},
                  {"bytes", baked.bytes},
+                 {"neededBytes", baked.neededBytes},
+                 {"freeBytes", baked.freeBytes},
                  {"cameras", std::move(cameras)}};
   for (const std::string& damaged : baked.damaged) report.text += fmt::format("baked again: {}\n", damaged);
   report.text += fmt::format(

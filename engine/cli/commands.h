@@ -80,6 +80,7 @@ struct BakeOptions {
   bool dryRun = false;
   bool prune = false;
   bool verify = false;  ///< read what is there to its end first
+  double memoryMegabytes = double(kBakeMemory) / 1e6;
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);
 

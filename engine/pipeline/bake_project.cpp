@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <map>
@@ -5,8 +7,10 @@
 #include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
+#include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/bake_plan.h"
+#include "engine/pipeline/estimate_bake.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/pipeline.h"
 
@@ -21,9 +25,10 @@ class StoreSink final : public CaptureSink {
     planned_[plan.light.key] = &plan.light;
   }
 
+  /// As it was when it was first asked for.
   bool has(const ContentKey& key) const override {
-    const auto found = verified_.find(key);
-    return found != verified_.end() ? found->second : look(key, false);
+    const auto found = known_.find(key);
+    return found != known_.end() ? found->second : known_[key] = look(key, false);
   }
   Status put(const ContentKey& key, const Capture& capture) override {
     if (Status done = store_.put(key, capture); !done) return done;
@@ -46,7 +51,7 @@ class StoreSink final : public CaptureSink {
       if (progress) progress({done += 1, double(keys.size()), "reading what is baked"});
     });
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
-    for (std::size_t k = 0; k < keys.size(); ++k) verified_[keys[k]] = sound[k] != 0;
+    for (std::size_t k = 0; k < keys.size(); ++k) known_[keys[k]] = sound[k] != 0;
     return status();
   }
 
@@ -78,11 +83,66 @@ class StoreSink final : public CaptureSink {
 
   const CaptureStore& store_;
   std::map<ContentKey, const PlannedCapture*> planned_;
-  std::map<ContentKey, bool> verified_;
+  mutable std::map<ContentKey, bool> known_;  ///< used by the thread that bakes
   mutable std::mutex mutex_;
   mutable std::vector<std::string> damaged_;
   mutable std::optional<Error> trouble_;
 };
+
+/// What ran out, and what to do.
+Error withAdvice(Error error) {
+  if (error.kind == ErrorKind::outOfSpace)
+    error.message += "; what is finished is kept: make room and bake again";
+  return error;
+}
+
+/// Bytes a pixel of captures that are not known yet; half as much again as a furnished room takes.
+constexpr double kTypicalBytesPerPixel = 12;
+constexpr int kFewestKnown = 4;
+
+/// Refuses to begin what cannot be finished. Where room is plentiful by far, a rough figure does; else a
+/// little is baked to know better.
+Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vector<int>& cameras, bool light,
+                 const StoreSink& sink, TaskRunner& runner, ProjectBakeReport& report,
+                 const Progress& progress, const std::stop_token& stop) {
+  const auto folder = captureFolderFor(open.file);
+  const auto store = CaptureStore::open(folder);
+  const auto available = freeSpace(folder);
+  if (!store || !available) return tl::unexpected(store ? available.error() : store.error());
+  std::vector<int> missing;
+  double missingPixels = 0, knownPixels = 0, knownBytes = 0;
+  int known = 0;
+  for (const int camera : cameras) {
+    const PlannedCapture& planned = plan.cameras[std::size_t(camera)];
+    if (sink.has(planned.key)) {
+      ++known, knownPixels += planned.pixels, knownBytes += double(store->bytesOf(planned.key));
+    } else {
+      missing.push_back(camera), missingPixels += planned.pixels;
+    }
+  }
+  light = light && !sink.has(open.surfaceLightKey);
+  report.freeBytes = *available;
+  report.neededBytes =
+      missingPixels * (known >= kFewestKnown ? knownBytes / knownPixels : kTypicalBytesPerPixel);
+  constexpr double kPlenty = 4;
+  if (missing.empty() && !light) return {};
+  if (kPlenty * report.neededBytes + double(std::uint64_t(1) << 30) > double(*available)) {
+    EstimateOptions options;
+    options.surfaceLight = light;
+    const auto estimate = estimateProjectBake(open, missing, options, runner, progress, stop);
+    if (!estimate) return tl::unexpected(estimate.error());
+    report.neededBytes =
+        (missing.empty() ? 0 : estimate->captureBytes.value) + (light ? estimate->lightBytes.value : 0);
+  }
+  const std::string figures = fmt::format("about {:.0f} MB are needed, {:.0f} MB are free",
+                                          report.neededBytes / 1e6, double(*available) / 1e6);
+  if (report.neededBytes > double(*available))
+    return fail(ErrorKind::outOfSpace,
+                figures + ": make room, bake fewer cameras, or lower the samples per degree",
+                folder.string());
+  if (progress) progress({0, 0, figures});
+  return {};
+}
 
 }  // namespace
 
@@ -100,13 +160,19 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
   surfaceLightSeconds += other.surfaceLightSeconds;
   bytes += other.bytes;
+  neededBytes += other.neededBytes;
+  freeBytes = other.freeBytes;
 }
 
 std::vector<int> bakingOrder(const OpenProject& open) {
+  return bakingOrder(open, open.project.spawn().position);
+}
+
+std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from) {
   std::vector<int> order(open.layout->cameras.size());
   std::iota(order.begin(), order.end(), 0);
   const auto distance = [&](int camera) {
-    return glm::distance(open.layout->cameras[std::size_t(camera)].position, open.project.spawn().position);
+    return glm::distance(open.layout->cameras[std::size_t(camera)].position, from);
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return distance(a) < distance(b); });
   return order;
@@ -148,8 +214,13 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
   }
   ProjectBakeReport report;
-  auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop);
-  if (!captures) return tl::unexpected(captures.error());
+  if (Status room =
+          checkRoom(open, plan, cameras, request.surfaceLight, sink, runner, report, progress, stop);
+      !room)
+    return tl::unexpected(room.error());
+  auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop,
+                       request.memoryBytes);
+  if (!captures) return tl::unexpected(withAdvice(captures.error()));
   report.captures = std::move(*captures);
 
   if (request.surfaceLight && sink.has(open.surfaceLightKey)) {
@@ -161,8 +232,9 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
         bakeSurfaceLight(*open.rays, local.wanted, local.viewer, open.project.bake, runner, progress, stop);
     if (!light) return tl::unexpected(light.error());
     if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light); !put)
-      return tl::unexpected(put.error());
-    if (Status noted = sink.note(open.surfaceLightKey); !noted) return tl::unexpected(noted.error());
+      return tl::unexpected(withAdvice(put.error()));
+    if (Status noted = sink.note(open.surfaceLightKey); !noted)
+      return tl::unexpected(withAdvice(noted.error()));
     report.surfaceLightBaked = true;
     report.surfaceLightSeconds = watch.seconds();
   }

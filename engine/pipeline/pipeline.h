@@ -88,6 +88,7 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
 struct BakeRequest {
   std::optional<std::vector<int>> cameras;  ///< indices, baked in this order; none given: all of them
   bool surfaceLight = true;
+  std::size_t memoryBytes = kBakeMemory;  ///< of finished captures that wait to be written
   bool verify = false;  ///< reads what is there to its end first, instead of believing sizes and times
 };
 struct ProjectBakeReport {
@@ -97,6 +98,9 @@ struct ProjectBakeReport {
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
   std::uint64_t bytes = 0;  ///< on disk, of all this project's captures
+  /// What the missing captures were expected to take when the bake began, and what there was.
+  double neededBytes = 0;
+  std::uint64_t freeBytes = 0;
   /// Of another storey. Which cameras were baked is not kept: each storey numbers them for itself.
   void add(const ProjectBakeReport& other);
 };
@@ -109,6 +113,8 @@ bool surfaceLightBaked(const OpenProject& open);
 
 /// Cameras in baking order: nearest to the spawn first.
 std::vector<int> bakingOrder(const OpenProject& open);
+/// The same, nearest to a place on the plan first.
+std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from);
 
 /// Everything that is baked, loaded for the walk. `former` gives parts that did not change. Damaged files are
 /// reported in `warnings`.

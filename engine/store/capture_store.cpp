@@ -77,7 +77,10 @@ bool CaptureStore::has(const ContentKey& key) const {
 
 Status CaptureStore::put(const ContentKey& key, const Capture& capture) const {
   if (Status written = writeCaptureExr(capture, key, exrOf(folder_, key)); !written) return written;
-  return writeCapturePack(capture, key, packOf(folder_, key));
+  Status packed = writeCapturePack(capture, key, packOf(folder_, key));
+  std::error_code ignored;  // half a capture is of no use, and takes room where there may be none
+  if (!packed && !isFile(packOf(folder_, key))) fs::remove(exrOf(folder_, key), ignored);
+  return packed;
 }
 
 Result<Capture> CaptureStore::get(const ContentKey& key) const {

@@ -1,0 +1,102 @@
+/// A disk without room, and a bake that is stopped: on a real file system of a few megabytes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/end_to_end/sample_project.h"
+
+namespace acentric::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Runs shell commands where `folder` is a disk of its own of so many kilobytes, mounted for them alone.
+ProcessResult onSmallDisk(const fs::path& folder, int kilobytes, const std::string& commands) {
+  return runProcess(
+      {"unshare", "--mount", "bash", "-c",
+       "mount -t tmpfs -o size=" + std::to_string(kilobytes) + "k tmpfs \"$1\" && shift && " + commands,
+       "bash", folder.string(), ACENTRIC_PROGRAM});
+}
+
+class SmallDiskTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory(project.captures());
+    if (onSmallDisk(project.captures(), 100, "true").exitCode != 0)
+      GTEST_SKIP() << "a file system can be mounted by root only";
+    ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  }
+  SampleProject project{"room"};
+};
+
+TEST_F(SmallDiskTest, IsRefusedBeforeTheBakeBegins) {
+  const auto ran = onSmallDisk(project.captures(), 300,
+                               "\"$1\" bake '" + project.file() + "'; echo code $?; ls -A '" +
+                                   project.captures().string() + "' | wc -l");
+  EXPECT_THAT(ran.errors, HasSubstr("MB are free: make room"));
+  EXPECT_THAT(ran.output, HasSubstr("code 1\n0\n")) << "nothing was written";
+}
+
+TEST_F(SmallDiskTest, ThatFillsUpLeavesNoPartAndGoesOnWhenThereIsRoom) {
+  // What it would need is there when the bake begins; then another program takes the room.
+  const std::string captures = "'" + project.captures().string() + "'", file = "'" + project.file() + "'";
+  const auto ran =
+      onSmallDisk(project.captures(), 65536,
+                  "(until [ $(ls " + captures +
+                      " | grep -c record) -ge 5 ]; do sleep 0.01; done;"
+                      " head -c 200M /dev/zero > " +
+                      captures +
+                      "/other 2> /dev/null) & "
+                      "\"$1\" bake " +
+                      file +
+                      "; echo full $?; wait;"
+                      " echo temporaries $(ls -A " +
+                      captures +
+                      " | grep -c acentric-tmp);"
+                      " echo halves $(cd " +
+                      captures +
+                      "; for f in *.exr; do [ -e \"${f%.exr}.pack\" ] || echo \"$f\"; done | wc -l);"
+                      " rm " +
+                      captures +
+                      "/other;"
+                      " \"$1\" validate " +
+                      file +
+                      " --json | grep -c damaged;"
+                      " \"$1\" bake " +
+                      file + "; echo again $?; \"$1\" bake " + file + " --verify; echo sound $?");
+  EXPECT_THAT(ran.output, HasSubstr("full 1\n"));
+  EXPECT_THAT(ran.errors, HasSubstr("No space left on device"));
+  EXPECT_THAT(ran.errors, HasSubstr("make room and bake again"));
+  EXPECT_THAT(ran.output, HasSubstr("temporaries 0\n"));
+  EXPECT_THAT(ran.output, HasSubstr("halves 0\n"));
+  EXPECT_THAT(ran.output, HasSubstr("again 0\n"));
+  EXPECT_THAT(ran.output, HasSubstr("sound 0\n"));
+}
+
+TEST(CancelledBake, StopsWithinASecondInACameraThatTakesLong) {
+  SampleProject project("cancel");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  Json json = project.read();
+  json["bake"]["samplesPerDegree"] = 40;
+  project.write(json);
+  // Signalled when it has been baking for two seconds, far from the end; reports how long it went on.
+  const auto ran =
+      runProcess({"bash", "-c",
+                  "\"$1\" bake \"$2\" & until compgen -G \"$3/*.record\" > /dev/null; do sleep 0.05; done;"
+                  " sleep 2; begin=$EPOCHREALTIME; kill -TERM $!; wait $!; code=$?;"
+                  " awk -v a=$begin -v b=$EPOCHREALTIME -v c=$code 'BEGIN { print c, b - a }'",
+                  "bash", ACENTRIC_PROGRAM, project.file(), project.captures().string()});
+  int code = 0;
+  double seconds = 99;
+  std::istringstream(ran.output) >> code >> seconds;
+  EXPECT_EQ(code, 1) << ran.errors;
+  EXPECT_LT(seconds, 1.0);
+  EXPECT_THAT(ran.errors, HasSubstr("was stopped"));
+  for (const auto& entry : fs::directory_iterator(project.captures()))
+    EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
+}
+
+}  // namespace
+}  // namespace acentric::test
