@@ -28,7 +28,8 @@ class StoreSink final : public CaptureSink {
   /// As it was when it was first asked for.
   bool has(const ContentKey& key) const override {
     const auto found = known_.find(key);
-    return found != known_.end() ? found->second : known_[key] = look(key, false);
+    if (found != known_.end()) return found->second;
+    return known_.emplace(key, look(key, false)).first->second;
   }
   Status put(const ContentKey& key, const Capture& capture) override {
     if (Status done = store_.put(key, capture); !done) return done;
