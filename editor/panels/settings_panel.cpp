@@ -193,64 +193,60 @@ void drawBudget(PanelContext& context) {
   actionButton(context, "budget.split", ButtonLook::plain, {}, "Split what exceeds");
 }
 
+/// One of the bake's settings in one line. `what` names its step in the history.
+template <class Value>
+void bakeNumber(PanelContext& context, const char* logName, const ui::NumberField& field,
+                Value BakeSettings::*setting, const char* what) {
+  BakeSettings bake = context.session().project().bake;
+  const ui::FieldEdit edit = ui::numberField(field, bake.*setting, kLabelWidth);
+  context.log.item(std::string("settings.") + logName);
+  if (edit) applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, what));
+}
+
 void drawBake(PanelContext& context) {
   if (!ui::section("Bake quality")) return;
-  const Project& project = context.session().project();
-  BakeSettings bake = project.bake;
-  number(context, "samplesPerDegree",
-         {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,
-          "Resolution of captures. Time and bytes grow with its square."},
-         bake.samplesPerDegree, [&](double v) {
-           bake.samplesPerDegree = v;
-           return setBakeSettings(project, bake, "samples per degree");
-         });
-  int rays = bake.ambientRays;
-  const ui::FieldEdit raysEdit =
-      ui::numberField({"Ambient rays", "%.0f", 0.2, 0, 1024,
-                       "Per place on a surface, for soft shade in corners and bounced light; 0 to 1024."},
-                      rays, kLabelWidth);
-  if (raysEdit) {
-    bake.ambientRays = rays;
-    applyFieldEdit(context, raysEdit, setBakeSettings(project, bake, "ambient rays"));
-  }
-  number(context, "ambientRadius",
-         {"Ambient radius", "%.2f m", 0.01, 0.01, 1000, "Farther surfaces cast no ambient shade."},
-         bake.ambientRadius, [&](double v) {
-           bake.ambientRadius = v;
-           return setBakeSettings(project, bake, "ambient radius");
-         });
-  int shadowRays = bake.shadowRays;
-  const ui::FieldEdit shadowEdit = ui::numberField(
-      {"Shadow rays", "%.0f", 0.2, 1, 1024, "Per sample towards each light with a size; 1 to 1024."},
-      shadowRays, kLabelWidth);
-  if (shadowEdit) {
-    bake.shadowRays = shadowRays;
-    applyFieldEdit(context, shadowEdit, setBakeSettings(project, bake, "shadow rays"));
-  }
-  int bounces = bake.bounces;
-  const ui::FieldEdit bouncesEdit = ui::numberField(
+  bakeNumber(context, "samplesPerDegree",
+             {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,
+              "Resolution of captures. Time and bytes grow with its square."},
+             &BakeSettings::samplesPerDegree, "samples per degree");
+  bakeNumber(context, "ambientRays",
+             {"Ambient rays", "%.0f", 0.2, 0, 1024,
+              "Per place on a surface, for soft shade in corners and bounced light; 0 to 1024."},
+             &BakeSettings::ambientRays, "ambient rays");
+  bakeNumber(context, "ambientRadius",
+             {"Ambient radius", "%.2f m", 0.01, 0.01, 1000, "Farther surfaces cast no ambient shade."},
+             &BakeSettings::ambientRadius, "ambient radius");
+  bakeNumber(context, "shadowRays",
+             {"Shadow rays", "%.0f", 0.2, 1, 1024, "Per sample towards each light with a size; 1 to 1024."},
+             &BakeSettings::shadowRays, "shadow rays");
+  bakeNumber(
+      context, "bounces",
       {"Bounces", "%.0f", 0.05, 1, 8, "Of light between surfaces, where interreflection is on; 1 to 8."},
-      bounces, kLabelWidth);
-  if (bouncesEdit) {
-    bake.bounces = bounces;
-    applyFieldEdit(context, bouncesEdit, setBakeSettings(project, bake, "bounces"));
-  }
-  number(
-      context, "surfaceTexel",
-      {"Surface texel", "%.3f m", 0.001, 0.002, 10,
-       "Distance of light samples on near geometry, and of places where light from all around is gathered."},
-      bake.surfaceTexel, [&](double v) {
-        bake.surfaceTexel = v;
-        return setBakeSettings(project, bake, "surface texel");
-      });
-  int layers = bake.maxLayers;
-  const ui::FieldEdit layersEdit = ui::numberField(
-      {"Most layers", "%.0f", 0.05, 1, 64, "Samples kept per pixel at most: what opens up behind edges."},
-      layers, kLabelWidth);
-  if (layersEdit) {
-    bake.maxLayers = layers;
-    applyFieldEdit(context, layersEdit, setBakeSettings(project, bake, "most layers"));
-  }
+      &BakeSettings::bounces, "bounces");
+  bakeNumber(context, "surfaceTexel",
+             {"Surface texel", "%.3f m", 0.001, 0.002, 10,
+              "Distance of light samples on near geometry, and of places where light from all around is "
+              "gathered."},
+             &BakeSettings::surfaceTexel, "surface texel");
+  bakeNumber(context, "maxLayers",
+             {"Most layers", "%.0f", 0.05, 1, 64,
+              "Surfaces kept behind each other in one pixel: what opens up behind edges. 1 to 64."},
+             &BakeSettings::maxLayers, "most layers");
+  BakeSettings bake = context.session().project().bake;
+  if (const ui::FieldEdit edit =
+          ui::checkField("Prune", bake.pruning, kLabelWidth,
+                         "Keep only what can be seen from somewhere in a region that the camera serves."))
+    applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, "pruning"));
+  context.log.item("settings.pruning");
+  if (bake.pruning)
+    bakeNumber(
+        context, "testEyes",
+        {"Test eyes", "%.0f", 0.05, 1, 64,
+         "Places in each region that pruning looks from: more close finer holes and take longer. 1 to 64."},
+        &BakeSettings::testEyes, "test eyes");
+  bakeNumber(context, "eyeRange",
+             {"Eye range", "%.2f m", 0.005, 0, 10, "How far above and below eye height the walk may go."},
+             &BakeSettings::eyeRange, "eye range");
 }
 
 void drawView(PanelContext& context) {
