@@ -26,6 +26,7 @@ Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const std::opt
     };
     BakeRequest request;
     request.memoryBytes = memoryBytes;
+    request.coarseFirst = true;
     if (from) request.cameras = bakingOrder((*storeys)[s], *from);
     const auto report = bakeProject((*storeys)[s], request, runner, part, stop);
     if (!report) return report;

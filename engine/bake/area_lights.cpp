@@ -185,7 +185,8 @@ std::vector<AreaLights::Part> AreaLights::cut(const Surface& surface) const {
   float total = luminance(parts[0].estimate.irradiance);
   while (parts.size() < kMostParts) {
     const Open worst = parts.front();  // of a heap
-    if (!(worst.estimate.error > kMostError * total)) break;
+    // A sum that was all taken away again may be left below zero by rounding; a single emitter has no error.
+    if (!(worst.estimate.error > kMostError * std::max(total, 0.0f))) break;
     std::pop_heap(parts.begin(), parts.end());
     parts.pop_back();
     total -= luminance(worst.estimate.irradiance);

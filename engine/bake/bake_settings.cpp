@@ -2,10 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace acentric {
+namespace {
+
+constexpr double kCoarsest = 0.5;  ///< samples per degree
+
+}  // namespace
+
+const char* nameOf(Quality quality) {
+  return quality == Quality::preview ? "preview" : quality == Quality::draft ? "draft" : "final";
+}
+
+BakeSettings BakeSettings::at(Quality quality) const {
+  BakeSettings out = *this;
+  if (quality == Quality::full) return out;
+  const bool preview = quality == Quality::preview;
+  const int part = preview ? 4 : 2;
+  const auto fewer = [&](int& count, int least) { count = std::min(count, std::max(count / part, least)); };
+  out.samplesPerDegree = std::max(samplesPerDegree / part, std::min(samplesPerDegree, kCoarsest));
+  fewer(out.ambientRays, 4);
+  fewer(out.shadowRays, 4);
+  fewer(out.bounces, 1);
+  out.surfaceTexel = std::min(surfaceTexel * part, kLargestBakeLength);
+  // Behind the first surface a preview shows nothing, so that it asks no eye.
+  out.maxLayers = preview ? 1 : std::min(maxLayers, 4);
+  out.pruning = !preview && pruning;
+  fewer(out.testEyes, 4);
+  return out;
+}
 
 Status BakeSettings::check() const {
   const auto inRange = [](double value, double low, double high) {
@@ -14,7 +42,7 @@ Status BakeSettings::check() const {
   const auto bad = [](std::string message) {
     return fail(ErrorKind::invalidArgument, std::move(message), "bake settings");
   };
-  if (!inRange(samplesPerDegree, 0.5, 64))
+  if (!inRange(samplesPerDegree, kCoarsest, 64))
     return bad(fmt::format("{} samples per degree: must lie in 0.5..64", samplesPerDegree));
   if (ambientRays < 0 || ambientRays > 1024)
     return bad(fmt::format("{} ambient rays: must lie in 0..1024", ambientRays));

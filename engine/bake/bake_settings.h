@@ -1,6 +1,8 @@
 #pragma once
 /// What the designer trades: quality against bake time and bytes. Part of every capture's key.
 
+#include <cstdint>
+
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
 
@@ -8,6 +10,11 @@ namespace acentric {
 
 /// Metres, of the settings' lengths; a project may be drawn in any unit.
 inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
+
+/// How much of the settings a bake spends: a preview is there at once, a draft shows the layout's faults.
+enum class Quality : std::uint8_t { preview, draft, full };
+inline constexpr Quality kQualities[] = {Quality::preview, Quality::draft, Quality::full};
+const char* nameOf(Quality quality);  ///< preview, draft, final
 
 struct BakeSettings {
   double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
@@ -21,6 +28,8 @@ struct BakeSettings {
   int testEyes = 8;             ///< per served region, 1..64
   double eyeRange = 0.15;       ///< metres: how far above and below eye height the eye may stand, 0..1e6
 
+  /// Those that a quality is baked with: a quarter or half of the resolution, fewer rays, layers and eyes.
+  BakeSettings at(Quality quality) const;
   Status check() const;
   void addTo(Hasher& hasher) const;
   bool operator==(const BakeSettings&) const = default;

@@ -79,6 +79,7 @@ std::vector<BakeRequest> bakeRequests(const BakePlan& plan, const BakeOptions& o
     std::erase_if(*request.cameras, [&](int camera) { return !shard.takes(first + std::size_t(camera)); });
     request.surfaceLight = options.light != "without" && shard.takes(light++);
     request.verify = options.verify;
+    request.coarseFirst = options.coarseFirst;
     request.memoryBytes = std::size_t(options.memoryMegabytes * 1e6);
     first += storey.cameras.size();
     requests.push_back(std::move(request));

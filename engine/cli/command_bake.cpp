@@ -77,6 +77,33 @@ Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const 
   return bakeReport(*baked, request, plan, plan.storeys[number]);
 }
 
+/// Captures alone, of a lower quality than the project's.
+Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& requests, Quality quality,
+                         const Common& common) {
+  if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
+  const auto runner = common.runner();
+  ProjectBakeReport all;
+  for (std::size_t s = 0; s < plan.open.size(); ++s) {
+    BakeRequest request = requests[s];
+    request.surfaceLight = false;
+    const auto baked =
+        bakeProject(atQuality(plan.open[s], quality), request, *runner, common.progress, common.stop);
+    if (!baked) return tl::unexpected(baked.error());
+    all.add(*baked);
+  }
+  Report report;
+  report.json = {{"quality", nameOf(quality)},
+                 {"baked", all.captures.baked},
+                 {"reused", all.captures.reused},
+                 {"seconds", all.captures.seconds},
+                 {"samples", toJson(all.captures.samples)},
+                 {"bytes", all.bytes}};
+  report.text = fmt::format("baked {} cameras as {} in {:.1f} s, {} were there already; {} in all\n",
+                            all.captures.baked, nameOf(quality), all.captures.seconds, all.captures.reused,
+                            bytesText(all.bytes));
+  return report;
+}
+
 /// Deletes what none of the storeys uses.
 Result<std::uint64_t> prune(std::span<const OpenProject> storeys) {
   const auto store = CaptureStore::open(captureFolderFor(storeys.front().file));
@@ -84,6 +111,8 @@ Result<std::uint64_t> prune(std::span<const OpenProject> storeys) {
   std::vector<ContentKey> used;
   for (const OpenProject& open : storeys) {
     std::ranges::copy(open.keys, std::back_inserter(used));
+    for (const auto& best : bestKeys(open, *store))
+      if (best) used.push_back(*best);
     used.push_back(open.surfaceLightKey);
     std::ranges::copy(simplifiedKeys(open), std::back_inserter(used));
   }
@@ -141,6 +170,9 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const auto states = stateOf(*plan);
   if (!states) return tl::unexpected(states.error());
   const bool idle = !options.verify && allDone(requests, *states);
+  const Quality quality =
+      *std::ranges::find_if(kQualities, [&](Quality q) { return nameOf(q) == options.quality; });
+  if (quality != Quality::full) return bakeLower(*plan, requests, quality, common);
   if (!idle || options.prune)
     if (Status open = openStoreysOf(*plan, common); !open) return tl::unexpected(open.error());
   const auto runner = common.runner();

@@ -79,7 +79,9 @@ struct BakeOptions {
   std::string light = "with";  ///< surface light: with, without or only
   bool dryRun = false;
   bool prune = false;
-  bool verify = false;  ///< read what is there to its end first
+  std::string quality = "final";
+  bool coarseFirst = false;  ///< a preview of everything before the first camera is final
+  bool verify = false;       ///< read what is there to its end first
   double memoryMegabytes = double(kBakeMemory) / 1e6;
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);

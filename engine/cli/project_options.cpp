@@ -124,6 +124,11 @@ void addBake(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
+  c->add_option("--quality", o.quality, "preview, draft or final: the walk shows the best of each camera")
+      ->check(CLI::IsMember({"preview", "draft", "final"}))
+      ->capture_default_str();
+  c->add_flag("--coarse-first", o.coarseFirst,
+              "A preview of every camera that has nothing yet, before the first is final");
   c->add_option("--memory", o.memoryMegabytes, "Megabytes of finished captures that may wait to be written")
       ->check(CLI::Range(1.0, 1e6));
   c->add_flag("--verify", o.verify, "Read what is baked to its end first, and bake again what is damaged");

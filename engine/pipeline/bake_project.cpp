@@ -145,6 +145,25 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
   return {};
 }
 
+/// What comes before the first camera is done: previews of those that have nothing yet, and the light.
+Result<ProjectBakeReport> bakeCoarse(const OpenProject& open, const BakeRequest& request,
+                                     const std::vector<int>& cameras, const CaptureStore& store,
+                                     TaskRunner& runner, const Progress& progress,
+                                     const std::stop_token& stop) {
+  BakeRequest part = request;
+  part.coarseFirst = part.surfaceLight = false;
+  part.cameras.emplace();
+  const auto best = bestKeys(open, store);
+  std::ranges::copy_if(cameras, std::back_inserter(*part.cameras),
+                       [&](int camera) { return !best[std::size_t(camera)]; });
+  if (const auto previews = bakeProject(atQuality(open, Quality::preview), part, runner, progress, stop);
+      !previews)
+    return previews;
+  part.surfaceLight = request.surfaceLight;
+  part.cameras->clear();
+  return bakeProject(open, part, runner, progress, stop);
+}
+
 }  // namespace
 
 void ProjectBakeReport::add(const ProjectBakeReport& other) {
@@ -163,6 +182,24 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   bytes += other.bytes;
   neededBytes += other.neededBytes;
   freeBytes = other.freeBytes;
+}
+
+OpenProject atQuality(const OpenProject& open, Quality quality) {
+  OpenProject lower = open;
+  lower.project.bake = open.project.bake.at(quality);
+  if (quality != Quality::full)
+    lower.keys = captureKeys(*open.scene, open.plan, lower.project.bake, *open.layout);
+  return lower;
+}
+
+std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const CaptureStore& store) {
+  std::vector<std::optional<ContentKey>> best(open.keys.size());
+  for (const Quality quality : kQualities) {
+    const std::vector<ContentKey> keys = atQuality(open, quality).keys;
+    for (std::size_t camera = 0; camera < keys.size(); ++camera)
+      if (store.has(keys[camera])) best[camera] = keys[camera];
+  }
+  return best;
 }
 
 std::vector<int> bakingOrder(const OpenProject& open) {
@@ -206,6 +243,14 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
+  ProjectBakeReport report;
+  if (request.coarseFirst) {
+    const auto coarse = bakeCoarse(open, request, cameras, *store, runner, progress, stop);
+    if (!coarse) return coarse;
+    report.surfaceLightBaked = coarse->surfaceLightBaked;
+    report.surfaceLightSeconds = coarse->surfaceLightSeconds;
+    report.damaged = coarse->damaged;
+  }
   const StoreyPlan plan = planStorey(open);
   StoreSink sink(*store, plan);
   if (request.verify) {
@@ -214,7 +259,6 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (request.surfaceLight) keys.push_back(open.surfaceLightKey);
     if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
   }
-  ProjectBakeReport report;
   if (Status room =
           checkRoom(open, plan, cameras, request.surfaceLight, sink, runner, report, progress, stop);
       !room)
@@ -225,7 +269,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
   report.captures = std::move(*captures);
 
   if (request.surfaceLight && sink.has(open.surfaceLightKey)) {
-    report.surfaceLightReused = true;
+    report.surfaceLightReused = !report.surfaceLightBaked;
   } else if (request.surfaceLight) {
     const Stopwatch watch;
     const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
@@ -240,7 +284,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     report.surfaceLightSeconds = watch.seconds();
   }
   if (Status looked = sink.status(); !looked) return tl::unexpected(looked.error());
-  report.damaged = sink.takeDamaged();
+  std::ranges::move(sink.takeDamaged(), std::back_inserter(report.damaged));
   for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
   return report;
 }

@@ -135,14 +135,17 @@ Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, T
     const auto store = CaptureStore::open(folder);
     if (!store) return tl::unexpected(store.error());
     const auto known = capturesOf(former, walk.exposure);
+    const auto best = bestKeys(open, *store);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (best[i]) loaded.keys[i] = *best[i];
     std::mutex mutex;
     double done = 0;
     runner.parallelFor(open.keys.size(), [&](std::size_t i) {
       if (stop.stop_requested()) return;
-      if (const auto found = known.find(open.keys[i]); found != known.end()) {
+      if (const auto found = known.find(loaded.keys[i]); found != known.end()) {
         walk.captures[i] = found->second;
-      } else if (store->has(open.keys[i])) {
-        const auto capture = store->get(open.keys[i]);
+      } else if (best[i]) {
+        const auto capture = store->get(*best[i]);
         if (capture)
           walk.captures[i] =
               std::make_shared<const DisplayCapture>(prepareForDisplay(*capture, walk.exposure));
@@ -174,6 +177,8 @@ Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, T
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "loading was cancelled", open.file.string());
   reportSimplified(loaded);
   loaded.missing = int(std::count(walk.captures.begin(), walk.captures.end(), nullptr));
+  for (std::size_t i = 0; i < walk.captures.size(); ++i)
+    loaded.coarse += walk.captures[i] && loaded.keys[i] != open.keys[i] ? 1 : 0;
   return loaded;
 }
 

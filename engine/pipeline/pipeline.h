@@ -90,6 +90,9 @@ struct BakeRequest {
   bool surfaceLight = true;
   std::size_t memoryBytes = kBakeMemory;  ///< of finished captures that wait to be written
   bool verify = false;  ///< reads what is there to its end first, instead of believing sizes and times
+  /// A preview of every camera that has nothing yet, then the surfaces' light, before the first camera is
+  /// done.
+  bool coarseFirst = false;
 };
 struct ProjectBakeReport {
   BakeReport captures;
@@ -107,7 +110,13 @@ struct ProjectBakeReport {
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress = {}, std::stop_token stop = {});
 
-/// Which cameras are on disk.
+/// The same project to be baked at a lower quality: its captures have keys of their own. Its surface light is
+/// that of the full quality.
+OpenProject atQuality(const OpenProject& open, Quality quality);
+/// Of each camera the key of the best capture that is on disk; nothing where there is none.
+std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const CaptureStore& store);
+
+/// Which cameras are on disk, at full quality.
 std::vector<bool> bakedCameras(const OpenProject& open);
 bool surfaceLightBaked(const OpenProject& open);
 
@@ -124,6 +133,7 @@ struct LoadedWalk {
   ContentKey surfaceLightKey;
   std::vector<std::string> warnings;
   int missing = 0;  ///< cameras not on disk
+  int coarse = 0;   ///< cameras of which only a preview or a draft is
   /// Regions whose local geometry is simplified, because it is above the project's budget.
   struct Simplified {
     int region = 0;

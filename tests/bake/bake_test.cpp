@@ -308,5 +308,30 @@ TEST(BakeSettings, RefusesEveryValueOutOfItsRange) {
   EXPECT_TRUE(refused([](auto& s) { s.maxLayers = 65; }));
 }
 
+TEST(BakeSettings, OfLowerQualityAreSoundAndNeverCostMore) {
+  BakeSettings finest, coarsest;
+  finest.samplesPerDegree = 64, finest.ambientRays = finest.shadowRays = 1024, finest.bounces = 8;
+  finest.maxLayers = finest.testEyes = 64, finest.surfaceTexel = kLargestBakeLength;
+  coarsest.samplesPerDegree = 0.5, coarsest.ambientRays = 0, coarsest.shadowRays = 1, coarsest.bounces = 1;
+  coarsest.maxLayers = coarsest.testEyes = 1, coarsest.surfaceTexel = kLeastBakeLength;
+  coarsest.pruning = false;
+  for (const BakeSettings& full : {BakeSettings{}, finest, coarsest}) {
+    EXPECT_EQ(full.at(Quality::full), full);
+    const BakeSettings draft = full.at(Quality::draft), preview = full.at(Quality::preview);
+    for (const auto& [lower, higher] : {std::pair{draft, full}, std::pair{preview, draft}}) {
+      EXPECT_TRUE(lower.check());
+      EXPECT_LE(lower.samplesPerDegree, higher.samplesPerDegree);
+      EXPECT_LE(lower.ambientRays, higher.ambientRays);
+      EXPECT_LE(lower.shadowRays, higher.shadowRays);
+      EXPECT_LE(lower.bounces, higher.bounces);
+      EXPECT_LE(lower.maxLayers, higher.maxLayers);
+      EXPECT_LE(lower.testEyes, higher.testEyes);
+      EXPECT_GE(lower.surfaceTexel, higher.surfaceTexel);
+      EXPECT_LE(lower.pruning, higher.pruning);
+    }
+  }
+  EXPECT_EQ(BakeSettings{}.at(Quality::preview).samplesPerDegree, 2);
+}
+
 }  // namespace
 }  // namespace acentric

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/pipeline/pipeline.h"
+#include "tests/bake/scene_builder.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+
+using test::SceneBuilder;
+
+class Qualities : public FolderTest {
+ protected:
+  OpenProject openSmallRoom() const {
+    SceneBuilder builder;
+    builder.box(builder.material(test::matte()), {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5f}, 50);
+    OpenProject open;
+    open.file = folder_ / "room.acentric.json";
+    open.project.layout().cellSize = 1.2;
+    open.project.layout().nearBand = 0.6;
+    open.project.layout().outline.loops = {{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+    open.project.bake.samplesPerDegree = 2;
+    open.project.bake.ambientRays = 0;
+    open.rays = builder.rays();
+    open.scene = open.rays->sharedScene();
+    open.plan = open.rays->plan();
+    open.layout = std::make_shared<const Layout>(buildLayout(open.project.layout()).value());
+    open.keys = captureKeys(*open.scene, open.plan, open.project.bake, *open.layout);
+    return open;
+  }
+  static ProjectBakeReport baked(const OpenProject& open, const BakeRequest& request) {
+    TaskRunner runner(1);
+    auto report = bakeProject(open, request, runner);
+    EXPECT_TRUE(report) << (report ? "" : report.error().describe());
+    return report ? *report : ProjectBakeReport{};
+  }
+  static LoadedWalk loaded(const OpenProject& open) {
+    TaskRunner runner(1);
+    auto walk = loadWalk(open, nullptr, runner);
+    EXPECT_TRUE(walk);
+    return walk ? std::move(*walk) : LoadedWalk{};
+  }
+};
+
+TEST_F(Qualities, TheWalkShowsTheBestOfEachCamera) {
+  const OpenProject open = openSmallRoom();
+  BakeRequest request;
+  request.surfaceLight = false;
+  request.quality = Quality::preview;
+  const int cameras = int(open.keys.size());
+  ASSERT_GT(cameras, 4);
+  EXPECT_EQ(baked(open, request).captures.baked, cameras);
+  LoadedWalk walk = loaded(open);
+  EXPECT_EQ(walk.missing, 0);
+  EXPECT_EQ(walk.coarse, cameras);
+  EXPECT_EQ(walk.walk.captures[0]->camera.columns, 30) << "a quarter of the resolution";
+  EXPECT_EQ(std::ranges::count(bakedCameras(open), true), 0) << "a preview is not the bake";
+
+  request.quality = Quality::full;
+  request.cameras = std::vector{2};
+  baked(open, request);
+  walk = loaded(open);
+  EXPECT_EQ(walk.coarse, cameras - 1);
+  EXPECT_EQ(walk.walk.captures[2]->camera.columns, 120);
+  EXPECT_EQ(walk.walk.captures[0]->camera.columns, 30);
+  EXPECT_EQ(walk.keys[2], open.keys[2]);
+
+  // A draft replaces the preview, but not what is final.
+  request.quality = Quality::draft;
+  request.cameras.reset();
+  baked(open, request);
+  walk = loaded(open);
+  EXPECT_EQ(walk.walk.captures[2]->camera.columns, 120);
+  EXPECT_EQ(walk.walk.captures[0]->camera.columns, 60);
+}
+
+TEST_F(Qualities, CoarseFirstMakesPreviewsOnlyOfWhatHasNothingYet) {
+  const OpenProject open = openSmallRoom();
+  BakeRequest request;
+  request.surfaceLight = false;
+  request.coarseFirst = true;
+  std::stop_source stop;
+  TaskRunner runner(1);
+  // Stopped at the first camera of the final pass: by then every camera has a preview.
+  int started = 0;
+  const auto stopped = bakeProject(
+      open, request, runner,
+      [&](const ProgressState&) {
+        if (++started > int(open.keys.size()) + 1) stop.request_stop();
+      },
+      stop.get_token());
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
+  EXPECT_EQ(loaded(open).missing, 0);
+  EXPECT_GT(loaded(open).coarse, 0);
+  const ProjectBakeReport rest = baked(open, request);
+  EXPECT_EQ(rest.captures.baked + rest.captures.reused, int(open.keys.size()));
+  EXPECT_EQ(loaded(open).coarse, 0);
+  EXPECT_EQ(baked(open, request).captures.baked, 0);
+}
+
+}  // namespace
+}  // namespace acentric
