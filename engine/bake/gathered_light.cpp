@@ -112,24 +112,30 @@ GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings
   for (int n = 0; n < settings_.bounces; ++n) cellValues_.emplace_back(cells_.first.back());
 }
 
+/// A place of the hit's triangle. Its normal is the corners': that of a hit may differ in its last bit from
+/// ray to ray, and who comes first to a place decides what all others read there.
+Hit GatheredLight::placeOn(const Hit& hit, const glm::vec2& barycentric) const {
+  return {0, hit.mesh, hit.triangle, barycentric,
+          triangleNormal(scene_->scene().meshes[hit.mesh], hit.triangle)};
+}
+
 GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& rays) const {
   const std::uint32_t number = firstTriangles_[hit.mesh] + hit.triangle;
   const std::uint32_t r = places_.resolution[number];
   const std::uint32_t first = places_.first[number] + (back ? surfaceSampleCount(r) : 0);
   const SurfaceCell cell = surfaceCellAt(r, hit.barycentric);
-  const glm::vec3 side = back ? -hit.geometricNormal : hit.geometricNormal;
   glm::vec4 sum(0);
   for (int c = 0; c < 3; ++c) {
     if (cell.weight[c] <= 0) continue;
     const glm::uvec2& at = cell.sample[c];
     const std::size_t index = first + surfaceSampleIndex(r, at.x, at.y);
-    sum +=
-        cell.weight[c] * unpackColour(values_.at(index, rays, [&](RayCounts& own) {
-          const Hit place{0, hit.mesh, hit.triangle, surfaceSamplePlace(r, at.x, at.y), hit.geometricNormal};
-          const Surface surface = surfaceAt<false>(scene_->scene(), place, side, {}, false);
-          const Gathered g = gather(surface, number, std::uint32_t(index), own, rays);
-          return packColour({g.radiance, 0.5f + 0.5f * g.open});
-        }));
+    sum += cell.weight[c] * unpackColour(values_.at(index, rays, [&](RayCounts& own) {
+             const Hit place = placeOn(hit, surfaceSamplePlace(r, at.x, at.y));
+             const glm::vec3 side = back ? -place.geometricNormal : place.geometricNormal;
+             const Surface surface = surfaceAt<false>(scene_->scene(), place, side, {}, false);
+             const Gathered g = gather(surface, number, std::uint32_t(index), own, rays);
+             return packColour({g.radiance, 0.5f + 0.5f * g.open});
+           }));
   }
   return {glm::vec3(sum), std::clamp(2 * sum.a - 1, 0.0f, 1.0f)};
 }
@@ -190,9 +196,9 @@ glm::vec3 GatheredLight::cellLight(const Hit& hit, bool back, int bounces, RayCo
   const Cell cell = cellAt(r, hit.barycentric);
   const std::size_t index = cells_.first[number] + (back ? cellCount(r) : 0) + cell.index;
   return glm::vec3(unpackColour(cellValues_[std::size_t(bounces)].at(index, rays, [&](RayCounts& own) {
-    const Hit middle{0, hit.mesh, hit.triangle, cell.middle, hit.geometricNormal};
-    const Surface surface = surfaceAt<false>(scene_->scene(), middle,
-                                             back ? -hit.geometricNormal : hit.geometricNormal, {}, false);
+    const Hit middle = placeOn(hit, cell.middle);
+    const Surface surface = surfaceAt<false>(
+        scene_->scene(), middle, back ? -middle.geometricNormal : middle.geometricNormal, {}, false);
     glm::vec3 light = lights_.at(surface, own) * std::numbers::inv_pi_v<float>;
     if (bounces > 0)
       light += gatherBounced(surface, bounces, kCellRays, pointsFor(number, std::uint32_t(index)), own, rays)

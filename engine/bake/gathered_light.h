@@ -83,6 +83,7 @@ class GatheredLight {
   double texel() const { return texel_; }
 
  private:
+  Hit placeOn(const Hit& hit, const glm::vec2& barycentric) const;
   /// One grid per triangle and side: the finest reads between corners of cells, bounces read whole cells.
   struct Grids {
     std::vector<std::uint32_t> first;  ///< by scene triangle, + 1 sentinel

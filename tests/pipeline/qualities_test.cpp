@@ -48,17 +48,15 @@ TEST_F(Qualities, TheWalkShowsTheBestOfEachCamera) {
   const OpenProject open = openSmallRoom();
   BakeRequest request;
   request.surfaceLight = false;
-  request.quality = Quality::preview;
   const int cameras = int(open.keys.size());
   ASSERT_GT(cameras, 4);
-  EXPECT_EQ(baked(open, request).captures.baked, cameras);
+  EXPECT_EQ(baked(atQuality(open, Quality::preview), request).captures.baked, cameras);
   LoadedWalk walk = loaded(open);
   EXPECT_EQ(walk.missing, 0);
   EXPECT_EQ(walk.coarse, cameras);
   EXPECT_EQ(walk.walk.captures[0]->camera.columns, 30) << "a quarter of the resolution";
   EXPECT_EQ(std::ranges::count(bakedCameras(open), true), 0) << "a preview is not the bake";
 
-  request.quality = Quality::full;
   request.cameras = std::vector{2};
   baked(open, request);
   walk = loaded(open);
@@ -68,9 +66,8 @@ TEST_F(Qualities, TheWalkShowsTheBestOfEachCamera) {
   EXPECT_EQ(walk.keys[2], open.keys[2]);
 
   // A draft replaces the preview, but not what is final.
-  request.quality = Quality::draft;
   request.cameras.reset();
-  baked(open, request);
+  baked(atQuality(open, Quality::draft), request);
   walk = loaded(open);
   EXPECT_EQ(walk.walk.captures[2]->camera.columns, 120);
   EXPECT_EQ(walk.walk.captures[0]->camera.columns, 60);
@@ -88,7 +85,7 @@ TEST_F(Qualities, CoarseFirstMakesPreviewsOnlyOfWhatHasNothingYet) {
   const auto stopped = bakeProject(
       open, request, runner,
       [&](const ProgressState&) {
-        if (++started > int(open.keys.size()) + 1) stop.request_stop();
+        if (++started > int(open.keys.size()) + 5) stop.request_stop();
       },
       stop.get_token());
   ASSERT_FALSE(stopped);
