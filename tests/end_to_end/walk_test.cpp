@@ -58,7 +58,8 @@ TEST_F(WalkTest, RendersWithEveryRendererAndTheyAgree) {
     EXPECT_LT(report["holeShare"]["median"].get<double>(), 0.12) << renderer;
   }
   EXPECT_EQ(psnr["list"], psnr["scalar"]);
-  EXPECT_NEAR(psnr["list"], psnr["zbuffer"], 0.5);
+  // Splats of what is kept behind an edge lap over it by a pixel where no depth is compared.
+  EXPECT_NEAR(psnr["list"], psnr["zbuffer"], 0.8);
   EXPECT_NEAR(psnr["list"], psnr["gl"], 0.7);
 }
 
