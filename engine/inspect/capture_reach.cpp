@@ -61,8 +61,8 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   return !way.exits.empty();
 }
 
-/// Are the layers of the bake's march used up before it comes to `distance` metres along the ray? Of the roles
-/// that need the place, the one left last has the fewest surfaces in front of it.
+/// Are the layers of the bake's march used up before it comes to `distance` metres along the ray? Of the
+/// roles that need the place, the one left last has the fewest surfaces in front of it.
 bool CaptureReach::endsBefore(const Way& way, double distance) const {
   double from = way.exits.back() / way.flat;
   for (int layers = 0;;) {

@@ -3,9 +3,10 @@
 /// camera's rays the opaque surfaces beyond the served regions, within the camera's elevations, as many as
 /// the settings allow.
 ///
-/// It is asked about points that some eye of a served region sees. Three things are not modelled: that samples
-/// lie at pixel centres (sampling_rate.h judges how dense they are), that surfaces which no region sees use up
-/// no layers (so that it foretells too little rather than too much), and that the bake's test eyes are few.
+/// It is asked about points that some eye of a served region sees. Three things are not modelled: that
+/// samples lie at pixel centres (sampling_rate.h judges how dense they are), that surfaces which no region
+/// sees use up no layers (so that it foretells too little rather than too much), and that the bake's test
+/// eyes are few.
 
 #include <span>
 #include <vector>

@@ -81,7 +81,7 @@ struct Figure {
 struct BakeEstimate {
   int cameras = 0;
   double pixels = 0;
-  Figure samples, rays;
+  Figure samples, rays;  ///< rays without those from the regions' eyes
   Figure captureBytes;
   Figure traceSeconds, writeSeconds;  ///< they overlap ...
   Figure captureSeconds;              ///< ... in this, with `sightSeconds`

@@ -253,7 +253,8 @@ class ProjectProber final : public BakeProber {
     CaptureProbe& probe = probes_.back();
     probe.pixels += double(columns.columns) * columns.rows;
     probe.samples += double(capture->sampleCount());
-    probe.rays += double(counts.rays.total());
+    // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
+    probe.rays += double(counts.rays.total() - counts.rays.visibility);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
     return writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(*capture));
   }

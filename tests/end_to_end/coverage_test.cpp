@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "tests/end_to_end/sample_project.h"
 
 namespace acentric::test {
@@ -53,10 +56,15 @@ TEST_F(CoverageTest, OfTheSurfacesAddsUp) {
 }
 
 TEST_F(CoverageTest, ForetellsTheHolesOfRenderedFrames) {
-  const auto baked = acentric({"bake", project->file(), "--json"});
+  // With one layer, so that there are holes to foretell.
+  Json shallow = Json::parse(std::ifstream(project->file()));
+  shallow["bake"]["maxLayers"] = 1;
+  const auto file = std::filesystem::path(project->file()).replace_filename("shallow.acentric.json").string();
+  std::ofstream(file) << shallow;
+  const auto baked = acentric({"bake", file, "--json"});
   ASSERT_EQ(baked.exitCode, 0) << baked.errors;
-  const auto run = acentric({"coverage", project->file(), "--correlate", "--frames", "12", "--size", "160x90",
-                             "--csv", path("holes.csv"), "--json"});
+  const auto run = acentric({"coverage", file, "--correlate", "--frames", "12", "--size", "160x90", "--csv",
+                             path("holes.csv"), "--json"});
   ASSERT_EQ(run.exitCode, 0) << run.errors;
   const Json report = Json::parse(run.output);
   EXPECT_EQ(report["frames"].size(), 12u);

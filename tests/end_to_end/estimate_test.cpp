@@ -26,12 +26,13 @@ TEST(EstimateTest, ForetellsSamplesAndBytesWithinAQuarter) {
   EXPECT_EQ(estimate["cameras"].get<int>(), bake["baked"].get<int>());
   EXPECT_EQ(estimate["missingCameras"].get<int>(), bake["baked"].get<int>());
   const auto ratio = [](const Json& figure, double truth) { return figure["value"].get<double>() / truth; };
-  EXPECT_NEAR(ratio(estimate["samples"], bake["samples"].get<double>()), 1, 0.25);
+  EXPECT_NEAR(ratio(estimate["samples"], bake["samples"]["kept"].get<double>()), 1, 0.25);
   EXPECT_NEAR(ratio(estimate["captureBytes"], bake["bytes"].get<double>()), 1, 0.25);
   ASSERT_GT(lightBytes, 0u);
   EXPECT_NEAR(ratio(estimate["surfaceLight"]["bytes"], double(lightBytes)), 1, 0.25);
   double rays = 0;
-  for (const auto& [purpose, count] : bake["rays"].items()) rays += count.get<double>();
+  for (const auto& [purpose, count] : bake["rays"].items())
+    if (purpose != "visibility") rays += count.get<double>();  // shared between cameras: estimated as time
   EXPECT_NEAR(ratio(estimate["rays"], rays), 1, 0.25);
   // How long it takes depends on what else the machine does meanwhile: told, not judged.
   std::printf("[ bench    ] captures: %.2f of the time they took; surface light: %.2f\n",

@@ -54,7 +54,7 @@ TEST_F(WalkTest, RendersWithEveryRendererAndTheyAgree) {
     psnr[renderer] = report["psnr"]["median"].get<double>();
     EXPECT_GT(psnr[renderer], 15)
         << renderer;  // one sample per degree is coarse; a wrong picture has far less
-    // Large cells among columns, first surfaces only: some holes are true to the method.
+    // Large cells among columns, one sample per degree: some holes stay.
     EXPECT_LT(report["holeShare"]["median"].get<double>(), 0.12) << renderer;
   }
   EXPECT_EQ(psnr["list"], psnr["scalar"]);
