@@ -33,18 +33,9 @@ Status BackgroundPass::draw(const WalkScene& scene, const PerspectiveView& view,
   glUniform1f(program.location("exposure"), scene.exposure);
   glUniform1ui(program.location("sourceOfBackground"), kSourceBackground);
 
-  target.bindForDrawing();
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_ALWAYS);
-  glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_ALWAYS, 1, 0xff);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glDisable(GL_BLEND);
+  target.beginPainting(true);
   drawWholePicture(program, noAttributes_, {});
-  glDepthFunc(GL_GREATER);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_STENCIL_TEST);
+  target.endPainting();
   return checkGl("drawing the background");
 }
 

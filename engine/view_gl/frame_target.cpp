@@ -88,6 +88,23 @@ void FrameTarget::bindForDrawing() const {
   glViewport(0, 0, width_, height_);
 }
 
+void FrameTarget::beginPainting(bool keepDepth) const {
+  bindForDrawing();
+  keepDepth ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 1, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_BLEND);
+}
+
+void FrameTarget::endPainting() const {
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
+}
+
 Status FrameTarget::beginClearLayer() {
   if (!clear_) {
     glActiveTexture(GL_TEXTURE0);

@@ -17,6 +17,10 @@ class FrameTarget {
   /// Binds for drawing into colour and source, and clears both (holes) and the depth.
   void begin() const;
   void bindForDrawing() const;
+  /// Binds for drawing that covers what is there, whatever lies nearer: colours go in as the codes they are,
+  /// the stencil marks what is drawn, and the depth is kept if asked for. Then back to the state before.
+  void beginPainting(bool keepDepth) const;
+  void endPainting() const;
   /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
   Status beginClearLayer();
   /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.

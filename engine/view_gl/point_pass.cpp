@@ -138,24 +138,13 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
     if (!buffers) return tl::unexpected(buffers.error());
     // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
     // holes.
-    const auto turn = [](GLenum what, bool on) { on ? glEnable(what) : glDisable(what); };
-    turn(GL_DEPTH_TEST, anyClear || settings.fillHoles);
-    glDepthFunc(GL_ALWAYS);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, 1, 0xff);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    // Samples go into the picture as the codes they are.
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    glDisable(GL_BLEND);
-    target.bindForDrawing();
+    target.beginPainting(anyClear || settings.fillHoles);
     Piece piece{planned, *capture, **buffers, view, settings};
     images.insert(planned.camera);
     if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
   }
   stats.images = int(images.size());
-  glDepthFunc(GL_GREATER);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_STENCIL_TEST);
+  target.endPainting();
   return {};
 }
 
