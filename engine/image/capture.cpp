@@ -30,6 +30,55 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorKind::malformed, std::move(message), "capture");
 }
 
+/// Sizes of the arrays and column offsets. `noun`: what its samples are.
+Status checkArrays(const CaptureSamples& s, std::size_t columns, bool mirrors, const char* noun) {
+  if (s.columnStart.size() != columns + 1)
+    return malformed(
+        fmt::format("has {} column offsets of {}s, needs {}", s.columnStart.size(), noun, columns + 1));
+  if (s.row.size() > kMaxCaptureSamples)
+    return fail(ErrorKind::tooLarge, fmt::format("has {} {}s, the limit is 2^31", s.row.size(), noun),
+                "capture");
+  if (s.inverseDistance.size() != s.row.size() || s.colour.size() != s.row.size() ||
+      s.roles.size() != s.row.size())
+    return malformed(
+        fmt::format("{}s have {} rows, {} distances, {} colours and {} roles: they must be equally many",
+                    noun, s.row.size(), s.inverseDistance.size(), s.colour.size(), s.roles.size()));
+  if (s.mirror.size() != (mirrors ? s.row.size() : 0))
+    return malformed(
+        fmt::format("{}s name {} mirrors, {} are needed", noun, s.mirror.size(), mirrors ? s.row.size() : 0));
+  if (s.columnStart.front() != 0 || s.columnStart.back() != s.row.size())
+    return malformed(fmt::format("column offsets do not span the {}s", noun));
+  if (!std::is_sorted(s.columnStart.begin(), s.columnStart.end()))
+    return malformed(fmt::format("column offsets of {}s do not rise", noun));
+  return {};
+}
+
+Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool reflections, const char* noun) {
+  for (std::size_t column = 0; column + 1 < s.columnStart.size(); ++column) {
+    const std::size_t first = s.columnStart[column];
+    for (std::size_t i = first; i < s.columnStart[column + 1]; ++i) {
+      const auto bad = [&](const char* what) {
+        return malformed(fmt::format("{} {} (column {}): {}", noun, i, column, what));
+      };
+      if (s.row[i] >= camera.rows) return bad("row lies below the image");
+      if (!(s.inverseDistance[i] >= 0) || !std::isfinite(s.inverseDistance[i]))
+        return bad("inverse distance is not a finite number >= 0");
+      if ((std::bit_cast<std::uint32_t>(s.inverseDistance[i]) & 0xffu) != 0)
+        return bad("inverse distance has more than 16 significant bits");
+      if (s.roles[i] == 0) return bad("no role needs it");
+      if (!isStorable(s.colour[i])) return bad("radiance must be finite and >= 0, alpha within [0,1]");
+      if (!s.mirror.empty() && s.mirror[i] != 0 && s.colour[i].a != kHalfOne)
+        return bad("mirrors and what they show must be opaque");
+      if (reflections && s.mirror[i] == 0) return bad("no mirror shows it");
+      if (i == first) continue;
+      if (s.row[i] < s.row[i - 1]) return bad("rows are not sorted");
+      if (s.row[i] == s.row[i - 1] && s.inverseDistance[i] > s.inverseDistance[i - 1])
+        return bad("layers of a pixel are not sorted nearest first");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 HalfColour packColour(const glm::vec4& linearRgba) {
@@ -55,7 +104,7 @@ float storedInverseDistance(double inverseDistance, double step) {
   return float(std::max(stored, step));
 }
 
-int Capture::maxLayers() const {
+int CaptureSamples::maxLayers() const {
   int most = 0;
   for (std::size_t column = 0; column + 1 < columnStart.size(); ++column) {
     int layers = 0;
@@ -70,41 +119,15 @@ int Capture::maxLayers() const {
 
 Status Capture::check() const {
   if (auto sound = camera.check(); !sound) return sound;
-  const std::size_t columns = static_cast<std::size_t>(camera.columns);
-  if (columnStart.size() != columns + 1)
-    return malformed(fmt::format("has {} column offsets, needs {}", columnStart.size(), columns + 1));
-  if (row.size() > kMaxCaptureSamples)
-    return fail(ErrorKind::tooLarge, fmt::format("has {} samples, the limit is 2^31", row.size()), "capture");
-  if (inverseDistance.size() != row.size() || colour.size() != row.size() || roles.size() != row.size())
-    return malformed(
-        fmt::format("has {} rows, {} distances, {} colours and {} roles: they must be equally many",
-                    row.size(), inverseDistance.size(), colour.size(), roles.size()));
   if (!(distanceStep >= 0) || !std::isfinite(distanceStep))
     return malformed("the step of its distances is not a finite number >= 0");
-  if (columnStart.front() != 0 || columnStart.back() != row.size())
-    return malformed("column offsets do not span the samples");
-  if (!std::is_sorted(columnStart.begin(), columnStart.end())) return malformed("column offsets do not rise");
-
-  for (std::size_t column = 0; column < columns; ++column) {
-    const std::size_t first = columnStart[column];
-    for (std::size_t i = first; i < columnStart[column + 1]; ++i) {
-      const auto bad = [&](const char* what) {
-        return malformed(fmt::format("sample {} (column {}): {}", i, column, what));
-      };
-      if (row[i] >= camera.rows) return bad("row lies below the image");
-      if (!(inverseDistance[i] >= 0) || !std::isfinite(inverseDistance[i]))
-        return bad("inverse distance is not a finite number >= 0");
-      if ((std::bit_cast<std::uint32_t>(inverseDistance[i]) & 0xffu) != 0)
-        return bad("inverse distance has more than 16 significant bits");
-      if (roles[i] == 0) return bad("no role needs it");
-      if (!isStorable(colour[i])) return bad("radiance must be finite and >= 0, alpha within [0,1]");
-      if (i == first) continue;
-      if (row[i] < row[i - 1]) return bad("rows are not sorted");
-      if (row[i] == row[i - 1] && inverseDistance[i] > inverseDistance[i - 1])
-        return bad("layers of a pixel are not sorted nearest first");
-    }
-  }
-  return {};
+  const auto columns = static_cast<std::size_t>(camera.columns);
+  if (auto sound = checkArrays(*this, columns, hasReflections(), "sample"); !sound) return sound;
+  if (auto sound = checkSamples(*this, camera, false, "sample"); !sound) return sound;
+  if (reflections == CaptureSamples{}) return {};
+  if (!hasReflections()) return malformed("its list of reflections is there, and empty");
+  if (auto sound = checkArrays(reflections, columns, true, "reflection"); !sound) return sound;
+  return checkSamples(reflections, camera, true, "reflection");
 }
 
 }  // namespace acentric

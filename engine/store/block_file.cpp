@@ -13,7 +13,8 @@ namespace acentric {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
-constexpr std::uint32_t kVersion = 2;
+/// Of each kind of file its own: one that changes leaves the others readable.
+constexpr std::uint32_t versionOf(BlockFileKind kind) { return kind == BlockFileKind::capture ? 3 : 2; }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;
 constexpr std::size_t kTableEntryBytes = 8;
@@ -71,7 +72,7 @@ Status BlockFileWriter::write(const std::filesystem::path& path) const {
   std::vector<std::byte> out;
   out.reserve(fileBytes);
   for (char letter : kMagic) put(out, letter);
-  put(out, kVersion);
+  put(out, versionOf(kind_));
   put(out, static_cast<std::uint32_t>(kind_));
   put(out, key_.high);
   put(out, key_.low);
@@ -113,12 +114,13 @@ Status BlockFileReader::parse(BlockFileKind kind) {
   const ContentKey stored{take<std::uint64_t>(bytes_, checked), take<std::uint64_t>(bytes_, checked + 8)};
   if (Hasher().bytes(bytes_.data(), checked).finish() != stored)
     return malformed("is damaged: its checksum differs");
-  if (const auto version = take<std::uint32_t>(bytes_, 8); version != kVersion)
-    return fail(ErrorKind::unsupported,
-                fmt::format("has format version {}, this program reads {}; bake it anew", version, kVersion),
-                name_);
   if (take<std::uint32_t>(bytes_, 12) != static_cast<std::uint32_t>(kind))
     return malformed("holds another kind of data than its name says");
+  if (const auto version = take<std::uint32_t>(bytes_, 8); version != versionOf(kind))
+    return fail(
+        ErrorKind::unsupported,
+        fmt::format("has format version {}, this program reads {}; bake it anew", version, versionOf(kind)),
+        name_);
   key_ = {take<std::uint64_t>(bytes_, 16), take<std::uint64_t>(bytes_, 24)};
   rawBytes_ = take<std::uint64_t>(bytes_, 40);
   const std::uint64_t descriptionBytes = take<std::uint32_t>(bytes_, 48);

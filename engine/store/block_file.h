@@ -71,6 +71,8 @@ class BlockFileReader {
     takeDescription(&value, sizeof value);
     return value;
   }
+  /// Is there more of the description?
+  bool describesMore() const { return descriptionSound_ && descriptionAt_ < descriptionEnd_; }
   bool describedAll() const { return descriptionSound_ && descriptionAt_ == descriptionEnd_; }
 
   /// Unpacks the next block into `raw`, whose size must be the block's.

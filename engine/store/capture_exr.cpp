@@ -32,9 +32,14 @@ ContentKey checksumOf(const ContentKey& key, const Capture& capture,
   hasher.value(key.high).value(key.low);
   capture.camera.addTo(hasher);
   hasher.value(capture.distanceStep);
-  hasher.array(std::span(capture.columnStart)).array(std::span(capture.row));
-  hasher.array(std::span(capture.inverseDistance)).array(std::span(premultipliedColours));
-  hasher.array(std::span(capture.roles));
+  const auto add = [&](const CaptureSamples& samples, const std::vector<HalfColour>& colours) {
+    hasher.array(std::span(samples.columnStart)).array(std::span(samples.row));
+    hasher.array(std::span(samples.inverseDistance)).array(std::span(colours));
+    hasher.array(std::span(samples.roles));
+    if (capture.hasReflections()) hasher.array(std::span(samples.mirror));
+  };
+  add(capture, premultipliedColours);
+  if (capture.hasReflections()) add(capture.reflections, capture.reflections.colour);
   return hasher.finish();
 }
 

@@ -10,12 +10,17 @@
 
 namespace acentric {
 
-inline constexpr int kCaptureExrVersion = 2;
+inline constexpr int kCaptureExrVersion = 3;
 /// Value of channel W where a flat file's pixel has no sample.
 inline constexpr float kNoSample = -1.0f;
 
 /// Who needs a sample: bit r for role r.
 inline constexpr char kRolesChannel[] = "roles";
+/// Which mirror a surface belongs to, or shows what a reflection is of. Only in files with reflections.
+inline constexpr char kMirrorChannel[] = "mirror";
+/// Parts of a file with reflections; one without has a single part, without a name.
+inline constexpr char kSurfacesPart[] = "surfaces";
+inline constexpr char kReflectionsPart[] = "reflections";
 inline constexpr char kAttributeVersion[] = "acentricVersion";
 inline constexpr char kAttributeKey[] = "acentricKey";
 inline constexpr char kAttributeChecksum[] = "acentricChecksum";
@@ -32,6 +37,7 @@ HalfColour premultiplied(const HalfColour& straight);
 HalfColour straightened(const HalfColour& premultiplied);
 
 /// Guards what the compression's own check does not: attributes, sample counts, the order of samples.
+/// Reflections are opaque: their colours are the same premultiplied.
 ContentKey checksumOf(const ContentKey& key, const Capture& capture,
                       const std::vector<HalfColour>& premultipliedColours);
 

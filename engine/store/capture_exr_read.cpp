@@ -90,127 +90,144 @@ std::uint8_t rolesOf(std::uint32_t stored) {
   return static_cast<std::uint8_t>(stored);
 }
 
+std::uint8_t mirrorOf(std::uint32_t stored) {
+  if (stored > 0xff) refuse(fmt::format("a sample names a mirror that no capture has ({})", stored));
+  return static_cast<std::uint8_t>(stored);
+}
+
+/// A part of the file and where its samples go.
+struct Part {
+  Imf::MultiPartInputFile& file;
+  int number;
+  std::uint64_t fileBytes;
+  const ColumnCamera& camera;
+  bool mirrors;  ///< has a channel of them
+  CaptureSamples& samples;
+
+  std::size_t columns() const { return static_cast<std::size_t>(camera.columns); }
+  std::size_t rows() const { return static_cast<std::size_t>(camera.rows); }
+};
+
 /// Colours stay premultiplied, as they are in the file.
-void readFlat(Imf::MultiPartInputFile& file, Capture& capture) {
+void readFlat(const Part& from) {
   struct Pixel {
     HalfColour colour;
     float w;
     std::uint32_t roles;
+    std::uint32_t mirror;
   };
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
-  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+  const std::size_t columns = from.columns(), rows = from.rows();
   std::vector<Pixel> pixels(columns * rows);  // column after column
-  const std::size_t columnStride = rows * sizeof(Pixel);
   Imf::FrameBuffer buffer;
+  const auto slice = [&](const char* name, Imf::PixelType type, auto& value) {
+    buffer.insert(name, Imf::Slice(type, slicePointer(value), rows * sizeof(Pixel), sizeof(Pixel)));
+  };
   for (int channel = 0; channel < 4; ++channel)
-    buffer.insert(
-        kColourChannels[static_cast<std::size_t>(channel)],
-        Imf::Slice(Imf::HALF, slicePointer(pixels[0].colour[channel]), columnStride, sizeof(Pixel)));
-  buffer.insert("W", Imf::Slice(Imf::FLOAT, slicePointer(pixels[0].w), columnStride, sizeof(Pixel)));
-  buffer.insert(kRolesChannel,
-                Imf::Slice(Imf::UINT, slicePointer(pixels[0].roles), columnStride, sizeof(Pixel)));
-  Imf::InputPart part(file, 0);
+    slice(kColourChannels[static_cast<std::size_t>(channel)], Imf::HALF, pixels[0].colour[channel]);
+  slice("W", Imf::FLOAT, pixels[0].w);
+  slice(kRolesChannel, Imf::UINT, pixels[0].roles);
+  if (from.mirrors) slice(kMirrorChannel, Imf::UINT, pixels[0].mirror);
+  Imf::InputPart part(from.file, from.number);
   part.setFrameBuffer(buffer);
-  part.readPixels(0, capture.camera.rows - 1);
+  part.readPixels(0, from.camera.rows - 1);
 
+  CaptureSamples& out = from.samples;
   std::size_t samples = 0;
   for (const Pixel& pixel : pixels) samples += pixel.w == kNoSample ? 0 : 1;
-  capture.row.reserve(samples);
-  capture.inverseDistance.reserve(samples);
-  capture.colour.reserve(samples);
-  capture.roles.reserve(samples);
+  out.row.reserve(samples);
+  out.inverseDistance.reserve(samples);
+  out.colour.reserve(samples);
+  out.roles.reserve(samples);
+  out.mirror.reserve(from.mirrors ? samples : 0);
   for (std::size_t column = 0; column < columns; ++column) {
     const Pixel* pixel = &pixels[(columns - 1 - column) * rows];
     for (std::size_t row = 0; row < rows; ++row, ++pixel) {
       if (pixel->w == kNoSample) continue;
-      capture.row.push_back(static_cast<std::uint16_t>(row));
-      capture.inverseDistance.push_back(pixel->w);
-      capture.colour.push_back(pixel->colour);
-      capture.roles.push_back(rolesOf(pixel->roles));
+      out.row.push_back(static_cast<std::uint16_t>(row));
+      out.inverseDistance.push_back(pixel->w);
+      out.colour.push_back(pixel->colour);
+      out.roles.push_back(rolesOf(pixel->roles));
+      if (from.mirrors) out.mirror.push_back(mirrorOf(pixel->mirror));
     }
-    capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+    out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
   }
 }
 
-/// Turns the counts of a file's pixels (column after column) into the capture's rows and column starts, and
-/// each count into the number of the pixel's first sample.
-void placeSamples(std::vector<unsigned int>& counts, Capture& capture, std::uint64_t fileBytes) {
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
-  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+/// Turns the counts of a part's pixels (column after column) into rows and column starts, and each count into
+/// the number of the pixel's first sample.
+void placeSamples(std::vector<unsigned int>& counts, const Part& from) {
+  const std::size_t columns = from.columns(), rows = from.rows();
   std::uint64_t total = 0;
   for (unsigned int count : counts) total += count;
   constexpr std::uint64_t bytesPerSample = 16;  // R, G, B, A as half, W as float, roles, before compression
-  if (total > kMaxCaptureSamples || bytesPerSample * total > kMaxDeflateRatio * fileBytes)
+  if (total > kMaxCaptureSamples || bytesPerSample * total > kMaxDeflateRatio * from.fileBytes)
     refuse("claims more samples than a file of its size holds");
-  capture.row.reserve(total);
+  CaptureSamples& out = from.samples;
+  out.row.reserve(total);
   for (std::size_t column = 0; column < columns; ++column) {
     unsigned int* count = &counts[(columns - 1 - column) * rows];
     for (std::size_t row = 0; row < rows; ++row, ++count) {
-      const unsigned int first = static_cast<unsigned int>(capture.row.size());
-      capture.row.insert(capture.row.end(), *count, static_cast<std::uint16_t>(row));
+      const unsigned int first = static_cast<unsigned int>(out.row.size());
+      out.row.insert(out.row.end(), *count, static_cast<std::uint16_t>(row));
       *count = first;
     }
-    capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+    out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
   }
-  capture.inverseDistance.resize(total);
-  capture.colour.resize(total);
+  out.inverseDistance.resize(total);
+  out.colour.resize(total);
 }
 
-void readDeep(Imf::MultiPartInputFile& file, Capture& capture, std::uint64_t fileBytes) {
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
-  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+void readDeep(const Part& from) {
+  const std::size_t columns = from.columns(), rows = from.rows();
   std::vector<unsigned int> counts(columns * rows);  // column after column
-  std::array<std::vector<char*>, 6> pointers;        // of one line: to the first sample of each pixel
+  std::array<std::vector<char*>, 7> pointers;        // of one line: to the first sample of each pixel
   for (auto& channel : pointers) channel.resize(columns);
   Imf::DeepFrameBuffer buffer;
   buffer.insertSampleCountSlice(
       Imf::Slice(Imf::UINT, slicePointer(counts[0]), rows * sizeof(unsigned int), sizeof(unsigned int)));
+  const auto slice = [&](const char* name, Imf::PixelType type, std::size_t channel, std::size_t stride) {
+    buffer.insert(name, Imf::DeepSlice(type, slicePointer(pointers[channel][0]), sizeof(char*), 0, stride));
+  };
   for (std::size_t channel = 0; channel < 4; ++channel)
-    buffer.insert(kColourChannels[channel], Imf::DeepSlice(Imf::HALF, slicePointer(pointers[channel][0]),
-                                                           sizeof(char*), 0, sizeof(HalfColour)));
-  buffer.insert("W",
-                Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[4][0]), sizeof(char*), 0, sizeof(float)));
-  buffer.insert(kRolesChannel, Imf::DeepSlice(Imf::UINT, slicePointer(pointers[5][0]), sizeof(char*), 0,
-                                              sizeof(std::uint32_t)));
-  Imf::DeepScanLineInputPart part(file, 0);
+    slice(kColourChannels[channel], Imf::HALF, channel, sizeof(HalfColour));
+  slice("W", Imf::FLOAT, 4, sizeof(float));
+  slice(kRolesChannel, Imf::UINT, 5, sizeof(std::uint32_t));
+  if (from.mirrors) slice(kMirrorChannel, Imf::UINT, 6, sizeof(std::uint32_t));
+  Imf::DeepScanLineInputPart part(from.file, from.number);
   part.setFrameBuffer(buffer);
-  part.readPixelSampleCounts(0, capture.camera.rows - 1);
+  part.readPixelSampleCounts(0, from.camera.rows - 1);
 
   std::vector<unsigned int> firstSample = counts;  // the part goes on reading `counts` itself
-  placeSamples(firstSample, capture, fileBytes);
-  std::vector<std::uint32_t> roles(capture.row.size());
+  placeSamples(firstSample, from);
+  CaptureSamples& out = from.samples;
+  std::vector<std::uint32_t> roles(out.row.size()), mirror(from.mirrors ? out.row.size() : 0);
   HalfColour nothing;
   float nowhere = 0;
   std::uint32_t nobody = 0;
-  const bool empty = capture.row.empty();
+  const bool empty = out.row.empty();
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t x = 0; x < columns; ++x) {
       // A pixel without samples gets a pointer too: to the next sample, or past the end, where nothing is
       // written.
       const std::size_t first = firstSample[x * rows + row];
-      HalfColour* colour = empty ? &nothing : capture.colour.data() + first;
-      float* w = empty ? &nowhere : capture.inverseDistance.data() + first;
+      HalfColour* colour = empty ? &nothing : out.colour.data() + first;
+      float* w = empty ? &nowhere : out.inverseDistance.data() + first;
       for (std::size_t channel = 0; channel < 4; ++channel)
         pointers[channel][x] = reinterpret_cast<char*>(colour) + 2 * channel;
       pointers[4][x] = reinterpret_cast<char*>(w);
       pointers[5][x] = reinterpret_cast<char*>(empty ? &nobody : roles.data() + first);
+      if (from.mirrors) pointers[6][x] = reinterpret_cast<char*>(empty ? &nobody : mirror.data() + first);
     }
     part.readPixels(static_cast<int>(row), static_cast<int>(row));
   }
-  capture.roles.resize(roles.size());
-  std::ranges::transform(roles, capture.roles.begin(), rolesOf);
+  out.roles.resize(roles.size());
+  std::ranges::transform(roles, out.roles.begin(), rolesOf);
+  out.mirror.resize(mirror.size());
+  std::ranges::transform(mirror, out.mirror.begin(), mirrorOf);
 }
 
-Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
-  ExrMemoryInput memory(name, bytes);
-  Imf::MultiPartInputFile file(memory, 0, false);
-  if (file.parts() != 1) refuse("has several parts; a capture has one");
-  const Imf::Header& header = file.header(0);
-  if (const int version = attribute<Imf::IntAttribute>(header, kAttributeVersion);
-      version != kCaptureExrVersion)
-    refuse(fmt::format("has format version {}, this program reads {}; bake it anew", version,
-                       kCaptureExrVersion),
-           ErrorKind::unsupported);
+void readPart(const Part& from) {
+  const Imf::Header& header = from.file.header(from.number);
   const Imf::Compression compression = header.compression();
   if (compression != Imf::NO_COMPRESSION && compression != Imf::RLE_COMPRESSION &&
       compression != Imf::ZIPS_COMPRESSION && compression != Imf::ZIP_COMPRESSION)
@@ -218,20 +235,40 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
   for (const char* channel : kColourChannels) checkChannel(header, channel, Imf::HALF);
   checkChannel(header, "W", Imf::FLOAT);
   checkChannel(header, kRolesChannel, Imf::UINT);
+  if (from.mirrors) checkChannel(header, kMirrorChannel, Imf::UINT);
+  from.samples.columnStart.reserve(from.columns() + 1);
+  from.samples.columnStart.push_back(0);
+  const std::string type = header.hasType() ? header.type() : Imf::SCANLINEIMAGE;
+  if (type == Imf::SCANLINEIMAGE)
+    readFlat(from);
+  else if (type == Imf::DEEPSCANLINE)
+    readDeep(from);
+  else
+    refuse("is tiled; captures are stored by scanlines");
+}
+
+Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
+  ExrMemoryInput memory(name, bytes);
+  Imf::MultiPartInputFile file(memory, 0, false);
+  if (file.parts() > 2) refuse("has more parts than a capture: surfaces and reflections");
+  const Imf::Header& header = file.header(0);
+  if (const int version = attribute<Imf::IntAttribute>(header, kAttributeVersion);
+      version != kCaptureExrVersion)
+    refuse(fmt::format("has format version {}, this program reads {}; bake it anew", version,
+                       kCaptureExrVersion),
+           ErrorKind::unsupported);
 
   Keyed<Capture> result{keyAttribute(header, kAttributeKey), {}};
   Capture& capture = result.value;
   capture.camera = cameraOf(header, bytes.size());
   capture.distanceStep = attribute<Imf::DoubleAttribute>(header, kAttributeStep);
-  capture.columnStart.reserve(static_cast<std::size_t>(capture.camera.columns) + 1);
-  capture.columnStart.push_back(0);
-  const std::string type = header.hasType() ? header.type() : Imf::SCANLINEIMAGE;
-  if (type == Imf::SCANLINEIMAGE)
-    readFlat(file, capture);
-  else if (type == Imf::DEEPSCANLINE)
-    readDeep(file, capture, bytes.size());
-  else
-    refuse("is tiled; captures are stored by scanlines");
+  const bool mirrors = file.parts() == 2;
+  readPart({file, 0, bytes.size(), capture.camera, mirrors, capture});
+  if (mirrors) {
+    if (file.header(1).name() != kReflectionsPart || file.header(1).dataWindow() != header.dataWindow())
+      refuse("its second part does not hold the reflections of the first");
+    readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections});
+  }
 
   if (checksumOf(result.key, capture, capture.colour) != keyAttribute(header, kAttributeChecksum))
     refuse("is damaged or was edited: its checksum differs");

@@ -1,10 +1,13 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
+#include <OpenEXR/ImfDeepScanLineOutputPart.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
@@ -29,11 +32,11 @@ constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 /// zlib's fast end: about three times the speed of its default for a tenth more bytes.
 constexpr int kZipLevel = 2;
 
-/// Walks a capture, stored by columns, row by row: where each column's next sample is.
+/// Walks samples, stored by columns, row by row: where each column's next sample is.
 class RowWalk {
  public:
-  explicit RowWalk(const Capture& capture)
-      : capture_(capture), next_(capture.columnStart.begin(), capture.columnStart.end() - 1) {}
+  explicit RowWalk(const CaptureSamples& samples)
+      : samples_(samples), next_(samples.columnStart.begin(), samples.columnStart.end() - 1) {}
 
   struct Samples {
     std::uint32_t first;
@@ -41,26 +44,35 @@ class RowWalk {
   };
   /// The samples of a pixel; call for every column, rows in order.
   Samples take(std::size_t column, std::size_t row) {
-    const std::uint32_t first = next_[column], end = capture_.columnStart[column + 1];
+    const std::uint32_t first = next_[column], end = samples_.columnStart[column + 1];
     std::uint32_t& next = next_[column];
-    while (next < end && capture_.row[next] == row) ++next;
+    while (next < end && samples_.row[next] == row) ++next;
     return {first, next - first};
   }
 
  private:
-  const Capture& capture_;
+  const CaptureSamples& samples_;
   std::vector<std::uint32_t> next_;
 };
 
-Imf::Header headerFor(const Capture& capture, const ContentKey& key, const ContentKey& checksum,
-                      Imf::Compression compression) {
-  const ColumnCamera& camera = capture.camera;
-  Imf::Header header(camera.columns, camera.rows, 1, Imath::V2f(0, 0), 1, Imf::INCREASING_Y, compression);
+/// Size, channels and compression of a list of samples.
+Imf::Header headerFor(const ColumnCamera& camera, const CaptureSamples& samples) {
+  const bool deep = samples.maxLayers() > 1;
+  Imf::Header header(camera.columns, camera.rows, 1, Imath::V2f(0, 0), 1, Imf::INCREASING_Y,
+                     deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION);
   header.zipCompressionLevel() = kZipLevel;
+  if (deep) header.setType(Imf::DEEPSCANLINE);
   for (const char* name : kColourChannels) header.channels().insert(name, Imf::Channel(Imf::HALF));
   header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
   header.channels().insert("W", Imf::Channel(Imf::FLOAT));
   header.channels().insert(kRolesChannel, Imf::Channel(Imf::UINT));
+  if (!samples.mirror.empty()) header.channels().insert(kMirrorChannel, Imf::Channel(Imf::UINT));
+  return header;
+}
+
+void addAttributes(Imf::Header& header, const Capture& capture, const ContentKey& key,
+                   const ContentKey& checksum) {
+  const ColumnCamera& camera = capture.camera;
   header.insert(kAttributeVersion, Imf::IntAttribute(kCaptureExrVersion));
   header.insert(kAttributeKey, Imf::StringAttribute(key.toHex()));
   header.insert(kAttributeChecksum, Imf::StringAttribute(checksum.toHex()));
@@ -71,7 +83,6 @@ Imf::Header headerFor(const Capture& capture, const ContentKey& key, const Conte
   header.insert(kAttributeTop, Imf::DoubleAttribute(camera.topElevation));
   header.insert(kAttributeBottom, Imf::DoubleAttribute(camera.bottomElevation));
   header.insert(kAttributeStep, Imf::DoubleAttribute(capture.distanceStep));
-  return header;
 }
 
 /// Distance along the ray of a sample of this row.
@@ -89,68 +100,75 @@ char* slicePointer(T& value) {
   return reinterpret_cast<char*>(&value);
 }
 
-void writeFlat(const Capture& capture, const std::vector<HalfColour>& colours, const Imf::Header& header,
-               Imf::OStream& stream) {
+/// `File`: a whole file or a part of one. `colours` are premultiplied.
+template <class File>
+void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
+               const std::vector<HalfColour>& colours) {
   struct Pixel {
     HalfColour colour;
     float z;
     float w;
     std::uint32_t roles;
+    std::uint32_t mirror;
   };
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  const std::size_t columns = static_cast<std::size_t>(camera.columns);
+  const bool mirrors = !samples.mirror.empty();
   std::vector<Pixel> line(columns);
   Imf::FrameBuffer buffer;  // one line, used again for every row
+  const auto slice = [&](const char* name, Imf::PixelType type, auto& value) {
+    buffer.insert(name, Imf::Slice(type, slicePointer(value), sizeof(Pixel), 0));
+  };
   for (int channel = 0; channel < 4; ++channel)
-    buffer.insert(kColourChannels[static_cast<std::size_t>(channel)],
-                  Imf::Slice(Imf::HALF, slicePointer(line[0].colour[channel]), sizeof(Pixel), 0));
-  buffer.insert("Z", Imf::Slice(Imf::FLOAT, slicePointer(line[0].z), sizeof(Pixel), 0));
-  buffer.insert("W", Imf::Slice(Imf::FLOAT, slicePointer(line[0].w), sizeof(Pixel), 0));
-  buffer.insert(kRolesChannel, Imf::Slice(Imf::UINT, slicePointer(line[0].roles), sizeof(Pixel), 0));
-  Imf::OutputFile file(stream, header, 0);
+    slice(kColourChannels[static_cast<std::size_t>(channel)], Imf::HALF, line[0].colour[channel]);
+  slice("Z", Imf::FLOAT, line[0].z);
+  slice("W", Imf::FLOAT, line[0].w);
+  slice(kRolesChannel, Imf::UINT, line[0].roles);
+  if (mirrors) slice(kMirrorChannel, Imf::UINT, line[0].mirror);
   file.setFrameBuffer(buffer);
-  RowWalk walk(capture);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(capture.camera.rows); ++row) {
-    const double perHorizontal = rayPerHorizontal(capture.camera, row);
+  RowWalk walk(samples);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(camera.rows); ++row) {
+    const double perHorizontal = rayPerHorizontal(camera, row);
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
       if (count == 0) {
-        line[x] = {HalfColour(0), kInfinity, kNoSample, 0};
+        line[x] = {HalfColour(0), kInfinity, kNoSample, 0, 0};
         continue;
       }
-      const float w = capture.inverseDistance[first];
-      line[x] = {colours[first], rayDistance(perHorizontal, w), w, capture.roles[first]};
+      const float w = samples.inverseDistance[first];
+      const std::uint32_t mirror = mirrors ? samples.mirror[first] : 0;
+      line[x] = {colours[first], rayDistance(perHorizontal, w), w, samples.roles[first], mirror};
     }
     file.writePixels(1);
   }
 }
 
-void writeDeep(const Capture& capture, std::vector<HalfColour>& colours, Imf::Header header,
-               Imf::OStream& stream) {
-  header.setType(Imf::DEEPSCANLINE);
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
-  std::vector<float> w = capture.inverseDistance, z(capture.sampleCount());
-  std::vector<std::uint32_t> roles(capture.roles.begin(), capture.roles.end());
+template <class File>
+void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
+               std::vector<HalfColour>& colours) {
+  const std::size_t columns = static_cast<std::size_t>(camera.columns);
+  std::vector<float> w = samples.inverseDistance, z(samples.sampleCount());
+  std::vector<std::uint32_t> roles(samples.roles.begin(), samples.roles.end()),
+      mirror(samples.mirror.begin(), samples.mirror.end());
   std::vector<unsigned int> counts(columns);
   // Pointers to the first sample of each pixel of one line, for every channel; its samples lie one behind the
   // other.
-  std::array<std::vector<char*>, 7> pointers;
+  std::array<std::vector<char*>, 8> pointers;
   for (auto& channel : pointers) channel.resize(columns);
   Imf::DeepFrameBuffer buffer;
   buffer.insertSampleCountSlice(Imf::Slice(Imf::UINT, slicePointer(counts[0]), sizeof(unsigned int), 0));
+  const auto slice = [&](const char* name, Imf::PixelType type, std::size_t channel, std::size_t stride) {
+    buffer.insert(name, Imf::DeepSlice(type, slicePointer(pointers[channel][0]), sizeof(char*), 0, stride));
+  };
   for (std::size_t channel = 0; channel < 4; ++channel)
-    buffer.insert(kColourChannels[channel], Imf::DeepSlice(Imf::HALF, slicePointer(pointers[channel][0]),
-                                                           sizeof(char*), 0, sizeof(HalfColour)));
-  buffer.insert("Z",
-                Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[4][0]), sizeof(char*), 0, sizeof(float)));
-  buffer.insert("W",
-                Imf::DeepSlice(Imf::FLOAT, slicePointer(pointers[5][0]), sizeof(char*), 0, sizeof(float)));
-  buffer.insert(kRolesChannel, Imf::DeepSlice(Imf::UINT, slicePointer(pointers[6][0]), sizeof(char*), 0,
-                                              sizeof(std::uint32_t)));
-  Imf::DeepScanLineOutputFile file(stream, header, 0);
+    slice(kColourChannels[channel], Imf::HALF, channel, sizeof(HalfColour));
+  slice("Z", Imf::FLOAT, 4, sizeof(float));
+  slice("W", Imf::FLOAT, 5, sizeof(float));
+  slice(kRolesChannel, Imf::UINT, 6, sizeof(std::uint32_t));
+  if (!mirror.empty()) slice(kMirrorChannel, Imf::UINT, 7, sizeof(std::uint32_t));
   file.setFrameBuffer(buffer);
-  RowWalk walk(capture);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(capture.camera.rows); ++row) {
-    const double perHorizontal = rayPerHorizontal(capture.camera, row);
+  RowWalk walk(samples);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(camera.rows); ++row) {
+    const double perHorizontal = rayPerHorizontal(camera, row);
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
       counts[x] = count;
@@ -161,21 +179,48 @@ void writeDeep(const Capture& capture, std::vector<HalfColour>& colours, Imf::He
       pointers[4][x] = slicePointer(z[first]);
       pointers[5][x] = slicePointer(w[first]);
       pointers[6][x] = slicePointer(roles[first]);
+      if (!mirror.empty()) pointers[7][x] = slicePointer(mirror[first]);
     }
     file.writePixels(1);
   }
+}
+
+void writeWhole(const Capture& capture, std::vector<HalfColour>& colours, const Imf::Header& header,
+                Imf::OStream& stream) {
+  if (header.hasType())
+    writeDeep(Imf::DeepScanLineOutputFile(stream, header, 0), capture.camera, capture, colours);
+  else
+    writeFlat(Imf::OutputFile(stream, header, 0), capture.camera, capture, colours);
+}
+
+void writeParts(const Capture& capture, std::vector<HalfColour>& colours, const Imf::Header& header,
+                Imf::OStream& stream) {
+  const CaptureSamples& reflections = capture.reflections;
+  std::array headers = {header, headerFor(capture.camera, reflections)};
+  headers[0].setName(kSurfacesPart);
+  headers[1].setName(kReflectionsPart);
+  for (Imf::Header& part : headers)
+    if (!part.hasType()) part.setType(Imf::SCANLINEIMAGE);
+  Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()), false, 0);
+  const auto write = [&](int part, const CaptureSamples& samples, std::vector<HalfColour>& of) {
+    if (headers[static_cast<std::size_t>(part)].type() == Imf::DEEPSCANLINE)
+      writeDeep(Imf::DeepScanLineOutputPart(file, part), capture.camera, samples, of);
+    else
+      writeFlat(Imf::OutputPart(file, part), capture.camera, samples, of);
+  };
+  write(0, capture, colours);
+  std::vector<HalfColour> reflected = reflections.colour;
+  write(1, reflections, reflected);
 }
 
 Status writeExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
   if (Status sound = capture.check(); !sound) return sound;
   std::vector<HalfColour> colours(capture.sampleCount());
   for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = premultiplied(capture.colour[i]);
-  const ContentKey checksum = checksumOf(key, capture, colours);
+  Imf::Header header = headerFor(capture.camera, capture);
+  addAttributes(header, capture, key, checksumOf(key, capture, colours));
   ExrMemoryOutput memory(path.string());
-  if (capture.maxLayers() <= 1)
-    writeFlat(capture, colours, headerFor(capture, key, checksum, Imf::ZIP_COMPRESSION), memory);
-  else
-    writeDeep(capture, colours, headerFor(capture, key, checksum, Imf::ZIPS_COMPRESSION), memory);
+  (capture.hasReflections() ? writeParts : writeWhole)(capture, colours, header, memory);
   return writeFileAtomically(path, memory.bytes());
 }
 

@@ -10,21 +10,30 @@ namespace acentric {
 namespace {
 
 /// Row, inverse distance, the four halves of the colour, roles.
-template <class AnyCapture>
-auto sampleLanes(AnyCapture& capture) {
+template <class AnySamples>
+auto sampleLanes(AnySamples& samples) {
   static_assert(sizeof(HalfColour) == 8);
-  return std::array{laneOf(capture.row),          laneOf(capture.inverseDistance),
-                    laneOf(capture.colour, 0, 2), laneOf(capture.colour, 2, 2),
-                    laneOf(capture.colour, 4, 2), laneOf(capture.colour, 6, 2),
-                    laneOf(capture.roles)};
+  return std::array{laneOf(samples.row),          laneOf(samples.inverseDistance),
+                    laneOf(samples.colour, 0, 2), laneOf(samples.colour, 2, 2),
+                    laneOf(samples.colour, 4, 2), laneOf(samples.colour, 6, 2),
+                    laneOf(samples.roles)};
 }
+constexpr std::uint64_t kColumnBytes = 4, kSampleBytes = 15, kMirrorBytes = 1;
 
 /// Samples of each column: small numbers, unlike the offsets.
-std::vector<std::uint32_t> columnCounts(const Capture& capture) {
-  std::vector<std::uint32_t> counts(static_cast<std::size_t>(capture.camera.columns));
+std::vector<std::uint32_t> columnCounts(const CaptureSamples& samples) {
+  std::vector<std::uint32_t> counts(samples.columnStart.size() - 1);
   for (std::size_t k = 0; k < counts.size(); ++k)
-    counts[k] = capture.columnStart[k + 1] - capture.columnStart[k];
+    counts[k] = samples.columnStart[k + 1] - samples.columnStart[k];
   return counts;
+}
+
+/// Columns, samples, and where there are mirrors their numbers.
+Status add(BlockFileWriter& file, const CaptureSamples& samples) {
+  const std::vector<std::uint32_t> counts = columnCounts(samples);
+  if (Status added = file.addRecords(std::array{laneOf(counts)}, counts.size()); !added) return added;
+  if (Status added = file.addRecords(sampleLanes(samples), samples.sampleCount()); !added) return added;
+  return file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size());
 }
 
 Status writePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
@@ -38,11 +47,34 @@ Status writePack(const Capture& capture, const ContentKey& key, const std::files
   file.describe(static_cast<std::uint32_t>(camera.columns));
   file.describe(static_cast<std::uint32_t>(camera.rows));
   file.describe(static_cast<std::uint64_t>(capture.sampleCount()));
+  if (capture.hasReflections()) file.describe(static_cast<std::uint64_t>(capture.reflections.sampleCount()));
 
-  const std::vector<std::uint32_t> counts = columnCounts(capture);
-  if (Status added = file.addRecords(std::array{laneOf(counts)}, counts.size()); !added) return added;
-  if (Status added = file.addRecords(sampleLanes(capture), capture.sampleCount()); !added) return added;
+  if (Status added = add(file, capture); !added) return added;
+  if (capture.hasReflections())
+    if (Status added = add(file, capture.reflections); !added) return added;
   return file.write(path);
+}
+
+/// What `add` wrote; the number of samples is known to agree with the file's size.
+Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, bool mirrors,
+            CaptureSamples& out) {
+  std::vector<std::uint32_t> counts(columns);
+  if (Status read = file.nextRecords(std::array{laneOf(counts)}, columns); !read) return read;
+  out.columnStart.reserve(columns + 1);
+  std::uint64_t start = 0;
+  out.columnStart.push_back(0);
+  for (std::uint32_t count : counts) {
+    start += count;
+    if (start > samples) return file.malformed("its columns hold more samples than it has");
+    out.columnStart.push_back(static_cast<std::uint32_t>(start));
+  }
+  out.row.resize(samples);
+  out.inverseDistance.resize(samples);
+  out.colour.resize(samples);
+  out.roles.resize(samples);
+  out.mirror.resize(mirrors ? samples : 0);
+  if (Status read = file.nextRecords(sampleLanes(out), samples); !read) return read;
+  return file.nextRecords(std::array{laneOf(out.mirror)}, out.mirror.size());
 }
 
 Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
@@ -57,30 +89,24 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
   const auto columns = file->described<std::uint32_t>();
   const auto rows = file->described<std::uint32_t>();
   const auto samples = file->described<std::uint64_t>();
-  if (!file->describedAll() || columns > 65535 || rows > 65535)
+  const bool mirrors = file->describesMore();
+  const auto reflections = mirrors ? file->described<std::uint64_t>() : 0;
+  if (!file->describedAll() || columns > 65535 || rows > 65535 || (mirrors && reflections == 0))
     return file->malformed("its description makes no sense");
   camera.columns = static_cast<int>(columns);
   camera.rows = static_cast<int>(rows);
-  if (samples > kMaxCaptureSamples || file->rawBytes() != 4 * std::uint64_t(columns) + 15 * samples)
+  const auto bytesOf = [&](std::uint64_t count) {
+    return kColumnBytes * columns + (kSampleBytes + (mirrors ? kMirrorBytes : 0)) * count;
+  };
+  if (samples > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
+      file->rawBytes() != bytesOf(samples) + (mirrors ? bytesOf(reflections) : 0))
     return file->malformed("its number of samples contradicts its size");
 
-  std::vector<std::uint32_t> counts(columns);
-  if (Status read = file->nextRecords(std::array{laneOf(counts)}, columns); !read)
+  if (Status read = take(*file, columns, samples, mirrors, capture); !read)
     return tl::unexpected(read.error());
-  capture.columnStart.reserve(columns + 1);
-  std::uint64_t start = 0;
-  capture.columnStart.push_back(0);
-  for (std::uint32_t count : counts) {
-    start += count;
-    if (start > samples) return file->malformed("its columns hold more samples than it has");
-    capture.columnStart.push_back(static_cast<std::uint32_t>(start));
-  }
-  capture.row.resize(samples);
-  capture.inverseDistance.resize(samples);
-  capture.colour.resize(samples);
-  capture.roles.resize(samples);
-  if (Status read = file->nextRecords(sampleLanes(capture), samples); !read)
-    return tl::unexpected(read.error());
+  if (mirrors)
+    if (Status read = take(*file, columns, reflections, true, capture.reflections); !read)
+      return tl::unexpected(read.error());
   if (!file->atEnd()) return file->malformed("has more blocks than its description needs");
   if (Status sound = capture.check(); !sound) return file->malformed(sound.error().describe());
   return Keyed<Capture>{file->key(), std::move(capture)};

@@ -27,6 +27,14 @@ Capture smallCapture() {
   return capture;
 }
 
+/// Column 2 shows a wall in mirror 4.
+Capture withReflection() {
+  Capture capture = smallCapture();
+  capture.mirror = {0, 0, 4, 0};
+  capture.reflections = {{0, 0, 0, 1}, {2}, {0.125f}, {packColour({1, 1, 1, 1})}, {2}, {4}};
+  return capture;
+}
+
 TEST(PackColour, KeepsElevenBitsAndExactHalves) {
   const glm::vec4 exact(0.5f, 65504, 0.000060975551605224609375f, 1);
   EXPECT_EQ(unpackColour(packColour(exact)), exact);
@@ -86,6 +94,9 @@ TEST(Capture, CountsLayersOfAPixel) {
 
 TEST(Capture, SoundOnesPass) {
   EXPECT_TRUE(smallCapture().check());
+  EXPECT_TRUE(withReflection().check());
+  EXPECT_TRUE(withReflection().hasReflections());
+  EXPECT_FALSE(smallCapture().hasReflections());
   Capture empty = smallCapture();
   empty.columnStart = {0, 0, 0, 0};
   empty.row.clear();
@@ -124,6 +135,39 @@ TEST(Capture, EveryBrokenInvariantIsFound) {
   };
   for (const auto& [name, damage] : breakages) {
     Capture capture = smallCapture();
+    damage(capture);
+    const Status status = capture.check();
+    ASSERT_FALSE(status) << name;
+    EXPECT_EQ(status.error().kind, ErrorKind::malformed) << name;
+  }
+}
+
+TEST(Capture, EveryBrokenReflectionIsFound) {
+  const std::pair<const char*, std::function<void(Capture&)>> breakages[] = {
+      {"surfaces without mirrors", [](Capture& c) { c.mirror.clear(); }},
+      {"mirrors without reflections", [](Capture& c) { c.reflections = {}; }},
+      {"fewer mirrors", [](Capture& c) { c.mirror.pop_back(); }},
+      {"blended mirror", [](Capture& c) { c.mirror[0] = 4; }},
+      {"a list of nothing",
+       [](Capture& c) {
+         c.mirror.clear();
+         c.reflections = {{0, 0, 0, 0}, {}, {}, {}, {}, {}};
+       }},
+      {"columns", [](Capture& c) { c.reflections.columnStart.pop_back(); }},
+      {"offset", [](Capture& c) { c.reflections.columnStart[1] = 9; }},
+      {"fewer distances", [](Capture& c) { c.reflections.inverseDistance.clear(); }},
+      {"fewer colours", [](Capture& c) { c.reflections.colour.clear(); }},
+      {"fewer roles", [](Capture& c) { c.reflections.roles.clear(); }},
+      {"fewer mirrors that show", [](Capture& c) { c.reflections.mirror.clear(); }},
+      {"no mirror", [](Capture& c) { c.reflections.mirror[0] = 0; }},
+      {"row", [](Capture& c) { c.reflections.row[0] = 4; }},
+      {"distance", [](Capture& c) { c.reflections.inverseDistance[0] = -1; }},
+      {"nobody's", [](Capture& c) { c.reflections.roles[0] = 0; }},
+      {"radiance", [](Capture& c) { c.reflections.colour[0].r = 0x7c00; }},
+      {"blended", [](Capture& c) { c.reflections.colour[0].a = 0x3800; }},
+  };
+  for (const auto& [name, damage] : breakages) {
+    Capture capture = withReflection();
     damage(capture);
     const Status status = capture.check();
     ASSERT_FALSE(status) << name;

@@ -30,6 +30,8 @@ void expectSame(const Capture& a, const Capture& b, bool coloursExact) {
   EXPECT_EQ(a.inverseDistance, b.inverseDistance);
   EXPECT_EQ(a.distanceStep, b.distanceStep);
   EXPECT_EQ(a.roles, b.roles);
+  EXPECT_EQ(a.mirror, b.mirror);
+  EXPECT_EQ(a.reflections, b.reflections);
   ASSERT_EQ(a.colour.size(), b.colour.size());
   for (std::size_t i = 0; i < a.colour.size(); ++i) {
     ASSERT_EQ(a.colour[i].a, b.colour[i].a) << i;
@@ -76,6 +78,10 @@ TEST_P(CaptureFiles, RoundTripsEveryShape) {
                               syntheticCapture({1, 1, false, false, 4}),
                               syntheticCapture({1, 33, true, false, 5}),
                               syntheticCapture({300, 260, true, true, 6}),
+                              syntheticCapture({48, 40, false, true, 7, true}),
+                              syntheticCapture({48, 40, true, true, 8, true}),
+                              syntheticCapture({1, 1, false, false, 9, true}),
+                              syntheticCapture({300, 260, true, true, 10, true}),
                               emptyCapture(),
                               deepButEmptyColumns()};
   const fs::path path = folder_ / GetParam()->name;
@@ -119,15 +125,40 @@ TEST_P(CaptureFiles, SayWhichFileIsMissing) {
 
 TEST_P(CaptureFiles, CutAnywhereAreMalformed) {
   const fs::path path = folder_ / GetParam()->name;
-  ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, true, true, 1}), kKey, path));
-  const auto bytes = readFile(path);
-  ASSERT_TRUE(bytes);
-  const std::size_t step = std::max<std::size_t>(1, bytes->size() / 400);
-  for (std::size_t size = 0; size < bytes->size(); size += step) {
-    writeQuickly(path, std::span(*bytes).first(size));
-    const auto read = GetParam()->read(path);
-    ASSERT_FALSE(read) << size;
-    EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
+  for (const bool mirrors : {false, true}) {
+    ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, true, true, 1, mirrors}), kKey, path));
+    const auto bytes = readFile(path);
+    ASSERT_TRUE(bytes);
+    const std::size_t step = std::max<std::size_t>(1, bytes->size() / 400);
+    for (std::size_t size = 0; size < bytes->size(); size += step) {
+      writeQuickly(path, std::span(*bytes).first(size));
+      const auto read = GetParam()->read(path);
+      ASSERT_FALSE(read) << size;
+      EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
+    }
+  }
+}
+
+/// A mirror's list costs nothing where there is no mirror: the file of the surfaces alone is the shorter one
+/// by all that the list takes.
+TEST_P(CaptureFiles, WithoutMirrorsHoldNoByteForThem) {
+  const fs::path path = folder_ / GetParam()->name;
+  Capture capture = syntheticCapture({64, 64, true, true, 3, true});
+  ASSERT_TRUE(GetParam()->write(capture, kKey, path));
+  const auto withList = fs::file_size(path);
+  capture.mirror.clear();
+  capture.reflections = {};
+  ASSERT_TRUE(GetParam()->write(capture, kKey, path));
+  const auto without = readFile(path);
+  ASSERT_TRUE(without);
+  EXPECT_GT(withList, without->size());
+  const std::string_view text(reinterpret_cast<const char*>(without->data()), without->size());
+  EXPECT_EQ(text.find("mirror"), std::string_view::npos);
+  EXPECT_EQ(text.find("reflections"), std::string_view::npos);
+  if (GetParam() == &kPack) {
+    std::uint32_t descriptionBytes = 0;
+    std::memcpy(&descriptionBytes, without->data() + 48, sizeof descriptionBytes);
+    EXPECT_EQ(descriptionBytes, 80u);
   }
 }
 
@@ -135,7 +166,7 @@ TEST_P(CaptureFiles, DamagedByChanceAreRefusedOrUnharmed) {
   const fs::path path = folder_ / GetParam()->name;
   std::mt19937 random(17);
   for (const bool layered : {false, true}) {
-    ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, layered, true, 1}), kKey, path));
+    ASSERT_TRUE(GetParam()->write(syntheticCapture({16, 12, layered, true, 1, layered}), kKey, path));
     const auto sound = readFile(path);
     ASSERT_TRUE(sound);
     const auto original = GetParam()->read(path);
@@ -167,37 +198,68 @@ TEST_P(CaptureFiles, DamagedByChanceAreRefusedOrUnharmed) {
   }
 }
 
+/// Gives changed bytes of a pack the size and the checksum that they need to be believed.
+void seal(std::vector<std::byte>& pack) {
+  const std::size_t checked = pack.size() - 16;
+  const std::uint64_t fileBytes = pack.size();
+  std::memcpy(pack.data() + 32, &fileBytes, sizeof fileBytes);
+  const ContentKey checksum = Hasher().bytes(pack.data(), checked).finish();
+  std::memcpy(pack.data() + checked, &checksum.high, 8);
+  std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
+}
+
 TEST_F(FolderTest, PacksForgedWithAMatchingChecksumAreHarmless) {
   const fs::path path = folder_ / kPack.name;
-  ASSERT_TRUE(kPack.write(syntheticCapture({16, 12, true, true, 1}), kKey, path));
+  std::mt19937 random(29);
+  for (const bool mirrors : {false, true}) {
+    ASSERT_TRUE(kPack.write(syntheticCapture({16, 12, true, true, 1, mirrors}), kKey, path));
+    const auto sound = readFile(path);
+    ASSERT_TRUE(sound);
+    // Preamble, description and table fill the first bytes; the key's 16 bytes and the magic are left alone.
+    const std::size_t head = mirrors ? 200 : 150;
+    int refused = 0;
+    for (int round = 0; round < 2000; ++round) {
+      auto bytes = *sound;
+      const std::size_t checked = bytes.size() - 16;
+      const std::size_t at = round % 4 ? 32 + random() % (head - 32) : head + random() % (checked - head);
+      const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
+                                  bytes[at] ^ std::byte(1u << (random() % 8))};
+      bytes[at] = values[random() % 4];
+      seal(bytes);
+      writeQuickly(path, bytes);
+      const auto read = kPack.read(path);
+      if (read) {
+        EXPECT_TRUE(read->check());
+      } else {
+        ++refused;
+        EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
+      }
+    }
+    EXPECT_GT(refused, 500);
+  }
+}
+
+TEST_F(FolderTest, PacksThatClaimReflectionsTheyDoNotHaveAreRefused) {
+  const fs::path path = folder_ / kPack.name;
+  ASSERT_TRUE(kPack.write(syntheticCapture({16, 12, true, true, 1, true}), kKey, path));
   const auto sound = readFile(path);
   ASSERT_TRUE(sound);
-  std::mt19937 random(29);
-  int refused = 0;
-  for (int round = 0; round < 2000; ++round) {
+  constexpr std::size_t kReflectionCount = 56 + 80;
+  std::uint64_t count = 0;
+  std::memcpy(&count, sound->data() + kReflectionCount, sizeof count);
+  ASSERT_EQ(count, syntheticCapture({16, 12, true, true, 1, true}).reflections.sampleCount());
+  for (const std::uint64_t claimed :
+       {std::uint64_t(0), count - 1, count + 1, count << 32, std::uint64_t(1) << 31, ~std::uint64_t(0),
+        // as many bytes again as the address space has: the sum of all sizes is the same modulo 2^64
+        count + (std::uint64_t(1) << 60)}) {
     auto bytes = *sound;
-    const std::size_t checked = bytes.size() - 16;
-    // Preamble, description and table fill the first 150 bytes; the key's 16 bytes and the magic are left
-    // alone.
-    const std::size_t at = round % 4 ? 32 + random() % 118 : 150 + random() % (checked - 150);
-    const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
-                                bytes[at] ^ std::byte(1u << (random() % 8))};
-    bytes[at] = values[random() % 4];
-    const std::uint64_t fileBytes = bytes.size();
-    std::memcpy(bytes.data() + 32, &fileBytes, sizeof fileBytes);
-    const ContentKey checksum = Hasher().bytes(bytes.data(), checked).finish();
-    std::memcpy(bytes.data() + checked, &checksum.high, 8);
-    std::memcpy(bytes.data() + checked + 8, &checksum.low, 8);
+    std::memcpy(bytes.data() + kReflectionCount, &claimed, sizeof claimed);
+    seal(bytes);
     writeQuickly(path, bytes);
     const auto read = kPack.read(path);
-    if (read) {
-      EXPECT_TRUE(read->check());
-    } else {
-      ++refused;
-      EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
-    }
+    ASSERT_FALSE(read) << claimed;
+    EXPECT_EQ(read.error().kind, ErrorKind::malformed) << read.error().describe();
   }
-  EXPECT_GT(refused, 500);
 }
 
 TEST_P(CaptureFiles, OfOtherProgramsAreRefused) {

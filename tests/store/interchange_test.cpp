@@ -38,7 +38,7 @@ double rayDistanceOf(const Capture& capture, std::size_t sample) {
 void expectAttributes(const OIIO::ImageSpec& spec, const ColumnCamera& camera) {
   EXPECT_EQ(spec.width, camera.columns);
   EXPECT_EQ(spec.height, camera.rows);
-  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 2);
+  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 3);
   EXPECT_EQ(spec.get_string_attribute("acentricKey"), "00000000000000070000000000000009");
   double centre[3] = {0, 0, 0}, fov = 0;
   EXPECT_TRUE(spec.getattribute("acentricCentreOfProjection",
@@ -123,6 +123,37 @@ TEST_F(Interchange, DeepFilesOpenElsewhereNearestFirst) {
     }
   }
   EXPECT_EQ(seen, capture.sampleCount());
+}
+
+TEST_F(Interchange, ReflectionsAreAPartOfTheirOwn) {
+  const Capture capture = syntheticCapture({20, 16, true, true, 2, true});
+  auto input = writeAndOpen(capture);
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->spec().get_string_attribute("oiio:subimagename"), "surfaces");
+  expectAttributes(input->spec(), capture.camera);
+  ASSERT_TRUE(input->seek_subimage(1, 0));
+  const OIIO::ImageSpec spec = input->spec();
+  EXPECT_EQ(spec.get_string_attribute("oiio:subimagename"), "reflections");
+  OIIO::DeepData deep;
+  ASSERT_TRUE(input->read_native_deep_image(1, 0, deep));
+  auto channel = channelNumbers(spec);
+  const CaptureSamples& shown = capture.reflections;
+  std::size_t seen = 0;
+  for (int x = 0; x < spec.width; ++x) {
+    std::size_t next = shown.columnStart[static_cast<std::size_t>(spec.width - 1 - x)];
+    for (int y = 0; y < spec.height; ++y) {
+      const int pixel = y * spec.width + x;
+      for (int s = 0; s < deep.samples(pixel); ++s, ++next, ++seen) {
+        ASSERT_LT(next, shown.sampleCount());
+        ASSERT_EQ(shown.row[next], y);
+        EXPECT_EQ(deep.deep_value(pixel, channel["W"], s), shown.inverseDistance[next]);
+        EXPECT_EQ(deep.deep_value(pixel, channel["R"], s), unpackColour(shown.colour[next]).r);
+        EXPECT_EQ(deep.deep_value_uint(pixel, channel["mirror"], s), shown.mirror[next]);
+      }
+    }
+  }
+  EXPECT_EQ(seen, shown.sampleCount());
+  EXPECT_FALSE(input->seek_subimage(2, 0));
 }
 
 }  // namespace

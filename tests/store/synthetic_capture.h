@@ -16,7 +16,33 @@ struct SyntheticOptions {
   bool layered = false;  ///< hidden surfaces behind a quarter of the pixels, glass before an eighth
   bool gaps = true;      ///< some pixels hold nothing
   unsigned seed = 1;
+  bool mirrors = false;  ///< a third of the opaque samples belong to mirrors that show something
 };
+
+/// A third of the opaque samples become mirrors, which show sky or a wall (with `layered` both, one behind
+/// the other).
+inline Capture withMirrors(Capture capture, bool layered) {
+  CaptureSamples& shown = capture.reflections;
+  shown.columnStart.push_back(0);
+  capture.mirror.assign(capture.sampleCount(), 0);
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k) {
+    int lastRow = -1;
+    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i) {
+      if (i % 3 != 0 || capture.colour[i].a != 0x3c00 || capture.row[i] == lastRow) continue;
+      lastRow = capture.row[i];
+      capture.mirror[i] = static_cast<std::uint8_t>(1 + i % 255);
+      for (int layer = layered ? 0 : 1; layer < 2; ++layer) {
+        shown.row.push_back(capture.row[i]);
+        shown.inverseDistance.push_back(layer == 0 ? 0.5f * capture.inverseDistance[i] : 0);
+        shown.colour.push_back(packColour({0.5f, 0.25f * static_cast<float>(layer), 0.125f, 1}));
+        shown.roles.push_back(capture.roles[i]);
+        shown.mirror.push_back(capture.mirror[i]);
+      }
+    }
+    shown.columnStart.push_back(static_cast<std::uint32_t>(shown.row.size()));
+  }
+  return capture;
+}
 
 inline Capture syntheticCapture(const SyntheticOptions& options) {
   std::mt19937 random(options.seed);
@@ -48,7 +74,7 @@ inline Capture syntheticCapture(const SyntheticOptions& options) {
     }
     capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
   }
-  return capture;
+  return options.mirrors ? withMirrors(std::move(capture), options.layered) : capture;
 }
 
 }  // namespace acentric

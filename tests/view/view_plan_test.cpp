@@ -222,13 +222,15 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
   camera.columns = 3;
   camera.rows = 2;
   const HalfColour white = packColour({0.5f, 0.25f, 0.125f, 1}), glass = packColour({0.5f, 0.5f, 0.5f, 0.5f});
-  const Capture capture{camera,
+  const Capture capture{{{0, 2, 2, 5},
+                         {0, 1, 0, 0, 1},
+                         {0.5f, 0, 2, 1, 0.25f},
+                         {white, white, glass, white, white},
+                         {1, 2, 4, 1, 1},
+                         {}},
+                        camera,
                         0,
-                        {0, 2, 2, 5},
-                        {0, 1, 0, 0, 1},
-                        {0.5f, 0, 2, 1, 0.25f},
-                        {white, white, glass, white, white},
-                        {1, 2, 4, 1, 1}};
+                        {}};
   const DisplayCapture display = prepareForDisplay(capture, 2);
   EXPECT_TRUE(display.layered);
   EXPECT_TRUE(display.blended);
