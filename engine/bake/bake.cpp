@@ -27,7 +27,7 @@ class BakeRun {
         runner_(runner),
         stop_(stop),
         baker_(scene, settings),
-        writer_(sink, memoryBytes) {}
+        writer_(sink, memoryBytes, stop) {}
 
   Status bakeOne(int index) {
     const LayoutCamera& camera = layout_.cameras[std::size_t(index)];

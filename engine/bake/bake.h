@@ -88,12 +88,13 @@ std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, 
                              TaskRunner& runner);
 
 /// Where captures go. `put` may be called from another thread than bake's caller, one call at a time; `has`
-/// may be called meanwhile.
+/// may be called meanwhile. A stop of `put` means that the rest of this capture is not worth the time: it
+/// gives `cancelled` soon, and keeps nothing of the capture.
 class CaptureSink {
  public:
   virtual ~CaptureSink() = default;
   virtual bool has(const ContentKey& key) const = 0;
-  virtual Status put(const ContentKey& key, const Capture& capture) = 0;
+  virtual Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) = 0;
 };
 
 struct BakedCamera {
@@ -120,6 +121,7 @@ inline constexpr std::size_t kBakeMemory = std::size_t(1) << 30;
 
 /// Bakes `which` cameras (indices, in this order), those that the sink has are skipped. Progress counts
 /// cameras. Finished captures that wait to be written take at most `memoryBytes`, or are a single one.
+/// Stopped, it returns within a second; what was traced before is written as far as half of it allows.
 Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::vector<int>& which,
                         const BakeSettings& settings, CaptureSink& sink, TaskRunner& runner,
                         const Progress& progress = {}, std::stop_token stop = {},

@@ -139,14 +139,14 @@ class ColumnMarch {
     const std::size_t before = out_.row.size();
     for (int row = 0; row < march_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
       if (stop.stop_requested()) return false;
-      runRows(row, std::min(row + RayPacket::kSize, march_.columns.rows));
+      runRows(row, std::min(row + RayPacket::kSize, march_.columns.rows), stop);
     }
     out_.perColumn.push_back(std::uint32_t(out_.row.size() - before));
     return true;
   }
 
  private:
-  void runRows(int first, int last) {
+  void runRows(int first, int last, const std::stop_token& stop) {
     const RayPacket packet =
         firstRays(march_.columns, march_.rows, direction_, first, last, roles_.front().exit);
     march_.shader.scene().trace(packet, hits_);
@@ -154,12 +154,12 @@ class ColumnMarch {
     for (int row = first; row < last; ++row) {
       const auto n = std::size_t(row - first);
       runPixel(row, {packet.origin, packet.direction[n], packet.nearest[n]},
-               march_.rows.cosine[std::size_t(row)], hits_[n]);
+               march_.rows.cosine[std::size_t(row)], hits_[n], stop);
     }
   }
 
   /// From surface to surface, until every role has all it may have, or nothing is left that it could see.
-  void runPixel(int row, Ray ray, double flat, Hit hit) {
+  void runPixel(int row, Ray ray, double flat, Hit hit, const std::stop_token& stop) {
     std::ranges::fill(stored_, 0);
     int layer = 0;
     for (int step = 0; step < kMaxMarch; ++step) {
@@ -171,7 +171,7 @@ class ColumnMarch {
       addSurface(row, ray, hit, horizontal, layer);
       // The next role that may still have samples: ahead of its exit nobody needs anything.
       const auto next = std::ranges::find_if(roles_, [&](const ColumnRole& r) { return !isFull(r); });
-      if (next == roles_.end()) return;
+      if (next == roles_.end() || stop.stop_requested()) return;
       ray.nearest = std::max(justBehind(hit.distance), float(next->exit / flat));
       ++out_.counts.rays.primary;
       hit = march_.shader.scene().trace(ray);
@@ -255,7 +255,9 @@ class ColumnMarch {
   std::vector<const ColumnRole*> needed_;
 };
 
-Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total) {
+/// A part only, when stopped.
+Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total,
+               const std::stop_token& stop) {
   Capture capture;
   const ColumnCamera& columns = march.columns;
   capture.camera = columns;
@@ -267,6 +269,7 @@ Capture joined(const March& march, const std::vector<Samples>& chunks, std::size
   capture.colour.reserve(total);
   capture.roles.reserve(total);
   for (const Samples& s : chunks) {
+    if (stop.stop_requested()) break;
     for (const std::uint32_t count : s.perColumn)
       capture.columnStart.push_back(capture.columnStart.back() + count);
     capture.row.insert(capture.row.end(), s.row.begin(), s.row.end());
@@ -369,7 +372,9 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       counts.rays += s.counts.rays;
       counts.samples += s.counts.samples;
     }
-    return joined(march, chunks, total);
+    Capture capture = joined(march, chunks, total, stop);
+    if (stop.stop_requested()) return stopped();
+    return capture;
   } catch (const std::bad_alloc&) {
     return noMemory();
   }

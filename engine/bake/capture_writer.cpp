@@ -1,14 +1,16 @@
 #include "engine/bake/capture_writer.h"
 
+#include <chrono>
 #include <exception>
 
 namespace acentric {
 namespace {
 
 /// A sink is handed in from outside: what it throws must not end the program from a thread of ours.
-Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& capture) {
+Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& capture,
+                 const std::stop_token& stop) {
   try {
-    return sink.put(key, capture);
+    return sink.put(key, capture, stop);
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory to write a capture", key.toHex());
   } catch (const std::exception& e) {
@@ -24,16 +26,15 @@ std::size_t heldBy(const Capture& capture) {
                                              sizeof capture.inverseDistance[0] + sizeof capture.colour[0]));
 }
 
+/// After a stop, for what waits.
+constexpr auto kGrace = std::chrono::milliseconds(500);
+
 }  // namespace
 
-CaptureWriter::CaptureWriter(CaptureSink& sink, std::size_t memoryBytes)
-    : sink_(sink), memoryBytes_(memoryBytes), thread_([this] { loop(); }) {}
+CaptureWriter::CaptureWriter(CaptureSink& sink, std::size_t memoryBytes, std::stop_token stop)
+    : sink_(sink), stop_(std::move(stop)), memoryBytes_(memoryBytes), thread_([this] { loop(); }) {}
 
-CaptureWriter::~CaptureWriter() {
-  const std::lock_guard lock(mutex_);
-  closed_ = true;
-  changed_.notify_all();
-}
+CaptureWriter::~CaptureWriter() { (void)finish(); }
 
 Status CaptureWriter::status() const {
   if (error_) return tl::unexpected(*error_);
@@ -43,8 +44,10 @@ Status CaptureWriter::status() const {
 Status CaptureWriter::put(const ContentKey& key, Capture capture) {
   const std::size_t bytes = heldBy(capture);
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return heldBytes_ == 0 || heldBytes_ + bytes <= memoryBytes_ || error_; });
+  const bool room = changed_.wait(
+      lock, stop_, [&] { return heldBytes_ == 0 || heldBytes_ + bytes <= memoryBytes_ || error_; });
   if (error_) return status();
+  if (!room) return fail(ErrorKind::cancelled, "the bake was stopped");
   heldBytes_ += bytes;
   waiting_.push_back({key, std::move(capture)});
   changed_.notify_all();
@@ -53,9 +56,14 @@ Status CaptureWriter::put(const ContentKey& key, Capture capture) {
 
 Status CaptureWriter::finish() {
   {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     closed_ = true;
     changed_.notify_all();
+    const auto done = [this] { return heldBytes_ == 0 || error_; };
+    if (!changed_.wait(lock, stop_, done) && !changed_.wait_for(lock, kGrace, done)) {
+      error_ = Error{ErrorKind::cancelled, "the bake was stopped", {}};
+      giveUp_.request_stop();
+    }
   }
   if (thread_.joinable()) thread_.join();
   const std::lock_guard lock(mutex_);
@@ -71,12 +79,12 @@ void CaptureWriter::loop() {
     waiting_.pop_front();
     changed_.notify_all();
     lock.unlock();
-    Status done = putSafely(sink_, job.key, job.capture);
+    Status done = putSafely(sink_, job.key, job.capture, giveUp_.get_token());
     lock.lock();
     heldBytes_ -= heldBy(job.capture);
     changed_.notify_all();
     if (!done) {
-      error_ = done.error();
+      if (!error_) error_ = done.error();
       waiting_.clear();
       changed_.notify_all();
     }

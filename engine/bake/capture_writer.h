@@ -1,12 +1,14 @@
 #pragma once
 /// Hands finished captures to the sink on a thread of its own, so that the next camera is traced while the
 /// last is compressed and written. What waits or is being written keeps to a number of bytes: beyond that the
-/// bake waits, and memory stays bounded. A capture that is larger by itself goes alone.
+/// bake waits, and memory stays bounded. A capture that is larger by itself goes alone. After a stop what
+/// waits is still written for a moment; what is not done by then is given up, and was traced in vain.
 
 #include <condition_variable>
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "engine/bake/bake.h"
@@ -15,15 +17,15 @@ namespace acentric {
 
 class CaptureWriter {
  public:
-  explicit CaptureWriter(CaptureSink& sink, std::size_t memoryBytes = kBakeMemory);
-  ~CaptureWriter();  ///< writes what waits
+  explicit CaptureWriter(CaptureSink& sink, std::size_t memoryBytes = kBakeMemory, std::stop_token stop = {});
+  ~CaptureWriter();  ///< finishes
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
   /// Waits while the queue is full. The first error of the sink comes back here, and nothing is written after
-  /// it.
+  /// it. `cancelled` when stopped.
   Status put(const ContentKey& key, Capture capture);
-  /// Waits until all is written.
+  /// Waits until all is written, or stopped and given up.
   Status finish();
 
  private:
@@ -35,8 +37,10 @@ class CaptureWriter {
   Status status() const;  ///< with mutex_ held
 
   CaptureSink& sink_;
+  std::stop_token stop_;
+  std::stop_source giveUp_;  ///< what is being written
   std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable_any changed_;
   std::deque<Job> waiting_;
   std::size_t memoryBytes_;
   std::size_t heldBytes_ = 0;  ///< of what waits or is being written

@@ -132,8 +132,8 @@ class SurfaceLightBaker {
       const std::uint32_t first =
           light_.firstSample[ref.sceneTriangle] + std::uint32_t(side) * surfaceSampleCount(r);
       for (std::uint32_t i = 0; i <= r; ++i) {
-        if (stop.stop_requested()) return;
         for (std::uint32_t j = 0; i + j <= r; ++j) {
+          if (stop.stop_requested()) return;
           const Hit hit{0, ref.mesh, ref.triangle, surfaceSamplePlace(r, i, j), normal};
           const glm::vec3 position = mesh.positions[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
                                      mesh.positions[corners.y] * hit.barycentric.x +

@@ -51,6 +51,48 @@ Result<Container> readWhole(const fs::path& path, std::size_t maxBytes) {
   return out;
 }
 
+/// Between two of these a writer looks whether it is to stop.
+constexpr std::size_t kPieceBytes = 4 << 20;
+
+/// Writes pieces and has the disk keep up with all but the last, so that no flush at the end takes long.
+class PieceWriter {
+ public:
+  PieceWriter(std::FILE* file, const std::stop_token& stop) : file_(file), stop_(stop) {}
+
+  /// False with errno, or when stopped.
+  bool write(std::span<const std::byte> bytes) {
+    for (std::size_t at = 0; at < bytes.size();) {
+      if (stop_.stop_requested()) return false;
+      const std::size_t size = std::min(bytes.size() - at, kPieceBytes);
+      if (std::fwrite(bytes.data() + at, 1, size, file_) != size) return false;
+      at += size;
+      unsent_ += size;
+      if (unsent_ >= kPieceBytes && !send()) return false;
+    }
+    return true;
+  }
+
+ private:
+  bool send() {
+    if (std::fflush(file_) != 0) return false;
+    // Hints alone: where a file system does not know them, the flush at the end does all.
+    const int descriptor = ::fileno(file_);
+    (void)::sync_file_range(descriptor, sent_, off_t(unsent_), SYNC_FILE_RANGE_WRITE);
+    constexpr unsigned kWait =
+        SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE | SYNC_FILE_RANGE_WAIT_AFTER;
+    if (sent_ > before_) (void)::sync_file_range(descriptor, before_, sent_ - before_, kWait);
+    before_ = sent_;
+    sent_ += off_t(unsent_);
+    unsent_ = 0;
+    return true;
+  }
+
+  std::FILE* file_;
+  const std::stop_token& stop_;
+  std::size_t unsent_ = 0;
+  off_t before_ = 0, sent_ = 0;  ///< where the piece that the disk writes began, and ended
+};
+
 Status flushToDisk(const fs::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0) return failErrno("cannot be opened to flush it to disk", path);
@@ -116,16 +158,23 @@ Status replaceFileAtomically(const fs::path& path, const std::function<Status(co
   return result;
 }
 
-Status writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
+Status writeFileAtomically(const fs::path& path, std::span<const std::span<const std::byte>> parts,
+                           const std::stop_token& stop) {
   return replaceFileAtomically(path, [&](const fs::path& temporary) -> Status {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(temporary.c_str(), "wb"), &std::fclose);
     if (!file) return failErrno("cannot be opened for writing", path);
-    // fwrite must not see the null pointer of an empty span.
-    if ((!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) ||
-        std::fflush(file.get()) != 0)
-      return failErrno("writing failed", path);
+    PieceWriter writer(file.get(), stop);
+    bool written = true;
+    for (const auto& part : parts) written = written && writer.write(part);
+    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped", path.string());
+    if (!written || std::fflush(file.get()) != 0) return failErrno("writing failed", path);
     return {};
   });
+}
+
+Status writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes,
+                           const std::stop_token& stop) {
+  return writeFileAtomically(path, std::span(&bytes, 1), stop);
 }
 
 Status writeTextAtomically(const fs::path& path, std::string_view text) {

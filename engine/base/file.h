@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,12 @@ Result<std::vector<std::byte>> readFile(const std::filesystem::path& path,
 Result<std::string> readText(const std::filesystem::path& path, std::size_t maxBytes = std::size_t(256)
                                                                                        << 20);
 
-Status writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// `parts` one behind the other. A stop gives `cancelled` within a few megabytes, and leaves what was there.
+Status writeFileAtomically(const std::filesystem::path& path,
+                           std::span<const std::span<const std::byte>> parts,
+                           const std::stop_token& stop = {});
+Status writeFileAtomically(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                           const std::stop_token& stop = {});
 Status writeTextAtomically(const std::filesystem::path& path, std::string_view text);
 
 /// For libraries that write files themselves: `write(temporary)` makes the file; then it is flushed to disk

@@ -31,8 +31,8 @@ class StoreSink final : public CaptureSink {
     if (found != known_.end()) return found->second;
     return known_.emplace(key, look(key, false)).first->second;
   }
-  Status put(const ContentKey& key, const Capture& capture) override {
-    if (Status done = store_.put(key, capture); !done) return done;
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
+    if (Status done = store_.put(key, capture, stop); !done) return done;
     return note(key);
   }
   Status note(const ContentKey& key) const {
@@ -90,6 +90,15 @@ class StoreSink final : public CaptureSink {
   mutable std::optional<Error> trouble_;
 };
 
+/// Nothing where nothing was ever baked: asking makes no folder.
+std::optional<CaptureStore> storeIfThere(const OpenProject& open) {
+  std::error_code error;
+  const auto folder = captureFolderFor(open.file);
+  if (!std::filesystem::is_directory(folder, error)) return std::nullopt;
+  auto store = CaptureStore::open(folder);
+  return store ? std::optional(std::move(*store)) : std::nullopt;
+}
+
 /// What ran out, and what to do.
 Error withAdvice(Error error) {
   if (error.kind == ErrorKind::outOfSpace)
@@ -114,6 +123,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
   double missingPixels = 0, knownPixels = 0, knownBytes = 0;
   int known = 0;
   for (const int camera : cameras) {
+    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
     const PlannedCapture& planned = plan.cameras[std::size_t(camera)];
     if (sink.has(planned.key)) {
       ++known, knownPixels += planned.pixels, knownBytes += double(store->bytesOf(planned.key));
@@ -218,18 +228,13 @@ std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from) {
 
 std::vector<bool> bakedCameras(const OpenProject& open) {
   std::vector<bool> baked(open.keys.size(), false);
-  std::error_code error;
-  if (!std::filesystem::is_directory(captureFolderFor(open.file), error)) return baked;
-  const auto store = CaptureStore::open(captureFolderFor(open.file));
-  if (store)
+  if (const auto store = storeIfThere(open))
     for (std::size_t i = 0; i < open.keys.size(); ++i) baked[i] = store->has(open.keys[i]);
   return baked;
 }
 
 bool surfaceLightBaked(const OpenProject& open) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(captureFolderFor(open.file), error)) return false;
-  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  const auto store = storeIfThere(open);
   return store && store->hasSurfaceLight(open.surfaceLightKey);
 }
 
@@ -272,11 +277,11 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     report.surfaceLightReused = !report.surfaceLightBaked;
   } else if (request.surfaceLight) {
     const Stopwatch watch;
-    const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
+    const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout, stop);
     const auto light =
         bakeSurfaceLight(*open.rays, local.wanted, local.viewer, open.project.bake, runner, progress, stop);
     if (!light) return tl::unexpected(light.error());
-    if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light); !put)
+    if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light, stop); !put)
       return tl::unexpected(withAdvice(put.error()));
     if (Status noted = sink.note(open.surfaceLightKey); !noted)
       return tl::unexpected(withAdvice(noted.error()));

@@ -139,10 +139,12 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
    public:
     explicit Sink(const CaptureStore& s) : store(s) {}
     bool has(const ContentKey&) const override { return false; }
-    Status put(const ContentKey& key, const Capture& capture) override { return store.put(key, capture); }
+    Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
+      return store.put(key, capture, stop);
+    }
     const CaptureStore& store;
   } sink(*store);
-  CaptureWriter writer(sink);
+  CaptureWriter writer(sink, kBakeMemory, stop_);
   CameraBaker baker(rays, settings(false));
   std::uint64_t number = 0;
   for (const LayoutCamera& camera : ring_.cameras) {

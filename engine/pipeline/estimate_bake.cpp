@@ -44,11 +44,11 @@ class TrialSink final : public CaptureSink {
   explicit TrialSink(fs::path folder) : folder_(std::move(folder)) {}
 
   bool has(const ContentKey&) const override { return false; }
-  Status put(const ContentKey& key, const Capture& capture) override {
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     const fs::path exr = folder_ / "trial.exr", pack = folder_ / "trial.pack";
     const Stopwatch watch;
-    if (Status done = writeCaptureExr(capture, key, exr); !done) return done;
-    if (Status done = writeCapturePack(capture, key, pack); !done) return done;
+    if (Status done = writeCaptureExr(capture, key, exr, stop); !done) return done;
+    if (Status done = writeCapturePack(capture, key, pack, stop); !done) return done;
     const double seconds = watch.seconds();
     written_.push_back({key.low, Thinned(key.high), double(capture.sampleCount()), seconds,
                         double(fs::file_size(exr)), double(fs::file_size(pack))});
@@ -130,7 +130,7 @@ class ProjectProber final : public BakeProber {
       if (!capture) return tl::unexpected(capture.error());
       overhead_.traceSeconds = watch.seconds() - counts.eyeViewSeconds;
       TrialSink sink(lightFile_.parent_path());
-      if (Status done = sink.put({}, *capture); !done) return tl::unexpected(done.error());
+      if (Status done = sink.put({}, *capture, stop_); !done) return tl::unexpected(done.error());
       smallest_ = sink.written().front();
     }
     overhead_.writeSeconds = smallest_.seconds;
@@ -139,7 +139,7 @@ class ProjectProber final : public BakeProber {
   }
 
   Status probeCapture(int camera) override {
-    if (!writer_) writer_.emplace(sink_);
+    if (!writer_) writer_.emplace(sink_, kBakeMemory, stop_);
     const ColumnCamera whole = columnsOf(camera);
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads());
     const double thinning = double(whole.columns) * whole.rows / wanted;
@@ -175,7 +175,7 @@ class ProjectProber final : public BakeProber {
 
   Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) override {
     TrialSink sink(lightFile_.parent_path());
-    CaptureWriter writer(sink);
+    CaptureWriter writer(sink, kBakeMemory, stop_);
     std::vector<double> seconds;
     Stopwatch watch;
     for (const int camera : cameras) {
@@ -204,7 +204,8 @@ class ProjectProber final : public BakeProber {
 
   Result<LightOverhead> lightOverhead() override {
     const Stopwatch finding;
-    local_ = localTrianglesOf(*open_.scene, *open_.layout);
+    local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
     const double findingSeconds = finding.seconds();
     const auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
     if (!layout) return tl::unexpected(layout.error());
@@ -264,7 +265,8 @@ class ProjectProber final : public BakeProber {
   };
   Result<LightFile> writeLight(const SurfaceLight& light) const {
     const Stopwatch watch;
-    if (Status done = writeSurfaceLight(light, {}, lightFile_); !done) return tl::unexpected(done.error());
+    if (Status done = writeSurfaceLight(light, {}, lightFile_, stop_); !done)
+      return tl::unexpected(done.error());
     return LightFile{double(fs::file_size(lightFile_)), watch.seconds()};
   }
 

@@ -13,7 +13,7 @@ bool hasArea(const std::vector<PolygonClipper::Corner>& part) {
 
 }  // namespace
 
-LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout) {
+LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout, const std::stop_token& stop) {
   const auto first = scene.firstTriangles();
   LocalTriangles out{std::vector<std::uint8_t>(first.back(), 0),
                      std::vector<glm::vec3>(first.back(), glm::vec3(0))};
@@ -21,6 +21,7 @@ LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout) {
     const glm::vec3 eye(glm::dvec3(region.polygon.centroid(), layout.eyeZ()));
     PolygonClipper clipper(region.grown);
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+      if (stop.stop_requested()) return out;
       const Mesh& mesh = scene.meshes[m];
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::size_t number = first[m] + t;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "engine/layout/layout.h"
@@ -16,6 +17,7 @@ struct LocalTriangles {
   std::vector<glm::vec3> viewer;  ///< an eye in the first region (in layout order) that draws the triangle
 };
 
-LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout);
+/// Stopped, it knows of some of them only.
+LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout, const std::stop_token& stop = {});
 
 }  // namespace acentric

@@ -42,13 +42,14 @@ T take(const std::vector<std::byte>& bytes, std::size_t offset) {
 
 Status BlockFileWriter::addBlock(std::span<const std::byte> raw) {
   if (raw.size() > kMaxBlockBytes) return fail(ErrorKind::tooLarge, "a block exceeds 16 MiB");
-  const std::size_t old = stored_.size();
-  stored_.resize(old + ZSTD_compressBound(raw.size()));
+  if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped");
+  std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
   const std::size_t size =
-      ZSTD_compress(stored_.data() + old, stored_.size() - old, raw.data(), raw.size(), kCompressionLevel);
+      ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kCompressionLevel);
   if (ZSTD_isError(size))
     return fail(ErrorKind::internal, std::string("compression failed: ") + ZSTD_getErrorName(size));
-  stored_.resize(old + size);
+  stored_.emplace_back(packed.begin(), packed.begin() + std::ptrdiff_t(size));
+  storedBytes_ += size;
   sizes_.push_back({static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(size)});
   rawBytes_ += raw.size();
   return {};
@@ -66,11 +67,10 @@ Status BlockFileWriter::addRecords(std::span<const ConstLane> lanes, std::size_t
 }
 
 Status BlockFileWriter::write(const std::filesystem::path& path) const {
-  const std::uint64_t contentBytes = kPreambleBytes + description_.size() + sizes_.size() * kTableEntryBytes +
-                                     stored_.size() + kChecksumBytes;
+  const std::uint64_t contentBytes =
+      kPreambleBytes + description_.size() + sizes_.size() * kTableEntryBytes + storedBytes_ + kChecksumBytes;
   const std::uint64_t fileBytes = std::max(contentBytes, (rawBytes_ + kMaxExpansion - 1) / kMaxExpansion);
   std::vector<std::byte> out;
-  out.reserve(fileBytes);
   for (char letter : kMagic) put(out, letter);
   put(out, versionOf(kind_));
   put(out, static_cast<std::uint32_t>(kind_));
@@ -85,12 +85,17 @@ Status BlockFileWriter::write(const std::filesystem::path& path) const {
     put(out, size.raw);
     put(out, size.stored);
   }
-  out.insert(out.end(), stored_.begin(), stored_.end());
-  out.resize(fileBytes - kChecksumBytes);
-  const ContentKey checksum = Hasher().bytes(out.data(), out.size()).finish();
-  put(out, checksum.high);
-  put(out, checksum.low);
-  return writeFileAtomically(path, out);
+  std::vector<std::byte> end(fileBytes - contentBytes);
+  std::vector<std::span<const std::byte>> parts{out};
+  parts.insert(parts.end(), stored_.begin(), stored_.end());
+  parts.push_back(end);
+  Hasher hasher;
+  for (const auto& part : parts) hasher.bytes(part.data(), part.size());
+  const ContentKey checksum = hasher.finish();
+  put(end, checksum.high);
+  put(end, checksum.low);
+  parts.back() = end;
+  return writeFileAtomically(path, parts, stop_);
 }
 
 Result<BlockFileReader> BlockFileReader::open(const std::filesystem::path& path, BlockFileKind kind) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,9 @@ inline constexpr std::size_t kRecordsPerBlock = 65536;
 
 class BlockFileWriter {
  public:
-  BlockFileWriter(BlockFileKind kind, const ContentKey& key) : kind_(kind), key_(key) {}
+  /// Told to stop, it adds and writes nothing more, but gives `cancelled`.
+  BlockFileWriter(BlockFileKind kind, const ContentKey& key, std::stop_token stop = {})
+      : kind_(kind), key_(key), stop_(std::move(stop)) {}
 
   template <class T>
   void describe(T value) {
@@ -47,9 +50,11 @@ class BlockFileWriter {
   };
   BlockFileKind kind_;
   ContentKey key_;
+  std::stop_token stop_;
   std::vector<std::byte> description_;
   std::vector<BlockSize> sizes_;
-  std::vector<std::byte> stored_;
+  std::vector<std::vector<std::byte>> stored_;  ///< by block
+  std::uint64_t storedBytes_ = 0;
   std::uint64_t rawBytes_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -100,17 +101,24 @@ char* slicePointer(T& value) {
   return reinterpret_cast<char*>(&value);
 }
 
+/// Thrown out of the loops over lines.
+struct Stopped {};
+void obey(const std::stop_token& stop) {
+  if (stop.stop_requested()) throw Stopped{};
+}
+
+struct Pixel {
+  HalfColour colour;
+  float z;
+  float w;
+  std::uint32_t roles;
+  std::uint32_t mirror;
+};
+
 /// `File`: a whole file or a part of one. `colours` are premultiplied.
 template <class File>
 void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
-               const std::vector<HalfColour>& colours) {
-  struct Pixel {
-    HalfColour colour;
-    float z;
-    float w;
-    std::uint32_t roles;
-    std::uint32_t mirror;
-  };
+               const std::vector<HalfColour>& colours, const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
   const bool mirrors = !samples.mirror.empty();
   std::vector<Pixel> line(columns);
@@ -127,6 +135,7 @@ void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
   file.setFrameBuffer(buffer);
   RowWalk walk(samples);
   for (std::size_t row = 0; row < static_cast<std::size_t>(camera.rows); ++row) {
+    obey(stop);
     const double perHorizontal = rayPerHorizontal(camera, row);
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
@@ -144,57 +153,64 @@ void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
 
 template <class File>
 void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
-               std::vector<HalfColour>& colours) {
+               const std::vector<HalfColour>& colours, const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
-  std::vector<float> w = samples.inverseDistance, z(samples.sampleCount());
-  std::vector<std::uint32_t> roles(samples.roles.begin(), samples.roles.end()),
-      mirror(samples.mirror.begin(), samples.mirror.end());
+  const bool mirrors = !samples.mirror.empty();
+  std::vector<Pixel> line;  // its samples, one behind the other
   std::vector<unsigned int> counts(columns);
-  // Pointers to the first sample of each pixel of one line, for every channel; its samples lie one behind the
-  // other.
+  // Pointers to the first sample of each pixel of the line, for every channel.
   std::array<std::vector<char*>, 8> pointers;
   for (auto& channel : pointers) channel.resize(columns);
   Imf::DeepFrameBuffer buffer;
   buffer.insertSampleCountSlice(Imf::Slice(Imf::UINT, slicePointer(counts[0]), sizeof(unsigned int), 0));
-  const auto slice = [&](const char* name, Imf::PixelType type, std::size_t channel, std::size_t stride) {
-    buffer.insert(name, Imf::DeepSlice(type, slicePointer(pointers[channel][0]), sizeof(char*), 0, stride));
+  const auto slice = [&](const char* name, Imf::PixelType type, std::size_t channel) {
+    buffer.insert(name,
+                  Imf::DeepSlice(type, slicePointer(pointers[channel][0]), sizeof(char*), 0, sizeof(Pixel)));
   };
-  for (std::size_t channel = 0; channel < 4; ++channel)
-    slice(kColourChannels[channel], Imf::HALF, channel, sizeof(HalfColour));
-  slice("Z", Imf::FLOAT, 4, sizeof(float));
-  slice("W", Imf::FLOAT, 5, sizeof(float));
-  slice(kRolesChannel, Imf::UINT, 6, sizeof(std::uint32_t));
-  if (!mirror.empty()) slice(kMirrorChannel, Imf::UINT, 7, sizeof(std::uint32_t));
+  for (std::size_t channel = 0; channel < 4; ++channel) slice(kColourChannels[channel], Imf::HALF, channel);
+  slice("Z", Imf::FLOAT, 4);
+  slice("W", Imf::FLOAT, 5);
+  slice(kRolesChannel, Imf::UINT, 6);
+  if (mirrors) slice(kMirrorChannel, Imf::UINT, 7);
   file.setFrameBuffer(buffer);
   RowWalk walk(samples);
   for (std::size_t row = 0; row < static_cast<std::size_t>(camera.rows); ++row) {
+    obey(stop);
     const double perHorizontal = rayPerHorizontal(camera, row);
+    line.clear();
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
       counts[x] = count;
-      if (count == 0) continue;
-      for (std::uint32_t i = first; i < first + count; ++i) z[i] = rayDistance(perHorizontal, w[i]);
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        const float w = samples.inverseDistance[i];
+        line.push_back({colours[i], rayDistance(perHorizontal, w), w, samples.roles[i],
+                        mirrors ? std::uint32_t(samples.mirror[i]) : 0});
+      }
+    }
+    Pixel* next = line.data();
+    for (std::size_t x = 0; x < columns; next += counts[x++]) {
+      if (counts[x] == 0) continue;
       for (std::size_t channel = 0; channel < 4; ++channel)
-        pointers[channel][x] = slicePointer(colours[first][static_cast<int>(channel)]);
-      pointers[4][x] = slicePointer(z[first]);
-      pointers[5][x] = slicePointer(w[first]);
-      pointers[6][x] = slicePointer(roles[first]);
-      if (!mirror.empty()) pointers[7][x] = slicePointer(mirror[first]);
+        pointers[channel][x] = slicePointer(next->colour[static_cast<int>(channel)]);
+      pointers[4][x] = slicePointer(next->z);
+      pointers[5][x] = slicePointer(next->w);
+      pointers[6][x] = slicePointer(next->roles);
+      pointers[7][x] = slicePointer(next->mirror);
     }
     file.writePixels(1);
   }
 }
 
-void writeWhole(const Capture& capture, std::vector<HalfColour>& colours, const Imf::Header& header,
-                Imf::OStream& stream) {
+void writeWhole(const Capture& capture, const std::vector<HalfColour>& colours, const Imf::Header& header,
+                Imf::OStream& stream, const std::stop_token& stop) {
   if (header.hasType())
-    writeDeep(Imf::DeepScanLineOutputFile(stream, header, 0), capture.camera, capture, colours);
+    writeDeep(Imf::DeepScanLineOutputFile(stream, header, 0), capture.camera, capture, colours, stop);
   else
-    writeFlat(Imf::OutputFile(stream, header, 0), capture.camera, capture, colours);
+    writeFlat(Imf::OutputFile(stream, header, 0), capture.camera, capture, colours, stop);
 }
 
-void writeParts(const Capture& capture, std::vector<HalfColour>& colours, const Imf::Header& header,
-                Imf::OStream& stream) {
+void writeParts(const Capture& capture, const std::vector<HalfColour>& colours, const Imf::Header& header,
+                Imf::OStream& stream, const std::stop_token& stop) {
   const CaptureSamples& reflections = capture.reflections;
   std::array headers = {header, headerFor(capture.camera, reflections)};
   headers[0].setName(kSurfacesPart);
@@ -202,34 +218,39 @@ void writeParts(const Capture& capture, std::vector<HalfColour>& colours, const 
   for (Imf::Header& part : headers)
     if (!part.hasType()) part.setType(Imf::SCANLINEIMAGE);
   Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()), false, 0);
-  const auto write = [&](int part, const CaptureSamples& samples, std::vector<HalfColour>& of) {
+  const auto write = [&](int part, const CaptureSamples& samples, const std::vector<HalfColour>& of) {
     if (headers[static_cast<std::size_t>(part)].type() == Imf::DEEPSCANLINE)
-      writeDeep(Imf::DeepScanLineOutputPart(file, part), capture.camera, samples, of);
+      writeDeep(Imf::DeepScanLineOutputPart(file, part), capture.camera, samples, of, stop);
     else
-      writeFlat(Imf::OutputPart(file, part), capture.camera, samples, of);
+      writeFlat(Imf::OutputPart(file, part), capture.camera, samples, of, stop);
   };
   write(0, capture, colours);
-  std::vector<HalfColour> reflected = reflections.colour;
-  write(1, reflections, reflected);
+  write(1, reflections, reflections.colour);
 }
 
-Status writeExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
+Status writeExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                const std::stop_token& stop) {
   if (Status sound = capture.check(); !sound) return sound;
   std::vector<HalfColour> colours(capture.sampleCount());
-  for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = premultiplied(capture.colour[i]);
+  obey(stop);
+  std::ranges::transform(capture.colour, colours.begin(), premultiplied);
+  obey(stop);
   Imf::Header header = headerFor(capture.camera, capture);
   addAttributes(header, capture, key, checksumOf(key, capture, colours));
   ExrMemoryOutput memory(path.string());
-  (capture.hasReflections() ? writeParts : writeWhole)(capture, colours, header, memory);
-  return writeFileAtomically(path, memory.bytes());
+  (capture.hasReflections() ? writeParts : writeWhole)(capture, colours, header, memory, stop);
+  return writeFileAtomically(path, memory.parts(), stop);
 }
 
 }  // namespace
 
-Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
+Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                       const std::stop_token& stop) {
   return withinMemory(path, [&]() -> Status {
     try {
-      return writeExr(capture, key, path);
+      return writeExr(capture, key, path, stop);
+    } catch (const Stopped&) {
+      return fail(ErrorKind::cancelled, "writing was stopped", path.string());
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {

@@ -36,10 +36,11 @@ Status add(BlockFileWriter& file, const CaptureSamples& samples) {
   return file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size());
 }
 
-Status writePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
+Status writePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                 const std::stop_token& stop) {
   if (Status sound = capture.check(); !sound) return sound;
   const ColumnCamera& camera = capture.camera;
-  BlockFileWriter file(BlockFileKind::capture, key);
+  BlockFileWriter file(BlockFileKind::capture, key, stop);
   for (double value : {camera.centreOfProjection.x, camera.centreOfProjection.y, camera.centreOfProjection.z,
                        camera.lowAzimuth, camera.fovRadians, camera.topElevation, camera.bottomElevation,
                        capture.distanceStep})
@@ -114,8 +115,9 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
 
 }  // namespace
 
-Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return writePack(capture, key, path); });
+Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                        const std::stop_token& stop) {
+  return withinMemory(path, [&] { return writePack(capture, key, path, stop); });
 }
 
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path) {

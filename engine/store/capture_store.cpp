@@ -75,9 +75,9 @@ bool CaptureStore::has(const ContentKey& key) const {
   return isFile(exrOf(folder_, key)) && isFile(packOf(folder_, key));
 }
 
-Status CaptureStore::put(const ContentKey& key, const Capture& capture) const {
-  if (Status written = writeCaptureExr(capture, key, exrOf(folder_, key)); !written) return written;
-  Status packed = writeCapturePack(capture, key, packOf(folder_, key));
+Status CaptureStore::put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) const {
+  if (Status written = writeCaptureExr(capture, key, exrOf(folder_, key), stop); !written) return written;
+  Status packed = writeCapturePack(capture, key, packOf(folder_, key), stop);
   std::error_code ignored;  // half a capture is of no use, and takes room where there may be none
   if (!packed && !isFile(packOf(folder_, key))) fs::remove(exrOf(folder_, key), ignored);
   return packed;
@@ -106,8 +106,9 @@ Result<Capture> CaptureStore::get(const ContentKey& key) const {
 
 bool CaptureStore::hasSurfaceLight(const ContentKey& key) const { return isFile(lightOf(folder_, key)); }
 
-Status CaptureStore::putSurfaceLight(const ContentKey& key, const SurfaceLight& light) const {
-  return writeSurfaceLight(light, key, lightOf(folder_, key));
+Status CaptureStore::putSurfaceLight(const ContentKey& key, const SurfaceLight& light,
+                                     const std::stop_token& stop) const {
+  return writeSurfaceLight(light, key, lightOf(folder_, key), stop);
 }
 
 Result<SurfaceLight> CaptureStore::getSurfaceLight(const ContentKey& key) const {

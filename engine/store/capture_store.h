@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,17 @@
 
 namespace acentric {
 
-Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path);
+// What is told to stop while it writes gives `cancelled` soon, and leaves no file of its own.
+Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                       const std::stop_token& stop = {});
 Result<Capture> readCaptureExr(const std::filesystem::path& path);
 
-Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path);
+Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                        const std::stop_token& stop = {});
 Result<Capture> readCapturePack(const std::filesystem::path& path);
 
-Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path);
+Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
+                         const std::stop_token& stop = {});
 Result<SurfaceLight> readSurfaceLight(const std::filesystem::path& path);
 
 Status writeSimplified(const SimplifiedLocal& simplified, const ContentKey& key,
@@ -41,13 +46,15 @@ class CaptureStore {
   const std::filesystem::path& folder() const { return folder_; }
   /// Complete on disk (both files present; content is checked on get).
   bool has(const ContentKey& key) const;
-  Status put(const ContentKey& key, const Capture& capture) const;
+  /// Both files or, stopped before the second is whole, none.
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop = {}) const;
   /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both
   /// are set aside (renamed *.damaged), so that the next bake replaces them.
   Result<Capture> get(const ContentKey& key) const;
 
   bool hasSurfaceLight(const ContentKey& key) const;
-  Status putSurfaceLight(const ContentKey& key, const SurfaceLight& light) const;
+  Status putSurfaceLight(const ContentKey& key, const SurfaceLight& light,
+                         const std::stop_token& stop = {}) const;
   Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
 
   bool hasSimplified(const ContentKey& key) const;

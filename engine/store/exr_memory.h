@@ -17,11 +17,12 @@ class ExrMemoryOutput : public Imf::OStream {
   void write(const char bytes[], int count) override;
   std::uint64_t tellp() override { return position_; }
   void seekp(std::uint64_t position) override { position_ = position; }
-  std::span<const std::byte> bytes() const { return bytes_; }
+  /// All that was written, in blocks.
+  std::vector<std::span<const std::byte>> parts() const;
 
  private:
-  std::vector<std::byte> bytes_;
-  std::uint64_t position_ = 0;
+  std::vector<std::vector<std::byte>> blocks_;  ///< all of one size: they grow without being copied
+  std::uint64_t size_ = 0, position_ = 0;
 };
 
 /// The bytes outlive the stream. Reading beyond the end throws, as OpenEXR expects.

@@ -52,9 +52,10 @@ Status checkSurfaceLight(const SurfaceLight& light) {
   return {};
 }
 
-Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path) {
+Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
+                  const std::stop_token& stop) {
   if (Status sound = checkSurfaceLight(light); !sound) return sound;
-  BlockFileWriter file(BlockFileKind::surfaceLight, key);
+  BlockFileWriter file(BlockFileKind::surfaceLight, key, stop);
   file.describe(static_cast<std::uint64_t>(light.resolution.size()));
   file.describe(static_cast<std::uint64_t>(light.light.size()));
   if (Status added = file.addRecords(triangleLanes(light), light.resolution.size()); !added) return added;
@@ -86,9 +87,9 @@ Result<Keyed<SurfaceLight>> readLight(const std::filesystem::path& path) {
 
 }  // namespace
 
-Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key,
-                         const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return writeLight(light, key, path); });
+Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
+                         const std::stop_token& stop) {
+  return withinMemory(path, [&] { return writeLight(light, key, path, stop); });
 }
 
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path) {

@@ -25,7 +25,7 @@ class MemorySink : public CaptureSink {
     const std::lock_guard lock(mutex_);
     return captures_.contains(key);
   }
-  Status put(const ContentKey& key, const Capture& capture) override {
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token&) override {
     if (onPut) onPut();
     const std::lock_guard lock(mutex_);
     if (captures_.size() >= room) return fail(ErrorKind::outOfSpace, "the disk is full", "sink");

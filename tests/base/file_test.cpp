@@ -29,7 +29,7 @@ TEST_F(FileTest, WritesWhatItReads) {
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "one\ntwo");
   ASSERT_TRUE(writeTextAtomically(folder_ / "a.txt", ""));
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "");
-  ASSERT_TRUE(writeFileAtomically(folder_ / "a.txt", {}));
+  ASSERT_TRUE(writeFileAtomically(folder_ / "a.txt", std::span<const std::byte>{}));
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "");
 }
 
@@ -41,6 +41,27 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFileAndNoTemporary) {
   });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::outOfSpace);
+  EXPECT_EQ(readText(folder_ / "a.txt").value(), "old");
+  EXPECT_EQ(filesInFolder(), 1u);
+}
+
+TEST_F(FileTest, WritesPartsOneBehindTheOtherAcrossThePiecesItFlushes) {
+  std::vector<std::byte> big(9'000'001);
+  for (std::size_t i = 0; i < big.size(); ++i) big[i] = std::byte(i * 2654435761u >> 24);
+  const std::span<const std::byte> all(big),
+      parts[] = {all.first(5), {}, all.subspan(5, 8'000'000), all.subspan(8'000'005)};
+  ASSERT_TRUE(writeFileAtomically(folder_ / "big", parts));
+  EXPECT_EQ(readFile(folder_ / "big").value(), big);
+}
+
+TEST_F(FileTest, AStoppedWriteLeavesTheOldFileAndNoTemporary) {
+  ASSERT_TRUE(writeTextAtomically(folder_ / "a.txt", "old"));
+  std::stop_source stop;
+  stop.request_stop();
+  const std::vector<std::byte> bytes(100);
+  const Status status = writeFileAtomically(folder_ / "a.txt", bytes, stop.get_token());
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::cancelled);
   EXPECT_EQ(readText(folder_ / "a.txt").value(), "old");
   EXPECT_EQ(filesInFolder(), 1u);
 }

@@ -73,7 +73,7 @@ SourceScene roomOf(const Place& place) {
 class Memory final : public CaptureSink {
  public:
   bool has(const ContentKey&) const override { return false; }
-  Status put(const ContentKey& key, const Capture& capture) override {
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token&) override {
     captures[key] = capture;
     return {};
   }

@@ -16,8 +16,11 @@ const ContentKey kKey{0x0123456789abcdef, 0xfedcba9876543210};
 
 struct CaptureFormat {
   const char* name;
-  Status (*write)(const Capture&, const ContentKey&, const fs::path&);
+  Status (*stoppableWrite)(const Capture&, const ContentKey&, const fs::path&, const std::stop_token&);
   Result<Capture> (*read)(const fs::path&);
+  Status write(const Capture& capture, const ContentKey& key, const fs::path& path) const {
+    return stoppableWrite(capture, key, path, {});
+  }
 };
 const CaptureFormat kPack = {"c.pack", writeCapturePack, readCapturePack};
 const CaptureFormat kExr = {"c.exr", writeCaptureExr, readCaptureExr};

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <thread>
 
 #include "engine/base/file.h"
@@ -48,6 +49,39 @@ class StoreTest : public FolderTest {
 
   Capture capture_;
 };
+
+TEST_F(StoreTest, StoppedAtAnyMomentItHoldsACaptureWholeOrNotAtAll) {
+  const CaptureStore store = openStore();
+  const Capture heavy = syntheticCapture({900, 800, true, true, 1});
+  using Clock = std::chrono::steady_clock;
+  const auto began = Clock::now();
+  ASSERT_TRUE(store.put(kFirst, heavy));
+  const auto whole = Clock::now() - began;
+  constexpr int kMoments = 12;
+  int stopped = 0;
+  for (int n = 0; n < kMoments; ++n) {
+    const ContentKey key{3, std::uint64_t(n)};
+    std::stop_source stop;
+    std::jthread timer([&] {
+      std::this_thread::sleep_for(whole * n / kMoments);
+      stop.request_stop();
+    });
+    const Status put = store.put(key, heavy, stop.get_token());
+    EXPECT_EQ(store.has(key), put.has_value());
+    EXPECT_EQ(store.bytesOf(key) > 0, put.has_value());
+    EXPECT_FALSE(hasTemporaries(store.folder()));
+    if (put) continue;
+    ++stopped;
+    EXPECT_EQ(put.error().kind, ErrorKind::cancelled);
+  }
+  EXPECT_GT(stopped, 0);
+
+  std::stop_source stop;
+  stop.request_stop();
+  const Status light = store.putSurfaceLight(kSecond, {{0}, {}, {}, {}}, stop.get_token());
+  EXPECT_TRUE(!light && light.error().kind == ErrorKind::cancelled);
+  EXPECT_FALSE(store.hasSurfaceLight(kSecond) || hasTemporaries(store.folder()));
+}
 
 TEST_F(StoreTest, GivesBackWhatWasPut) {
   const CaptureStore store = openStore();
