@@ -21,9 +21,13 @@ Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& captur
 /// While it is encoded a capture is there twice more: as planes, and as the files' bytes.
 std::size_t heldBy(const Capture& capture) {
   constexpr std::size_t kCopies = 3;
-  return kCopies * (capture.columnStart.size() * sizeof capture.columnStart[0] +
-                    capture.sampleCount() * (sizeof capture.row[0] + sizeof capture.roles[0] +
-                                             sizeof capture.inverseDistance[0] + sizeof capture.colour[0]));
+  const auto bytesOf = [](const CaptureSamples& samples) {
+    return samples.columnStart.size() * sizeof samples.columnStart[0] +
+           samples.sampleCount() * (sizeof samples.row[0] + sizeof samples.roles[0] +
+                                    sizeof samples.inverseDistance[0] + sizeof samples.colour[0]) +
+           samples.mirror.size();
+  };
+  return kCopies * (bytesOf(capture) + bytesOf(capture.reflections));
 }
 
 /// After a stop, for what waits.
