@@ -42,8 +42,8 @@ class StopTest : public FolderTest {
     open_.project.layout().cellSize = 1.2;
     open_.project.layout().nearBand = 0.6;
     open_.project.layout().outline.loops = {{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.3, 0.3}}};
-    open_.project.bake.samplesPerDegree = 12;
-    open_.project.bake.surfaceTexel = 0.5;
+    open_.project.bake.samplesPerDegree = 10;
+    open_.project.bake.surfaceTexel = 1;
     open_.project.bake.ambientRays = 4;
     open_.project.bake.testEyes = 1;
     open_.rays = builder.rays();
@@ -99,7 +99,7 @@ TEST_F(StopTest, ABakeEndsSoonAtAnyMomentAndWhatItLeavesIsSound) {
   std::uniform_real_distribution<double> moment(0, seconds);
   double worst = 0;
   int stopped = 0;
-  for (int n = 1; n <= 6; ++n) {
+  for (int n = 1; n <= 4; ++n) {
     const OpenProject open = fresh(n);
     const Ended ended = stopAfter(moment(random), [&](const std::stop_token& stop) {
       return bakeProject(open, request, runner, {}, stop);
