@@ -1,5 +1,5 @@
 // One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
-// OPAQUE (draws the others) and CLEAR (draws these, one rank at a time).
+// OPAQUE (draws the others) and CLEAR (draws these, one rank at a time); MIRRORS passes on each sample's mirror.
 //
 // A sample of column direction c, row tangent t and inverse horizontal distance w lies, seen from the eye, along
 // q = K M (c + t z + w b), where M turns the world into view axes and K multiplies focal length and picture centre in:
@@ -46,6 +46,10 @@ uniform bool partIsWide;      // more than half a turn
 #endif
 
 flat out vec4 pointColour;
+#ifdef MIRRORS
+layout(std430, binding = 3) readonly buffer Mirrors { uint mirrorsOfFour[]; };
+flat out uint pointMirror;
+#endif
 
 const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
 
@@ -99,6 +103,9 @@ void main() {
   vec3 q = column.inPicture.xyz + t * upInPicture + w * baselineInPicture;
   vec4 colour = unpackUnorm4x8(s.colour);
   pointColour = colour;
+#ifdef MIRRORS
+  pointMirror = bitfieldExtract(mirrorsOfFour[index >> 2], int(index & 3u) * 8, 8);
+#endif
   gl_PointSize = 1.0;
   gl_Position = kOutside;
   if ((s.inverseDistanceAndRoles & roles) == 0u || w > column.inPicture.w || !(q.z > 0.0)) return;

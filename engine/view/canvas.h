@@ -46,10 +46,12 @@ struct Canvas {
   std::vector<CanvasPixel> pixels;  ///< [x * height + y]
   std::vector<std::uint64_t>
       stamps;  ///< the sample last blended into each pixel; empty if nothing is blended
+  std::vector<std::uint8_t> mirrors;  ///< the mirror that each pixel shows, 0 = none; empty if none is needed
 
   CanvasPixel* column(int x) { return pixels.data() + std::size_t(x) * std::size_t(height); }
   const CanvasPixel* column(int x) const { return pixels.data() + std::size_t(x) * std::size_t(height); }
   std::uint64_t* stampColumn(int x) { return stamps.data() + std::size_t(x) * std::size_t(height); }
+  std::uint8_t* mirrorColumn(int x) { return mirrors.data() + std::size_t(x) * std::size_t(height); }
 };
 
 }  // namespace acentric

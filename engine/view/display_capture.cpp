@@ -9,26 +9,25 @@ namespace acentric {
 namespace {
 
 /// Smallest and largest inverse distance of samples [begin, end); smallest above largest if there are none.
-glm::vec2 rangeOf(const Capture& capture, std::uint32_t begin, std::uint32_t end) {
+glm::vec2 rangeOf(const CaptureSamples& capture, std::uint32_t begin, std::uint32_t end) {
   if (begin >= end) return {1, 0};
   const auto [low, high] =
       std::minmax_element(capture.inverseDistance.begin() + begin, capture.inverseDistance.begin() + end);
   return {*low, *high};
 }
 
-}  // namespace
-
-DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
-  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
-  const std::size_t rows = static_cast<std::size_t>(capture.camera.rows);
+DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture, float exposure) {
+  const std::size_t columns = static_cast<std::size_t>(camera.columns);
+  const std::size_t rows = static_cast<std::size_t>(camera.rows);
   require(capture.columnStart.size() == columns + 1, "a capture needs one offset per column and one more");
 
   DisplayCapture display;
-  display.camera = capture.camera;
+  display.camera = camera;
   display.columnStart = capture.columnStart;
   display.row = capture.row;
   display.inverseDistance = capture.inverseDistance;
   display.roles = capture.roles;
+  display.mirror = capture.mirror;
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
@@ -41,7 +40,7 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   display.columnRange.resize(columns);
   display.columnBlock.resize(columns);
   for (std::size_t k = 0; k < columns; ++k) {
-    display.columnDirection[k] = glm::vec2(capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    display.columnDirection[k] = glm::vec2(camera.directionAt(static_cast<double>(k) + 0.5));
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
     display.columnRange[k] = rangeOf(capture, begin, end);
     display.columnBlock[k] = static_cast<std::uint32_t>(display.blockRange.size());
@@ -57,7 +56,17 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)
-    display.rowTangent[r] = static_cast<float>(capture.camera.tangentAt(static_cast<double>(r) + 0.5));
+    display.rowTangent[r] = static_cast<float>(camera.tangentAt(static_cast<double>(r) + 0.5));
+  return display;
+}
+
+}  // namespace
+
+DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
+  DisplayCapture display = prepare(capture.camera, capture, exposure);
+  if (capture.hasReflections())
+    display.reflections =
+        std::make_shared<const DisplayCapture>(prepare(capture.camera, capture.reflections, exposure));
   return display;
 }
 

@@ -25,6 +25,7 @@ void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImag
   std::vector<PixelSource> sources{kSourceHole};
   for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
   sources.push_back(kSourceBackground);
+  for (const PieceDraw& piece : plan.reflections) sources.push_back(sourceOfCamera(piece.camera));
   constexpr int kBlock = 16;
   const std::size_t blocks = static_cast<std::size_t>((canvas.height + kBlock - 1) / kBlock);
   runner.parallelFor(blocks, [&](std::size_t block) {
@@ -62,9 +63,9 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   options.project = settings.renderer == Renderer::scalar ? projectSamplesScalar : fastestProjectSamples();
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.bands = runner.threads();
-  Canvas canvas = makeCanvas(view, blended);
+  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty());
   if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
-    paintBackground(scene, view, limits, static_cast<std::uint32_t>(plan.pieces.size()) + 1, canvas, runner);
+    paintBackground(scene, view, limits, backgroundSlot(plan), canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
   develop(canvas, plan, frame, inverseZDepth, runner);
   stats.images = static_cast<int>(images.size());

@@ -13,6 +13,7 @@ enum class PaintMode {
   overBlended,     ///< the same with blended samples among them
   nearest,         ///< opaque samples by depth test; blended ones are left out
   blendOnNearest,  ///< blended samples alone, in front of what `nearest` left
+  reflect,         ///< opaque, onto the pixels of their own mirror, which keep its depth
 };
 
 /// Which samples the splats come from, and where they go.
@@ -22,15 +23,16 @@ struct PaintTarget {
   const Rgba8* colour = nullptr;  ///< Splat::index counts from here
   const std::uint16_t* row = nullptr;
   const float* inverseDistance = nullptr;
-  std::uint32_t slot = 0;    ///< 1..kMaxSlots
-  std::uint32_t column = 0;  ///< of the capture
-  float footInverse = 0;     ///< RowOrder::footInverse
+  const std::uint8_t* mirror = nullptr;  ///< null: of no mirror
+  std::uint32_t slot = 0;                ///< 1..kMaxSlots
+  std::uint32_t column = 0;              ///< of the capture
+  float footInverse = 0;                 ///< RowOrder::footInverse
 };
 
 /// One splat after the other, first to last, or last to first. `pixelByPixel` (layered captures): rows in
 /// that order too, but the samples of each pixel by their distance from the eye (column_order.h). Returns how
 /// many were painted whose first visible pixel lies in the rectangle's rows, so that rectangles stacked on
-/// each other add up.
+/// each other add up. A canvas that has room for them is told the mirrors that its pixels show.
 std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
                           bool reversed, bool pixelByPixel);
 

@@ -128,10 +128,14 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
       const ColumnOrder order =
           columnOrder(capture.camera, eye - glm::dvec2(capture.camera.centreOfProjection));
       piece.epipoleColumn = order.epipoleColumn;
-      piece.runs = keepColumns(order.runs, visibleColumns(capture, piece, planes));
-      if (piece.runs.empty()) continue;
-      piece.nearestFirst = capture.layered && mostlyBeforeFoot(capture, piece);
-      plan.pieces.push_back(std::move(piece));
+      const auto add = [&](const DisplayCapture& samples, std::vector<PieceDraw>& draws) {
+        piece.runs = keepColumns(order.runs, visibleColumns(samples, piece, planes));
+        if (piece.runs.empty()) return;
+        piece.nearestFirst = samples.layered && mostlyBeforeFoot(samples, piece);
+        draws.push_back(piece);
+      };
+      if (capture.reflections) add(*capture.reflections, plan.reflections);
+      add(capture, plan.pieces);
     }
   };
 

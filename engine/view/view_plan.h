@@ -45,7 +45,8 @@ inline glm::vec2 drawnRange(const DisplayCapture& capture, const PieceDraw& piec
 
 struct ViewPlan {
   int region = -1;
-  std::vector<PieceDraw> pieces;  ///< back to front
+  std::vector<PieceDraw> pieces;       ///< back to front
+  std::vector<PieceDraw> reflections;  ///< of DisplayCapture::reflections, in that order; drawn after them
   int missingImages = 0;
 };
 

@@ -31,8 +31,11 @@ struct DisplayCapture {
   std::vector<glm::vec2> blockRange;
   std::vector<std::uint8_t> blockRoles;  ///< that need any of them
   std::vector<std::uint32_t> columnBlock;
-  bool layered = false;  ///< some pixel has more than one sample
-  bool blended = false;  ///< some sample has alpha < 255
+  bool layered = false;              ///< some pixel has more than one sample
+  bool blended = false;              ///< some sample has alpha < 255
+  std::vector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
+  /// What mirrors show, at its virtual place; null = nothing. Its `mirror` says which of them shows a sample.
+  std::shared_ptr<const DisplayCapture> reflections;
 };
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure);

@@ -92,6 +92,11 @@ class BandWarp {
       pass(PaintMode::nearest, PaintMode::nearest, false);
       if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
     }
+    for (std::size_t i = 0; i < plan.reflections.size(); ++i) {
+      const PieceDraw& piece = plan.reflections[i];
+      const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
+      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan, i));
+    }
     return counts_;
   }
 
@@ -126,8 +131,15 @@ class BandWarp {
     if (count == 0) return;
 
     const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
-    const PaintTarget target{&canvas_,        rect_, capture.colour.data() + begin,     row,
-                             inverseDistance, slot,  static_cast<std::uint32_t>(index), order.footInverse};
+    const PaintTarget target{&canvas_,
+                             rect_,
+                             capture.colour.data() + begin,
+                             row,
+                             inverseDistance,
+                             capture.mirror.empty() ? nullptr : capture.mirror.data() + begin,
+                             slot,
+                             static_cast<std::uint32_t>(index),
+                             order.footInverse};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const Splat* splats = splats_.data();
     const Splat* pivot = std::partition_point(splats, splats + count, [&](const Splat& s) {
@@ -202,20 +214,22 @@ class BandWarp {
 
 }  // namespace
 
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps) {
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors) {
   Canvas canvas;
   canvas.width = view.width;
   canvas.height = view.height;
   const std::size_t size = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
   canvas.pixels.assign(size, kEmptyPixel);
   if (withStamps) canvas.stamps.assign(size, 0);
+  if (withMirrors) canvas.mirrors.assign(size, 0);
   return canvas;
 }
 
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner) {
-  require(plan.pieces.size() < static_cast<std::size_t>(kMaxSlots),
+  require(plan.pieces.size() + plan.reflections.size() < static_cast<std::size_t>(kMaxSlots),
           "more pieces than a canvas pixel can name");
+  require(plan.reflections.empty() || !canvas.mirrors.empty(), "a canvas that can say what mirrors it shows");
   const int bands = std::clamp(options.bands, 1, view.height);
   std::vector<WarpCounts> counts(static_cast<std::size_t>(bands));
   runner.parallelFor(counts.size(), [&](std::size_t band) {

@@ -26,10 +26,20 @@ struct WarpCounts {
   std::uint64_t samplesDrawn = 0;
 };
 
-/// A cleared canvas for this view; `withStamps` if some piece holds blended samples.
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps);
+/// A cleared canvas for this view; `withStamps` if some piece holds blended samples, `withMirrors` if the
+/// plan has reflections.
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors);
 
-/// Slot of plan.pieces[i] on the canvas is i + 1; at most kMaxSlots pieces.
+/// Slots on the canvas: plan.pieces[i] has i + 1, then come the background and the reflections.
+inline std::uint32_t backgroundSlot(const ViewPlan& plan) {
+  return static_cast<std::uint32_t>(plan.pieces.size()) + 1;
+}
+inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
+  return backgroundSlot(plan) + 1 + static_cast<std::uint32_t>(i);
+}
+
+/// Paints all pieces, then what mirrors show over those pixels that the same mirror came to cover: they keep
+/// the mirror's depth. At most kMaxSlots slots.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner);
 

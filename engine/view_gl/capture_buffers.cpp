@@ -30,6 +30,8 @@ Status checkArrays(const DisplayCapture& capture, const char* name) {
   if (capture.inverseDistance.size() != samples || capture.colour.size() != samples ||
       capture.roles.size() != samples)
     return bad("the capture's sample arrays differ in length");
+  if (!capture.mirror.empty() && capture.mirror.size() != samples)
+    return bad("the capture does not name the mirror of each sample");
   if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
       !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
     return bad("the capture's columns do not partition its samples");
@@ -49,6 +51,14 @@ std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, i
       packed.push_back({std::bit_cast<std::uint32_t>(capture.inverseDistance[s]) | capture.roles[s],
                         capture.row[s] | std::uint32_t(column) << 16,
                         std::bit_cast<std::uint32_t>(capture.colour[s])});
+  return packed;
+}
+
+/// Whole words, as the shader reads them.
+std::vector<std::uint8_t> packMirrors(const DisplayCapture& capture, int firstColumn, int lastColumn) {
+  std::vector<std::uint8_t> packed(capture.mirror.begin() + capture.columnStart[std::size_t(firstColumn)],
+                                   capture.mirror.begin() + capture.columnStart[std::size_t(lastColumn)]);
+  packed.resize((packed.size() + 3) / 4 * 4, 0);
   return packed;
 }
 
@@ -103,8 +113,10 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
               first, start(first + 1) - start(first), mostSamples),
           name);
     if (start(last) > start(first)) {
-      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}};
+      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}, {}};
       chunk.samples = makeBuffer(pack(*capture, first, last), buffers.bytes);
+      if (!capture->mirror.empty())
+        chunk.mirrors = makeBuffer(packMirrors(*capture, first, last), buffers.bytes);
       buffers.chunks.push_back(std::move(chunk));
     }
     first = last;
@@ -137,7 +149,10 @@ Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const 
 
 void CaptureResidency::dropGone(const WalkScene& scene) {
   std::set<const DisplayCapture*> wanted;
-  for (const auto& capture : scene.captures) wanted.insert(capture.get());
+  for (const auto& capture : scene.captures) {
+    wanted.insert(capture.get());
+    if (capture) wanted.insert(capture->reflections.get());
+  }
   std::erase_if(resident_, [&](const auto& entry) {
     if (wanted.contains(entry.first) && !entry.second.owner.expired()) return false;
     bytes_ -= entry.second.bytes;

@@ -22,6 +22,7 @@ struct CaptureChunk {
   int lastColumn = 0;             ///< one behind
   std::uint32_t firstSample = 0;  ///< in the capture
   GlBuffer samples;               ///< 12 bytes each: inverse distance | roles, row | column << 16, colour
+  GlBuffer mirrors;               ///< a byte each; none without mirrors
 };
 
 struct CaptureBuffers {

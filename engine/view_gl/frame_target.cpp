@@ -55,6 +55,8 @@ Status FrameTarget::resize(int width, int height) {
   width_ = height_ = 0;  // nothing usable until all is made
   clear_.reset();
   clearLayer_.reset();
+  drawMirrors_.reset();
+  mirrors_.reset();
   glActiveTexture(GL_TEXTURE0);
   colour_ = storage(GL_RGBA8, width, height);
   colourSrgb_ = GlTexture::make();
@@ -64,10 +66,7 @@ Status FrameTarget::resize(int width, int height) {
   if (Status made = checkGl("making the frame's textures"); !made) return made;
 
   draw_ = GlFramebuffer::make();
-  glBindFramebuffer(GL_FRAMEBUFFER, draw_.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colourSrgb_.name(), 0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, source_.name(), 0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+  attachPicture(draw_);
   constexpr std::array<GLenum, 2> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
   if (Status drawable = complete(); !drawable) return drawable;
@@ -83,9 +82,39 @@ Status FrameTarget::resize(int width, int height) {
   return {};
 }
 
+void FrameTarget::attachPicture(const GlFramebuffer& framebuffer) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colourSrgb_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, source_.name(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+}
+
 void FrameTarget::bindForDrawing() const {
   glBindFramebuffer(GL_FRAMEBUFFER, draw_.name());
   glViewport(0, 0, width_, height_);
+}
+
+void FrameTarget::bindForMirrors() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, drawMirrors_.name());
+  glViewport(0, 0, width_, height_);
+}
+
+Status FrameTarget::beginMirrors() {
+  if (!drawMirrors_) {
+    glActiveTexture(GL_TEXTURE0);
+    mirrors_ = storage(GL_R8UI, width_, height_);
+    drawMirrors_ = GlFramebuffer::make();
+    attachPicture(drawMirrors_);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D, mirrors_.name(), 0);
+    constexpr std::array<GLenum, 3> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                                GL_COLOR_ATTACHMENT2};
+    glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
+    if (Status drawable = complete(); !drawable) return drawable;
+  }
+  bindForMirrors();
+  constexpr std::array<GLuint, 4> kNoMirror = {0, 0, 0, 0};
+  glClearBufferuiv(GL_COLOR, 2, kNoMirror.data());
+  return checkGl("making the layer of mirrors");
 }
 
 void FrameTarget::beginPainting(bool keepDepth) const {

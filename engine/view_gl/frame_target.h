@@ -21,6 +21,9 @@ class FrameTarget {
   /// the stencil marks what is drawn, and the depth is kept if asked for. Then back to the state before.
   void beginPainting(bool keepDepth) const;
   void endPainting() const;
+  /// Also for drawing which mirror each pixel shows. `beginMirrors` clears that.
+  Status beginMirrors();
+  void bindForMirrors() const;
   /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
   Status beginClearLayer();
   /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.
@@ -31,8 +34,11 @@ class FrameTarget {
   GLuint colourCodes() const { return colour_.name(); }  ///< RGBA8 view
   GLuint depths() const { return depth_.name(); }        ///< DEPTH32F_STENCIL8
   GLuint clearLayer() const { return clearLayer_.name(); }
+  GLuint mirrors() const { return mirrors_.name(); }  ///< R8UI, 0 = no mirror
 
  private:
+  void attachPicture(const GlFramebuffer& framebuffer) const;
+
   int width_ = 0;
   int height_ = 0;
   GlTexture colour_;
@@ -43,6 +49,8 @@ class FrameTarget {
   GlFramebuffer read_;
   GlTexture clearLayer_;  ///< made when first used
   GlFramebuffer clear_;
+  GlTexture mirrors_;  ///< made when first used
+  GlFramebuffer drawMirrors_;
 };
 
 }  // namespace acentric

@@ -109,6 +109,7 @@ struct PointPass::Piece {
   const CaptureBuffers& buffers;
   const PerspectiveView& view;
   const ViewSettings& settings;
+  enum class Mirrors { none, mark, reflect } mirrors = Mirrors::none;
   std::vector<std::pair<const CaptureChunk*, int>> columns = {};  ///< visible ones, in drawing order
 
   bool splat() const { return settings.reconstruction == Reconstruction::splat; }
@@ -129,6 +130,9 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
   const bool anyClear = std::any_of(plan.pieces.begin(), plan.pieces.end(), [&](const PieceDraw& piece) {
     return sharedOf(piece) && sharedOf(piece)->blended;
   });
+  const bool anyMirror = !plan.reflections.empty();
+  if (anyMirror)
+    if (Status ready = target.beginMirrors(); !ready) return ready;
   std::set<int> images;
   for (const PieceDraw& planned : plan.pieces) {
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
@@ -139,12 +143,34 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
     // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
     // holes.
     target.beginPainting(anyClear || settings.fillHoles);
-    Piece piece{planned, *capture, **buffers, view, settings};
+    if (anyMirror) target.bindForMirrors();
+    Piece piece{planned, *capture, **buffers,
+                view,    settings, anyMirror ? Piece::Mirrors::mark : Piece::Mirrors::none};
     images.insert(planned.camera);
     if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
   }
   stats.images = int(images.size());
   target.endPainting();
+  return anyMirror ? drawReflections(scene, plan, view, settings, target, stats) : Status{};
+}
+
+Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                                  const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_BLEND);
+  target.bindForDrawing();  // without the depth test, which leaves the pixels the mirror's depth
+  glActiveTexture(GL_TEXTURE0);
+  glBindSampler(0, 0);
+  glBindTexture(GL_TEXTURE_2D, target.mirrors());
+  for (const PieceDraw& planned : plan.reflections) {
+    const std::shared_ptr<const DisplayCapture>& shown =
+        scene.captures[std::size_t(planned.camera)]->reflections;
+    const std::string name = fmt::format("reflections of camera {}", planned.camera);
+    const Result<const CaptureBuffers*> buffers = captures_.get(shown, name.c_str());
+    if (!buffers) return tl::unexpected(buffers.error());
+    Piece piece{planned, *shown, **buffers, view, settings, Piece::Mirrors::reflect};
+    if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
+  }
   return {};
 }
 
@@ -155,6 +181,9 @@ Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
   if (piece.capture.layered) defines.push_back("LAYERED");
   if (piece.capture.blended) defines.push_back(samples);
+  if (!piece.capture.mirror.empty() && piece.mirrors != Piece::Mirrors::none) defines.push_back("MIRRORS");
+  if (piece.mirrors == Piece::Mirrors::mark) defines.push_back("MARK_MIRRORS");
+  if (piece.mirrors == Piece::Mirrors::reflect) defines.push_back("REFLECT");
   const Result<GlProgram*> found = programs_.get("points.vert", "points.frag", defines);
   if (!found) return found;
   GlProgram& program = **found;
@@ -213,7 +242,9 @@ Status PointPass::drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats
 }
 
 Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& stats) {
-  const Result<GlProgram*> lay = programs_.get("whole_picture.vert", "clear_layer.frag", {});
+  const bool marks = piece.mirrors == Piece::Mirrors::mark;
+  const Result<GlProgram*> lay =
+      programs_.get("whole_picture.vert", "clear_layer.frag", marks ? Defines{"MARK_MIRRORS"} : Defines{});
   if (!lay) return tl::unexpected(lay.error());
   int ranks = 0;
   for (const auto& column : piece.columns)
@@ -237,7 +268,7 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_STENCIL_TEST);
 
-    target.bindForDrawing();
+    marks ? target.bindForMirrors() : target.bindForDrawing();
     glEnable(GL_FRAMEBUFFER_SRGB);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -262,6 +293,7 @@ void PointPass::drawColumns(const Piece& piece, int clearRank, FrameStats& stats
       if (clearRank < 0) stats.samplesRead += parts.z - parts.x;
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk->samples.name());
+    if (chunk->mirrors) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, chunk->mirrors.name());
     glMultiDrawArrays(GL_POINTS, firsts_.data(), counts_.data(), GLsizei(firsts_.size()));
   }
   stats.samplesDrawn = stats.samplesRead;  // which of them fell on the picture only the graphics card knows

@@ -62,7 +62,7 @@ int main() {
       options.project = c.project;
       options.depthTest = c.depthTest;
       options.bands = c.bands;
-      Canvas canvas = makeCanvas(view, false);
+      Canvas canvas = makeCanvas(view, false, false);
       WarpCounts counts;
       const double seconds =
           best(20, [&] { counts = warpPieces(scene, view, settings, *plan, options, canvas, *c.runner); });

@@ -4,6 +4,7 @@
 
 #include "engine/view/view_plan.h"
 #include "gl_fixture.h"
+#include "tests/view/mirror_scene.h"
 
 namespace acentric {
 namespace {
@@ -250,6 +251,34 @@ TEST_F(GlPoints, PaintsTheBackgroundWhereTheCpuDoes) {
     EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare) << pitch;
     EXPECT_LE(test::differingShare(cpu.colour, gl.colour, 1), kMostDifferingShare) << pitch;
     EXPECT_EQ(std::ranges::count(cpu.source.pixels, kSourceBackground) > 0, std::abs(pitch) > 1);
+  }
+}
+
+TEST_F(GlPoints, ShowsInMirrorsWhatTheCpuShows) {
+  test::MirrorScene mirrors{test::randomBoxes(12, 50, 3.4), {}};
+  mirrors.mirrors.push_back({0, 4, {-2, 0.4}, {2.5, 2.8}, {0.9f, 0.8f, 0.7f}, 1});
+  mirrors.mirrors.push_back({1, 2.5, {1.5, 0.4}, {4, 2.8}, {0.6f, 0.9f, 0.9f}, 200});
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const int region = *layout->regionAt({0.1, 0.05});
+  for (const bool glass : {false, true}) {
+    if (glass) mirrors.surfaces.boxes.push_back({{3.5, -1, 0.8}, {3.51, 1, 1.9}, {0.1f, 0.2f, 0.6f, 0.4f}});
+    const WalkScene scene = test::walkScene(mirrors, layout, region, 3),
+                    still = test::walkScene(mirrors, layout, region, 3, false);
+    for (const double yaw : {0.0, 0.6}) {
+      PerspectiveView view = nextView(*layout, region, 70);
+      view.yawRadians = yaw;
+      view.pitchRadians = 0;
+      for (const bool fill : {false, true}) {
+        ViewSettings settings;
+        settings.fillHoles = fill;
+        const Frame cpu = onCpu(scene, view, settings), gl = onGl(scene, view, settings);
+        EXPECT_GT(differingShare(cpu.colour, onCpu(still, view, settings).colour), 0.02)
+            << "the mirrors fill the view";
+        const double share = differingShare(cpu.colour, gl.colour, glass ? 2 : 0);
+        EXPECT_TRUE(fill || share <= (glass ? 0.03 : kMostDifferingShare)) << share;
+        EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare);
+      }
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "engine/view_gl/gl_state.h"
 #include "engine/view_gl/point_pass.h"
 #include "gl_fixture.h"
+#include "tests/view/mirror_scene.h"
 
 namespace acentric {
 namespace {
@@ -46,6 +47,16 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   const std::size_t samples = scene.captures[0]->row.size() + scene.captures[1]->row.size();
   EXPECT_EQ(residency.bytes(), 12 * samples + 2 * 16 * sizeof(float));
 
+  auto reflecting = std::make_shared<DisplayCapture>(*scene.captures[1]);
+  reflecting->reflections = smallCapture();
+  scene.captures.push_back(reflecting);
+  ASSERT_TRUE(residency.get(reflecting->reflections, "what its mirrors show"));
+  residency.dropGone(scene);
+  EXPECT_EQ(residency.count(), 3u);
+  scene.captures.pop_back();
+  residency.dropGone(scene);
+  EXPECT_EQ(residency.count(), 2u);
+
   scene.captures[0] = nullptr;
   residency.dropGone(scene);
   EXPECT_EQ(residency.count(), 1u);
@@ -75,8 +86,8 @@ TEST_F(GlResources, TrimmingDropsWhatWasUnusedLongest) {
 
 TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   const auto layout = test::layoutAroundOrigin(Configuration::b);
-  const WalkScene scene =
-      test::walkScene(test::randomBoxes(3, 40, 3.2), layout, *layout->regionAt({0.1, 0.05}), 2, 2);
+  const test::MirrorScene mirrors{test::randomBoxes(3, 40, 3.2), {{0, 4, {-2, 0.4}, {3, 2.5}, {1, 1, 1}, 7}}};
+  const WalkScene scene = test::walkScene(mirrors, layout, *layout->regionAt({0.1, 0.05}), 3);
   PerspectiveView view;
   view.eye = {0.1, 0.05, layout->eyeZ()};
   view.width = 200, view.height = 120;
@@ -95,6 +106,7 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
     return target.read();
   };
   const std::size_t someColumns = 12 * 5000;
+  EXPECT_FALSE(plan->reflections.empty());
   const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
   EXPECT_GT(uploadCapture(first, "cut", someColumns)->chunks.size(), 4u);
   EXPECT_EQ(drawnWith(someColumns).colour.pixels, drawnWith(0).colour.pixels);
@@ -116,6 +128,7 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   };
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.row.back() = 16; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.colour.pop_back(); }));
+  EXPECT_TRUE(refused([](DisplayCapture& c) { c.mirror = {1}; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart[3] = c.columnStart[4] + 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart.back() += 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.rowTangent.pop_back(); }));
