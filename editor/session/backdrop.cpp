@@ -33,8 +33,9 @@ glm::vec4 materialColour(const Scene& scene, const Hit& hit) {
 Rgba8 shade(const Scene& scene, const Hit& hit, float cutHeight, float floorHeight) {
   const Material& material = scene.materials[std::size_t(scene.meshes[hit.mesh].material)];
   // Looking down and meeting the back of a one-sided surface: the cut went through a solid.
-  if (hit.geometricNormal.z < 0 && !material.doubleSided) return kSolid;
-  const glm::vec3 normal = hit.geometricNormal.z < 0 ? -hit.geometricNormal : hit.geometricNormal;
+  const glm::vec3 wound = hit.geometricNormal();
+  if (wound.z < 0 && !material.doubleSided) return kSolid;
+  const glm::vec3 normal = wound.z < 0 ? -wound : wound;
   const float light =
       0.35F + 0.65F * std::max(0.0F, glm::dot(normal, glm::normalize(glm::vec3(-0.35F, 0.45F, 1.0F))));
   const float height = cutHeight - hit.distance;

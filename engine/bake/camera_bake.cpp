@@ -1,8 +1,10 @@
 // One capture: per pixel a march along the camera's ray, from surface to surface beyond the regions it
 // serves.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <new>
 #include <optional>
 
@@ -153,34 +155,47 @@ class ColumnMarch {
     out_.counts.rays.primary += std::uint64_t(packet.count);
     for (int row = first; row < last; ++row) {
       const auto n = std::size_t(row - first);
-      runPixel(row, {packet.origin, packet.direction[n], packet.nearest[n]},
-               march_.rows.cosine[std::size_t(row)], hits_[n], stop);
+      beginPixel(row);
+      if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
+        runPixel(packet.direction[n], hits_[n].distance, next, stop);
     }
   }
+  void beginPixel(int row) {
+    row_ = row;
+    flat_ = march_.rows.cosine[std::size_t(row)];
+    layer_ = 0;
+    for (int& stored : stored_) stored = 0;
+  }
 
-  /// From surface to surface, until every role has all it may have, or nothing is left that it could see.
-  void runPixel(int row, Ray ray, double flat, Hit hit, const std::stop_token& stop) {
-    std::ranges::fill(stored_, 0);
-    int layer = 0;
-    for (int step = 0; step < kMaxMarch; ++step) {
-      if (!hit.found()) {
-        addBackground(row, ray.direction, layer);
-        return;
-      }
-      const double horizontal = double(hit.distance) * flat;
-      addSurface(row, ray, hit, horizontal, layer);
-      // The next role that may still have samples: ahead of its exit nobody needs anything.
-      const auto next = std::ranges::find_if(roles_, [&](const ColumnRole& r) { return !isFull(r); });
-      if (next == roles_.end() || stop.stop_requested()) return;
-      ray.nearest = std::max(justBehind(hit.distance), float(next->exit / flat));
+  /// What is behind the pixel's first hit: from surface to surface, until every role has all it may have, or
+  /// nothing is left that it could see.
+  void runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,
+                const std::stop_token& stop) {
+    Ray ray{glm::vec3(march_.columns.centreOfProjection), direction};
+    for (int step = 1; step < kMaxMarch && next != nullptr && !stop.stop_requested(); ++step) {
+      ray.nearest = std::max(justBehind(distance), float(next->exit / flat_));
       ++out_.counts.rays.primary;
-      hit = march_.shader.scene().trace(ray);
+      const Hit hit = march_.shader.scene().trace(ray);
+      next = addHit(direction, hit);
+      distance = hit.distance;
     }
+  }
+  /// The next role that may still have samples behind the hit: ahead of its exit nobody needs anything. None
+  /// if the pixel is done.
+  const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit) {
+    if (!hit.found()) {
+      addBackground(direction);
+      return nullptr;
+    }
+    addSurface(direction, hit);
+    const auto next = std::ranges::find_if(roles_, [&](const ColumnRole& r) { return !isFull(r); });
+    return next == roles_.end() ? nullptr : &*next;
   }
   bool isFull(const ColumnRole& role) const { return stored_[role.index] >= march_.settings.maxLayers; }
 
-  void addSurface(int row, const Ray& ray, const Hit& hit, double horizontal, int& layer) {
-    const glm::dvec3 point = glm::dvec3(ray.origin) + double(hit.distance) * glm::dvec3(ray.direction);
+  void addSurface(const glm::vec3& direction, const Hit& hit) {
+    const double horizontal = double(hit.distance) * flat_;
+    const glm::dvec3 point = march_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const double tolerance = sameDepth_ * double(hit.distance);
     needed_.clear();
     bool limited = false;
@@ -197,7 +212,7 @@ class ColumnMarch {
       ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
       return;
     }
-    const Shaded shaded = march_.shader.shade(hit, -ray.direction, out_.counts.rays);
+    const Shaded shaded = march_.shader.shade(hit, -direction, out_.counts.rays);
     const bool opaque = shaded.alpha >= kOpaqueAlpha;
     if (shaded.alpha < kInvisibleAlpha) return;
     // The last place is kept for an opaque surface: there is always something behind glass.
@@ -209,11 +224,11 @@ class ColumnMarch {
       ++out_.counts.samples.overLimit;
       return;
     }
-    add(row, storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
-        opaque ? 1 : shaded.alpha, layer);
+    add(storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
+        opaque ? 1 : shaded.alpha);
   }
 
-  void addBackground(int row, const glm::vec3& direction, int& layer) {
+  void addBackground(const glm::vec3& direction) {
     // Infinitely far as seen from any region, so that its part can be told.
     constexpr double kFar = 1e6;
     const glm::dvec2 away = march_.camera.position + kFar * nearestRegionSize() * direction_;
@@ -225,7 +240,7 @@ class ColumnMarch {
            march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
         needed_.push_back(&role);
     }
-    if (!needed_.empty()) add(row, 0, march_.shader.background(direction), 1, layer);
+    if (!needed_.empty()) add(0, march_.shader.background(direction), 1);
   }
 
   double nearestRegionSize() const {
@@ -234,14 +249,14 @@ class ColumnMarch {
   }
 
   /// A sample for the roles in needed_.
-  void add(int row, float w, const glm::vec3& radiance, float alpha, int& layer) {
+  void add(float w, const glm::vec3& radiance, float alpha) {
     std::uint8_t mask = 0;
     for (const ColumnRole* role : needed_) {
       mask |= role->bit;
       ++stored_[role->index];
     }
-    out_.add(row, w, radiance, alpha, mask);
-    ++out_.counts.samples.kept[std::min(std::size_t(layer++), SampleCounts::kLayers - 1)];
+    out_.add(row_, w, radiance, alpha, mask);
+    ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
   }
 
   const March& march_;
@@ -251,33 +266,40 @@ class ColumnMarch {
   RegionSight::Hints hints_;
   glm::dvec2 direction_{0};        ///< of the column
   std::vector<ColumnRole> roles_;  ///< of the column
+  int row_ = 0;                    ///< of the pixel
+  double flat_ = 1;                ///< of the pixel: horizontal metres per metre of ray
+  int layer_ = 0;                  ///< of the pixel: samples that it has
   std::vector<int> stored_;        ///< of the pixel, by role
   std::vector<const ColumnRole*> needed_;
 };
 
-/// A part only, when stopped.
-Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total,
+/// The samples of all columns as one capture. Its arrays are filled side by side: they are too large for any
+/// cache, and one thread would not use the memory's whole rate. A part only, when stopped.
+Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total, TaskRunner& runner,
                const std::stop_token& stop) {
   Capture capture;
   const ColumnCamera& columns = march.columns;
   capture.camera = columns;
   capture.distanceStep = march.distanceStep;
-  capture.columnStart.reserve(std::size_t(columns.columns) + 1);
-  capture.columnStart.push_back(0);
-  capture.row.reserve(total);
-  capture.inverseDistance.reserve(total);
-  capture.colour.reserve(total);
-  capture.roles.reserve(total);
-  for (const Samples& s : chunks) {
-    if (stop.stop_requested()) break;
-    for (const std::uint32_t count : s.perColumn)
-      capture.columnStart.push_back(capture.columnStart.back() + count);
-    capture.row.insert(capture.row.end(), s.row.begin(), s.row.end());
-    capture.inverseDistance.insert(capture.inverseDistance.end(), s.inverseDistance.begin(),
-                                   s.inverseDistance.end());
-    capture.colour.insert(capture.colour.end(), s.colour.begin(), s.colour.end());
-    capture.roles.insert(capture.roles.end(), s.roles.begin(), s.roles.end());
-  }
+  const auto fill = [&](auto& all, auto Samples::*part) {
+    all.reserve(total);
+    for (const Samples& s : chunks) {
+      if (stop.stop_requested()) return;
+      all.insert(all.end(), (s.*part).begin(), (s.*part).end());
+    }
+  };
+  const auto starts = [&] {
+    capture.columnStart.reserve(std::size_t(columns.columns) + 1);
+    capture.columnStart.push_back(0);
+    for (const Samples& s : chunks)
+      for (const std::uint32_t count : s.perColumn)
+        capture.columnStart.push_back(capture.columnStart.back() + count);
+  };
+  const std::array<std::function<void()>, 5> parts{
+      [&] { fill(capture.colour, &Samples::colour); },
+      [&] { fill(capture.inverseDistance, &Samples::inverseDistance); },
+      [&] { fill(capture.row, &Samples::row); }, [&] { fill(capture.roles, &Samples::roles); }, starts};
+  runner.parallelFor(parts.size(), [&](std::size_t part) { parts[part](); });
   return capture;
 }
 
@@ -372,7 +394,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       counts.rays += s.counts.rays;
       counts.samples += s.counts.samples;
     }
-    Capture capture = joined(march, chunks, total, stop);
+    Capture capture = joined(march, chunks, total, runner, stop);
     if (stop.stop_requested()) return stopped();
     return capture;
   } catch (const std::bad_alloc&) {

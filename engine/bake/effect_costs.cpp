@@ -113,7 +113,7 @@ class CostProbe {
   double pixelsPerSquareMetre(const Pixel& pixel) const {
     const glm::dvec3 at =
         glm::dvec3(pixel.ray.origin) + glm::dvec3(pixel.ray.direction) * double(pixel.hit.distance);
-    const glm::dvec3 normal(pixel.hit.geometricNormal);
+    const glm::dvec3 normal(pixel.hit.geometricNormal());
     const std::size_t step = std::max<std::size_t>(1, columns_.size() / kWitnesses);
     double others = 0;
     for (std::size_t c = 0; c < columns_.size(); c += step)

@@ -131,7 +131,7 @@ GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& 
     const std::size_t index = first + surfaceSampleIndex(r, at.x, at.y);
     sum += cell.weight[c] * unpackColour(values_.at(index, rays, [&](RayCounts& own) {
              const Hit place = placeOn(hit, surfaceSamplePlace(r, at.x, at.y));
-             const glm::vec3 side = back ? -place.geometricNormal : place.geometricNormal;
+             const glm::vec3 side = back ? -place.geometricNormal() : place.geometricNormal();
              const Surface surface = surfaceAt<false>(scene_->scene(), place, side, {}, false);
              const Gathered g = gather(surface, number, std::uint32_t(index), own, rays);
              return packColour({g.radiance, 0.5f + 0.5f * g.open});
@@ -187,7 +187,7 @@ glm::vec3 GatheredLight::sentBy(const Hit& hit, const glm::vec3& direction, int 
   if (rules_[std::size_t(scene_->scene().meshes[hit.mesh].material)].unlit) return colour;
   // What lights others by itself is among the lights.
   const glm::vec3 glow = scene_->areaLights().include(hit.mesh) ? glm::vec3(0) : seen.emission;
-  return colour * cellLight(hit, glm::dot(hit.geometricNormal, direction) > 0, bounces - 1, rays) + glow;
+  return colour * cellLight(hit, glm::dot(hit.geometricNormal(), direction) > 0, bounces - 1, rays) + glow;
 }
 
 glm::vec3 GatheredLight::cellLight(const Hit& hit, bool back, int bounces, RayCounts& rays) const {
@@ -198,7 +198,7 @@ glm::vec3 GatheredLight::cellLight(const Hit& hit, bool back, int bounces, RayCo
   return glm::vec3(unpackColour(cellValues_[std::size_t(bounces)].at(index, rays, [&](RayCounts& own) {
     const Hit middle = placeOn(hit, cell.middle);
     const Surface surface = surfaceAt<false>(
-        scene_->scene(), middle, back ? -middle.geometricNormal : middle.geometricNormal, {}, false);
+        scene_->scene(), middle, back ? -middle.geometricNormal() : middle.geometricNormal(), {}, false);
     glm::vec3 light = lights_.at(surface, own) * std::numbers::inv_pi_v<float>;
     if (bounces > 0)
       light += gatherBounced(surface, bounces, kCellRays, pointsFor(number, std::uint32_t(index)), own, rays)

@@ -120,13 +120,6 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
-/// In double: the cross product of a small triangle's edges underflows in float once it is squared.
-glm::vec3 unitNormal(float x, float y, float z) {
-  const glm::dvec3 n(x, y, z);
-  const double length = glm::length(n);
-  return length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
-}
-
 /// Traces a packet; what its rays hit is in the result.
 RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
   RTCIntersectContext context;
@@ -168,6 +161,11 @@ Status checkMesh(const Scene& scene, const Mesh& mesh) {
 }
 
 }  // namespace
+
+glm::vec3 unitNormal(const glm::dvec3& across) {
+  const double length = glm::length(across);
+  return length > 0 && std::isfinite(length) ? glm::vec3(across / length) : glm::vec3(0, 0, 1);
+}
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
   primary += other.primary;
@@ -287,7 +285,7 @@ Hit RayScene::trace(const Ray& ray, unsigned mask) const {
   hit.mesh = query.hit.geomID;
   hit.triangle = query.hit.primID;
   hit.barycentric = {query.hit.u, query.hit.v};
-  hit.geometricNormal = unitNormal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  hit.across = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
   return hit;
 }
 
@@ -301,7 +299,7 @@ void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& h
     hit.mesh = query.hit.geomID[i];
     hit.triangle = query.hit.primID[i];
     hit.barycentric = {query.hit.u[i], query.hit.v[i]};
-    hit.geometricNormal = unitNormal(query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]);
+    hit.across = {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]};
   }
 }
 

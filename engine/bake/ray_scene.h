@@ -21,12 +21,17 @@ struct Ray {
   float farthest = std::numeric_limits<float>::infinity();
 };
 
+/// In double: the cross product of a small triangle's edges underflows in float once it is squared. Upwards
+/// where there is no direction.
+glm::vec3 unitNormal(const glm::dvec3& across);
+
 struct Hit {
   float distance = std::numeric_limits<float>::infinity();  ///< metres; infinity = none
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
-  glm::vec2 barycentric{0};      ///< weights of corner 2 and 3
-  glm::vec3 geometricNormal{0};  ///< unit, as wound (front side)
+  glm::vec2 barycentric{0};  ///< weights of corner 2 and 3
+  glm::vec3 across{0};       ///< normal to the triangle as wound (front side), of any length
+  glm::vec3 geometricNormal() const { return unitNormal(across); }
   bool found() const { return distance < std::numeric_limits<float>::infinity(); }
 };
 

@@ -33,7 +33,7 @@ struct ShadingKernels {
       const Ambient::Gathered ambient = shader.ambient_.gather<false>(*shader.scene_, surface, rays);
       return {ambient.radiance, ambient.open};
     } else {
-      return shader.gathered_->at(hit, glm::dot(hit.geometricNormal, toViewer) < 0, rays);
+      return shader.gathered_->at(hit, glm::dot(hit.geometricNormal(), toViewer) < 0, rays);
     }
   }
 

@@ -75,11 +75,8 @@ glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t trian
 
 glm::vec3 triangleNormal(const Mesh& mesh, std::uint32_t triangle) {
   const glm::uvec3& t = mesh.triangles[triangle];
-  // In double: the cross product of a millimetre triangle's edges underflows in float once it is squared.
   const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  const glm::dvec3 n = glm::cross(b - a, c - a);
-  const double length = glm::length(n);
-  return length > 0 && std::isfinite(length) ? glm::vec3(n / length) : glm::vec3(0, 0, 1);
+  return unitNormal(glm::cross(b - a, c - a));
 }
 
 template <bool kDetail>
@@ -90,15 +87,16 @@ Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer,
   const glm::uvec3& corners = mesh.triangles[hit.triangle];
   const glm::vec2& b = hit.barycentric;
 
+  const glm::vec3 wound = hit.geometricNormal();
   Surface surface;
   surface.position = interpolate(mesh.positions, corners, b);
-  const bool front = glm::dot(hit.geometricNormal, toViewer) >= 0;
-  surface.geometricNormal = front ? hit.geometricNormal : -hit.geometricNormal;
-  surface.rayOrigin = surface.position + surface.geometricNormal * leaveDistance(mesh.positions[corners.x],
-                                                                                 mesh.positions[corners.y],
-                                                                                 mesh.positions[corners.z],
-                                                                                 hit.geometricNormal);
-  glm::vec3 normal = hit.geometricNormal;
+  const bool front = glm::dot(wound, toViewer) >= 0;
+  surface.geometricNormal = front ? wound : -wound;
+  surface.rayOrigin =
+      surface.position + surface.geometricNormal * leaveDistance(mesh.positions[corners.x],
+                                                                 mesh.positions[corners.y],
+                                                                 mesh.positions[corners.z], wound);
+  glm::vec3 normal = wound;
   if (!mesh.normals.empty()) normal = unitOr(interpolate(mesh.normals, corners, b), normal);
   surface.metallic = material.metallic;
   surface.roughness = material.roughness;

@@ -29,7 +29,7 @@ class SceneTracer final : public OpaqueTracer {
     for (int n = 0; n < kMostClearSurfaces; ++n) {
       const Hit hit = rays_->trace(ray);
       if (!hit.found()) return {};
-      if (opaque(hit, -ray.direction)) return {double(hit.distance), glm::dvec3(hit.geometricNormal)};
+      if (opaque(hit, -ray.direction)) return {double(hit.distance), glm::dvec3(hit.geometricNormal())};
       ray.nearest = justBehind(hit.distance);
     }
     return {};

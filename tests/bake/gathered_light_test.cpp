@@ -197,7 +197,7 @@ TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
         glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
     const Hit hit = scene->trace({{-1, -1, 1.5f}, way});
     ASSERT_TRUE(hit.found());
-    const float read = gathered->at(hit, glm::dot(hit.geometricNormal, way) > 0, rays).radiance.x;
+    const float read = gathered->at(hit, glm::dot(hit.geometricNormal(), way) > 0, rays).radiance.x;
     const float there =
         exact.gather<true>(*scene, surfaceAt<false>(scene->scene(), hit, -way, {}, false), rays).radiance.x;
     square += (read - there) * (read - there), sum += there, ++count;

@@ -27,7 +27,7 @@ TEST(RayScene, FindsTheNearestSurfaceWithItsDistanceCornerWeightsAndNormal) {
   ASSERT_TRUE(hit.found());
   EXPECT_FLOAT_EQ(hit.distance, 3);
   EXPECT_EQ(hit.mesh, 0u);
-  EXPECT_EQ(hit.geometricNormal, kUp);
+  EXPECT_EQ(hit.geometricNormal(), kUp);
   const Mesh& mesh = rays->scene().meshes[hit.mesh];
   const glm::uvec3 t = mesh.triangles[hit.triangle];
   const glm::vec3 p = mesh.positions[t.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
@@ -41,7 +41,7 @@ TEST(RayScene, HitsBackSidesAndKeepsTheWoundNormal) {
   const Hit hit = builder.rays()->trace({{0.1f, 0.2f, -2}, kUp});
   ASSERT_TRUE(hit.found());
   EXPECT_FLOAT_EQ(hit.distance, 2);
-  EXPECT_EQ(hit.geometricNormal, kUp);
+  EXPECT_EQ(hit.geometricNormal(), kUp);
 }
 
 TEST(RayScene, RespectsTheNearAndFarEndOfARay) {
@@ -144,7 +144,7 @@ TEST(RayScene, NoSurfaceShadowsItselfAtAnyScaleOrPlace) {
                 std::uint32_t(n & 1),
                 {u, v},
                 triangleNormal(rays->scene().meshes[0], std::uint32_t(n & 1))};
-        const Surface s = surfaceAt<false>(rays->scene(), hit, hit.geometricNormal, {}, false);
+        const Surface s = surfaceAt<false>(rays->scene(), hit, hit.geometricNormal(), {}, false);
         const float azimuth = 6.2831853f * unit(random), height = 0.02f + 0.98f * unit(random);
         const glm::vec3 a = glm::normalize(glm::cross(s.normal, glm::vec3(0, 0.3f, 1))),
                         b = glm::cross(s.normal, a);
@@ -175,8 +175,8 @@ TEST(RayScene, NoLightLeaksThroughTheEdgesAndCornersOfAClosedRoom) {
                                              : glm::vec2(along, 1 - along - near);
       const auto mesh = std::uint32_t(n % 6);
       Hit hit{1, mesh, std::uint32_t((n / 6) & 1), weights, {}};
-      hit.geometricNormal = triangleNormal(rays->scene().meshes[mesh], hit.triangle);
-      const Surface s = surfaceAt<false>(rays->scene(), hit, hit.geometricNormal, {}, false);
+      hit.across = triangleNormal(rays->scene().meshes[mesh], hit.triangle);
+      const Surface s = surfaceAt<false>(rays->scene(), hit, hit.geometricNormal(), {}, false);
       glm::vec3 direction = glm::normalize(glm::vec3(unit(random), unit(random), unit(random)) - 0.5f);
       if (glm::dot(direction, s.normal) < 0) direction = -direction;
       if (rays->transmittance({s.rayOrigin, direction}) != glm::vec3(0)) ++leaks;
