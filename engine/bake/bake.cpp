@@ -32,8 +32,7 @@ class BakeRun {
   Status bakeOne(int index) {
     const LayoutCamera& camera = layout_.cameras[std::size_t(index)];
     const EffectPlan& plan = scene_.plan();
-    const ColumnCamera columns =
-        columnCameraFor(camera, layout_.eyeZ(), layout_.spec.nearBand, scene_.scene().bounds, settings_);
+    const ColumnCamera columns = columnCameraFor(camera, layout_, scene_.scene().bounds, settings_);
     BakedCamera baked;
     baked.camera = index;
     baked.key = captureKey(scene_.scene(), plan, settings_, camera, columns);
@@ -46,15 +45,12 @@ class BakeRun {
     const auto start = Clock::now();
     CaptureCounts counts;
     auto capture = baker_.bake(camera, columns, runner_, counts, stop_);
-    report_.rays += counts.rays;
-    report_.eyeViews += counts.eyeViews;
-    report_.eyeViewSeconds += counts.eyeViewSeconds;
+    report_.counts += counts;
     if (!capture) return tl::unexpected(capture.error());
     baked.seconds = secondsSince(start);
     baked.samples = counts.samples;
     if (auto put = writer_.put(baked.key, std::move(*capture)); !put) return put;
     ++report_.baked;
-    report_.samples += baked.samples;
     report_.cameras.push_back(baked);
     return {};
   }

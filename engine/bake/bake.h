@@ -28,6 +28,10 @@ class Shader;
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
                              const Bounds& sceneBounds, const BakeSettings& settings);
 
+/// The same of one of a layout's cameras.
+ColumnCamera columnCameraFor(const LayoutCamera& camera, const Layout& layout, const Bounds& sceneBounds,
+                             const BakeSettings& settings);
+
 /// Everything that can change the pixels: scene, plan, settings, column camera, served regions.
 ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                       const LayoutCamera& camera, const ColumnCamera& columnCamera);
@@ -56,6 +60,7 @@ struct CaptureCounts {
   SampleCounts samples;
   int eyeViews = 0;           ///< traced for pruning
   double eyeViewSeconds = 0;  ///< that it took
+  CaptureCounts& operator+=(const CaptureCounts& other);
 };
 
 /// Bakes captures one after the other, and remembers between them what the regions' eyes see.
@@ -110,10 +115,7 @@ struct BakeReport {
   int baked = 0;
   int reused = 0;
   double seconds = 0;
-  SampleCounts samples;
-  RayCounts rays;
-  int eyeViews = 0;           ///< traced for pruning
-  double eyeViewSeconds = 0;  ///< that it took, of `seconds`
+  CaptureCounts counts;
 };
 
 /// Of finished captures that wait to be written, unless told otherwise.

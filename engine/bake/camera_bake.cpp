@@ -56,18 +56,21 @@ struct ColumnRole {
   std::size_t index = 0;
   std::uint8_t bit = 0;
   const Clip* clip = nullptr;
+  bool holdsBackground = true;  ///< the part holds what is infinitely far along the column
 };
 
 /// By rising exit.
-std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& origin,
-                                   const glm::dvec2& direction) {
+std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction) {
   std::vector<ColumnRole> roles;
-  const double nearest = nearestSample(camera);
   for (std::size_t i = 0; i < camera.roles.size(); ++i) {
     const Role& role = camera.roles[i];
-    const auto span = role.grown.raySpan(origin, direction);
-    roles.push_back({span ? std::max(span->second, nearest) : nearest, i, roleBit(camera, int(i)),
-                     role.clip ? &*role.clip : nullptr});
+    // Infinitely far as seen from any region, so that its part can be told.
+    constexpr double kFar = 1e6;
+    const auto& corners = role.grown.corners;
+    const double size = corners.size() < 2 ? 1 : glm::distance(corners[0], corners[1]);
+    roles.push_back({exitDistance(camera, role, direction), i, roleBit(camera, int(i)),
+                     role.clip ? &*role.clip : nullptr,
+                     !role.clip || role.clip->holds(camera.position + kFar * size * direction)});
   }
   std::ranges::stable_sort(roles, {}, &ColumnRole::exit);
   return roles;
@@ -137,7 +140,9 @@ class ColumnMarch {
   /// False when stopped.
   bool run(int column, const std::stop_token& stop) {
     direction_ = march_.columns.directionAt(column + 0.5);
-    roles_ = rolesAlong(march_.camera, glm::dvec2(march_.columns.centreOfProjection), direction_);
+    roles_ = rolesAlong(march_.camera, direction_);
+    alone_ = roles_.size() == 1 && roles_.front().clip == nullptr && march_.sight == nullptr &&
+             march_.settings.maxLayers == 1;
     const std::size_t before = out_.row.size();
     for (int row = 0; row < march_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
       if (stop.stop_requested()) return false;
@@ -155,11 +160,28 @@ class ColumnMarch {
     out_.counts.rays.primary += std::uint64_t(packet.count);
     for (int row = first; row < last; ++row) {
       const auto n = std::size_t(row - first);
+      if (alone_ && addAlone(row, packet.direction[n], hits_[n])) continue;
       beginPixel(row);
       if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
         runPixel(packet.direction[n], hits_[n].distance, next, stop);
     }
   }
+  /// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
+  /// surface does not hide what is behind it.
+  bool addAlone(int row, const glm::vec3& direction, const Hit& hit) {
+    const std::uint8_t mask = roles_.front().bit;
+    if (!hit.found()) {
+      out_.add(row, 0, march_.shader.background(direction), 1, mask);
+    } else {
+      const Shaded shaded = march_.shader.shade(hit, -direction, out_.counts.rays);
+      if (shaded.alpha < kOpaqueAlpha) return false;
+      const double horizontal = double(hit.distance) * march_.rows.cosine[std::size_t(row)];
+      out_.add(row, storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(), 1, mask);
+    }
+    ++out_.counts.samples.kept[0];
+    return true;
+  }
+
   void beginPixel(int row) {
     row_ = row;
     flat_ = march_.rows.cosine[std::size_t(row)];
@@ -229,23 +251,13 @@ class ColumnMarch {
   }
 
   void addBackground(const glm::vec3& direction) {
-    // Infinitely far as seen from any region, so that its part can be told.
-    constexpr double kFar = 1e6;
-    const glm::dvec2 away = march_.camera.position + kFar * nearestRegionSize() * direction_;
     needed_.clear();
-    for (const ColumnRole& role : roles_) {
-      if (role.clip != nullptr && !role.clip->holds(away)) continue;
-      if (!isFull(role) &&
+    for (const ColumnRole& role : roles_)
+      if (role.holdsBackground && !isFull(role) &&
           (march_.sight == nullptr ||
            march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
         needed_.push_back(&role);
-    }
     if (!needed_.empty()) add(0, march_.shader.background(direction), 1);
-  }
-
-  double nearestRegionSize() const {
-    const auto& corners = march_.camera.roles.front().grown.corners;
-    return corners.size() < 2 ? 1 : glm::distance(corners[0], corners[1]);
   }
 
   /// A sample for the roles in needed_.
@@ -266,6 +278,7 @@ class ColumnMarch {
   RegionSight::Hints hints_;
   glm::dvec2 direction_{0};        ///< of the column
   std::vector<ColumnRole> roles_;  ///< of the column
+  bool alone_ = false;             ///< of the column: see addAlone
   int row_ = 0;                    ///< of the pixel
   double flat_ = 1;                ///< of the pixel: horizontal metres per metre of ray
   int layer_ = 0;                  ///< of the pixel: samples that it has
@@ -312,7 +325,7 @@ std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, 
   runner.parallelFor(std::size_t(columns.columns), [&](std::size_t column) {
     const FlushDenormals flush;
     const glm::dvec2 direction = columns.directionAt(double(column) + 0.5);
-    const auto roles = rolesAlong(camera, glm::dvec2(columns.centreOfProjection), direction);
+    const auto roles = rolesAlong(camera, direction);
     std::uint64_t found = 0;
     for (int row = 0; row < columns.rows && !roles.empty(); row += RayPacket::kSize)
       found += std::uint64_t(
@@ -321,6 +334,14 @@ std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, 
     hits += found;
   });
   return hits;
+}
+
+CaptureCounts& CaptureCounts::operator+=(const CaptureCounts& other) {
+  rays += other.rays;
+  samples += other.samples;
+  eyeViews += other.eyeViews;
+  eyeViewSeconds += other.eyeViewSeconds;
+  return *this;
 }
 
 SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
@@ -390,10 +411,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     if (total > kMaxCaptureSamples)
       return fail(ErrorKind::tooLarge, "more than 2^31 samples in one capture; lower the samples per degree",
                   scene_.scene().name);
-    for (const Samples& s : chunks) {
-      counts.rays += s.counts.rays;
-      counts.samples += s.counts.samples;
-    }
+    for (const Samples& s : chunks) counts += s.counts;
     Capture capture = joined(march, chunks, total, runner, stop);
     if (stop.stop_requested()) return stopped();
     return capture;

@@ -109,6 +109,11 @@ KeyParts captureKeyParts(const Scene& scene, const EffectPlan& plan, const BakeS
   return parts;
 }
 
+ColumnCamera columnCameraFor(const LayoutCamera& camera, const Layout& layout, const Bounds& sceneBounds,
+                             const BakeSettings& settings) {
+  return columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, sceneBounds, settings);
+}
+
 ContentKey captureKey(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                       const LayoutCamera& camera, const ColumnCamera& columnCamera) {
   return keyOf(captureKeyParts(scene, plan, settings, camera, columnCamera));
@@ -121,8 +126,7 @@ std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, 
   keys.reserve(layout.cameras.size());
   for (const LayoutCamera& camera : layout.cameras) {
     KeyParts parts = shared;
-    addCameraParts(parts, camera,
-                   columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.bounds, settings));
+    addCameraParts(parts, camera, columnCameraFor(camera, layout, scene.bounds, settings));
     keys.push_back(keyOf(parts));
   }
   return keys;

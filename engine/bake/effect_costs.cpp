@@ -32,8 +32,7 @@ class CostProbe {
     if (gathersLight(scene.plan(), settings))
       gathered_ = std::make_shared<const GatheredLight>(scene, settings);
     for (const LayoutCamera& camera : layout.cameras)
-      columns_.push_back(
-          columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.scene().bounds, settings));
+      columns_.push_back(columnCameraFor(camera, layout, scene.scene().bounds, settings));
     for (int n = 0; n < kPixels && !columns_.empty(); ++n) addPixel(n);
   }
   const std::vector<Pixel>& pixels() const { return pixels_; }
@@ -99,10 +98,7 @@ class CostProbe {
     const double elevation = columns.elevationAt(v * columns.rows), flat = std::cos(elevation);
     const LayoutCamera& camera = layout_.cameras[index];
     double exit = camera.roles.empty() ? nearestSample(camera) : std::numeric_limits<double>::infinity();
-    for (const Role& role : camera.roles) {
-      const auto span = role.grown.raySpan(camera.position, direction);
-      exit = std::min(exit, span ? std::max(span->second, nearestSample(camera)) : nearestSample(camera));
-    }
+    for (const Role& role : camera.roles) exit = std::min(exit, exitDistance(camera, role, direction));
     const Ray ray{glm::vec3(columns.centreOfProjection),
                   glm::vec3(direction.x * flat, direction.y * flat, std::sin(elevation)), float(exit / flat)};
     const Hit hit = scene_.trace(ray);

@@ -184,8 +184,7 @@ ImportOptions importOptions(const std::string& up, double metresPerUnit) {
 }
 
 double pixelsOf(const OpenProject& open, const LayoutCamera& camera) {
-  const ColumnCamera c = columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
-                                         open.scene->bounds, open.project.bake);
+  const ColumnCamera c = columnCameraFor(camera, *open.layout, open.scene->bounds, open.project.bake);
   return double(c.columns) * c.rows;
 }
 

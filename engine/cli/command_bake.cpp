@@ -19,27 +19,28 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
                        {"reused", camera.reused},
                        {"seconds", camera.seconds},
                        {"samples", toJson(camera.samples)}});
-  report.json = {{"baked", captures.baked},
-                 {"reused", captures.reused},
-                 {"seconds", captures.seconds},
-                 {"samples", toJson(captures.samples)},
-                 {"rays", toJson(captures.rays)},
-                 {"eyeViews", {{"traced", captures.eyeViews}, {"seconds", captures.eyeViewSeconds}}},
-                 {"surfaceLight",
-                  {{"asked", request.surfaceLight},
-                   {"baked", baked.surfaceLightBaked},
-                   {"seconds", baked.surfaceLightSeconds}}},
-                 {"damaged", baked.damaged},
-                 {"bytes", baked.bytes},
-                 {"neededBytes", baked.neededBytes},
-                 {"freeBytes", baked.freeBytes},
-                 {"cameras", std::move(cameras)}};
+  report.json = {
+      {"baked", captures.baked},
+      {"reused", captures.reused},
+      {"seconds", captures.seconds},
+      {"samples", toJson(captures.counts.samples)},
+      {"rays", toJson(captures.counts.rays)},
+      {"eyeViews", {{"traced", captures.counts.eyeViews}, {"seconds", captures.counts.eyeViewSeconds}}},
+      {"surfaceLight",
+       {{"asked", request.surfaceLight},
+        {"baked", baked.surfaceLightBaked},
+        {"seconds", baked.surfaceLightSeconds}}},
+      {"damaged", baked.damaged},
+      {"bytes", baked.bytes},
+      {"neededBytes", baked.neededBytes},
+      {"freeBytes", baked.freeBytes},
+      {"cameras", std::move(cameras)}};
   for (const std::string& damaged : baked.damaged) report.text += fmt::format("baked again: {}\n", damaged);
   report.text += fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
       captures.baked, plan.storeys.size() > 1 ? fmt::format(" ({})", storey.storey) : "", captures.seconds,
-      countText(captures.samples.keptInAll()), captures.reused,
+      countText(captures.counts.samples.keptInAll()), captures.reused,
       !request.surfaceLight     ? std::string("was not asked for")
       : baked.surfaceLightBaked ? fmt::format("{:.1f} s", baked.surfaceLightSeconds)
                                 : std::string("was there already"),
@@ -96,7 +97,7 @@ Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& request
                  {"baked", all.captures.baked},
                  {"reused", all.captures.reused},
                  {"seconds", all.captures.seconds},
-                 {"samples", toJson(all.captures.samples)},
+                 {"samples", toJson(all.captures.counts.samples)},
                  {"bytes", all.bytes}};
   report.text = fmt::format("baked {} cameras as {} in {:.1f} s, {} were there already; {} in all\n",
                             all.captures.baked, nameOf(quality), all.captures.seconds, all.captures.reused,
@@ -128,6 +129,9 @@ Status checkOptions(const BakeOptions& options, const Common& common) {
     return bad("leave it to one command when all shares are baked", "--prune");
   if (options.prune && !common.storey.empty())
     return bad("what one storey does not use another may: leave --storey away", "--prune");
+  if (options.quality != nameOf(Quality::full) && (options.prune || options.dryRun))
+    return bad("is about the captures of full quality: leave --quality away",
+               options.prune ? "--prune" : "--dry-run");
   if (!options.only.empty() && (!options.shard.empty() || options.light == "only"))
     return bad("cameras are either named, or a share of them is taken, or none", "--only");
   return {};
@@ -167,12 +171,12 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const std::vector<BakeRequest> requests = bakeRequests(*plan, options, *shard);
   if (options.dryRun) return dryRun(*plan, requests, common);
 
-  const auto states = stateOf(*plan);
-  if (!states) return tl::unexpected(states.error());
-  const bool idle = !options.verify && allDone(requests, *states);
   const Quality quality =
       *std::ranges::find_if(kQualities, [&](Quality q) { return nameOf(q) == options.quality; });
   if (quality != Quality::full) return bakeLower(*plan, requests, quality, common);
+  const auto states = stateOf(*plan);
+  if (!states) return tl::unexpected(states.error());
+  const bool idle = !options.verify && allDone(requests, *states);
   if (!idle || options.prune)
     if (Status open = openStoreysOf(*plan, common); !open) return tl::unexpected(open.error());
   const auto runner = common.runner();

@@ -100,7 +100,9 @@ float storedInverseDistance(double inverseDistance, double step) {
   constexpr double kSmallest = 0x1p-141;  // of the smallest floats the last 8 bits
   const double coarser = std::max({step, own, kSmallest});
   constexpr double kRound = 0x1.8p52;  // leaves no bit behind the point
-  const double stored = (inverseDistance / coarser + kRound - kRound) * coarser;
+  // A power of two times 2^52 is no less exact as a summand than as a divisor, and faster.
+  const double shift = kRound * coarser;
+  const double stored = inverseDistance + shift - shift;
   return float(std::max(stored, step));
 }
 

@@ -51,10 +51,8 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   const double elevation = std::atan2(direction.z, way.flat);
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
   const LayoutCamera& served = layout_.cameras[std::size_t(camera)];
-  const double nearest = nearestSample(served);
   for (const Role& role : served.roles) {
-    const auto span = role.grown.raySpan(glm::dvec2(way.origin), glm::dvec2(direction) / way.flat);
-    const double exit = span ? std::max(span->second, nearest) : nearest;
+    const double exit = exitDistance(served, role, glm::dvec2(direction) / way.flat);
     if (exit <= horizontal * (1 + kBorderSlack)) way.exits.push_back(exit);
   }
   std::ranges::sort(way.exits);

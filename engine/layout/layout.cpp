@@ -202,6 +202,11 @@ double nearestSample(const LayoutCamera& camera) {
   return kShareOfEdge * glm::distance(corners[0], corners[1]);
 }
 
+double exitDistance(const LayoutCamera& camera, const Role& role, const glm::dvec2& direction) {
+  const auto span = role.grown.raySpan(camera.position, direction);
+  return std::max(span ? span->second : 0, nearestSample(camera));
+}
+
 std::uint8_t roleBit(const LayoutCamera& camera, int role) {
   if (role < 0) return 0xff;
   const int count = int(camera.roles.size());

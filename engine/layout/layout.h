@@ -86,6 +86,9 @@ std::uint8_t roleBit(const LayoutCamera& camera, int role);
 /// finite and a wall through the centre of projection leaves no rounding noise; a share of the regions' size,
 /// whatever their unit.
 double nearestSample(const LayoutCamera& camera);
+/// Where the camera's rays of a direction (plan, unit) begin for a role, horizontal metres: as they leave its
+/// grown polygon.
+double exitDistance(const LayoutCamera& camera, const Role& role, const glm::dvec2& direction);
 
 /// One piece of a cover: what of the camera's sector lies outside the region, within `clip`.
 struct Piece {

@@ -83,8 +83,7 @@ StoreyPlan planStorey(const OpenProject& open) {
   plan.order = bakingOrder(open);
   for (std::size_t c = 0; c < open.layout->cameras.size(); ++c) {
     const LayoutCamera& camera = open.layout->cameras[c];
-    const ColumnCamera columns = columnCameraFor(camera, open.layout->eyeZ(), open.layout->spec.nearBand,
-                                                 open.scene->bounds, open.project.bake);
+    const ColumnCamera columns = columnCameraFor(camera, *open.layout, open.scene->bounds, open.project.bake);
     plan.cameras.push_back({subjectOf(plan.storey, camera.id), double(columns.columns) * columns.rows,
                             open.keys[c], captureKeyParts(open, int(c))});
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <ranges>
 
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/file.h"
@@ -113,12 +114,10 @@ constexpr int kFewestKnown = 4;
 /// Refuses to begin what cannot be finished. Where room is plentiful by far, a rough figure does; else a
 /// little is baked to know better.
 Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vector<int>& cameras, bool light,
-                 const StoreSink& sink, TaskRunner& runner, ProjectBakeReport& report,
-                 const Progress& progress, const std::stop_token& stop) {
-  const auto folder = captureFolderFor(open.file);
-  const auto store = CaptureStore::open(folder);
-  const auto available = freeSpace(folder);
-  if (!store || !available) return tl::unexpected(store ? available.error() : store.error());
+                 const CaptureStore& store, const StoreSink& sink, TaskRunner& runner,
+                 ProjectBakeReport& report, const Progress& progress, const std::stop_token& stop) {
+  const auto available = freeSpace(store.folder());
+  if (!available) return tl::unexpected(available.error());
   std::vector<int> missing;
   double missingPixels = 0, knownPixels = 0, knownBytes = 0;
   int known = 0;
@@ -126,7 +125,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
     const PlannedCapture& planned = plan.cameras[std::size_t(camera)];
     if (sink.has(planned.key)) {
-      ++known, knownPixels += planned.pixels, knownBytes += double(store->bytesOf(planned.key));
+      ++known, knownPixels += planned.pixels, knownBytes += double(store.bytesOf(planned.key));
     } else {
       missing.push_back(camera), missingPixels += planned.pixels;
     }
@@ -150,7 +149,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
   if (report.neededBytes > double(*available))
     return fail(ErrorKind::outOfSpace,
                 figures + ": make room, bake fewer cameras, or lower the samples per degree",
-                folder.string());
+                store.folder().string());
   if (progress) progress({0, 0, figures});
   return {};
 }
@@ -182,10 +181,7 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   captures.baked += other.captures.baked;
   captures.reused += other.captures.reused;
   captures.seconds += other.captures.seconds;
-  captures.samples += other.captures.samples;
-  captures.rays += other.captures.rays;
-  captures.eyeViews += other.captures.eyeViews;
-  captures.eyeViewSeconds += other.captures.eyeViewSeconds;
+  captures.counts += other.captures.counts;
   surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
   surfaceLightSeconds += other.surfaceLightSeconds;
@@ -204,11 +200,14 @@ OpenProject atQuality(const OpenProject& open, Quality quality) {
 
 std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const CaptureStore& store) {
   std::vector<std::optional<ContentKey>> best(open.keys.size());
-  for (const Quality quality : kQualities) {
-    const std::vector<ContentKey> keys = atQuality(open, quality).keys;
+  const auto take = [&](const std::vector<ContentKey>& keys) {
     for (std::size_t camera = 0; camera < keys.size(); ++camera)
-      if (store.has(keys[camera])) best[camera] = keys[camera];
-  }
+      if (!best[camera] && store.has(keys[camera])) best[camera] = keys[camera];
+  };
+  take(open.keys);
+  for (const Quality quality : kQualities | std::views::reverse)
+    if (quality != Quality::full && std::ranges::find(best, std::nullopt) != best.end())
+      take(captureKeys(*open.scene, open.plan, open.project.bake.at(quality), *open.layout));
   return best;
 }
 
@@ -265,7 +264,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
   }
   if (Status room =
-          checkRoom(open, plan, cameras, request.surfaceLight, sink, runner, report, progress, stop);
+          checkRoom(open, plan, cameras, request.surfaceLight, *store, sink, runner, report, progress, stop);
       !room)
     return tl::unexpected(room.error());
   auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop,

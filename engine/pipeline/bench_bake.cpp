@@ -62,8 +62,7 @@ class Bench {
       : open_(open), options_(options), ring_(ring), stop_(std::move(stop)) {}
 
   ColumnCamera columnsOf(const LayoutCamera& camera) const {
-    ColumnCamera columns =
-        columnCameraFor(camera, ring_.eyeZ(), ring_.spec.nearBand, open_.scene->bounds, open_.project.bake);
+    ColumnCamera columns = columnCameraFor(camera, ring_, open_.scene->bounds, open_.project.bake);
     columns.columns = columns.rows = options_.side;
     return columns;
   }

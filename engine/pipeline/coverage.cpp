@@ -59,8 +59,7 @@ class SceneTracer final : public OpaqueTracer {
 std::vector<ColumnCamera> columnsOf(const OpenProject& open) {
   std::vector<ColumnCamera> columns;
   for (const LayoutCamera& camera : open.layout->cameras)
-    columns.push_back(columnCameraFor(camera, open.layout->eyeZ(), open.project.layout().nearBand,
-                                      open.scene->bounds, open.project.bake));
+    columns.push_back(columnCameraFor(camera, *open.layout, open.scene->bounds, open.project.bake));
   return columns;
 }
 

@@ -115,8 +115,7 @@ class ProjectProber final : public BakeProber {
         sink_(folder.path()) {}
 
   ColumnCamera columnsOf(int camera) const {
-    return columnCameraFor(layoutCamera(camera), open_.layout->eyeZ(), open_.project.layout().nearBand,
-                           open_.scene->bounds, open_.project.bake);
+    return columnCameraFor(layoutCamera(camera), *open_.layout, open_.scene->bounds, open_.project.bake);
   }
 
   Result<CaptureOverhead> captureOverhead() override {

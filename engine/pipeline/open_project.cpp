@@ -52,8 +52,7 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
 KeyParts captureKeyParts(const OpenProject& open, int camera) {
   const LayoutCamera& at = open.layout->cameras[std::size_t(camera)];
   return captureKeyParts(*open.scene, open.plan, open.project.bake, at,
-                         columnCameraFor(at, open.layout->eyeZ(), open.layout->spec.nearBand,
-                                         open.scene->bounds, open.project.bake));
+                         columnCameraFor(at, *open.layout, open.scene->bounds, open.project.bake));
 }
 
 KeyParts surfaceLightKeyParts(const OpenProject& open) {

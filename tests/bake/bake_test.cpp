@@ -74,7 +74,7 @@ TEST(Bake, PutsEveryCameraUnderItsKeyAndNeverBakesItAgain) {
   EXPECT_EQ(first->baked, 5);
   EXPECT_EQ(first->reused, 0);
   EXPECT_EQ(sink.size(), 5u);
-  EXPECT_GT(first->rays.primary, 0u);
+  EXPECT_GT(first->counts.rays.primary, 0u);
   for (const ContentKey& key : captureKeys(scene->scene(), scene->plan(), coarse(), layout))
     EXPECT_TRUE(sink.has(key));
   ASSERT_GE(seen.size(), 5u);
@@ -87,7 +87,7 @@ TEST(Bake, PutsEveryCameraUnderItsKeyAndNeverBakesItAgain) {
   ASSERT_TRUE(again.has_value());
   EXPECT_EQ(again->baked, 0);
   EXPECT_EQ(again->reused, 5);
-  EXPECT_EQ(again->rays.primary, 0u);
+  EXPECT_EQ(again->counts.rays.primary, 0u);
 }
 
 TEST(Bake, AMovedCameraIsTheOnlyOneBakedAgain) {
