@@ -42,10 +42,10 @@ struct Samples {
     colour.reserve(samples);
     roles.reserve(samples);
   }
-  void add(int r, float w, const glm::vec3& radiance, float alpha, std::uint8_t mask) {
+  void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
     row.push_back(std::uint16_t(r));
     inverseDistance.push_back(w);
-    colour.push_back(packColour({radiance, alpha}));
+    colour.push_back(packed);
     roles.push_back(mask);
   }
 };
@@ -171,12 +171,17 @@ class ColumnMarch {
   bool addAlone(int row, const glm::vec3& direction, const Hit& hit) {
     const std::uint8_t mask = roles_.front().bit;
     if (!hit.found()) {
-      out_.add(row, 0, march_.shader.background(direction), 1, mask);
+      out_.add(row, 0, packColour({march_.shader.background(direction), 1}), mask);
     } else {
-      const Shaded shaded = march_.shader.shade(hit, -direction, out_.counts.rays);
-      if (shaded.alpha < kOpaqueAlpha) return false;
       const double horizontal = double(hit.distance) * march_.rows.cosine[std::size_t(row)];
-      out_.add(row, storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(), 1, mask);
+      const float stored = storedInverseDistance(1 / horizontal, march_.distanceStep);
+      if (const auto& even = march_.shader.evenColours(); !even.empty()) {
+        out_.add(row, stored, even[hit.mesh], mask);
+      } else {
+        const Shaded shaded = march_.shader.shade(hit, -direction, out_.counts.rays);
+        if (shaded.alpha < kOpaqueAlpha) return false;
+        out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
+      }
     }
     ++out_.counts.samples.kept[0];
     return true;
@@ -267,7 +272,7 @@ class ColumnMarch {
       mask |= role->bit;
       ++stored_[role->index];
     }
-    out_.add(row_, w, radiance, alpha, mask);
+    out_.add(row_, w, packColour({radiance, alpha}), mask);
     ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
   }
 

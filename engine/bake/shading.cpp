@@ -116,6 +116,11 @@ struct ShadingKernels {
     return out;
   }
 
+  static bool isEven(const Shader::Switches& s) {
+    return s.direct == DirectLight::none && s.wide == DirectLight::none && s.around == Around::even &&
+           !s.detail && !s.special;
+  }
+
   template <std::size_t kIndex>
   static constexpr Shader::Kernel at() {
     return &shade<static_cast<DirectLight>(kIndex / 48), static_cast<DirectLight>(kIndex / 16 % 3),
@@ -158,6 +163,12 @@ Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings
   switches_.special =
       std::any_of(rules_.begin(), rules_.end(), [](const MaterialRules& r) { return r.mirror || r.clear(); });
   kernel_ = ShadingKernels::find(switches_);
+  if (ShadingKernels::isEven(switches_))
+    for (const Mesh& mesh : scene.scene().meshes) {
+      const auto material = std::size_t(mesh.material);
+      const Shaded look = ShadingKernels::evenly(*this, material, rules_[material]);
+      evenColours_.push_back(packColour({look.radiance(), 1}));
+    }
 }
 
 glm::vec3 Shader::background(const glm::vec3& direction) const {

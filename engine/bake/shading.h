@@ -19,6 +19,7 @@
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/image/capture.h"
 
 namespace acentric {
 
@@ -62,6 +63,10 @@ class Shader {
   Seen seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                  bool seenInMirror = false) const;
 
+  /// Where nothing but its material decides how a surface looks (no light from anywhere in particular, no
+  /// detail, nothing clear or mirrored): the radiance by mesh, as captures store it. Else empty.
+  const std::vector<HalfColour>& evenColours() const { return evenColours_; }
+
   const RayScene& scene() const { return *scene_; }
 
   enum class DirectLight : std::uint8_t { none, unshadowed, shadowed };
@@ -90,6 +95,7 @@ class Shader {
   std::shared_ptr<const GatheredLight> gathered_;
   Switches switches_;
   Kernel kernel_;
+  std::vector<HalfColour> evenColours_;
 };
 
 }  // namespace acentric

@@ -206,7 +206,8 @@ std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const C
   };
   take(open.keys);
   for (const Quality quality : kQualities | std::views::reverse)
-    if (quality != Quality::full && std::ranges::find(best, std::nullopt) != best.end())
+    if (quality != Quality::full &&
+        !std::ranges::all_of(best, [](const auto& key) { return key.has_value(); }))
       take(captureKeys(*open.scene, open.plan, open.project.bake.at(quality), *open.layout));
   return best;
 }
