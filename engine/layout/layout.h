@@ -58,9 +58,8 @@ struct Clip {
   bool operator==(const Clip&) const = default;
 };
 
-/// One of the things that a camera is for: a region of the full lattice, placed or not (so that a camera's
-/// pixels do not depend on which neighbours are placed; they do depend on which are split), and the part of
-/// the camera's sector that the region draws from it.
+/// One of the things that a camera is for: a placed region, and the part of the camera's sector that the
+/// region draws from it.
 struct Role {
   CellId region;
   ConvexPolygon polygon;  ///< where the eye stands, plan
