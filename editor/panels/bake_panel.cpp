@@ -47,11 +47,13 @@ void drawFacts(PanelContext& context) {
                  fmt::format("{} baked, {} reused, {}", report.baked, report.reused,
                              ui::formatDuration(report.seconds + last->surfaceLightSeconds)),
                  kValueX);
-    if (report.rays.primary > 0)
-      ui::keyValue("Rays",
-                   fmt::format("{} primary, {} shadow, {} ambient", ui::formatCount(report.rays.primary),
-                               ui::formatCount(report.rays.shadow), ui::formatCount(report.rays.ambient)),
-                   kValueX);
+    if (report.counts.rays.primary > 0)
+      ui::keyValue(
+          "Rays",
+          fmt::format("{} primary, {} shadow, {} ambient", ui::formatCount(report.counts.rays.primary),
+                      ui::formatCount(report.counts.rays.shadow),
+                      ui::formatCount(report.counts.rays.ambient)),
+          kValueX);
     ui::keyValue("On disk", ui::formatBytes(last->bytes), kValueX);
   }
   if (const BakeEstimate* estimate = session.estimate()) {

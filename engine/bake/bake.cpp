@@ -49,6 +49,7 @@ class BakeRun {
     if (!capture) return tl::unexpected(capture.error());
     baked.seconds = secondsSince(start);
     baked.samples = counts.samples;
+    sink_.tell(baked.key, baked.samples);
     if (auto put = writer_.put(baked.key, std::move(*capture)); !put) return put;
     ++report_.baked;
     report_.cameras.push_back(baked);

@@ -2,10 +2,8 @@
 /// Bakes the captures of a layout. Camera by camera: what is finished is put into the sink at once and never
 /// again.
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -16,6 +14,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
 #include "engine/image/capture.h"
+#include "engine/image/sample_counts.h"
 #include "engine/layout/layout.h"
 
 namespace acentric {
@@ -46,15 +45,6 @@ KeyParts sceneKeyParts(std::string_view version, const Scene& scene, const Effec
 std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                                     const Layout& layout);
 
-/// What became of the surfaces that the rays of one capture or more met beyond the regions.
-struct SampleCounts {
-  static constexpr std::size_t kLayers = 8;
-  std::array<std::uint64_t, kLayers> kept{};  ///< by place in the pixel, nearest first; the last: and farther
-  std::uint64_t hidden = 0;                   ///< no region sees them
-  std::uint64_t overLimit = 0;                ///< more layers than the settings allow
-  std::uint64_t keptInAll() const { return std::accumulate(kept.begin(), kept.end(), std::uint64_t(0)); }
-  SampleCounts& operator+=(const SampleCounts& other);
-};
 struct CaptureCounts {
   RayCounts rays;
   SampleCounts samples;
@@ -100,6 +90,10 @@ class CaptureSink {
   virtual ~CaptureSink() = default;
   virtual bool has(const ContentKey& key) const = 0;
   virtual Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) = 0;
+  /// Comes before a capture is put, on bake's thread.
+  virtual void tell(const ContentKey& key, const SampleCounts& samples) {
+    static_cast<void>(key), static_cast<void>(samples);
+  }
 };
 
 struct BakedCamera {

@@ -349,13 +349,6 @@ CaptureCounts& CaptureCounts::operator+=(const CaptureCounts& other) {
   return *this;
 }
 
-SampleCounts& SampleCounts::operator+=(const SampleCounts& other) {
-  for (std::size_t layer = 0; layer < kLayers; ++layer) kept[layer] += other.kept[layer];
-  hidden += other.hidden;
-  overLimit += other.overLimit;
-  return *this;
-}
-
 CameraBaker::CameraBaker(const RayScene& scene, const BakeSettings& settings, std::size_t memory)
     : scene_(scene), settings_(settings), memory_(memory) {}
 CameraBaker::~CameraBaker() = default;

@@ -8,17 +8,39 @@
 namespace acentric::cli {
 namespace {
 
-Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, const BakePlan& plan,
-                  const StoreyPlan& storey) {
+/// "12: 812,345 samples in 4 layers (620,100, 150,200, 40,045, 2,000), dropped: 301,000 hidden, 12 over the
+/// limit; 7.9 MB".
+std::string cameraText(int camera, const std::optional<SampleCounts>& samples, std::uint64_t bytes) {
+  if (!samples) return fmt::format("  {:>4}: {}\n", camera, bytesText(bytes));
+  std::vector<std::string> layers;
+  for (const std::uint64_t kept : samples->kept)
+    if (kept > 0) layers.push_back(countText(kept));
+  return fmt::format("  {:>4}: {} samples in {} layers ({}), dropped: {} hidden, {} over the limit; {}\n",
+                     camera, countText(samples->keptInAll()), layers.size(), fmt::join(layers, ", "),
+                     countText(samples->hidden), countText(samples->overLimit), bytesText(bytes));
+}
+
+Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, const BakeOptions& options,
+                  const BakePlan& plan, const StoreyPlan& storey, const CaptureStore& store) {
   const BakeReport& captures = baked.captures;
   Report report;
   Json cameras = Json::array();
-  for (const BakedCamera& camera : captures.cameras)
+  std::string list;
+  for (const BakedCamera& camera : captures.cameras) {
+    std::optional<SampleCounts> samples = camera.samples;
+    if (camera.reused) {
+      const auto record = store.record(camera.key);
+      samples = record ? record->samples : std::nullopt;
+    }
+    const std::uint64_t bytes = store.bytesOf(camera.key);
     cameras.push_back({{"camera", camera.camera},
                        {"key", camera.key.toHex()},
                        {"reused", camera.reused},
                        {"seconds", camera.seconds},
-                       {"samples", toJson(camera.samples)}});
+                       {"samples", samples ? toJson(*samples) : Json()},
+                       {"bytes", bytes}});
+    if (options.list) list += cameraText(camera.camera, samples, bytes);
+  }
   report.json = {
       {"baked", captures.baked},
       {"reused", captures.reused},
@@ -45,11 +67,13 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       : baked.surfaceLightBaked ? fmt::format("{:.1f} s", baked.surfaceLightSeconds)
                                 : std::string("was there already"),
       bytesText(baked.bytes), captureFolderFor(plan.file).string());
+  report.text += list;
   return report;
 }
 
 /// Of a storey of which everything asked for is on disk.
-Result<Report> nothingToDo(const BakeRequest& request, const BakePlan& plan, const StoreyPlan& storey) {
+Result<Report> nothingToDo(const BakeRequest& request, const BakeOptions& options, const BakePlan& plan,
+                           const StoreyPlan& storey) {
   const auto store = CaptureStore::open(captureFolderFor(plan.file));
   if (!store) return tl::unexpected(store.error());
   ProjectBakeReport report;
@@ -62,11 +86,11 @@ Result<Report> nothingToDo(const BakeRequest& request, const BakePlan& plan, con
   }
   report.captures.reused = int(request.cameras->size());
   for (const PlannedCapture& camera : storey.cameras) report.bytes += store->bytesOf(camera.key);
-  return bakeReport(report, request, plan, storey);
+  return bakeReport(report, request, options, plan, storey, *store);
 }
 
-Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const BakePlan& plan,
-                          const Common& common, TaskRunner& runner) {
+Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const BakeOptions& options,
+                          const BakePlan& plan, const Common& common, TaskRunner& runner) {
   const OpenProject& open = plan.open[number];
   const auto baked = bakeProject(open, request, runner, common.progress, common.stop);
   if (!baked) return tl::unexpected(baked.error());
@@ -75,7 +99,9 @@ Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const 
     if (!present[std::size_t(camera)])
       return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
                   captureFolderFor(open.file).string());
-  return bakeReport(*baked, request, plan, plan.storeys[number]);
+  const auto store = CaptureStore::open(captureFolderFor(open.file));
+  if (!store) return tl::unexpected(store.error());
+  return bakeReport(*baked, request, options, plan, plan.storeys[number], *store);
 }
 
 /// Captures alone, of a lower quality than the project's.
@@ -183,8 +209,8 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   std::vector<Report> reports;
   std::vector<std::string> names;
   for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
-    auto report = idle ? nothingToDo(requests[s], *plan, plan->storeys[s])
-                       : bakeStorey(s, requests[s], *plan, common, *runner);
+    auto report = idle ? nothingToDo(requests[s], options, *plan, plan->storeys[s])
+                       : bakeStorey(s, requests[s], options, *plan, common, *runner);
     if (!report) return report;
     reports.push_back(std::move(*report));
     names.push_back(plan->storeys[s].storey);

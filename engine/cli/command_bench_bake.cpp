@@ -8,11 +8,11 @@ namespace {
 
 double perSecond(double count, double seconds) { return seconds > 0 ? count / seconds / 1e6 : 0; }
 
-Json toJson(const BakeBenchSet& set, const BakeBench& bench) {
+Json toJson(const BakeBenchSet& set) {
   return {{"name", set.name},
           {"effects", set.effects},
           {"seconds", set.seconds},
-          {"megapixelsPerSecond", perSecond(bench.firstRays, set.seconds)},
+          {"megapixelsPerSecond", perSecond(set.firstRays, set.seconds)},
           {"primaryMegaraysPerSecond", perSecond(double(set.counts.rays.primary), set.seconds)},
           {"megaraysPerSecond", perSecond(double(set.counts.rays.total()), set.seconds)},
           {"shareOfTracer", set.primaryShare},
@@ -30,6 +30,9 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
   if (!bench) return tl::unexpected(bench.error());
   const double scaling =
       bench->oneThreadSeconds > 0 ? bench->oneThreadSeconds / bench->sets.back().seconds : 1;
+  const BakeBenchBytes& bytes = bench->bytes;
+  const double cameras = bench->cameras;
+  const auto perCamera = [&](double all) { return bytesText(std::uint64_t(all / cameras)); };
   Report report;
   report.json = {{"version", ACENTRIC_VERSION},
                  {"processor", processorName()},
@@ -50,13 +53,18 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
                    {"pruning", bench->pruningSeconds},
                    {"encoding", bench->encodingSeconds},
                    {"writing", bench->writingSeconds}}},
-                 {"bytes", {{"pack", bench->packBytes}, {"exr", bench->exrBytes}}}};
+                 {"bytesPerCamera",
+                  {{"everySurface", bytes.everySurface / cameras},
+                   {"pruned", bytes.pruned / cameras},
+                   {"quantised", bytes.quantised / cameras},
+                   {"pack", bytes.pack / cameras},
+                   {"exr", bytes.exr / cameras}}}};
   report.text = fmt::format(
       "{}, {} threads: a ring of {} cameras of {} x {} pixels\n  {:<16} {:7.2f} s, {:6.1f} M rays/s\n",
       processorName(), bench->threads, bench->cameras, bench->side, bench->side, "tracer alone",
       bench->tracerSeconds, perSecond(bench->firstRays, bench->tracerSeconds));
   for (const BakeBenchSet& set : bench->sets) {
-    report.json["sets"].push_back(toJson(set, *bench));
+    report.json["sets"].push_back(toJson(set));
     report.text +=
         fmt::format("  {:<16} {:7.2f} s, {:6.1f} M rays/s, {:6.1f} M primary ({:.0f} %); {} samples\n",
                     set.name, set.seconds, perSecond(double(set.counts.rays.total()), set.seconds),
@@ -65,13 +73,15 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
   }
   report.text += fmt::format(
       "  one shadow ray, files written: {:.2f} s\n"
-      "  everything: tracing {:.2f} s, shading {:.2f} s, pruning and deeper layers {:.2f} s; encoding {:.2f} "
-      "s "
-      "and writing {:.2f} s on one thread behind them\n"
-      "  {} packed, {} OpenEXR; {} to {} threads: {:.2f} times as fast\n",
+      "  final: tracing {:.2f} s, shading {:.2f} s, pruning and deeper layers {:.2f} s; encoding {:.2f} s "
+      "and "
+      "writing {:.2f} s on one thread behind them\n"
+      "  bytes a camera, final: every surface {}, what some region sees {}, distances of 16 bits {}; "
+      "compressed: {} packed, {} OpenEXR\n"
+      "  1 to {} threads: {:.2f} times as fast\n",
       bench->ringSeconds, bench->sets.front().seconds, bench->shadingSeconds, bench->pruningSeconds,
-      bench->encodingSeconds, bench->writingSeconds, bytesText(std::uint64_t(bench->packBytes)),
-      bytesText(std::uint64_t(bench->exrBytes)), 1, bench->threads, scaling);
+      bench->encodingSeconds, bench->writingSeconds, perCamera(bytes.everySurface), perCamera(bytes.pruned),
+      perCamera(bytes.quantised), perCamera(bytes.pack), perCamera(bytes.exr), bench->threads, scaling);
   return report;
 }
 

@@ -82,6 +82,7 @@ struct BakeOptions {
   std::string quality = "final";
   bool coarseFirst = false;  ///< a preview of everything before the first camera is final
   bool verify = false;       ///< read what is there to its end first
+  bool list = false;         ///< tell of each camera
   double memoryMegabytes = double(kBakeMemory) / 1e6;
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);

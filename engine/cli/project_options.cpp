@@ -122,6 +122,7 @@ void addBake(CLI::App& app, Chosen& chosen) {
   c->add_option("--light", o.light, "Light on local geometry: with the captures, without it, or only it")
       ->check(CLI::IsMember({"with", "without", "only"}))
       ->capture_default_str();
+  c->add_flag("--list", o.list, "Tell of each camera: samples by layer, surfaces dropped, bytes");
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
   c->add_option("--quality", o.quality, "preview, draft or final: the walk shows the best of each camera")

@@ -38,7 +38,16 @@ class StoreSink final : public CaptureSink {
   }
   Status note(const ContentKey& key) const {
     const PlannedCapture& planned = *planned_.at(key);
-    return store_.putRecord(key, planned.subject, planned.parts);
+    std::optional<SampleCounts> samples;
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto found = samples_.find(key); found != samples_.end()) samples = found->second;
+    }
+    return store_.putRecord(key, planned.subject, planned.parts, samples);
+  }
+  void tell(const ContentKey& key, const SampleCounts& samples) override {
+    const std::lock_guard lock(mutex_);
+    samples_[key] = samples;
   }
 
   /// Reads what is there of `keys` to its end.
@@ -87,6 +96,7 @@ class StoreSink final : public CaptureSink {
   std::map<ContentKey, const PlannedCapture*> planned_;
   mutable std::map<ContentKey, bool> known_;  ///< used by the thread that bakes
   mutable std::mutex mutex_;
+  std::map<ContentKey, SampleCounts> samples_;  ///< of what was baked just now
   mutable std::vector<std::string> damaged_;
   mutable std::optional<Error> trouble_;
 };

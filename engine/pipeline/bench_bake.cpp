@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/bake/capture_writer.h"
 #include "engine/base/file.h"
@@ -16,6 +17,21 @@ namespace {
 
 /// What a set leaves on of the plan's effects.
 enum class Lighting { none, hardShadows, all };
+
+/// One layer without pruning shows what the effects cost; the qualities are as a bake has them.
+struct Kind {
+  const char* name;
+  Lighting light;
+  std::optional<Quality> quality;
+};
+constexpr Kind kKinds[] = {
+    {"geometry", Lighting::none, {}},         {"one shadow ray", Lighting::hardShadows, {}},
+    {"all effects", Lighting::all, {}},       {"preview", Lighting::all, Quality::preview},
+    {"draft", Lighting::all, Quality::draft}, {"final", Lighting::all, Quality::full}};
+constexpr std::size_t kGeometry = 0, kAllEffects = 2;
+
+/// In memory: row, distance, colour, roles; and with the distance in two bytes.
+constexpr double kSampleBytes = 15, kQuantisedBytes = 13;
 
 EffectPlan planWith(const EffectPlan& plan, Lighting light) {
   EffectPlan out = plan;
@@ -61,16 +77,22 @@ class Bench {
   Bench(const OpenProject& open, const BakeBenchOptions& options, const Layout& ring, std::stop_token stop)
       : open_(open), options_(options), ring_(ring), stop_(std::move(stop)) {}
 
-  ColumnCamera columnsOf(const LayoutCamera& camera) const {
-    ColumnCamera columns = columnCameraFor(camera, ring_, open_.scene->bounds, open_.project.bake);
-    columns.columns = columns.rows = options_.side;
+  ColumnCamera columnsOf(const LayoutCamera& camera, const BakeSettings& settings) const {
+    ColumnCamera columns = columnCameraFor(camera, ring_, open_.scene->bounds, settings);
+    columns.columns = columns.rows = sideOf(settings);
     return columns;
   }
+  /// Of a coarser quality accordingly smaller.
+  int sideOf(const BakeSettings& settings) const {
+    return std::max(
+        1, int(std::lround(options_.side * settings.samplesPerDegree / open_.project.bake.samplesPerDegree)));
+  }
 
-  BakeSettings settings(bool layered) const {
+  BakeSettings settingsOf(const std::optional<Quality>& quality) const {
+    if (quality) return open_.project.bake.at(*quality);
     BakeSettings settings = open_.project.bake;
-    settings.pruning = layered && settings.pruning;
-    if (!layered) settings.maxLayers = 1;
+    settings.pruning = false;
+    settings.maxLayers = 1;
     return settings;
   }
 
@@ -84,7 +106,7 @@ class Bench {
       CameraBaker baker(rays, settings);
       const Stopwatch watch;
       for (const LayoutCamera& camera : ring_.cameras) {
-        auto capture = baker.bake(camera, columnsOf(camera), runner, counts, stop_);
+        auto capture = baker.bake(camera, columnsOf(camera, settings), runner, counts, stop_);
         if (!capture) return tl::unexpected(capture.error());
         if (captures != nullptr) captures->push_back(std::move(*capture));
       }
@@ -108,7 +130,9 @@ class Bench {
     return fastest;
   }
 
-  double firstRays() const { return double(ring_.cameras.size()) * options_.side * options_.side; }
+  double firstRays(const BakeSettings& settings) const {
+    return double(ring_.cameras.size()) * sideOf(settings) * sideOf(settings);
+  }
 
   /// The ray tracer alone on each camera's first rays, those of the march.
   double traceAlone(const RayScene& rays, TaskRunner& runner) const {
@@ -116,7 +140,7 @@ class Bench {
     for (int repeat = 0; repeat < options_.repeats; ++repeat) {
       const Stopwatch watch;
       for (const LayoutCamera& camera : ring_.cameras)
-        traceFirstRays(rays, camera, columnsOf(camera), runner);
+        traceFirstRays(rays, camera, columnsOf(camera, open_.project.bake), runner);
       fastest = std::min(fastest, watch.seconds());
     }
     return fastest;
@@ -144,11 +168,12 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
     const CaptureStore& store;
   } sink(*store);
   CaptureWriter writer(sink, kBakeMemory, stop_);
-  CameraBaker baker(rays, settings(false));
+  const BakeSettings settings = settingsOf({});
+  CameraBaker baker(rays, settings);
   std::uint64_t number = 0;
   for (const LayoutCamera& camera : ring_.cameras) {
     CaptureCounts counts;
-    auto capture = baker.bake(camera, columnsOf(camera), runner, counts, stop_);
+    auto capture = baker.bake(camera, columnsOf(camera, settings), runner, counts, stop_);
     if (!capture) return tl::unexpected(capture.error());
     if (Status put = writer.put({0, ++number}, std::move(*capture)); !put) return put;
   }
@@ -207,55 +232,60 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   out.cameras = int(ring->cameras.size());
   out.side = options.side;
   out.threads = runner.threads();
-  out.firstRays = bench.firstRays();
+  out.firstRays = bench.firstRays(open.project.bake);
 
-  struct Kind {
-    const char* name;
-    Lighting light;
-    bool layered;
-  };
-  constexpr Kind kKinds[] = {{"geometry", Lighting::none, false},
-                             {"one shadow ray", Lighting::hardShadows, false},
-                             {"all effects", Lighting::all, false},
-                             {"everything", Lighting::all, true}};
   std::vector<Capture> captures;
-  double step = 0;
   for (const Kind& kind : kKinds) {
-    if (progress) progress({step++, 4, fmt::format("baking a ring: {}", kind.name)});
+    if (progress)
+      progress(
+          {double(out.sets.size()), double(std::size(kKinds)), fmt::format("baking a ring: {}", kind.name)});
     const EffectPlan plan = planWith(open.plan, kind.light);
     const auto rays = RayScene::build(open.scene, plan);
     if (!rays) return tl::unexpected(rays.error());
     if (kind.light == Lighting::none) out.tracerSeconds = bench.traceAlone(**rays, runner);
+    const BakeSettings settings = bench.settingsOf(kind.quality);
+    const bool last = kind.quality == Quality::full;
     BakeBenchSet set;
     set.name = kind.name;
     set.effects = effectsOf(plan);
-    const auto seconds = bench.bakeRing(**rays, bench.settings(kind.layered), runner, set.counts,
-                                        kind.layered ? &captures : nullptr);
+    set.firstRays = bench.firstRays(settings);
+    const auto seconds = bench.bakeRing(**rays, settings, runner, set.counts, last ? &captures : nullptr);
     if (!seconds) return tl::unexpected(seconds.error());
     set.seconds = *seconds;
-    set.primaryShare = out.tracerSeconds / set.seconds * double(set.counts.rays.primary) / out.firstRays;
-    out.sets.push_back(std::move(set));
+    set.primaryShare = double(set.counts.rays.primary) / set.seconds / (out.firstRays / out.tracerSeconds);
+    if (kind.light == Lighting::none) {
+      BakeSettings everything = bench.settingsOf(Quality::full);
+      everything.pruning = false;
+      CaptureCounts met;
+      if (const auto counted = bench.bakeRing(**rays, everything, runner, met); !counted)
+        return tl::unexpected(counted.error());
+      out.bytes.everySurface = kSampleBytes * double(met.samples.keptInAll());
+    }
     if (kind.light == Lighting::hardShadows) {
       const auto ringSeconds = bench.ringToFiles(**rays, runner, folder->path() / "ring");
       if (!ringSeconds) return tl::unexpected(ringSeconds.error());
       out.ringSeconds = *ringSeconds;
     }
-    if (kind.layered && runner.threads() > 1) {
+    if (last && runner.threads() > 1) {
       TaskRunner one(0);
       CaptureCounts counts;
-      const auto alone = bench.bakeRing(**rays, bench.settings(true), one, counts);
+      const auto alone = bench.bakeRing(**rays, settings, one, counts);
       if (!alone) return tl::unexpected(alone.error());
       out.oneThreadSeconds = *alone;
     }
+    out.sets.push_back(std::move(set));
   }
-  out.shadingSeconds = std::max(0.0, out.sets[2].seconds - out.sets[0].seconds);
-  out.pruningSeconds = std::max(0.0, out.sets[3].seconds - out.sets[2].seconds);
+  const BakeBenchSet& final = out.sets.back();
+  out.shadingSeconds = std::max(0.0, out.sets[kAllEffects].seconds - out.sets[kGeometry].seconds);
+  out.pruningSeconds = std::max(0.0, final.seconds - out.sets[kAllEffects].seconds);
+  out.bytes.pruned = kSampleBytes * double(final.counts.samples.keptInAll());
+  out.bytes.quantised = kQuantisedBytes * double(final.counts.samples.keptInAll());
   const auto costs = fileCosts(captures, folder->path());
   if (!costs) return tl::unexpected(costs.error());
   out.encodingSeconds = costs->encodingSeconds;
   out.writingSeconds = costs->writingSeconds;
-  out.packBytes = costs->packBytes;
-  out.exrBytes = costs->exrBytes;
+  out.bytes.pack = costs->packBytes;
+  out.bytes.exr = costs->exrBytes;
   return out;
 }
 

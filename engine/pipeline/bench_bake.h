@@ -1,6 +1,6 @@
 #pragma once
 /// What a bake spends its time on, against what the ray tracer alone would take: a ring of cameras at the
-/// spawn, baked with more and more effects, all in one run.
+/// spawn, baked with more and more effects and in each quality, all in one run.
 
 #include <string>
 #include <vector>
@@ -16,28 +16,37 @@ struct BakeBenchOptions {
   Status check() const;
 };
 
-/// One set of effects.
+/// One set of effects, or one quality.
 struct BakeBenchSet {
   std::string name;
-  std::string effects;  ///< that are on
-  double seconds = 0;   ///< tracing and shading, without files
+  double firstRays = 0;  ///< one per pixel
+  std::string effects;   ///< that are on
+  double seconds = 0;    ///< tracing and shading, without files
   CaptureCounts counts;
   double primaryShare = 0;  ///< primary rays per second, against the ray tracer's own on the same first rays
 };
 
+/// What the ring takes, from all that its rays meet to its files.
+struct BakeBenchBytes {
+  double everySurface = 0;  ///< in memory, up to the limit of layers
+  double pruned = 0;        ///< in memory, what some region sees
+  double quantised = 0;     ///< the same with distances of 16 significant bits
+  double pack = 0, exr = 0;
+};
+
 struct BakeBench {
   int cameras = 0, side = 0, threads = 0;
-  double firstRays = 0;      ///< one per pixel
-  double tracerSeconds = 0;  ///< the ray tracer alone, for these
-  std::vector<BakeBenchSet> sets;
-  /// Of the set `everything`: what each part takes.
+  double firstRays = 0;            ///< one per pixel
+  double tracerSeconds = 0;        ///< the ray tracer alone, for these
+  std::vector<BakeBenchSet> sets;  ///< the last: final quality
+  /// Of the last set: what each part takes.
   double shadingSeconds = 0, pruningSeconds = 0;
   double encodingSeconds = 0,
          writingSeconds = 0;  ///< one thread, on which the bake does it behind the tracing
-  double packBytes = 0, exrBytes = 0;
+  BakeBenchBytes bytes;
   /// The set `one shadow ray`, files written, from start to end.
   double ringSeconds = 0;
-  double oneThreadSeconds = 0;  ///< `everything` on one thread; 0 if there is only one
+  double oneThreadSeconds = 0;  ///< the last set on one thread; 0 if there is only one
 };
 
 /// Writes trial files beside the project and removes them.

@@ -26,6 +26,9 @@ std::string formatRecord(const CaptureRecord& record) {
   std::string text = fmt::format("{}\nof {}\n", kFirstLine, oneLine(record.subject));
   for (const FileRecord& file : record.files)
     text += fmt::format("file {} {} {}\n", file.extension, file.bytes, file.content.toHex());
+  if (record.samples)
+    text += fmt::format("samples {} hidden {} over {}\n", fmt::join(record.samples->kept, " "),
+                        record.samples->hidden, record.samples->overLimit);
   for (const KeyPart& part : record.parts) text += fmt::format("key {} {}\n", part.name, part.key.toHex());
   return text + fmt::format("end {}\n", checksumOf(text));
 }
@@ -43,6 +46,11 @@ Result<CaptureRecord> parseRecord(const std::string& text, const std::string& wh
       words >> file.extension >> file.bytes >> hex;
       if (const auto key = ContentKey::fromHex(hex)) file.content = *key;
       record.files.push_back(std::move(file));
+    }
+    if (kind == "samples") {
+      SampleCounts& samples = record.samples.emplace();
+      for (std::uint64_t& kept : samples.kept) words >> kept;
+      words >> name >> samples.hidden >> name >> samples.overLimit;
     }
     if (kind == "key") {
       words >> name >> hex;

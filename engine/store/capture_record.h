@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
+#include "engine/image/sample_counts.h"
 
 namespace acentric {
 
@@ -24,6 +26,7 @@ struct CaptureRecord {
   std::string subject;  ///< the camera (or the surfaces' light), the same before and after a change
   KeyParts parts;       ///< of the key
   std::vector<FileRecord> files;
+  std::optional<SampleCounts> samples;  ///< of a capture, as it was baked
   bool operator==(const CaptureRecord&) const = default;
 };
 

@@ -66,7 +66,8 @@ class CaptureStore {
   std::vector<Error> check(const ContentKey& key) const;
 
   /// Notes what is now on disk under the key. Written last: what has a record was written to the end.
-  Status putRecord(const ContentKey& key, std::string subject, KeyParts parts) const;
+  Status putRecord(const ContentKey& key, std::string subject, KeyParts parts,
+                   const std::optional<SampleCounts>& samples = {}) const;
   Result<CaptureRecord> record(const ContentKey& key) const;
   /// Without its record, what is on disk under the key is read to its end the next time it is asked for.
   void forgetRecord(const ContentKey& key) const;

@@ -32,8 +32,9 @@ fs::file_time_type writtenAt(const fs::path& path) {
 
 }  // namespace
 
-Status CaptureStore::putRecord(const ContentKey& key, std::string subject, KeyParts parts) const {
-  CaptureRecord record{std::move(subject), std::move(parts), {}};
+Status CaptureStore::putRecord(const ContentKey& key, std::string subject, KeyParts parts,
+                               const std::optional<SampleCounts>& samples) const {
+  CaptureRecord record{std::move(subject), std::move(parts), {}, samples};
   for (const fs::path& path : filesUnder(folder_, key)) {
     const auto content = hashFile(path);
     if (!content) return tl::unexpected(content.error());

@@ -20,7 +20,8 @@ ContentKey keyOfText(const char* text) { return Hasher().text(text).finish(); }
 CaptureRecord sample() {
   return {"camera 1,-2,0,3,0 the hall",
           {{"scene", keyOfText("a")}, {"settings", keyOfText("b")}},
-          {{".exr", 123, keyOfText("c")}, {".pack", 45, keyOfText("d")}}};
+          {{".exr", 123, keyOfText("c")}, {".pack", 45, keyOfText("d")}},
+          SampleCounts{{1000, 200, 0, 0, 0, 0, 0, 3}, 40, 5}};
 }
 
 TEST(CaptureRecord, RoundTripsAndRefusesAnythingElse) {
@@ -36,6 +37,8 @@ TEST(CaptureRecord, RoundTripsAndRefusesAnythingElse) {
   }
   EXPECT_FALSE(parseRecord(text + "\n", "x"));
   CaptureRecord odd = sample();
+  odd.samples.reset();
+  EXPECT_EQ(parseRecord(formatRecord(odd), "x").value(), odd);
   odd.subject = "two\nlines";
   EXPECT_TRUE(parseRecord(formatRecord(odd), "x")) << "a name never breaks the format";
 }
@@ -73,11 +76,12 @@ class RecordsTest : public FolderTest {
 TEST_F(RecordsTest, AreBelievedWhileNoFileIsNewer) {
   EXPECT_FALSE(store->inspect(key)->recorded);
   EXPECT_EQ(condition(), Condition::sound) << "read to its end";
-  ASSERT_TRUE(store->putRecord(key, "camera", sample().parts));
+  ASSERT_TRUE(store->putRecord(key, "camera", sample().parts, sample().samples));
   const auto found = store->inspect(key);
   EXPECT_TRUE(found->recorded);
   EXPECT_EQ(found->condition, Condition::sound);
   EXPECT_EQ(store->record(key)->parts, sample().parts);
+  EXPECT_EQ(store->record(key)->samples, sample().samples);
 
   // Rewritten with the same bytes: hashed once, then believed again.
   const auto bytes = readFile(file(".pack"));
