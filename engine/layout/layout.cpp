@@ -52,7 +52,6 @@ std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vect
   const auto repeats = std::ranges::unique(ids);
   ids.erase(repeats.begin(), repeats.end());
 
-  const std::set<CellId> placed(cells.begin(), cells.end());
   std::vector<LayoutCamera> cameras;
   cameras.reserve(ids.size());
   for (const CameraId& id : ids) {
@@ -62,17 +61,19 @@ std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vect
                         lattice.cameraFov(),
                         {}};
     for (const CellId& cell : lattice.servedBy(id, spec.split))
-      if (placed.contains(cell)) addRoles(lattice, cell, spec.nearBand, camera);
+      addRoles(lattice, cell, spec.nearBand, camera);
     cameras.push_back(std::move(camera));
   }
   return cameras;
 }
 
-/// Those of the cells that come within `reach` of a point.
-std::vector<Role> regionsAround(const Lattice& lattice, const std::vector<CellId>& cells,
-                                const glm::dvec2& point, double reach) {
+/// Lattice regions (placed or not) that come within `reach` of a point.
+std::vector<Role> regionsAround(const Lattice& lattice, const glm::dvec2& point, double reach) {
   std::vector<Role> around;
-  for (const CellId& cell : cells) {
+  Outline box;
+  box.loops = {
+      {point - reach, {point.x + reach, point.y - reach}, point + reach, {point.x - reach, point.y + reach}}};
+  for (const CellId& cell : cellsOverlapping(box, lattice, std::size_t(kMaxRegions))) {
     ConvexPolygon polygon = lattice.polygonOf(cell);
     if (glm::distance(polygon.nearestPoint(point), point) <= reach)
       around.push_back({cell, std::move(polygon), {}});
@@ -81,12 +82,11 @@ std::vector<Role> regionsAround(const Lattice& lattice, const std::vector<CellId
 }
 
 /// A free APV serves its own polygon. A free panorama has none: it helps the regions around it.
-void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, const std::vector<CellId>& cells,
-                    std::vector<LayoutCamera>& cameras) {
+void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, std::vector<LayoutCamera>& cameras) {
   for (const auto& [number, apv] : spec.freeApvs) {
     std::vector<Role> roles;
     if (apv.traditional())
-      roles = regionsAround(lattice, cells, apv.centre, panoramaReach(spec));
+      roles = regionsAround(lattice, apv.centre, panoramaReach(spec));
     else
       roles.push_back({{number, 0, kFreeSlot}, polygonOf(apv), {}});
     for (Role& role : roles) role.grown = role.polygon.grown(spec.nearBand);
@@ -288,7 +288,7 @@ Result<Layout> buildLayout(const LayoutSpec& spec) {
   Layout layout;
   layout.spec = spec;
   layout.cameras = latticeCameras(*lattice, *cells, spec);
-  addFreeCameras(spec, *lattice, *cells, layout.cameras);
+  addFreeCameras(spec, *lattice, layout.cameras);
   std::ranges::sort(layout.cameras, {}, &LayoutCamera::id);
   layout.regions.reserve(cells->size() + spec.freeApvs.size());
   for (const CellId& id : *cells)

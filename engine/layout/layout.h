@@ -58,8 +58,8 @@ struct Clip {
   bool operator==(const Clip&) const = default;
 };
 
-/// One of the things that a camera is for: a placed region, and the part of the camera's sector that the
-/// region draws from it.
+/// One of the things that a camera is for: a lattice region, placed or not (so that placing a neighbour makes
+/// no capture stale; splitting it does), and the part of the camera's sector that the region draws from it.
 struct Role {
   CellId region;
   ConvexPolygon polygon;  ///< where the eye stands, plan

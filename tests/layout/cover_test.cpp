@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "engine/layout/lattice.h"
 #include "tests/layout/layout_fixtures.h"
@@ -169,7 +168,7 @@ TEST(Cameras, StandAtEachCornerAsTheConfigurationSays) {
   }
 }
 
-TEST(Cameras, AreSortedUniqueAndServeThePlacedRegionsAlone) {
+TEST(Cameras, AreSortedUniqueAndIndependentOfTheNeighboursPlaced) {
   for (const Configuration configuration : kAllConfigurations) {
     const Layout many = makeLayout(configuration, {2, {3, 1}, 0.4}, 4);
     EXPECT_TRUE(std::ranges::is_sorted(many.cameras, std::ranges::less_equal{}, &LayoutCamera::id));
@@ -185,16 +184,10 @@ TEST(Cameras, AreSortedUniqueAndServeThePlacedRegionsAlone) {
       ASSERT_NE(same, many.cameras.end());
       EXPECT_EQ(camera.position, same->position);
       EXPECT_EQ(camera.lowAzimuth, same->lowAzimuth);
-      // What it is for is what it is among many, less the neighbours that are not there.
-      std::vector<Role> own;
-      std::ranges::copy_if(same->roles, std::back_inserter(own),
-                           [&](const Role& role) { return role.region == one.regions.front().id; });
-      ASSERT_EQ(camera.roles.size(), own.size());
-      ASSERT_FALSE(own.empty());
-      for (std::size_t s = 0; s < own.size(); ++s) {
-        EXPECT_EQ(camera.roles[s].region, own[s].region);
-        EXPECT_EQ(camera.roles[s].clip, own[s].clip);
-        EXPECT_EQ(camera.roles[s].grown.corners, own[s].grown.corners);
+      ASSERT_EQ(camera.roles.size(), same->roles.size());
+      for (std::size_t s = 0; s < camera.roles.size(); ++s) {
+        EXPECT_EQ(camera.roles[s].region, same->roles[s].region);
+        EXPECT_EQ(camera.roles[s].grown.corners, same->roles[s].grown.corners);
       }
     }
   }
@@ -206,32 +199,13 @@ TEST(Cameras, ServeTheRegionsAroundThemGrownByTheNearBand) {
     for (const Cover& cover : region.covers)
       for (const Piece& piece : cover.pieces) {
         const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
-        EXPECT_LE(camera.roles.size(), 4u) << "two hexagons and two triangles meet at a kagome corner";
+        EXPECT_EQ(camera.roles.size(), 4u) << "two hexagons and two triangles meet at a kagome corner";
         const Role& role = camera.roles[std::size_t(piece.role)];
         EXPECT_EQ(role.region, region.id);
         EXPECT_EQ(role.polygon.corners, region.polygon.corners);
         EXPECT_EQ(role.grown.corners, region.grown.corners);
       }
-  const auto most = [](const Layout& of) {
-    std::size_t roles = 0;
-    for (const LayoutCamera& camera : of.cameras) roles = std::max(roles, camera.roles.size());
-    return roles;
-  };
-  EXPECT_EQ(most(layout), 4u);
-  EXPECT_EQ(most(makeLayout(Configuration::e)), 2u);
-}
-
-TEST(Cameras, HaveNoRoleThatNobodyDraws) {
-  for (const Configuration configuration : kAllConfigurations) {
-    const Layout layout = makeLayout(configuration, {}, 5);
-    std::set<std::pair<int, int>> drawn;
-    for (const Region& region : layout.regions)
-      for (const Cover& cover : region.covers)
-        for (const Piece& piece : cover.pieces) drawn.insert({piece.camera, piece.role});
-    std::size_t roles = 0;
-    for (const LayoutCamera& camera : layout.cameras) roles += camera.roles.size();
-    EXPECT_EQ(drawn.size(), roles) << nameOf(configuration);
-  }
+  for (const LayoutCamera& camera : makeLayout(Configuration::e).cameras) EXPECT_EQ(camera.roles.size(), 2u);
 }
 
 TEST(Cameras, HaveARoleForEachPartThatARegionDrawsAndABitForEachRole) {
