@@ -20,6 +20,7 @@
 namespace acentric {
 
 class EyeViews;
+class FlatMirrors;
 class Shader;
 
 /// The column camera by which a layout camera is baked: columns and rows from the settings; elevations from
@@ -48,8 +49,9 @@ std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, 
 struct CaptureCounts {
   RayCounts rays;
   SampleCounts samples;
-  int eyeViews = 0;           ///< traced for pruning
-  double eyeViewSeconds = 0;  ///< that it took
+  std::uint64_t reflections = 0;  ///< samples of what flat mirrors show, besides those
+  int eyeViews = 0;               ///< traced for pruning
+  double eyeViewSeconds = 0;      ///< that it took
   CaptureCounts& operator+=(const CaptureCounts& other);
 };
 
@@ -62,8 +64,9 @@ class CameraBaker {
 
   /// One capture: along each pixel's ray the surfaces beyond the regions that the camera serves, each for the
   /// roles that need it: it lies beyond the role's grown polygon and within its part, and (with pruning) its
-  /// region sees it. What is behind everything is a sample without distance. Counts are added. A stop gives
-  /// the error `cancelled`, never part of a capture.
+  /// region sees it. What is behind everything is a sample without distance. Where a plane mirror is met,
+  /// what it shows is kept at its virtual place, for the roles whose part holds that. Counts are added. A
+  /// stop gives the error `cancelled`, never part of a capture.
   Result<Capture> bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
                        CaptureCounts& counts, std::stop_token stop = {});
 
@@ -74,6 +77,7 @@ class CameraBaker {
   BakeSettings settings_;
   std::size_t memory_;
   std::unique_ptr<Shader> shader_;
+  std::unique_ptr<FlatMirrors> mirrors_;
   std::unique_ptr<EyeViews> views_;
 };
 

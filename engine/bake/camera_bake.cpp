@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/bake/bake.h"
+#include "engine/bake/flat_mirrors.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/region_sight.h"
 #include "engine/bake/shading.h"
@@ -28,13 +29,13 @@ constexpr double kSameDepth = 0.5;
 constexpr double kShiftByRounding = 0.1;
 
 /// Samples of some neighbouring columns, in capture order.
-struct Samples {
+struct SampleList {
   std::vector<std::uint32_t> perColumn;
   std::vector<std::uint16_t> row;
   std::vector<float> inverseDistance;
   std::vector<HalfColour> colour;
   std::vector<std::uint8_t> roles;
-  CaptureCounts counts;
+  std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
 
   void reserve(std::size_t samples) {
     row.reserve(samples);
@@ -48,6 +49,11 @@ struct Samples {
     colour.push_back(packed);
     roles.push_back(mask);
   }
+};
+
+struct Samples : SampleList {
+  SampleList reflections;  ///< in a scene with flat mirrors
+  CaptureCounts counts;
 };
 
 /// A role as one column of the camera meets it.
@@ -122,7 +128,8 @@ struct March {
   const ColumnCamera& columns;
   const RowAngles& rows;
   const BakeSettings& settings;
-  const RegionSight* sight;  ///< null: no pruning
+  const RegionSight* sight;    ///< null: no pruning
+  const FlatMirrors* mirrors;  ///< null: there are none
   double distanceStep;
 };
 
@@ -142,13 +149,15 @@ class ColumnMarch {
     direction_ = march_.columns.directionAt(column + 0.5);
     roles_ = rolesAlong(march_.camera, direction_);
     alone_ = roles_.size() == 1 && roles_.front().clip == nullptr && march_.sight == nullptr &&
-             march_.settings.maxLayers == 1;
-    const std::size_t before = out_.row.size();
+             march_.mirrors == nullptr && march_.settings.maxLayers == 1;
+    const std::size_t before = out_.row.size(), shownBefore = out_.reflections.row.size();
     for (int row = 0; row < march_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
       if (stop.stop_requested()) return false;
       runRows(row, std::min(row + RayPacket::kSize, march_.columns.rows), stop);
     }
     out_.perColumn.push_back(std::uint32_t(out_.row.size() - before));
+    if (march_.mirrors != nullptr)
+      out_.reflections.perColumn.push_back(std::uint32_t(out_.reflections.row.size() - shownBefore));
     return true;
   }
 
@@ -164,6 +173,7 @@ class ColumnMarch {
       beginPixel(row);
       if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
         runPixel(packet.direction[n], hits_[n].distance, next, stop);
+      if (!shown_.empty()) addShown();
     }
   }
   /// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
@@ -224,22 +234,27 @@ class ColumnMarch {
     const double horizontal = double(hit.distance) * flat_;
     const glm::dvec3 point = march_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const double tolerance = sameDepth_ * double(hit.distance);
+    const std::uint8_t mirror = march_.mirrors == nullptr ? 0 : march_.mirrors->at(hit, -direction);
     needed_.clear();
+    facing_.clear();
     bool limited = false;
     for (const ColumnRole& role : roles_) {
       if (role.exit > horizontal * (1 + kBorderSlack)) break;
-      if (role.clip != nullptr && !role.clip->holds(glm::dvec2(point))) continue;
-      if (isFull(role))
-        limited = true;
-      else if (march_.sight == nullptr ||
-               march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays))
-        needed_.push_back(&role);
+      const bool inPart = role.clip == nullptr || role.clip->holds(glm::dvec2(point));
+      if (!inPart && mirror == 0) continue;
+      if (isFull(role)) {
+        limited = limited || inPart;
+      } else if (march_.sight == nullptr ||
+                 march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays)) {
+        if (inPart) needed_.push_back(&role);
+        if (mirror != 0) facing_.push_back(&role);
+      }
     }
-    if (needed_.empty()) {
-      ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
-      return;
-    }
-    const Shaded shaded = march_.shader.shade(hit, -direction, out_.counts.rays);
+    if (needed_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+    if (needed_.empty() && facing_.empty()) return;
+    const Shaded shaded = mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
+                                      : march_.shader.shade(hit, -direction, out_.counts.rays);
+    if (needed_.empty()) return;
     const bool opaque = shaded.alpha >= kOpaqueAlpha;
     if (shaded.alpha < kInvisibleAlpha) return;
     // The last place is kept for an opaque surface: there is always something behind glass.
@@ -252,7 +267,34 @@ class ColumnMarch {
       return;
     }
     add(storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
-        opaque ? 1 : shaded.alpha);
+        opaque ? 1 : shaded.alpha, mirror);
+  }
+
+  /// The surface of a plane mirror; what it shows is kept for the roles in facing_ whose part holds its
+  /// virtual place, which may be another part than the mirror's own.
+  Shaded mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal, std::uint8_t mirror) {
+    const Shader::Mirrored mirrored = march_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays);
+    const bool sky = !(mirrored.distance < std::numeric_limits<float>::infinity());
+    const double reach = horizontal * (1 + double(mirrored.distance) / double(hit.distance));
+    const glm::dvec2 place = march_.camera.position + reach * direction_;
+    std::uint8_t mask = 0;
+    for (const ColumnRole* role : facing_)
+      if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
+    if (mask != 0)
+      shown_.push_back({sky ? 0 : storedInverseDistance(1 / reach, march_.distanceStep),
+                        packColour({mirrored.surface.radiance(), 1}), mask, mirror});
+    return mirrored.surface;
+  }
+
+  /// What the mirrors of the pixel show, nearest first.
+  void addShown() {
+    std::ranges::stable_sort(shown_, std::ranges::greater{}, &Shown::inverseDistance);
+    for (const Shown& s : shown_) {
+      out_.reflections.add(row_, s.inverseDistance, s.colour, s.roles);
+      out_.reflections.mirror.push_back(s.mirror);
+    }
+    out_.counts.reflections += shown_.size();
+    shown_.clear();
   }
 
   void addBackground(const glm::vec3& direction) {
@@ -266,15 +308,22 @@ class ColumnMarch {
   }
 
   /// A sample for the roles in needed_.
-  void add(float w, const glm::vec3& radiance, float alpha) {
+  void add(float w, const glm::vec3& radiance, float alpha, std::uint8_t mirror = 0) {
     std::uint8_t mask = 0;
     for (const ColumnRole* role : needed_) {
       mask |= role->bit;
       ++stored_[role->index];
     }
     out_.add(row_, w, packColour({radiance, alpha}), mask);
+    if (march_.mirrors != nullptr) out_.mirror.push_back(mirror);
     ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
   }
+
+  struct Shown {
+    float inverseDistance = 0;
+    HalfColour colour{0};
+    std::uint8_t roles = 0, mirror = 0;
+  };
 
   const March& march_;
   Samples& out_;
@@ -289,35 +338,57 @@ class ColumnMarch {
   int layer_ = 0;                  ///< of the pixel: samples that it has
   std::vector<int> stored_;        ///< of the pixel, by role
   std::vector<const ColumnRole*> needed_;
+  std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
+  std::vector<Shown> shown_;               ///< by the mirrors of the pixel
 };
 
-/// The samples of all columns as one capture. Its arrays are filled side by side: they are too large for any
-/// cache, and one thread would not use the memory's whole rate. A part only, when stopped.
-Capture joined(const March& march, const std::vector<Samples>& chunks, std::size_t total, TaskRunner& runner,
-               const std::stop_token& stop) {
-  Capture capture;
-  const ColumnCamera& columns = march.columns;
-  capture.camera = columns;
-  capture.distanceStep = march.distanceStep;
-  const auto fill = [&](auto& all, auto Samples::*part) {
+/// One of the lists of all chunks. Its arrays are filled side by side: they are too large for any cache, and
+/// one thread would not use the memory's whole rate. A part only, when stopped.
+template <class ListOf>
+void join(const std::vector<Samples>& chunks, const ListOf& listOf, TaskRunner& runner,
+          const std::stop_token& stop, CaptureSamples& out) {
+  std::size_t columns = 0;
+  for (const Samples& chunk : chunks) columns += listOf(chunk).perColumn.size();
+  const auto fill = [&](auto& all, auto SampleList::*part) {
+    std::size_t total = 0;
+    for (const Samples& chunk : chunks) total += (listOf(chunk).*part).size();
     all.reserve(total);
-    for (const Samples& s : chunks) {
+    for (const Samples& chunk : chunks) {
       if (stop.stop_requested()) return;
-      all.insert(all.end(), (s.*part).begin(), (s.*part).end());
+      const auto& some = listOf(chunk).*part;
+      all.insert(all.end(), some.begin(), some.end());
     }
   };
   const auto starts = [&] {
-    capture.columnStart.reserve(std::size_t(columns.columns) + 1);
-    capture.columnStart.push_back(0);
-    for (const Samples& s : chunks)
-      for (const std::uint32_t count : s.perColumn)
-        capture.columnStart.push_back(capture.columnStart.back() + count);
+    out.columnStart.reserve(columns + 1);
+    out.columnStart.push_back(0);
+    for (const Samples& chunk : chunks)
+      for (const std::uint32_t count : listOf(chunk).perColumn)
+        out.columnStart.push_back(out.columnStart.back() + count);
   };
-  const std::array<std::function<void()>, 5> parts{
-      [&] { fill(capture.colour, &Samples::colour); },
-      [&] { fill(capture.inverseDistance, &Samples::inverseDistance); },
-      [&] { fill(capture.row, &Samples::row); }, [&] { fill(capture.roles, &Samples::roles); }, starts};
+  const std::array<std::function<void()>, 6> parts{
+      [&] { fill(out.colour, &SampleList::colour); },
+      [&] { fill(out.inverseDistance, &SampleList::inverseDistance); },
+      [&] { fill(out.row, &SampleList::row); },
+      [&] { fill(out.roles, &SampleList::roles); },
+      [&] { fill(out.mirror, &SampleList::mirror); },
+      starts};
   runner.parallelFor(parts.size(), [&](std::size_t part) { parts[part](); });
+}
+
+/// The samples of all columns as one capture.
+Capture joined(const March& march, const std::vector<Samples>& chunks, bool reflections, TaskRunner& runner,
+               const std::stop_token& stop) {
+  Capture capture;
+  capture.camera = march.columns;
+  capture.distanceStep = march.distanceStep;
+  const auto surfaces = [](const Samples& s) -> const SampleList& { return s; };
+  const auto shown = [](const Samples& s) -> const SampleList& { return s.reflections; };
+  join(chunks, surfaces, runner, stop, capture);
+  if (reflections)
+    join(chunks, shown, runner, stop, capture.reflections);
+  else
+    capture.mirror = {};  // a mirror that shows nothing to anybody is a surface like others
   return capture;
 }
 
@@ -344,6 +415,7 @@ std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, 
 CaptureCounts& CaptureCounts::operator+=(const CaptureCounts& other) {
   rays += other.rays;
   samples += other.samples;
+  reflections += other.reflections;
   eyeViews += other.eyeViews;
   eyeViewSeconds += other.eyeViewSeconds;
   return *this;
@@ -363,7 +435,10 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
   };
   const auto stopped = [] { return fail(ErrorKind::cancelled, "the bake was stopped"); };
   try {
-    if (!shader_) shader_ = std::make_unique<Shader>(scene_, settings_);
+    if (!shader_) {
+      shader_ = std::make_unique<Shader>(scene_, settings_);
+      mirrors_ = std::make_unique<FlatMirrors>(scene_.scene(), scene_.plan());
+    }
     std::optional<RegionSight> sight;
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
@@ -383,6 +458,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                       rows,
                       settings_,
                       sight ? &*sight : nullptr,
+                      mirrors_->any() ? mirrors_.get() : nullptr,
                       distanceStepFor(camera, columns)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<Samples> chunks(chunkCount);
@@ -398,7 +474,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
         samples.reserve(std::size_t(last - first) * std::size_t(columns.rows));
         ColumnMarch columnMarch(march, samples);
         for (int column = first; column < last && columnMarch.run(column, stop);) ++column;
-        total += samples.row.size();
+        total += samples.row.size() + samples.reflections.row.size();
         chunks[chunk] = std::move(samples);
       } catch (const std::bad_alloc&) {
         full = true;
@@ -409,8 +485,10 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     if (total > kMaxCaptureSamples)
       return fail(ErrorKind::tooLarge, "more than 2^31 samples in one capture; lower the samples per degree",
                   scene_.scene().name);
-    for (const Samples& s : chunks) counts += s.counts;
-    Capture capture = joined(march, chunks, total, runner, stop);
+    CaptureCounts counted;
+    for (const Samples& s : chunks) counted += s.counts;
+    counts += counted;
+    Capture capture = joined(march, chunks, counted.reflections > 0, runner, stop);
     if (stop.stop_requested()) return stopped();
     return capture;
   } catch (const std::bad_alloc&) {

@@ -175,6 +175,19 @@ glm::vec3 Shader::background(const glm::vec3& direction) const {
   return scene_->plan().on(Effect::sky) ? scene_->scene().sky.radiance(direction) : glm::vec3(0);
 }
 
+Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const {
+  const auto surfaceOf = detail_.any() ? surfaceAt<true> : surfaceAt<false>;
+  const Surface surface = surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_);
+  const glm::vec3 mirrored = glm::reflect(-toViewer, surface.geometricNormal);
+  const Seen seen = seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true);
+  Mirrored out;
+  out.surface.baseColour = glm::vec3(surface.baseColour);
+  out.surface.emission = surface.emission;
+  out.surface.light = seen.radiance;
+  out.distance = seen.opaqueDistance;
+  return out;
+}
+
 Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                                bool seenInMirror) const {
   Seen seen;

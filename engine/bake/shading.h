@@ -63,6 +63,15 @@ class Shader {
   Seen seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                  bool seenInMirror = false) const;
 
+  /// What a plane mirror is seen to show: light that arrives by the mirrored ray, and from how far along it
+  /// (metres; infinity: the sky).
+  struct Mirrored {
+    Shaded surface;
+    float distance = std::numeric_limits<float>::infinity();
+  };
+  /// A hit on a mirror of FlatMirrors; the same radiance as shade() gives.
+  Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const;
+
   /// Where nothing but its material decides how a surface looks (no light from anywhere in particular, no
   /// detail, nothing clear or mirrored): the radiance by mesh, as captures store it. Else empty.
   const std::vector<HalfColour>& evenColours() const { return evenColours_; }

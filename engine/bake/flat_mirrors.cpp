@@ -1,0 +1,80 @@
+#include "engine/bake/flat_mirrors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bake/material_rules.h"
+#include "engine/bake/surface.h"
+
+namespace acentric {
+namespace {
+
+/// Normals that far apart (radians, squared and halved) still make a picture that is flat to the eye.
+constexpr float kSameNormal = 1 - 1e-5f;
+/// Of the scene's size: how far apart parallel planes are still one.
+constexpr float kSamePlane = 1e-5f;
+
+/// Does light leave every point of the triangle as from its plane?
+bool isFlat(const Mesh& mesh, std::uint32_t triangle, const glm::vec3& normal) {
+  if (mesh.normals.empty()) return true;
+  const glm::uvec3& corners = mesh.triangles[triangle];
+  const float side = glm::dot(mesh.normals[corners.x], normal) < 0 ? -1.0f : 1.0f;
+  for (int c = 0; c < 3; ++c)
+    if (!(side * glm::dot(mesh.normals[corners[c]], normal) >= kSameNormal)) return false;
+  return true;
+}
+
+struct Facet {
+  std::uint32_t mesh = 0, triangle = 0;
+  float area = 0;
+};
+
+std::vector<Facet> flatFacets(const Scene& scene, const EffectPlan& plan) {
+  const std::vector<MaterialRules> rules = materialRules(scene, plan);
+  std::vector<Facet> facets;
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    const MaterialRules& rule = rules[std::size_t(mesh.material)];
+    const bool bumpy = plan.on(Effect::normalMaps) &&
+                       scene.materials[std::size_t(mesh.material)].normalTexture.used() &&
+                       !mesh.tangents.empty();
+    if (!rule.mirror || rule.clear() || bumpy) continue;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!isFlat(mesh, t, triangleNormal(mesh, t))) continue;
+      const glm::uvec3& corners = mesh.triangles[t];
+      const glm::vec3& a = mesh.positions[corners.x];
+      facets.push_back(
+          {m, t, glm::length(glm::cross(mesh.positions[corners.y] - a, mesh.positions[corners.z] - a))});
+    }
+  }
+  return facets;
+}
+
+}  // namespace
+
+FlatMirrors::FlatMirrors(const Scene& scene, const EffectPlan& plan) : planeOf_(scene.meshes.size()) {
+  std::vector<Facet> facets = flatFacets(scene, plan);
+  std::ranges::stable_sort(facets, std::ranges::greater{}, &Facet::area);
+  const float slack = facets.empty() ? 0 : kSamePlane * glm::length(scene.bounds.size());
+  for (const Facet& facet : facets) {
+    const Mesh& mesh = scene.meshes[facet.mesh];
+    const glm::uvec3& corners = mesh.triangles[facet.triangle];
+    const glm::vec3 normal = triangleNormal(mesh, facet.triangle);
+    auto plane = std::ranges::find_if(planes_, [&](const Plane& p) {
+      if (std::abs(glm::dot(p.normal, normal)) < kSameNormal) return false;
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(glm::dot(p.normal, mesh.positions[corners[c]] - p.point)) > slack) return false;
+      return true;
+    });
+    if (plane == planes_.end()) {
+      if (planes_.size() == kMaxPlanes) continue;
+      planes_.push_back({normal, mesh.positions[corners.x]});
+      plane = planes_.end() - 1;
+    }
+    std::vector<std::uint8_t>& planes = planeOf_[facet.mesh];
+    if (planes.empty()) planes.assign(mesh.triangles.size(), kNoPlane);
+    planes[facet.triangle] = std::uint8_t(plane - planes_.begin());
+  }
+}
+
+}  // namespace acentric

@@ -1,0 +1,285 @@
+#include "engine/bake/flat_mirrors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "engine/bake/bake.h"
+#include "engine/bake/shading.h"
+#include "layout_builder.h"
+#include "scene_builder.h"
+
+namespace acentric {
+namespace {
+
+using test::cameraAt;
+using test::SceneBuilder;
+using test::square;
+
+constexpr double kEyeZ = 1.6;
+
+Material silver(glm::vec3 colour = {0.9f, 0.8f, 0.7f}) {
+  Material m;
+  m.baseColour = glm::vec4(colour, 1);
+  m.roughness = 0;
+  return m;
+}
+Material glowing(glm::vec3 colour) {
+  Material m = test::matte(colour);
+  m.unlit = true;
+  return m;
+}
+
+/// Number of the mirror that a ray meets.
+std::uint8_t seenBy(const RayScene& scene, const FlatMirrors& mirrors, glm::vec3 from, glm::vec3 to) {
+  const Ray ray{from, glm::normalize(to - from)};
+  const Hit hit = scene.trace(ray);
+  EXPECT_TRUE(hit.found());
+  return hit.found() ? mirrors.at(hit, -ray.direction) : std::uint8_t(0);
+}
+
+TEST(FlatMirrors, AreOnePerPlaneAndSide) {
+  SceneBuilder builder;
+  const int m = builder.material(silver()), other = builder.material(silver({0.5f, 0.5f, 0.5f}));
+  const int wall = builder.material(glowing(glm::vec3(1)));
+  builder.floor(m, 1).floor(other, 1, 0, {5, 0});  // coplanar
+  builder.quad(m, {0, 5, 0}, {0, 5, 2}, {2, 5, 2}, {2, 5, 0}).floor(wall, 1, 0, {-5, 0});
+  const auto scene = builder.rays();
+  const FlatMirrors mirrors(scene->scene(), scene->plan());
+  ASSERT_TRUE(mirrors.any());
+  const auto at = [&](glm::vec3 from, glm::vec3 to) { return seenBy(*scene, mirrors, from, to); };
+  const std::uint8_t above = at({0, 0, 3}, {0.3f, 0.2f, 0});
+  EXPECT_NE(above, 0);
+  EXPECT_EQ(at({0, 0, 3}, {-0.3f, -0.6f, 0}), above) << "the other triangle";
+  EXPECT_EQ(at({5, 0, 3}, {5.3f, 0, 0}), above) << "another mesh and material in the same plane";
+  const std::uint8_t below = at({0, 0, -3}, {0.3f, 0.2f, 0});
+  EXPECT_NE(below, 0);
+  EXPECT_NE(below, above);
+  const std::uint8_t upright = at({1, 3, 1}, {1, 5, 0.9f});
+  EXPECT_EQ((std::set<int>{0, above, below, upright}.size()), 4u);
+  EXPECT_EQ(at({-5, 0, 3}, {-5, 0.1f, 0}), 0) << "no mirror at all";
+}
+
+TEST(FlatMirrors, AreNeitherCurvedNorBumpyNorClear) {
+  SceneBuilder builder;
+  const int m = builder.material(silver());
+  Material clear = silver();
+  clear.alphaMode = AlphaMode::blend;
+  clear.baseColour.a = 0.5f;
+  builder.sphere(m, {0, 0, 0}, 1, 12).floor(builder.material(clear), 1, 0, {5, 0});
+  ColourImage bumps(2, 2, Rgba8(128, 128, 255, 255));
+  Material bumpy = silver();
+  bumpy.normalTexture = builder.texture(bumps);
+  builder.floor(builder.material(bumpy), 1, 0, {10, 0});
+  builder.lastMesh().tangents.assign(4, {1, 0, 0, 1});
+  const auto scene = builder.rays();
+  EXPECT_FALSE(FlatMirrors(scene->scene(), scene->plan()).any());
+  const auto smooth = builder.rays({Effect::normalMaps});
+  EXPECT_TRUE(FlatMirrors(smooth->scene(), smooth->plan()).any()) << "without its bumps it is flat";
+  const auto none = builder.rays({Effect::normalMaps, Effect::mirrorReflection});
+  EXPECT_FALSE(FlatMirrors(none->scene(), none->plan()).any());
+}
+
+TEST(FlatMirrors, OfMoreThanCanBeNumberedAreTheLargest) {
+  SceneBuilder builder;
+  const int m = builder.material(silver());
+  constexpr int kFloors = 200;
+  for (int i = 0; i < kFloors; ++i) builder.floor(m, 1 + 0.01f * float(i * 37 % kFloors), 0.1f * float(i));
+  const auto scene = builder.rays();
+  const FlatMirrors mirrors(scene->scene(), scene->plan());
+  std::set<int> numbers;
+  for (int i = 0; i < kFloors; ++i) {
+    const float z = 0.1f * float(i);
+    const int number = seenBy(*scene, mirrors, {0, 0, z + 0.05f}, {0.1f, 0, z});
+    EXPECT_EQ(number != 0, i * 37 % kFloors >= kFloors - int(FlatMirrors::kMaxPlanes)) << i;
+    if (number != 0) numbers.insert(number);
+  }
+  EXPECT_EQ(numbers.size(), FlatMirrors::kMaxPlanes);
+}
+
+/// A room with walls of six colours and a mirror before the wall at x = 6, looked at from the middle.
+struct MirrorRoom {
+  static constexpr float kMirrorX = 5.5f;
+  std::array<glm::vec3, 6> colours = {glm::vec3{0.9f, 0.1f, 0.1f}, {0.1f, 0.8f, 0.1f}, {0.1f, 0.2f, 0.9f},
+                                      {0.7f, 0.7f, 0.1f},          {0.1f, 0.6f, 0.6f}, {0.6f, 0.1f, 0.6f}};
+  glm::vec3 low{-6, -5, 0}, high{6, 5, 3};
+  glm::vec3 tint{0.9f, 0.8f, 0.7f};
+  SceneBuilder builder;
+
+  MirrorRoom() {
+    const auto wall = [&](std::size_t side) { return builder.material(glowing(colours[side])); };
+    builder.quad(wall(0), {-6, -5, 0}, {-6, 5, 0}, {-6, 5, 3}, {-6, -5, 3});
+    builder.quad(wall(1), {6, -5, 0}, {6, -5, 3}, {6, 5, 3}, {6, 5, 0});
+    builder.quad(wall(2), {-6, -5, 0}, {-6, -5, 3}, {6, -5, 3}, {6, -5, 0});
+    builder.quad(wall(3), {-6, 5, 0}, {6, 5, 0}, {6, 5, 3}, {-6, 5, 3});
+    builder.quad(wall(4), {-6, -5, 0}, {6, -5, 0}, {6, 5, 0}, {-6, 5, 0});
+    const float x = kMirrorX;
+    builder.quad(builder.material(silver(tint)), {x, -2, 0.5f}, {x, -2, 2.5f}, {x, 2, 2.5f}, {x, 2, 0.5f});
+    builder.sky(colours[5]);
+  }
+  /// The side of a colour (tinted by the mirror) that a point lies on, give or take `slack`; -1: none.
+  int sideOf(const glm::dvec3& p, double slack, const glm::vec3& seen) const {
+    for (int side = 0; side < 5; ++side) {
+      const double plane = double(side % 2 == 0 ? low[side / 2] : high[side / 2]);
+      if (std::abs(p[side / 2] - plane) < slack && shows(side, seen)) return side;
+    }
+    return -1;
+  }
+  bool shows(int side, const glm::vec3& seen) const {
+    const glm::vec3 expected = colours[std::size_t(side)] * tint;
+    return glm::all(glm::lessThan(glm::abs(seen - expected), 2e-3f * expected));
+  }
+};
+
+struct Baked {
+  Capture capture;
+  CaptureCounts counts;
+};
+
+Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, bool pruning = false) {
+  BakeSettings settings;
+  settings.samplesPerDegree = 2;
+  settings.pruning = pruning;
+  const ColumnCamera columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, settings);
+  TaskRunner runner(0);
+  Baked baked;
+  auto capture = CameraBaker(*scene, settings).bake(camera, columns, runner, baked.counts);
+  EXPECT_TRUE(capture.has_value());
+  if (!capture) return baked;
+  EXPECT_TRUE(capture->check().has_value()) << capture->check().error().describe();
+  baked.capture = std::move(*capture);
+  return baked;
+}
+
+/// Position of sample i of column k; for the sky its direction.
+glm::dvec3 placeOf(const Capture& capture, const CaptureSamples& list, std::size_t k, std::size_t i) {
+  const glm::dvec3 along(capture.camera.directionAt(double(k) + 0.5),
+                         capture.camera.tangentAt(list.row[i] + 0.5));
+  const double w = double(list.inverseDistance[i]);
+  return w > 0 ? capture.camera.centreOfProjection + along / w : along;
+}
+
+/// Metres: how far the rounding of its inverse distance, by half a step, may move a sample.
+double roundingAt(const Capture& capture, float inverseDistance) {
+  return capture.distanceStep / double(inverseDistance * inverseDistance) + 1e-3;
+}
+
+TEST(BakeMirrors, KeepWhatTheyShowAtItsMirrorImage) {
+  const MirrorRoom room;
+  const Baked baked = bakeFrom(room.builder.rays(), cameraAt({0.5, 0.2}, {square(1)}));
+  const Capture& capture = baked.capture;
+  const CaptureSamples& shown = capture.reflections;
+  std::set<std::pair<std::size_t, int>> mirrorPixels, shownPixels;
+  int sky = 0;
+  std::set<int> sides;
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k) {
+    for (auto i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i)
+      if (capture.mirror[i] != 0) {
+        mirrorPixels.insert({k, capture.row[i]});
+        EXPECT_NEAR(placeOf(capture, capture, k, i).x, double(MirrorRoom::kMirrorX),
+                    roundingAt(capture, capture.inverseDistance[i]));
+      }
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+      shownPixels.insert({k, shown.row[i]});
+      EXPECT_EQ(shown.mirror[i], shown.mirror[0]);
+      const glm::vec3 seen(unpackColour(shown.colour[i]));
+      if (shown.inverseDistance[i] == 0) {
+        ++sky;
+        EXPECT_TRUE(room.shows(5, seen));
+        continue;
+      }
+      glm::dvec3 place = placeOf(capture, shown, k, i);
+      place.x = 2 * double(MirrorRoom::kMirrorX) - place.x;  // its original
+      const int side = room.sideOf(place, roundingAt(capture, shown.inverseDistance[i]), seen);
+      ASSERT_GE(side, 0) << place.x << " " << place.y << " " << place.z;
+      sides.insert(side);
+    }
+  }
+  EXPECT_EQ(shownPixels, mirrorPixels) << "one for each sample of the mirror";
+  EXPECT_EQ(baked.counts.reflections, shown.sampleCount());
+  EXPECT_EQ(baked.counts.rays.mirror, shown.sampleCount()) << "a ray each, no more than without them";
+  EXPECT_GT(mirrorPixels.size(), 1000u);
+  EXPECT_GT(sky, 50);
+  EXPECT_GE(sides.size(), 4u) << "the wall behind, both at the sides, the floor";
+}
+
+TEST(BakeMirrors, LeaveTheSurfacesAsTheyAreWithoutThem) {
+  const MirrorRoom room;
+  const auto camera = cameraAt({0.5, 0.2}, {square(1)});
+  const Baked with = bakeFrom(room.builder.rays(), camera),
+              without = bakeFrom(room.builder.rays({Effect::mirrorReflection}), camera);
+  EXPECT_FALSE(without.capture.hasReflections());
+  EXPECT_TRUE(without.capture.mirror.empty());
+  EXPECT_EQ(without.counts.rays.mirror, 0u);
+  EXPECT_EQ(without.counts.reflections, 0u);
+  EXPECT_EQ(with.capture.columnStart, without.capture.columnStart);
+  EXPECT_EQ(with.capture.row, without.capture.row);
+  EXPECT_EQ(with.capture.inverseDistance, without.capture.inverseDistance);
+  EXPECT_EQ(with.capture.roles, without.capture.roles);
+  for (std::size_t i = 0; i < with.capture.sampleCount(); ++i)
+    if (with.capture.mirror[i] == 0) {
+      ASSERT_EQ(with.capture.colour[i], without.capture.colour[i]);
+    }
+  // A camera that sees no mirror has no list.
+  auto away = camera;
+  away.lowAzimuth += kPi;
+  const Baked unseen = bakeFrom(room.builder.rays(), away);
+  EXPECT_FALSE(unseen.capture.hasReflections());
+  EXPECT_TRUE(unseen.capture.mirror.empty());
+}
+
+/// The reference: the surface's colour is what the shading kernel gives.
+TEST(BakeMirrors, ColourTheMirrorAsEverySurfaceIsShaded) {
+  const MirrorRoom room;
+  const auto scene = room.builder.rays();
+  const Baked baked = bakeFrom(scene, cameraAt({0.5, 0.2}, {square(1)}));
+  const Shader shader(*scene, {});
+  RayCounts rays;
+  const Capture& capture = baked.capture;
+  int compared = 0;
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k)
+    for (auto i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i) {
+      if (capture.mirror[i] == 0) continue;
+      const glm::vec3 from(capture.camera.centreOfProjection);
+      const Ray ray{from, glm::normalize(glm::vec3(placeOf(capture, capture, k, i)) - from)};
+      const glm::vec3 expected = shader.shade(scene->trace(ray), -ray.direction, rays).radiance();
+      const glm::vec3 actual(unpackColour(capture.colour[i]));
+      compared += glm::all(glm::lessThan(glm::abs(actual - expected), 2e-3f * expected + 1e-4f)) ? 1 : 0;
+    }
+  EXPECT_GT(compared, 0.98 * double(baked.counts.reflections)) << "all but those on an edge";
+}
+
+TEST(BakeMirrors, ServeTheRolesWhosePartHoldsTheVirtualPlace) {
+  const MirrorRoom room;
+  // Two regions' parts meet at x = 10, behind the mirror: only the second draws what lies beyond, though the
+  // mirror itself lies in the first one's part.
+  LayoutCamera camera = cameraAt({0.5, 0.2}, {square(1), square(1.2)});
+  const BorderLine line{{10, -50}, {10, 50}};
+  camera.roles[0].clip = Clip{{line, true}};
+  camera.roles[1].clip = Clip{{line, false}};
+  for (const bool pruning : {false, true}) {
+    const Baked baked = bakeFrom(room.builder.rays(), camera, pruning);
+    const CaptureSamples& shown = baked.capture.reflections;
+    int near = 0, far = 0;
+    for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+      for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+        const double x = placeOf(baked.capture, shown, k, i).x;
+        if (shown.inverseDistance[i] > 0 &&
+            std::abs(x - 10) < roundingAt(baked.capture, shown.inverseDistance[i]))
+          continue;
+        const bool beyond = shown.inverseDistance[i] == 0 || x > 10;
+        ASSERT_EQ(shown.roles[i], beyond ? 2 : 1);
+        ++(beyond ? far : near);
+      }
+    EXPECT_GT(near, 50);
+    EXPECT_GT(far, 500);
+    for (std::size_t i = 0; i < baked.capture.sampleCount(); ++i)
+      if (baked.capture.mirror[i] != 0) {
+        ASSERT_EQ(baked.capture.roles[i], 1) << "the mirror is the first one's";
+      }
+  }
+}
+
+}  // namespace
+}  // namespace acentric
