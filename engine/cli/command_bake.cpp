@@ -46,6 +46,7 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       {"reused", captures.reused},
       {"seconds", captures.seconds},
       {"samples", toJson(captures.counts.samples)},
+      {"reflections", captures.counts.reflections},
       {"rays", toJson(captures.counts.rays)},
       {"eyeViews", {{"traced", captures.counts.eyeViews}, {"seconds", captures.counts.eyeViewSeconds}}},
       {"surfaceLight",
