@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
+#include "editor/panels/bake_cameras.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -14,14 +16,17 @@ constexpr float kValueX = 118;
 void drawProgress(PanelContext& context) {
   const Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
+  const BakeQueue& queue = session.bakeQueue();
   if (session.baking().running()) {
-    const bool stopping = session.baking().cancelling();
-    std::string text = stopping ? "stopping…" : progressText(session.baking());
-    if (session.bakePaused())
-      text = "paused: " + text;
-    else if (const auto left = session.bakeSecondsLeft(context.now); left && !stopping)
-      text += fmt::format("   {} left", ui::formatDuration(*left));
-    ui::progressBar(progressFraction(session.baking()), text, context.now);
+    std::string text = session.baking().cancelling() ? "stopping…"
+                       : queue.cameras().empty()     ? session.baking().label() + "…"
+                       : session.bakePaused()        ? "paused"
+                                                     : ui::formatPercent(queue.share());
+    if (!queue.cameras().empty())
+      text += fmt::format("   {} of {}", queue.finished(), queue.cameras().size());
+    ui::progressBar(queue.cameras().empty() ? -1 : queue.share(), text, context.now);
+  } else if (session.estimating().running()) {
+    ui::progressBar(progressFraction(session.estimating()), progressText(session.estimating()), context.now);
   } else if (captures != nullptr) {
     const int total = int(captures->cameras.size());
     const double fraction = total == 0 ? 0 : double(captures->baked) / total;
@@ -33,15 +38,50 @@ void drawProgress(PanelContext& context) {
   context.log.item("bake.progress");
 }
 
+/// What is being done, how fast, and for how long.
+void drawPace(PanelContext& context) {
+  Session& session = context.session();
+  const BakeQueue& queue = session.bakeQueue();
+  ui::keyValue("Now", session.bakePaused() ? "paused" : progressText(session.baking()), kValueX);
+  std::string pace;
+  if (const auto rays = queue.raysPerSecond(); rays && !session.bakePaused())
+    pace = fmt::format("{:.2f} million rays/s", *rays / 1e6);
+  if (const auto left = queue.secondsLeft(context.now); left && !session.bakePaused())
+    pace += fmt::format(", about {} left", ui::formatDuration(*left));
+  ui::keyValue("Pace", pace.empty() ? "not known yet" : pace, kValueX);
+  ui::tooltip("Measured over the last half minute. What light on local geometry takes is not foretold.");
+}
+
+void drawDisk(Session& session) {
+  if (!session.freeBytes()) return;
+  std::string text = ui::formatBytes(*session.freeBytes()) + " free";
+  const BakeEstimate* estimate = session.estimate();
+  std::optional<double> needed = estimate != nullptr ? std::optional(estimate->bytes.value) : std::nullopt;
+  if (session.baking().running())
+    needed = session.neededBytes() ? std::optional(*session.neededBytes() * (1 - session.bakeQueue().share()))
+                                   : std::nullopt;
+  if (needed && *needed > 0)
+    text += fmt::format(", about {} needed", ui::formatBytes(std::uint64_t(*needed)));
+  const bool tight = needed && *needed > 0.9 * double(*session.freeBytes());
+  ui::mutedText("Disk");
+  ImGui::SameLine(kValueX);
+  ui::wrappedText(tight ? ui::palette::warning : ui::palette::text, text);
+}
+
 void drawFacts(PanelContext& context) {
   Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
-  if (captures != nullptr)
+  if (session.baking().running()) drawPace(context);
+  if (captures != nullptr) {
+    const auto& walk = session.walk();
     ui::keyValue("Captures",
                  fmt::format("{} of {} on disk", ui::formatCount(std::uint64_t(captures->baked)),
                              ui::formatCount(captures->cameras.size())),
                  kValueX);
-  if (const auto& last = session.lastBake()) {
+    if (walk && walk->coarse > 0) ui::keyValue("", coarseText(*walk), kValueX);
+  }
+  drawDisk(session);
+  if (const auto& last = session.lastBake(); last && !session.baking().running()) {
     const BakeReport& report = last->captures;
     ui::keyValue("Last bake",
                  fmt::format("{} baked, {} reused, {}", report.baked, report.reused,
@@ -54,18 +94,22 @@ void drawFacts(PanelContext& context) {
                       ui::formatCount(report.counts.rays.shadow),
                       ui::formatCount(report.counts.rays.ambient)),
           kValueX);
+    if (report.peakBytes > 0)
+      ui::keyValue("Memory used", fmt::format("{} at most", ui::formatBytes(report.peakBytes)), kValueX);
     ui::keyValue("On disk", ui::formatBytes(last->bytes), kValueX);
   }
-  if (const BakeEstimate* estimate = session.estimate()) {
+  if (const BakeEstimate* estimate = session.estimate(); estimate != nullptr && !session.baking().running()) {
     const double error = std::max(estimate->seconds.relativeError, estimate->bytes.relativeError);
     ui::keyValue("Still to bake",
                  estimate->seconds.value == 0
                      ? std::string("nothing")
-                     : fmt::format("{} captures, {:.1f} Mpixel: about {}, {} (±{:.0f} %)",
-                                   ui::formatCount(std::uint64_t(estimate->cameras)), estimate->pixels / 1e6,
+                     : fmt::format("{} captures: about {}, {} (±{:.0f} %)",
+                                   ui::formatCount(std::uint64_t(estimate->cameras)),
                                    ui::formatDuration(estimate->seconds.value),
                                    ui::formatBytes(std::uint64_t(estimate->bytes.value)), 100 * error),
                  kValueX);
+    ui::tooltip(fmt::format("{:.1f} million pixels, {:.1f} million samples", estimate->pixels / 1e6,
+                            estimate->samples.value / 1e6));
   }
   int threads = session.bakeThreads();
   const ui::FieldEdit edit =
@@ -73,10 +117,11 @@ void drawFacts(PanelContext& context) {
                        "For baking and loading. One fewer than the processors keeps the window quick."},
                       threads, kValueX);
   if (edit.changed) session.preferences().bakeThreads = threads;
-  const ui::FieldEdit memory =
-      ui::numberField({"Memory", "%.0f MB", 16, 16, 65536,
-                       "Of finished captures that wait to be written; beyond that the bake waits."},
-                      session.preferences().bakeMegabytes, kValueX);
+  const ui::FieldEdit memory = ui::numberField(
+      {"Memory", "%.0f MB", 16, 16, 65536,
+       "That captures may take from when they are traced until they are written, with what regions "
+       "see. More: less waiting, less traced twice. The scene itself comes on top."},
+      session.preferences().bakeMegabytes, kValueX);
   if (edit.finished || memory.finished) session.savePreferencesNow();
 }
 
@@ -128,8 +173,21 @@ void drawBakePanel(PanelContext& context) {
   }
   ImGui::SameLine();
   drawProgress(context);
+  const auto view = [&](const char* label, const char* help, bool cameras) {
+    bool& shown = context.state().showBakeCameras;
+    if (ui::toggleButton(label, shown == cameras)) shown = cameras;
+    context.log.item(cameras ? "bake.cameras" : "bake.overview");
+    ui::tooltip(help);
+  };
+  view("Overview", "Pace, disk, settings", false);
+  ImGui::SameLine(0, 3);
+  view("Cameras", "What became of each camera", true);
+  ImGui::SameLine(0, 14);
   drawLegend();
+  if (context.state().showBakeCameras) return drawBakeCameras(context);
+  ImGui::BeginChild("##facts");
   drawFacts(context);
+  ImGui::EndChild();
 }
 
 }  // namespace acentric::editor

@@ -324,6 +324,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
                         shown_.stats.totalSeconds * 1000);
   }
+  if (session.walk() && session.walk()->coarse > 0) text += "   " + coarseText(*session.walk());
   if (session.walk() && !session.walk()->walk.surfaceLight)
     text += "   near geometry unlit until a bake ends";
   ImFont* small = context.window.fonts().small;

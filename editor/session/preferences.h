@@ -15,7 +15,7 @@ struct Preferences {
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
   std::filesystem::path lastFolder;
   int bakeThreads = 0;        ///< 0 = all but one
-  int bakeMegabytes = 1024;   ///< of finished captures that wait to be written
+  int bakeMegabytes = 1536;   ///< that what is baked may take until it is written
   float settingsWidth = 324;  ///< pixels
   float walkWidth = 600;
   float bottomHeight = 214;

@@ -23,15 +23,13 @@ bool onlyViewDiffers(const Project& a, const Project& b) {
 }
 
 bool Session::poll(double now) {
+  now_ = now;
   const bool delivered = inbox_.deliver();
-  if (baking_.running()) {
-    const ProgressState& progress = baking_.progress();
-    if (progress.total > 0) eta_.report(now, progress.done, progress.total);
-    if (progress.done != bakeProgressSeen_) {
-      bakeProgressSeen_ = progress.done;
-      loadWanted_ = true;
-    }
+  if (const int baked = bakeQueue_.finished() + bakeQueue_.previewed(); baked != bakedSeen_) {
+    bakedSeen_ = baked;
+    loadWanted_ = loadWanted_ || baking_.running();
   }
+  lookAtDisk();
   constexpr double kLoadInterval = 1.0;  // captures appear in the walk soon, without loading after each
   if (loadWanted_ && built_ && now >= nextLoad_ && !loading_.running()) {
     nextLoad_ = now + kLoadInterval;

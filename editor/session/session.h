@@ -11,6 +11,7 @@
 
 #include "editor/commands/edit.h"
 #include "editor/session/backdrop.h"
+#include "editor/session/bake_queue.h"
 #include "editor/session/capture_status.h"
 #include "editor/session/coverage.h"
 #include "editor/session/eta.h"
@@ -101,8 +102,12 @@ class Session {
   /// What was begun of a camera is kept, and gone on with.
   void pauseBake(bool paused);
   bool bakePaused() const { return baking_.running() && bakeGate_.closed(); }
-  /// Captures a second, as far as known.
-  std::optional<double> bakeRate() const { return eta_.perSecond(); }
+  /// The cameras of the running bake, or of the last one.
+  const BakeQueue& bakeQueue() const { return bakeQueue_; }
+  /// Of the disk that captures go to, while a project is open; and what those of the bake that runs were
+  /// expected to take when it began.
+  std::optional<std::uint64_t> freeBytes() const { return freeBytes_; }
+  std::optional<double> neededBytes() const { return neededBytes_; }
   /// Of what the current storey lacks, by baking a little of it.
   void estimateBake();
   /// Null until asked for, and when something has changed since.
@@ -110,7 +115,6 @@ class Session {
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
-  std::optional<double> bakeSecondsLeft(double now) const { return eta_.secondsLeft(now); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
   int bakeThreads() const;
   int processors() const { return processors_; }
@@ -155,6 +159,10 @@ class Session {
   void drawBackdropIfStale();
   void inspectIfStale();
   void bakeEnded(const Result<ProjectBakeReport>& report);
+  Result<ProjectBakeReport> bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
+                                        std::size_t memoryBytes, const ImportHost& host, TaskRunner& runner,
+                                        const Job::Context& context);
+  void lookAtDisk();
   /// As an edit, unless the layout is no longer what was searched with.
   void offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
                    const std::string& found);
@@ -210,10 +218,13 @@ class Session {
     EffectCosts costs;
   };
   std::optional<Estimate> estimate_;
-  Eta eta_;
+  BakeQueue bakeQueue_;
+  std::optional<std::uint64_t> freeBytes_;
+  std::optional<double> neededBytes_;
+  double nextLookAtDisk_ = 0, now_ = 0;
   Gate bakeGate_;  // outlives the job
   std::optional<ProjectBakeReport> lastBake_;
-  double bakeProgressSeen_ = 0;
+  int bakedSeen_ = 0;
   double nextLoad_ = 0;
   bool loadWanted_ = false;
   double nextAutosave_ = 0;

@@ -1,39 +1,61 @@
 /// Session's dealings with baking: the bake itself, and what it would take.
 
 #include <algorithm>
+#include <chrono>
 
 #include "editor/session/session.h"
+#include "engine/base/file.h"
 #include "engine/base/priority.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric::editor {
 namespace {
 
-/// The current storey first; progress runs from 0 to 1 over all of them.
-Result<ProjectBakeReport> bakeAllStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
-                                         std::size_t memoryBytes, const ImportHost& host, TaskRunner& runner,
-                                         const Progress& progress, std::stop_token stop) {
+/// Of all storeys, the current one first: each with its own order.
+struct StoreysToBake {
+  std::vector<OpenProject> storeys;
+  std::vector<std::vector<int>> order;
+};
+
+Result<StoreysToBake> planStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
+                                  const ImportHost& host, const std::stop_token& stop) {
   auto storeys = openStoreys(open, host, {}, stop);
   if (!storeys) return tl::unexpected(storeys.error());
-  std::rotate(storeys->begin(), storeys->begin() + open.project.storey, storeys->end());
-  ProjectBakeReport all;
-  for (std::size_t s = 0; s < storeys->size(); ++s) {
-    const Progress part = [&](const ProgressState& state) {
-      if (storeys->size() == 1) return progress(state);
-      const double done = state.total > 0 ? state.done / state.total : 0;
-      progress({(double(s) + done) / double(storeys->size()), 1,
-                (*storeys)[s].project.current().name + ": " + state.stage});
-    };
-    BakeRequest request;
-    request.memoryBytes = memoryBytes;
-    request.coarseFirst = true;
-    if (from) request.cameras = bakingOrder((*storeys)[s], *from);
-    const auto report = bakeProject((*storeys)[s], request, runner, part, stop);
-    if (!report) return report;
-    all.add(*report);
-  }
-  return all;
+  StoreysToBake plan{std::move(*storeys), {}};
+  std::ranges::rotate(plan.storeys, plan.storeys.begin() + open.project.storey);
+  for (const OpenProject& storey : plan.storeys)
+    plan.order.push_back(from ? bakingOrder(storey, *from) : bakingOrder(storey));
+  return plan;
 }
+
+std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
+  std::vector<QueuedCamera> queue;
+  for (std::size_t s = 0; s < plan.storeys.size(); ++s) {
+    const OpenProject& open = plan.storeys[s];
+    for (const int camera : plan.order[s]) {
+      const ColumnCamera columns =
+          columnCameraFor(open.layout->cameras[std::size_t(camera)], open.layout->eyeZ(),
+                          open.layout->spec.nearBand, open.scene->bounds, open.project.bake);
+      queue.push_back({int(s), camera, double(columns.columns) * columns.rows});
+    }
+  }
+  return queue;
+}
+
+/// Lets through what is new of a camera, and of how far it is traced about 20 times a second.
+class NewsGate {
+ public:
+  bool open(const CameraNews& news) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool moved = news.stage == CameraStage::tracing && news.columnsDone > 0;
+    if (moved && now - last_ < std::chrono::milliseconds(50)) return false;
+    if (moved) last_ = now;
+    return true;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_{};
+};
 
 }  // namespace
 
@@ -44,22 +66,65 @@ int Session::bakeThreads() const {
 
 void Session::startBake(const std::optional<glm::dvec2>& from) {
   if (!built_ || baking_.running()) return;
-  eta_.reset();
-  bakeProgressSeen_ = 0;
+  estimating_.abandon();  // it would compete
+  bakeQueue_.begin({});
+  neededBytes_.reset();
   bakeGate_.open();
   baking_.restart("Baking", [this, open = built_, from, threads = bakeThreads(),
                              memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
                              host = options_.importHost](const Job::Context& context) {
     lowerThreadPriority();  // the window comes first
     TaskRunner runner(threads - 1, &bakeGate_);
-    const auto report = bakeAllStoreys(*open, from, memory, host, runner, context.progress(), context.stop());
+    const auto report = bakeStoreys(*open, from, memory, host, runner, context);
     context.post([this, report] { bakeEnded(report); });
   });
 }
 
+/// Progress runs from 0 to 1 over all storeys.
+Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
+                                               std::size_t memoryBytes, const ImportHost& host,
+                                               TaskRunner& runner, const Job::Context& context) {
+  const auto plan = planStoreys(open, from, host, context.stop());
+  if (!plan) return tl::unexpected(plan.error());
+  context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
+  ProjectBakeReport all;
+  for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
+    const OpenProject& storey = plan->storeys[s];
+    const Progress part = [&](const ProgressState& state) {
+      if (plan->storeys.size() == 1) return context.progress()(state);
+      const double done = state.total > 0 ? state.done / state.total : 0;
+      context.progress()({(double(s) + done) / double(plan->storeys.size()), 1,
+                          storey.project.current().name + ": " + state.stage});
+    };
+    BakeRequest request;
+    request.memoryBytes = memoryBytes;
+    request.coarseFirst = true;
+    request.cameras = plan->order[s];
+    request.watch = [&, gate = std::make_shared<NewsGate>()](const CameraNews& news) {
+      if (gate->open(news)) context.post([this, s, news] { bakeQueue_.tell(now_, int(s), news); });
+    };
+    request.tellRoom = [&](double needed, std::uint64_t) {
+      context.post([this, needed] { neededBytes_ = needed; });
+    };
+    const auto report = bakeProject(storey, request, runner, part, context.stop());
+    if (!report) return report;
+    all.add(*report);
+  }
+  return all;
+}
+
+void Session::lookAtDisk() {
+  constexpr double kInterval = 2;
+  if (!built_) return freeBytes_.reset();
+  if (now_ < nextLookAtDisk_) return;
+  nextLookAtDisk_ = now_ + kInterval;
+  const auto free = freeSpace(captureFolderFor(file_));
+  freeBytes_ = free ? std::optional(*free) : std::nullopt;
+}
+
 void Session::pauseBake(bool paused) {
   if (!baking_.running() || baking_.cancelling()) return;
-  eta_.reset();  // the pause is no part of the rate
+  bakeQueue_.pause();
   paused ? bakeGate_.close() : bakeGate_.open();
 }
 
@@ -69,6 +134,7 @@ void Session::cancelBake() {
 }
 
 void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
+  bakeQueue_.end();
   loadWanted_ = true;
   nextLoad_ = 0;
   if (!report) return messages_.addFailure("Baking", report.error());
@@ -81,27 +147,28 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
 void Session::estimateBake() {
   if (!built_ || baking_.running()) return;
   estimate_.reset();
-  estimating_.restart(
-      "Estimating the bake", [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
-        const std::vector<bool> baked = bakedCameras(*open);
-        std::vector<int> missing;
-        for (std::size_t camera = 0; camera < baked.size(); ++camera)
-          if (!baked[camera]) missing.push_back(int(camera));
-        EstimateOptions options;
-        const auto store = CaptureStore::open(captureFolderFor(open->file));
-        options.surfaceLight = !store || !store->hasSurfaceLight(open->surfaceLightKey);
-        Result<BakeEstimate> estimate = BakeEstimate{};
-        if (!missing.empty() || options.surfaceLight) {
-          TaskRunner runner(threads - 1);
-          estimate = estimateProjectBake(*open, missing, options, runner, context.progress(), context.stop());
-        }
-        const EffectCosts costs =
-            measureEffectCosts(*open->rays, *open->layout, open->project.bake, context.stop());
-        context.post([this, open, threads, estimate, costs] {
-          if (!estimate) return messages_.addFailure("Estimating the bake", estimate.error());
-          estimate_ = Estimate{open, threads, *estimate, costs};
-        });
-      });
+  estimating_.restart("Estimating the bake", [this, open = built_, threads = bakeThreads(),
+                                              memory = std::size_t(preferences_.bakeMegabytes) *
+                                                       1'000'000](const Job::Context& context) {
+    const std::vector<bool> baked = bakedCameras(*open);
+    std::vector<int> missing;
+    for (std::size_t camera = 0; camera < baked.size(); ++camera)
+      if (!baked[camera]) missing.push_back(int(camera));
+    EstimateOptions options;
+    options.surfaceLight = !surfaceLightBaked(*open);
+    options.memoryBytes = memory;
+    Result<BakeEstimate> estimate = BakeEstimate{};
+    if (!missing.empty() || options.surfaceLight) {
+      TaskRunner runner(threads - 1);
+      estimate = estimateProjectBake(*open, missing, options, runner, context.progress(), context.stop());
+    }
+    const EffectCosts costs =
+        measureEffectCosts(*open->rays, *open->layout, open->project.bake, context.stop());
+    context.post([this, open, threads, estimate, costs] {
+      if (!estimate) return messages_.addFailure("Estimating the bake", estimate.error());
+      estimate_ = Estimate{open, threads, *estimate, costs};
+    });
+  });
 }
 
 const BakeEstimate* Session::estimate() const {

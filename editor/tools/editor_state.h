@@ -32,9 +32,10 @@ struct EditorState {
   bool showChecks = false;     ///< where centres of projection stand badly
   bool showCoverage = false;   ///< instead of what is baked: how well places are sampled
   CoverageKind coverageKind = CoverageKind::surfaces;
-  bool showHoles = false;  ///< pixels without a real sample in magenta
-  bool fitPlan = true;     ///< asked for; the plan clears it
-  bool restart = false;    ///< the eye goes back to the start of the walk; the walk clears it
+  bool showBakeCameras = false;  ///< in the bake panel, instead of the overview
+  bool showHoles = false;        ///< pixels without a real sample in magenta
+  bool fitPlan = true;           ///< asked for; the plan clears it
+  bool restart = false;          ///< the eye goes back to the start of the walk; the walk clears it
 
   Dialog dialog = Dialog::none;
   Continuation continuation;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <new>
 
 #include "engine/bake/capture_writer.h"
@@ -16,40 +19,139 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Tells of cameras, from the thread that bakes and those that trace and write, one at a time.
+class Teller {
+ public:
+  Teller(const Progress& progress, const BakeWatch& watch, std::size_t cameras)
+      : progress_(progress), watch_(watch), cameras_(cameras) {}
+
+  void begin(std::size_t number, int camera, int columns) {
+    const std::lock_guard lock(mutex_);
+    number_ = number;
+    stage_ = fmt::format("baking camera {} ({} of {})", camera, number + 1, cameras_);
+    began_ = Clock::now();
+    now_ = {camera, CameraStage::tracing, false, columns};
+    tell();
+  }
+  void traced(int columns, std::uint64_t rays) {
+    const std::lock_guard lock(mutex_);
+    now_.columnsDone = std::max(now_.columnsDone, columns);
+    now_.rays = std::max(now_.rays, rays);
+    tell();
+  }
+  /// Of the camera last begun.
+  void end(CameraStage stage) {
+    const std::lock_guard lock(mutex_);
+    now_.stage = stage;
+    now_.seconds = secondsSince(began_);
+    if (watch_) watch_(now_);
+  }
+  void tell(const CameraNews& news) {
+    const std::lock_guard lock(mutex_);
+    if (watch_) watch_(news);
+  }
+
+ private:
+  void tell() {
+    now_.seconds = secondsSince(began_);
+    if (watch_) watch_(now_);
+    const double part = now_.columns > 0 ? double(now_.columnsDone) / now_.columns : 0;
+    if (progress_) progress_({double(number_) + part, double(cameras_), stage_});
+  }
+
+  const Progress& progress_;
+  const BakeWatch& watch_;
+  std::size_t cameras_, number_ = 0;
+  std::mutex mutex_;
+  std::string stage_;
+  Clock::time_point began_;
+  CameraNews now_;
+};
+
+/// Tells when captures are on disk, or why not.
+class ToldSink final : public CaptureSink {
+ public:
+  ToldSink(CaptureSink& sink, Teller& teller) : sink_(sink), teller_(teller) {}
+
+  bool has(const ContentKey& key) const override { return sink_.has(key); }
+  void tell(const ContentKey& key, const SampleCounts& samples) override { sink_.tell(key, samples); }
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
+    Status done = sink_.put(key, capture, stop);
+    CameraNews news;
+    {
+      const std::lock_guard lock(mutex_);
+      news = traced_.at(key);
+    }
+    news.stage = done ? CameraStage::done : CameraStage::failed;
+    if (!done) news.error = done.error().describe();
+    if (done || done.error().kind != ErrorKind::cancelled) teller_.tell(news);
+    return done;
+  }
+  void expect(const ContentKey& key, const CameraNews& news) {
+    const std::lock_guard lock(mutex_);
+    traced_[key] = news;
+  }
+
+ private:
+  CaptureSink& sink_;
+  Teller& teller_;
+  std::mutex mutex_;
+  std::map<ContentKey, CameraNews> traced_;
+};
+
 class BakeRun {
  public:
   BakeRun(const RayScene& scene, const Layout& layout, const BakeSettings& settings, CaptureSink& sink,
-          TaskRunner& runner, const std::stop_token& stop, std::size_t memoryBytes)
+          TaskRunner& runner, const std::stop_token& stop, std::size_t memoryBytes, Teller& teller)
       : scene_(scene),
         layout_(layout),
         settings_(settings),
-        sink_(sink),
         runner_(runner),
         stop_(stop),
-        baker_(scene, settings),
-        writer_(sink, memoryBytes, stop) {}
+        teller_(teller),
+        sink_(sink, teller),
+        budget_(memoryBytes),
+        baker_(scene, settings, &budget_),
+        writer_(sink_, budget_, stop) {}
 
-  Status bakeOne(int index) {
+  Status bakeOne(std::size_t number, int index) {
     const LayoutCamera& camera = layout_.cameras[std::size_t(index)];
     const EffectPlan& plan = scene_.plan();
     const ColumnCamera columns = columnCameraFor(camera, layout_, scene_.scene().bounds, settings_);
     BakedCamera baked;
     baked.camera = index;
     baked.key = captureKey(scene_.scene(), plan, settings_, camera, columns);
+    teller_.begin(number, index, columns.columns);
     if (sink_.has(baked.key)) {
       baked.reused = true;
       ++report_.reused;
       report_.cameras.push_back(baked);
+      teller_.end(CameraStage::reused);
       return {};
     }
     const auto start = Clock::now();
     CaptureCounts counts;
-    auto capture = baker_.bake(camera, columns, runner_, counts, stop_);
+    auto capture = baker_.bake(camera, columns, runner_, counts, stop_,
+                               [this](int done, std::uint64_t rays) { teller_.traced(done, rays); });
     report_.counts += counts;
-    if (!capture) return tl::unexpected(capture.error());
+    if (!capture) {
+      if (capture.error().kind != ErrorKind::cancelled)
+        teller_.tell({index, CameraStage::failed, false, columns.columns, 0, counts.rays.total(),
+                      secondsSince(start), capture.error().describe()});
+      return tl::unexpected(capture.error());
+    }
     baked.seconds = secondsSince(start);
     baked.samples = counts.samples;
     sink_.tell(baked.key, baked.samples);
+    teller_.end(CameraStage::writing);
+    sink_.expect(baked.key, {index,
+                             CameraStage::writing,
+                             false,
+                             columns.columns,
+                             columns.columns,
+                             counts.rays.total(),
+                             baked.seconds,
+                             {}});
     if (auto put = writer_.put(baked.key, std::move(*capture)); !put) return put;
     ++report_.baked;
     report_.cameras.push_back(baked);
@@ -57,16 +159,21 @@ class BakeRun {
   }
 
   Status finish() { return writer_.finish(); }
-  BakeReport takeReport() { return std::move(report_); }
+  BakeReport takeReport() {
+    report_.peakBytes = budget_.peak();
+    return std::move(report_);
+  }
 
  private:
   const RayScene& scene_;
   const Layout& layout_;
   const BakeSettings& settings_;
-  CaptureSink& sink_;
   TaskRunner& runner_;
   std::stop_token stop_;
   BakeReport report_;
+  Teller& teller_;
+  ToldSink sink_;
+  MemoryBudget budget_;
   CameraBaker baker_;
   CaptureWriter writer_;
 };
@@ -75,7 +182,8 @@ class BakeRun {
 
 Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::vector<int>& which,
                         const BakeSettings& settings, CaptureSink& sink, TaskRunner& runner,
-                        const Progress& progress, std::stop_token stop, std::size_t memoryBytes) {
+                        const Progress& progress, std::stop_token stop, std::size_t memoryBytes,
+                        const BakeWatch& watch) {
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
   for (const int index : which)
     if (index < 0 || std::size_t(index) >= layout.cameras.size())
@@ -83,16 +191,14 @@ Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::
                                                    int(layout.cameras.size()) - 1));
   const auto start = Clock::now();
   try {
-    BakeRun run(scene, layout, settings, sink, runner, stop, memoryBytes);
+    Teller teller(progress, watch, which.size());
+    BakeRun run(scene, layout, settings, sink, runner, stop, memoryBytes, teller);
     Status outcome;
     for (std::size_t n = 0; n < which.size() && outcome; ++n) {
-      if (progress)
-        progress({double(n), double(which.size()),
-                  fmt::format("baking camera {} ({} of {})", which[n], n + 1, which.size())});
       if (stop.stop_requested())
         outcome = fail(ErrorKind::cancelled, "the bake was stopped");
       else
-        outcome = run.bakeOne(which[n]);
+        outcome = run.bakeOne(n, which[n]);
     }
     // Whatever ended the run, what was finished before is written; the sink's own error comes first.
     if (auto written = run.finish(); !written) return tl::unexpected(written.error());

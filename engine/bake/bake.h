@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "engine/bake/bake_settings.h"
+#include "engine/bake/bake_watch.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/base/memory_budget.h"
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
 #include "engine/image/capture.h"
@@ -58,24 +60,28 @@ struct CaptureCounts {
 /// Bakes captures one after the other, and remembers between them what the regions' eyes see.
 class CameraBaker {
  public:
-  /// `memory` bounds what is remembered, bytes.
-  CameraBaker(const RayScene& scene, const BakeSettings& settings, std::size_t memory = kSightMemory);
+  /// Told of columns and rays traced so far, from any thread, every few columns.
+  using Traced = std::function<void(int columns, std::uint64_t rays)>;
+
+  /// Counts what it holds against `budget`, which outlives it; none given: one of its own. What the regions'
+  /// eyes see is remembered up to a third of the limit.
+  CameraBaker(const RayScene& scene, const BakeSettings& settings, MemoryBudget* budget = nullptr);
   ~CameraBaker();
 
   /// One capture: along each pixel's ray the surfaces beyond the regions that the camera serves, each for the
   /// roles that need it: it lies beyond the role's grown polygon and within its part, and (with pruning) its
   /// region sees it. What is behind everything is a sample without distance. Where a plane mirror is met,
   /// what it shows is kept at its virtual place, for the roles whose part holds that. Counts are added. A
-  /// stop gives the error `cancelled`, never part of a capture.
+  /// stop gives the error `cancelled`, never part of a capture. What is traced is counted until it is handed
+  /// out; while there is no room, tracing waits for what others hold and will give back by themselves.
   Result<Capture> bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
-                       CaptureCounts& counts, std::stop_token stop = {});
-
-  static constexpr std::size_t kSightMemory = std::size_t(512) << 20;
+                       CaptureCounts& counts, std::stop_token stop = {}, const Traced& traced = {});
 
  private:
   const RayScene& scene_;
   BakeSettings settings_;
-  std::size_t memory_;
+  std::unique_ptr<MemoryBudget> ownBudget_;
+  MemoryBudget& budget_;
   std::unique_ptr<Shader> shader_;
   std::unique_ptr<FlatMirrors> mirrors_;
   std::unique_ptr<EyeViews> views_;
@@ -114,17 +120,22 @@ struct BakeReport {
   int reused = 0;
   double seconds = 0;
   CaptureCounts counts;
+  std::size_t peakBytes = 0;  ///< the most that was held of what `memoryBytes` limits
 };
 
-/// Of finished captures that wait to be written, unless told otherwise.
-inline constexpr std::size_t kBakeMemory = std::size_t(1) << 30;
-
 /// Bakes `which` cameras (indices, in this order), those that the sink has are skipped. Progress counts
-/// cameras. Finished captures that wait to be written take at most `memoryBytes`, or are a single one.
-/// Stopped, it returns within a second; what was traced before is written as far as half of it allows.
+/// cameras and their columns. Stopped, it returns within a second; what was traced before is written as far
+/// as half of it allows.
+///
+/// `memoryBytes` limits all that grows with the captures: what the regions' eyes see (at most a third), the
+/// capture being traced (what there is of it; twice while its columns are joined), and those that wait to be
+/// written or are being written (three times each: samples, planes, files). Tracing waits where the limit
+/// would be exceeded. A capture that needs more by itself is baked alone: no more is held then than its own
+/// eyes' views, three times its samples, and what was traced of the next. The scene with its ray tracer, and
+/// light gathered on its surfaces (gathered_light.h), come on top.
 Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::vector<int>& which,
                         const BakeSettings& settings, CaptureSink& sink, TaskRunner& runner,
                         const Progress& progress = {}, std::stop_token stop = {},
-                        std::size_t memoryBytes = kBakeMemory);
+                        std::size_t memoryBytes = MemoryBudget::kUsual, const BakeWatch& watch = {});
 
 }  // namespace acentric

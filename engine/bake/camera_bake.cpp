@@ -37,11 +37,22 @@ struct SampleList {
   std::vector<std::uint8_t> roles;
   std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
 
+  static constexpr std::size_t kBytes =
+      sizeof(std::uint16_t) + sizeof(float) + sizeof(HalfColour) + 2 * sizeof(std::uint8_t);  ///< of a sample
+
   void reserve(std::size_t samples) {
     row.reserve(samples);
     inverseDistance.reserve(samples);
     colour.reserve(samples);
     roles.reserve(samples);
+  }
+  /// Gives back what was reserved in vain.
+  void trim() {
+    row.shrink_to_fit();
+    inverseDistance.shrink_to_fit();
+    colour.shrink_to_fit();
+    roles.shrink_to_fit();
+    mirror.shrink_to_fit();
   }
   void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
     row.push_back(std::uint16_t(r));
@@ -54,6 +65,13 @@ struct SampleList {
 struct Samples : SampleList {
   SampleList reflections;  ///< in a scene with flat mirrors
   CaptureCounts counts;
+  MemoryBudget::Share held;
+
+  void close() {
+    trim();
+    reflections.trim();
+    held.set(kBytes * (row.size() + reflections.row.size()));
+  }
 };
 
 /// A role as one column of the camera meets it.
@@ -421,12 +439,15 @@ CaptureCounts& CaptureCounts::operator+=(const CaptureCounts& other) {
   return *this;
 }
 
-CameraBaker::CameraBaker(const RayScene& scene, const BakeSettings& settings, std::size_t memory)
-    : scene_(scene), settings_(settings), memory_(memory) {}
+CameraBaker::CameraBaker(const RayScene& scene, const BakeSettings& settings, MemoryBudget* budget)
+    : scene_(scene),
+      settings_(settings),
+      ownBudget_(budget == nullptr ? std::make_unique<MemoryBudget>() : nullptr),
+      budget_(budget == nullptr ? *ownBudget_ : *budget) {}
 CameraBaker::~CameraBaker() = default;
 
 Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
-                                  CaptureCounts& counts, std::stop_token stop) {
+                                  CaptureCounts& counts, std::stop_token stop, const Traced& traced) {
   if (auto sound = settings_.check(); !sound) return tl::unexpected(sound.error());
   if (auto sound = columns.check(); !sound) return tl::unexpected(sound.error());
   const auto noMemory = [&] {
@@ -442,7 +463,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     std::optional<RegionSight> sight;
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
-      if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, memory_);
+      if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
       const Stopwatch watch;
       const int before = views_->traced();
       sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, settings_, *views_, runner,
@@ -463,19 +484,29 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<Samples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;
+    std::atomic<int> columnsTraced = 0;
+    std::atomic<std::uint64_t> raysTraced = counts.rays.total();
     std::atomic<bool> full = false;  // of memory
     runner.parallelFor(chunkCount, [&](std::size_t chunk) {
       if (stop.stop_requested() || full || total > kMaxCaptureSamples) return;
       const FlushDenormals flush;
       const int first = int(chunk) * kColumnsPerChunk;
       const int last = std::min(first + kColumnsPerChunk, columns.columns);
+      const std::size_t pixels = std::size_t(last - first) * std::size_t(columns.rows);
+      if (!budget_.waitForRoom(pixels * Samples::kBytes, stop)) return;
       try {
         Samples samples;  // not in `chunks`, where another thread works on the next
-        samples.reserve(std::size_t(last - first) * std::size_t(columns.rows));
+        samples.held = MemoryBudget::Share(budget_);
+        samples.reserve(pixels);
+        samples.held.set(pixels * Samples::kBytes);
         ColumnMarch columnMarch(march, samples);
         for (int column = first; column < last && columnMarch.run(column, stop);) ++column;
+        samples.close();
         total += samples.row.size() + samples.reflections.row.size();
+        columnsTraced += last - first;
+        raysTraced += samples.counts.rays.total();
         chunks[chunk] = std::move(samples);
+        if (traced) traced(columnsTraced, raysTraced);
       } catch (const std::bad_alloc&) {
         full = true;
       }
@@ -488,6 +519,9 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     CaptureCounts counted;
     for (const Samples& s : chunks) counted += s.counts;
     counts += counted;
+    if (!budget_.waitForRoom(total * Samples::kBytes, stop)) return stopped();
+    MemoryBudget::Share whole(budget_);
+    whole.set(total * Samples::kBytes);
     Capture capture = joined(march, chunks, counted.reflections > 0, runner, stop);
     if (stop.stop_requested()) return stopped();
     return capture;

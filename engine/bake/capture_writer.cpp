@@ -19,15 +19,13 @@ Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& captur
 }
 
 /// While it is encoded a capture is there twice more: as planes, and as the files' bytes.
-std::size_t heldBy(const Capture& capture) {
-  constexpr std::size_t kCopies = 3;
-  const auto bytesOf = [](const CaptureSamples& samples) {
-    return samples.columnStart.size() * sizeof samples.columnStart[0] +
-           samples.sampleCount() * (sizeof samples.row[0] + sizeof samples.roles[0] +
-                                    sizeof samples.inverseDistance[0] + sizeof samples.colour[0]) +
-           samples.mirror.size();
-  };
-  return kCopies * (bytesOf(capture) + bytesOf(capture.reflections));
+constexpr std::size_t kCopies = 3;
+
+std::size_t bytesOf(const CaptureSamples& samples) {
+  return samples.columnStart.size() * sizeof samples.columnStart[0] +
+         samples.sampleCount() * (sizeof samples.row[0] + sizeof samples.roles[0] +
+                                  sizeof samples.inverseDistance[0] + sizeof samples.colour[0]) +
+         samples.mirror.size();
 }
 
 /// After a stop, for what waits.
@@ -35,8 +33,8 @@ constexpr auto kGrace = std::chrono::milliseconds(500);
 
 }  // namespace
 
-CaptureWriter::CaptureWriter(CaptureSink& sink, std::size_t memoryBytes, std::stop_token stop)
-    : sink_(sink), stop_(std::move(stop)), memoryBytes_(memoryBytes), thread_([this] { loop(); }) {}
+CaptureWriter::CaptureWriter(CaptureSink& sink, MemoryBudget& budget, std::stop_token stop)
+    : sink_(sink), stop_(std::move(stop)), budget_(budget), thread_([this] { loop(); }) {}
 
 CaptureWriter::~CaptureWriter() { (void)finish(); }
 
@@ -46,14 +44,17 @@ Status CaptureWriter::status() const {
 }
 
 Status CaptureWriter::put(const ContentKey& key, Capture capture) {
-  const std::size_t bytes = heldBy(capture);
-  std::unique_lock lock(mutex_);
-  const bool room = changed_.wait(
-      lock, stop_, [&] { return heldBytes_ == 0 || heldBytes_ + bytes <= memoryBytes_ || error_; });
+  Job job{key, std::move(capture), MemoryBudget::Share(budget_)};
+  const std::size_t bytes = bytesOf(job.capture) + bytesOf(job.capture.reflections);
+  job.held.set(bytes);
+  const bool room = budget_.waitForRoom((kCopies - 1) * bytes, stop_);
+  const std::lock_guard lock(mutex_);
   if (error_) return status();
   if (!room) return fail(ErrorKind::cancelled, "the bake was stopped");
-  heldBytes_ += bytes;
-  waiting_.push_back({key, std::move(capture)});
+  job.held.set(kCopies * bytes);
+  job.held.pass();
+  ++unfinished_;
+  waiting_.push_back(std::move(job));
   changed_.notify_all();
   return {};
 }
@@ -63,7 +64,7 @@ Status CaptureWriter::finish() {
     std::unique_lock lock(mutex_);
     closed_ = true;
     changed_.notify_all();
-    const auto done = [this] { return heldBytes_ == 0 || error_; };
+    const auto done = [this] { return unfinished_ == 0 || error_; };
     if (!changed_.wait(lock, stop_, done) && !changed_.wait_for(lock, kGrace, done)) {
       error_ = Error{ErrorKind::cancelled, "the bake was stopped", {}};
       giveUp_.request_stop();
@@ -79,13 +80,13 @@ void CaptureWriter::loop() {
   for (;;) {
     changed_.wait(lock, [this] { return !waiting_.empty() || closed_; });
     if (waiting_.empty() || error_) return;
-    const Job job = std::move(waiting_.front());
+    std::optional<Job> job(std::move(waiting_.front()));
     waiting_.pop_front();
-    changed_.notify_all();
     lock.unlock();
-    Status done = putSafely(sink_, job.key, job.capture, giveUp_.get_token());
+    Status done = putSafely(sink_, job->key, job->capture, giveUp_.get_token());
+    job.reset();
     lock.lock();
-    heldBytes_ -= heldBy(job.capture);
+    --unfinished_;
     changed_.notify_all();
     if (!done) {
       if (!error_) error_ = done.error();

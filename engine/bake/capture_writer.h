@@ -1,8 +1,9 @@
 #pragma once
 /// Hands finished captures to the sink on a thread of its own, so that the next camera is traced while the
-/// last is compressed and written. What waits or is being written keeps to a number of bytes: beyond that the
-/// bake waits, and memory stays bounded. A capture that is larger by itself goes alone. After a stop what
-/// waits is still written for a moment; what is not done by then is given up, and was traced in vain.
+/// last is compressed and written. What waits or is being written is counted against a budget: beyond its
+/// limit the bake waits, and memory stays bounded. A capture that is larger by itself goes alone. After a
+/// stop what waits is still written for a moment; what is not done by then is given up, and was traced in
+/// vain.
 
 #include <condition_variable>
 #include <deque>
@@ -17,12 +18,12 @@ namespace acentric {
 
 class CaptureWriter {
  public:
-  explicit CaptureWriter(CaptureSink& sink, std::size_t memoryBytes = kBakeMemory, std::stop_token stop = {});
+  CaptureWriter(CaptureSink& sink, MemoryBudget& budget, std::stop_token stop = {});
   ~CaptureWriter();  ///< finishes
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
-  /// Waits while the queue is full. The first error of the sink comes back here, and nothing is written after
+  /// Waits while there is no room. The first error of the sink comes back here, and nothing is written after
   /// it. `cancelled` when stopped.
   Status put(const ContentKey& key, Capture capture);
   /// Waits until all is written, or stopped and given up.
@@ -32,6 +33,7 @@ class CaptureWriter {
   struct Job {
     ContentKey key;
     Capture capture;
+    MemoryBudget::Share held;
   };
   void loop();
   Status status() const;  ///< with mutex_ held
@@ -42,8 +44,8 @@ class CaptureWriter {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Job> waiting_;
-  std::size_t memoryBytes_;
-  std::size_t heldBytes_ = 0;  ///< of what waits or is being written
+  MemoryBudget& budget_;
+  int unfinished_ = 0;  ///< that wait or are being written
   bool closed_ = false;
   std::optional<Error> error_;
   std::jthread thread_;

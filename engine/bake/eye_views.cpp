@@ -18,6 +18,8 @@ constexpr double kBehind = 1e-2;
 /// Four rays show one plane when they depart from it by no more than this share.
 constexpr double kFlat = 4e-3;
 constexpr int kFaces = 6;
+/// Of the limit: one part in so many.
+constexpr std::size_t kSightShare = 3;
 
 /// Eyes of neighbouring regions at one corner differ by rounding; this makes them the same.
 glm::dvec3 snapped(const glm::dvec2& place, double z, double scale) {
@@ -63,10 +65,13 @@ std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, cons
   return eyes;
 }
 
+std::size_t EyeView::bytesOf(int texelsPerEdge) {
+  const std::size_t samples = std::size_t(texelsPerEdge) + 1;
+  return kFaces * samples * samples * sizeof(float);
+}
+
 EyeView::EyeView(const glm::dvec3& eye, int texelsPerEdge)
-    : eye_(eye),
-      side_(texelsPerEdge),
-      inverseZ_(std::size_t(kFaces) * std::size_t(side_ + 1) * std::size_t(side_ + 1), -1.0f) {}
+    : eye_(eye), side_(texelsPerEdge), inverseZ_(bytesOf(texelsPerEdge) / sizeof(float), -1.0f) {}
 
 /// Face 2a + s: axis a, s = 0 its positive half. Its columns run along axis a + 1, its rows along a + 2.
 glm::dvec3 EyeView::directionOf(int face, int column, int row) const {
@@ -80,8 +85,13 @@ glm::dvec3 EyeView::directionOf(int face, int column, int row) const {
 
 std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
-                                              RayCounts& rays, const std::stop_token& stop) {
+                                              RayCounts& rays, const std::stop_token& stop,
+                                              MemoryBudget* budget) {
   const std::shared_ptr<EyeView> view(new EyeView(eye, texelsPerEdge));
+  if (budget != nullptr) {
+    view->share_ = MemoryBudget::Share(*budget);
+    view->share_.set(view->bytes());
+  }
   const int samples = texelsPerEdge + 1;
   const double low = std::sin(elevations.bottom), high = std::sin(elevations.top);
   std::atomic<std::uint64_t> traced = 0;
@@ -173,8 +183,8 @@ bool seesAlong(const RayScene& scene, const EyeView& view, const glm::dvec3& dir
 }
 
 EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,
-                   std::size_t memory)
-    : scene_(scene), elevations_(elevations), memory_(memory) {
+                   MemoryBudget& budget)
+    : scene_(scene), elevations_(elevations), budget_(budget) {
   // Half as fine as the captures is enough, since edges are traced; finer than four to a degree gains
   // nothing.
   constexpr double kFinest = 4;
@@ -184,18 +194,19 @@ EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, cons
 
 std::shared_ptr<const EyeView> EyeViews::at(const glm::dvec3& eye, TaskRunner& runner, RayCounts& rays,
                                             const std::stop_token& stop) {
-  Kept& kept = views_[{eye.x, eye.y, eye.z}];
-  kept.lastUse = ++uses_;
-  if (kept.view) return kept.view;
-  auto view = EyeView::trace(scene_, eye, texelsPerEdge_, elevations_, runner, rays, stop);
-  if (!view) {
-    views_.erase({eye.x, eye.y, eye.z});
-    return nullptr;
+  const std::array place{eye.x, eye.y, eye.z};
+  if (const auto known = views_.find(place); known != views_.end()) {
+    known->second.lastUse = ++uses_;
+    return known->second.view;
   }
-  kept.view = view;
+  const std::size_t bytes = EyeView::bytesOf(texelsPerEdge_);
+  while (!views_.empty() && bytes_ + bytes > budget_.limit() / kSightShare) dropOldest();
+  if (!budget_.waitForRoom(bytes, stop)) return nullptr;
+  auto view = EyeView::trace(scene_, eye, texelsPerEdge_, elevations_, runner, rays, stop, &budget_);
+  if (!view) return nullptr;
+  views_[place] = {view, ++uses_};
   ++traced_;
-  bytes_ += view->bytes();
-  while (bytes_ > memory_ && views_.size() > 1) dropOldest();
+  bytes_ += bytes;
   return view;
 }
 

@@ -15,6 +15,7 @@
 
 #include "engine/bake/bake_settings.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/base/memory_budget.h"
 #include "engine/base/task_runner.h"
 #include "engine/geometry/convex_polygon.h"
 
@@ -34,10 +35,11 @@ std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, cons
 class EyeView {
  public:
   /// Traces the map, `texelsPerEdge` to a face's edge. Directions outside the elevations are not looked at.
-  /// Null when stopped.
+  /// Null when stopped. Counted by `budget`, if there is one, as long as it lives.
   static std::shared_ptr<const EyeView> trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
-                                              RayCounts& rays, const std::stop_token& stop);
+                                              RayCounts& rays, const std::stop_token& stop,
+                                              MemoryBudget* budget = nullptr);
 
   enum class Sees { no, yes, unsure };
   /// Does the map show the point? Unsure along edges, and in directions that were not looked at.
@@ -46,7 +48,8 @@ class EyeView {
   Sees looksAlong(const glm::dvec3& direction) const;
 
   const glm::dvec3& eye() const { return eye_; }
-  std::size_t bytes() const { return inverseZ_.size() * sizeof(float); }
+  std::size_t bytes() const { return bytesOf(side_); }
+  static std::size_t bytesOf(int texelsPerEdge);
 
  private:
   EyeView(const glm::dvec3& eye, int texelsPerEdge);
@@ -57,6 +60,7 @@ class EyeView {
   int side_;  ///< texels along a face's edge; samples lie at their corners
   /// By face, row, column: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
   std::vector<float> inverseZ_;
+  MemoryBudget::Share share_;
 };
 
 /// Does an eye see a point? The map's answer, or else a ray's: nothing opaque on the way but the last
@@ -65,12 +69,12 @@ bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& poi
                RayCounts& rays);
 bool seesAlong(const RayScene& scene, const EyeView& view, const glm::dvec3& direction, RayCounts& rays);
 
-/// Views by eye, those used longest ago dropped first when they take more than `memory` bytes. Not safe from
-/// several threads.
+/// Views by eye. Before they take more than a third of the budget's limit, those used longest ago are
+/// dropped; they are counted until nobody uses them any more. Not safe from several threads.
 class EyeViews {
  public:
   EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,
-           std::size_t memory);
+           MemoryBudget& budget);
 
   /// Null when stopped.
   std::shared_ptr<const EyeView> at(const glm::dvec3& eye, TaskRunner& runner, RayCounts& rays,
@@ -88,7 +92,7 @@ class EyeViews {
   const RayScene& scene_;
   ElevationRange elevations_;
   int texelsPerEdge_;
-  std::size_t memory_;
+  MemoryBudget& budget_;
   std::size_t bytes_ = 0;
   std::uint64_t uses_ = 0;
   int traced_ = 0;

@@ -95,7 +95,10 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
 std::vector<std::string> FrameMaker::warnings() const {
   std::vector<std::string> all;
   for (const auto& walk : walks_)
-    if (walk) all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());
+    if (walk) {
+      all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());
+      if (walk->coarse > 0) all.push_back(coarseText(*walk));
+    }
   return all;
 }
 

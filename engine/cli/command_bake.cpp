@@ -45,6 +45,7 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       {"baked", captures.baked},
       {"reused", captures.reused},
       {"seconds", captures.seconds},
+      {"peakBytes", captures.peakBytes},
       {"samples", toJson(captures.counts.samples)},
       {"reflections", captures.counts.reflections},
       {"rays", toJson(captures.counts.rays)},

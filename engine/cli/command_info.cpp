@@ -47,10 +47,14 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   const auto baked = bakedCameras(*open);
   const auto bakedCount = std::count(baked.begin(), baked.end(), true);
   std::uint64_t bytes = 0;
+  std::ptrdiff_t coarse = 0;
   std::error_code error;
   if (std::filesystem::is_directory(captureFolderFor(open->file), error))
-    if (const auto store = CaptureStore::open(captureFolderFor(open->file)))
+    if (const auto store = CaptureStore::open(captureFolderFor(open->file))) {
       for (const ContentKey& key : open->keys) bytes += store->bytesOf(key);
+      for (const auto& best : bestKeys(*open, *store)) coarse += best ? 1 : 0;
+      coarse -= bakedCount;
+    }
   const auto triangles = countLocalTriangles(scene, layout);
   const Spread budget = spreadOf(std::vector<double>(triangles.begin(), triangles.end()));
   const EffectCosts costs = measureEffectCosts(*open->rays, layout, open->project.bake);
@@ -92,19 +96,20 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
         {"cameras", layout.cameras.size()},
         {"megapixels", megapixels},
         {"localTriangles", {{"min", budget.min}, {"median", budget.median}, {"max", budget.max}}}}},
-      {"bake", {{"baked", bakedCount}, {"of", baked.size()}, {"bytes", bytes}}}};
+      {"bake", {{"baked", bakedCount}, {"coarse", coarse}, {"of", baked.size()}, {"bytes", bytes}}}};
   report.text = fmt::format(
       "scene    {}: {} triangles, {} meshes, {} materials, {} textures, {} lights; {:.2f} x {:.2f} x {:.2f} "
       "m\n"
       "layout   {} ({}), cells of {:g} m, eye at {:g} m: {} regions, {} cameras, {:.1f} Mpixel\n"
       "local    {} / {} / {} triangles per region (least / median / most)\n"
-      "baked    {} of {} cameras, {}\n",
+      "baked    {} of {} cameras{}, {}\n",
       open->project.scene.generic_string(), countText(scene.triangleCount()), scene.meshes.size(),
       scene.materials.size(), scene.textures.size(), scene.lights.size(), size.x, size.y, size.z,
       nameOf(layout.spec.configuration), describe(layout.spec.configuration), layout.spec.cellSize,
       layout.spec.eyeHeight, layout.regions.size(), layout.cameras.size(), megapixels,
       countText(std::uint64_t(budget.min)), countText(std::uint64_t(budget.median)),
-      countText(std::uint64_t(budget.max)), bakedCount, baked.size(), bytesText(bytes));
+      countText(std::uint64_t(budget.max)), bakedCount, baked.size(),
+      coarse > 0 ? fmt::format(" ({} more as previews or drafts)", coarse) : std::string(), bytesText(bytes));
   if (open->project.storeys.size() > 1)
     for (const Storey& storey : open->project.storeys)
       report.text += fmt::format("storey   {} {}: {:.2f} m, {:.1f} m2 walkable\n",

@@ -78,6 +78,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
         "  {:.1f} ms a frame (median), {:.1f} ms (99th percentile), {:.3f} % of the pixels without a "
         "sample\n",
         spread.median, spread.p99, 100 * openShare);
+  for (const std::string& warning : (*maker)->warnings()) report.text += "warning: " + warning + "\n";
   return report;
 }
 

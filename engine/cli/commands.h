@@ -83,7 +83,7 @@ struct BakeOptions {
   bool coarseFirst = false;  ///< a preview of everything before the first camera is final
   bool verify = false;       ///< read what is there to its end first
   bool list = false;         ///< tell of each camera
-  double memoryMegabytes = double(kBakeMemory) / 1e6;
+  double memoryMegabytes = double(MemoryBudget::kUsual) / 1e6;
 };
 Result<Report> runBake(const BakeOptions& options, const Common& common);
 

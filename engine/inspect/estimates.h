@@ -13,6 +13,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/base/memory_budget.h"
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 
@@ -70,6 +71,7 @@ struct EstimateOptions {
       2.6;                    ///< spent on parts of captures; a few cameras are probed however long it takes
   double lightSeconds = 1.4;  ///< the same for surface light
   bool surfaceLight = true;
+  std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
   Status check() const;
 };
 

@@ -30,7 +30,7 @@ class StoreSink final : public CaptureSink {
   bool has(const ContentKey& key) const override {
     const auto found = known_.find(key);
     if (found != known_.end()) return found->second;
-    return known_.emplace(key, look(key, false)).first->second;
+    return known_.emplace(key, look(key, false, {})).first->second;
   }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     if (Status done = store_.put(key, capture, stop); !done) return done;
@@ -57,7 +57,7 @@ class StoreSink final : public CaptureSink {
     std::atomic<double> done = 0;
     runner.parallelFor(keys.size(), [&](std::size_t k) {
       if (stop.stop_requested()) return;
-      sound[k] = look(keys[k], true);
+      sound[k] = look(keys[k], true, stop);
       const std::lock_guard lock(mutex_);
       if (progress) progress({done += 1, double(keys.size()), "reading what is baked"});
     });
@@ -77,8 +77,8 @@ class StoreSink final : public CaptureSink {
   }
 
  private:
-  bool look(const ContentKey& key, bool toTheEnd) const {
-    const auto found = store_.inspect(key, toTheEnd);
+  bool look(const ContentKey& key, bool toTheEnd, const std::stop_token& stop) const {
+    const auto found = store_.inspect(key, toTheEnd, stop);
     if (found && found->condition == CaptureStore::Condition::sound) {
       if (!found->recorded) (void)note(key);  // if it cannot be noted, it is read again the next time
       return true;
@@ -123,9 +123,10 @@ constexpr int kFewestKnown = 4;
 
 /// Refuses to begin what cannot be finished. Where room is plentiful by far, a rough figure does; else a
 /// little is baked to know better.
-Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vector<int>& cameras, bool light,
-                 const CaptureStore& store, const StoreSink& sink, TaskRunner& runner,
-                 ProjectBakeReport& report, const Progress& progress, const std::stop_token& stop) {
+Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vector<int>& cameras,
+                 const BakeRequest& request, const CaptureStore& store, const StoreSink& sink,
+                 TaskRunner& runner, ProjectBakeReport& report, const Progress& progress,
+                 const std::stop_token& stop) {
   const auto available = freeSpace(store.folder());
   if (!available) return tl::unexpected(available.error());
   std::vector<int> missing;
@@ -140,7 +141,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
       missing.push_back(camera), missingPixels += planned.pixels;
     }
   }
-  light = light && !sink.has(open.surfaceLightKey);
+  const bool light = request.surfaceLight && !sink.has(open.surfaceLightKey);
   report.freeBytes = *available;
   report.neededBytes =
       missingPixels * (known >= kFewestKnown ? knownBytes / knownPixels : kTypicalBytesPerPixel);
@@ -149,6 +150,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
   if (kPlenty * report.neededBytes + double(std::uint64_t(1) << 30) > double(*available)) {
     EstimateOptions options;
     options.surfaceLight = light;
+    options.memoryBytes = request.memoryBytes;
     const auto estimate = estimateProjectBake(open, missing, options, runner, progress, stop);
     if (!estimate) return tl::unexpected(estimate.error());
     report.neededBytes =
@@ -161,6 +163,7 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
                 figures + ": make room, bake fewer cameras, or lower the samples per degree",
                 store.folder().string());
   if (progress) progress({0, 0, figures});
+  if (request.tellRoom) request.tellRoom(report.neededBytes, *available);
   return {};
 }
 
@@ -171,7 +174,13 @@ Result<ProjectBakeReport> bakeCoarse(const OpenProject& open, const BakeRequest&
                                      const std::stop_token& stop) {
   BakeRequest part = request;
   part.coarseFirst = part.surfaceLight = false;
+  part.tellRoom = {};
   part.cameras.emplace();
+  if (request.watch)
+    part.watch = [&](CameraNews news) {
+      news.preview = true;
+      request.watch(news);
+    };
   const auto best = bestKeys(open, store);
   std::ranges::copy_if(cameras, std::back_inserter(*part.cameras),
                        [&](int camera) { return !best[std::size_t(camera)]; });
@@ -180,6 +189,7 @@ Result<ProjectBakeReport> bakeCoarse(const OpenProject& open, const BakeRequest&
     return previews;
   part.surfaceLight = request.surfaceLight;
   part.cameras->clear();
+  part.watch = {};
   return bakeProject(open, part, runner, progress, stop);
 }
 
@@ -192,6 +202,7 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   captures.reused += other.captures.reused;
   captures.seconds += other.captures.seconds;
   captures.counts += other.captures.counts;
+  captures.peakBytes = std::max(captures.peakBytes, other.captures.peakBytes);
   surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
   surfaceLightSeconds += other.surfaceLightSeconds;
@@ -274,12 +285,11 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
     if (request.surfaceLight) keys.push_back(open.surfaceLightKey);
     if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
   }
-  if (Status room =
-          checkRoom(open, plan, cameras, request.surfaceLight, *store, sink, runner, report, progress, stop);
+  if (Status room = checkRoom(open, plan, cameras, request, *store, sink, runner, report, progress, stop);
       !room)
     return tl::unexpected(room.error());
   auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop,
-                       request.memoryBytes);
+                       request.memoryBytes, request.watch);
   if (!captures) return tl::unexpected(withAdvice(captures.error()));
   report.captures = std::move(*captures);
 

@@ -166,9 +166,10 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
     }
     const CaptureStore& store;
   } sink(*store);
-  CaptureWriter writer(sink, kBakeMemory, stop_);
+  MemoryBudget budget;
+  CaptureWriter writer(sink, budget, stop_);
   const BakeSettings settings = settingsOf({});
-  CameraBaker baker(rays, settings);
+  CameraBaker baker(rays, settings, &budget);
   std::uint64_t number = 0;
   for (const LayoutCamera& camera : ring_.cameras) {
     CaptureCounts counts;

@@ -105,12 +105,13 @@ std::size_t kindOf(double samples) { return samples < 100 ? 0 : samples < 1000 ?
 class ProjectProber final : public BakeProber {
  public:
   ProjectProber(const OpenProject& open, const std::vector<int>& cameras, TaskRunner& runner,
-                std::stop_token stop, const TrialFolder& folder)
+                std::stop_token stop, const TrialFolder& folder, std::size_t memoryBytes)
       : open_(open),
         cameras_(cameras),
         runner_(runner),
         stop_(std::move(stop)),
-        baker_(*open.rays, open.project.bake),
+        budget_(memoryBytes),
+        baker_(*open.rays, open.project.bake, &budget_),
         lightFile_(folder.path() / "trial.light"),
         sink_(folder.path()) {}
 
@@ -138,7 +139,7 @@ class ProjectProber final : public BakeProber {
   }
 
   Status probeCapture(int camera) override {
-    if (!writer_) writer_.emplace(sink_, kBakeMemory, stop_);
+    if (!writer_) writer_.emplace(sink_, budget_, stop_);
     const ColumnCamera whole = columnsOf(camera);
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads());
     const double thinning = double(whole.columns) * whole.rows / wanted;
@@ -174,7 +175,7 @@ class ProjectProber final : public BakeProber {
 
   Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) override {
     TrialSink sink(lightFile_.parent_path());
-    CaptureWriter writer(sink, kBakeMemory, stop_);
+    CaptureWriter writer(sink, budget_, stop_);
     std::vector<double> seconds;
     Stopwatch watch;
     for (const int camera : cameras) {
@@ -290,6 +291,7 @@ class ProjectProber final : public BakeProber {
   const std::vector<int>& cameras_;
   TaskRunner& runner_;
   std::stop_token stop_;
+  MemoryBudget budget_;
   CameraBaker baker_;
   int eyeViews_ = 0;
   double eyeViewSeconds_ = 0;
@@ -319,7 +321,7 @@ Result<BakeEstimate> estimateProjectBake(const OpenProject& open, const std::vec
   const auto folder = TrialFolder::make(fs::absolute(open.file).parent_path());
   if (!folder) return tl::unexpected(folder.error());
   try {
-    ProjectProber prober(open, which, runner, stop, *folder);
+    ProjectProber prober(open, which, runner, stop, *folder, options.memoryBytes);
     std::vector<double> pixels;
     for (std::size_t c = 0; c < which.size(); ++c) {
       const ColumnCamera columns = prober.columnsOf(int(c));

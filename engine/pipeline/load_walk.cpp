@@ -182,6 +182,12 @@ Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, T
   return loaded;
 }
 
+std::string coarseText(const LoadedWalk& loaded) {
+  if (loaded.coarse == 0) return {};
+  return fmt::format("{} of {} cameras {} so far", loaded.coarse, loaded.keys.size(),
+                     loaded.coarse == 1 ? "is a preview or a draft" : "are previews or drafts");
+}
+
 glm::dvec3 clampToLayout(const Layout& layout, const glm::dvec3& eye) {
   return {clampToPlan(layout, glm::dvec2(eye)), eye.z};
 }

@@ -3,6 +3,7 @@
 /// functions.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -88,11 +89,14 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
 struct BakeRequest {
   std::optional<std::vector<int>> cameras;  ///< indices, baked in this order; none given: all of them
   bool surfaceLight = true;
-  std::size_t memoryBytes = kBakeMemory;  ///< of finished captures that wait to be written
+  std::size_t memoryBytes = MemoryBudget::kUsual;  ///< for all that grows with the captures (bake.h)
   bool verify = false;  ///< reads what is there to its end first, instead of believing sizes and times
   /// A preview of every camera that has nothing yet, then the surfaces' light, before the first camera is
   /// done.
   bool coarseFirst = false;
+  BakeWatch watch;
+  /// Told what the missing captures are expected to take and what there is, before the first is baked.
+  std::function<void(double neededBytes, std::uint64_t freeBytes)> tellRoom;
 };
 struct ProjectBakeReport {
   BakeReport captures;
@@ -143,6 +147,9 @@ struct LoadedWalk {
   std::vector<Simplified> simplified;
   TriangleBudget budget;  ///< that walk.local keeps to
 };
+/// "12 of 126 cameras are previews or drafts so far"; nothing if none is.
+std::string coarseText(const LoadedWalk& loaded);
+
 Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});
 

@@ -103,7 +103,11 @@ struct Part {
   const ColumnCamera& camera;
   bool mirrors;  ///< has a channel of them
   CaptureSamples& samples;
+  const std::stop_token& stop;
 
+  void obey() const {
+    if (stop.stop_requested()) refuse("reading was stopped", ErrorKind::cancelled);
+  }
   std::size_t columns() const { return static_cast<std::size_t>(camera.columns); }
   std::size_t rows() const { return static_cast<std::size_t>(camera.rows); }
 };
@@ -129,7 +133,10 @@ void readFlat(const Part& from) {
   if (from.mirrors) slice(kMirrorChannel, Imf::UINT, pixels[0].mirror);
   Imf::InputPart part(from.file, from.number);
   part.setFrameBuffer(buffer);
-  part.readPixels(0, from.camera.rows - 1);
+  for (int row = 0; row < from.camera.rows; ++row) {
+    from.obey();
+    part.readPixels(row, row);
+  }
 
   CaptureSamples& out = from.samples;
   std::size_t samples = 0;
@@ -206,6 +213,7 @@ void readDeep(const Part& from) {
   std::uint32_t nobody = 0;
   const bool empty = out.row.empty();
   for (std::size_t row = 0; row < rows; ++row) {
+    from.obey();
     for (std::size_t x = 0; x < columns; ++x) {
       // A pixel without samples gets a pointer too: to the next sample, or past the end, where nothing is
       // written.
@@ -247,7 +255,8 @@ void readPart(const Part& from) {
     refuse("is tiled; captures are stored by scanlines");
 }
 
-Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
+Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes,
+                       const std::stop_token& stop) {
   ExrMemoryInput memory(name, bytes);
   Imf::MultiPartInputFile file(memory, 0, false);
   if (file.parts() > 2) refuse("has more parts than a capture: surfaces and reflections");
@@ -263,11 +272,11 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
   capture.camera = cameraOf(header, bytes.size());
   capture.distanceStep = attribute<Imf::DoubleAttribute>(header, kAttributeStep);
   const bool mirrors = file.parts() == 2;
-  readPart({file, 0, bytes.size(), capture.camera, mirrors, capture});
+  readPart({file, 0, bytes.size(), capture.camera, mirrors, capture, stop});
   if (mirrors) {
     if (file.header(1).name() != kReflectionsPart || file.header(1).dataWindow() != header.dataWindow())
       refuse("its second part does not hold the reflections of the first");
-    readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections});
+    readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections, stop});
   }
 
   if (checksumOf(result.key, capture, capture.colour) != keyAttribute(header, kAttributeChecksum))
@@ -279,12 +288,12 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
 
 }  // namespace
 
-Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path) {
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path, const std::stop_token& stop) {
   return withinMemory(path, [&]() -> Result<Keyed<Capture>> {
     const auto bytes = readFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
     try {
-      return readExr(path.string(), *bytes);
+      return readExr(path.string(), *bytes, stop);
     } catch (const Refusal& refusal) {
       return fail(refusal.kind, refusal.message, path.string());
     } catch (const std::bad_alloc&) {

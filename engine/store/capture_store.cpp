@@ -125,14 +125,14 @@ Result<SimplifiedLocal> CaptureStore::getSimplified(const ContentKey& key) const
   return getWhole(key, simplifiedOf(folder_, key), readKeyedSimplified);
 }
 
-std::vector<Error> CaptureStore::check(const ContentKey& key) const {
+std::vector<Error> CaptureStore::check(const ContentKey& key, const std::stop_token& stop) const {
   std::vector<Error> problems;
   const auto look = [&](const fs::path& path, const auto& readKeyed) {
     if (!isFile(path)) return;
     if (auto read = expectKey(readKeyed(path), key, path); !read) problems.push_back(std::move(read.error()));
   };
   look(packOf(folder_, key), readKeyedCapturePack);
-  look(exrOf(folder_, key), readKeyedCaptureExr);
+  look(exrOf(folder_, key), [&](const fs::path& path) { return readKeyedCaptureExr(path, stop); });
   look(lightOf(folder_, key), readKeyedSurfaceLight);
   look(simplifiedOf(folder_, key), readKeyedSimplified);
   return problems;

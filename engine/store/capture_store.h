@@ -63,7 +63,7 @@ class CaptureStore {
 
   /// Reads every file that is there under the key (both of a capture, surface light, simplified geometry)
   /// to its end; what is wrong with each, that it was made for another key too. Sets nothing aside.
-  std::vector<Error> check(const ContentKey& key) const;
+  std::vector<Error> check(const ContentKey& key, const std::stop_token& stop = {}) const;
 
   /// Notes what is now on disk under the key. Written last: what has a record was written to the end.
   Status putRecord(const ContentKey& key, std::string subject, KeyParts parts,
@@ -82,8 +82,9 @@ class CaptureStore {
   };
   /// Are the files under the key as they were written? Files that are no newer than their record are believed
   /// by their size, others by their content's hash; those without a record, and with `toTheEnd` all, are
-  /// read.
-  Result<Inspected> inspect(const ContentKey& key, bool toTheEnd = false) const;
+  /// read. A stop while they are gives `cancelled`.
+  Result<Inspected> inspect(const ContentKey& key, bool toTheEnd = false,
+                            const std::stop_token& stop = {}) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set

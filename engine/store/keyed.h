@@ -1,6 +1,8 @@
 #pragma once
 /// What a file holds together with the content key that it says it was made for.
 
+#include <stop_token>
+
 #include "engine/base/hash.h"
 #include "engine/image/capture.h"
 #include "engine/scene/simplify.h"
@@ -14,7 +16,9 @@ struct Keyed {
   Value value;
 };
 
-Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path);
+/// Stopped, it gives `cancelled`.
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path,
+                                           const std::stop_token& stop = {});
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
 Result<Keyed<SimplifiedLocal>> readKeyedSimplified(const std::filesystem::path& path);

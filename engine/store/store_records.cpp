@@ -81,7 +81,8 @@ std::map<std::string, CaptureRecord> CaptureStore::formerRecords(const std::vect
   return records;
 }
 
-Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, bool toTheEnd) const {
+Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, bool toTheEnd,
+                                                      const std::stop_token& stop) const {
   const std::vector<fs::path> files = filesUnder(folder_, key);
   Inspected found;
   if (!isWhole(files)) {
@@ -99,7 +100,7 @@ Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, boo
     found.damage.push_back(std::move(error));
   };
   if (toTheEnd || !found.recorded)
-    for (Error& error : check(key)) {
+    for (Error& error : check(key, stop)) {
       if (!isDamage(error)) return tl::unexpected(std::move(error));
       damaged(std::move(error));
     }

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <set>
+#include <thread>
 
 #include "layout_builder.h"
 #include "scene_builder.h"
@@ -77,10 +81,13 @@ TEST(Bake, PutsEveryCameraUnderItsKeyAndNeverBakesItAgain) {
   EXPECT_GT(first->counts.rays.primary, 0u);
   for (const ContentKey& key : captureKeys(scene->scene(), scene->plan(), coarse(), layout))
     EXPECT_TRUE(sink.has(key));
-  ASSERT_GE(seen.size(), 5u);
-  EXPECT_EQ(seen[2].done, 2);
-  EXPECT_EQ(seen[2].total, 5);
-  EXPECT_EQ(seen[2].stage, "baking camera 2 (3 of 5)");
+  const auto third = std::ranges::find(seen, "baking camera 2 (3 of 5)", &ProgressState::stage);
+  ASSERT_NE(third, seen.end());
+  EXPECT_EQ(third->total, 5);
+  EXPECT_EQ(third->done, 2);
+  EXPECT_TRUE(std::ranges::is_sorted(seen, {}, &ProgressState::done));
+  EXPECT_GT(std::ranges::count_if(seen, [](const auto& p) { return p.done > 2 && p.done < 3; }), 3)
+      << "columns count too";
   EXPECT_EQ(seen.back().done, 5);
 
   const auto again = bake(*scene, layout, {0, 1, 2, 3, 4}, coarse(), sink, runner);
@@ -109,16 +116,103 @@ TEST(Bake, WhenStoppedWhatIsFinishedIsKept) {
   MemorySink sink;
   TaskRunner runner;
   std::stop_source stop;
-  int started = 0;
   const auto outcome = bake(
       *scene, fiveCameras(), {0, 1, 2, 3, 4}, coarse(), sink, runner,
-      [&](const ProgressState&) {
-        if (++started == 4) stop.request_stop();  // three are baked
+      [&](const ProgressState& state) {
+        if (state.stage == "baking camera 3 (4 of 5)") stop.request_stop();
       },
       stop.get_token());
   ASSERT_FALSE(outcome.has_value());
   EXPECT_EQ(outcome.error().kind, ErrorKind::cancelled);
   EXPECT_EQ(sink.size(), 3u);
+}
+
+TEST(Bake, TellsHowFarEachCameraIs) {
+  const auto scene = smallRoom().rays();
+  MemorySink sink;
+  sink.room = 3;
+  TaskRunner runner(1);
+  std::map<int, std::vector<CameraNews>> told;
+  const auto watch = [&](const CameraNews& news) { told[news.camera].push_back(news); };
+  const auto bakeThese = [&](const std::vector<int>& which) {
+    told.clear();
+    return bake(*scene, fiveCameras(), which, coarse(), sink, runner, {}, {}, MemoryBudget::kUsual, watch);
+  };
+  ASSERT_TRUE(bakeThese({1, 4}));
+  ASSERT_EQ(told.size(), 2u);
+  for (const auto& [camera, all] : told) {
+    EXPECT_EQ(all.front().stage, CameraStage::tracing);
+    EXPECT_EQ(all.front().columnsDone, 0);
+    const auto traced = std::ranges::find(all, CameraStage::writing, &CameraNews::stage);
+    ASSERT_NE(traced, all.end());
+    EXPECT_TRUE(std::ranges::is_sorted(all.begin(), traced, {}, &CameraNews::columnsDone));
+    EXPECT_EQ(std::prev(traced)->columnsDone, traced->columns);
+    EXPECT_GT(traced->rays, 0u);
+    EXPECT_GT(traced->seconds, 0);
+    EXPECT_EQ(all.back().stage, CameraStage::done);
+  }
+  ASSERT_FALSE(bakeThese({1, 0, 2}));
+  EXPECT_EQ(told[1].back().stage, CameraStage::reused);
+  EXPECT_EQ(told[0].back().stage, CameraStage::done);
+  EXPECT_EQ(told[2].back().stage, CameraStage::failed);
+  EXPECT_EQ(told[2].back().error, "sink: the disk is full");
+}
+
+/// What a capture of each camera takes, and the views of its eyes.
+struct Needs {
+  std::size_t samples = 0, views = 0;
+};
+Needs largestNeeds(const RayScene& scene, const Layout& layout, const BakeSettings& settings) {
+  Needs needs;
+  TaskRunner runner;
+  for (const LayoutCamera& camera : layout.cameras) {
+    CaptureCounts counts;
+    const ColumnCamera columns =
+        columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.scene().bounds, settings);
+    const auto capture = CameraBaker(scene, settings).bake(camera, columns, runner, counts);
+    EXPECT_TRUE(capture);
+    constexpr std::size_t kBytesPerSample = 15;
+    needs.samples = std::max(needs.samples, kBytesPerSample * capture->sampleCount() +
+                                                sizeof(std::uint32_t) * capture->columnStart.size());
+    const std::size_t texels = 90;  // to an edge of a map
+    needs.views = std::max(needs.views, std::size_t(counts.eyeViews) * 6 * (texels + 1) * (texels + 1) * 4);
+  }
+  return needs;
+}
+
+TEST(Bake, HoldsNoMoreThanItsLimitAndNeverWaitsForever) {
+  const auto scene = smallRoom().rays();
+  const Layout layout = fiveCameras();
+  BakeSettings settings = coarse();
+  settings.samplesPerDegree = 2;
+  settings.testEyes = 2;
+  const Needs needs = largestNeeds(*scene, layout, settings);
+  ASSERT_GT(needs.samples, 100'000u);
+  TaskRunner runner(1);
+  // Nothing is written before so many cameras are begun, or long enough after.
+  const auto peakWithin = [&](std::size_t limit, double begun, int mostMilliseconds) {
+    MemorySink sink;
+    std::atomic<double> done = 0;
+    sink.onPut = [&] {
+      for (int n = 0; n < mostMilliseconds && done < begun; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    const auto report = bake(
+        *scene, layout, {0, 1, 2, 3, 4}, settings, sink, runner,
+        [&](const ProgressState& state) { done = state.done; }, {}, limit);
+    EXPECT_TRUE(report.has_value());
+    EXPECT_EQ(sink.size(), 5u);
+    return report ? report->peakBytes : 0;
+  };
+  // All but the last wait when nothing is in the way.
+  EXPECT_GT(peakWithin(std::size_t(1) << 30, 4.5, 60'000), 10 * needs.samples);
+  // Room for one that is written while the next is traced.
+  const std::size_t roomy = 3 * (needs.views + 5 * needs.samples);
+  EXPECT_LE(peakWithin(roomy, 5, 60), roomy);
+  const std::size_t tight = 3 * needs.views + 5 * needs.samples;
+  EXPECT_LE(peakWithin(tight, 5, 60), tight);
+  // Room for less than one: each alone, with what was traced of the next before there was no room.
+  EXPECT_LE(peakWithin(1, 5, 60), needs.views + 4 * needs.samples);
 }
 
 TEST(Bake, AnErrorOfTheSinkEndsTheBakeAndComesBack) {

@@ -118,14 +118,16 @@ TEST(EyeViews, TraceEachEyeOnceUntilMemoryRunsShort) {
   RayCounts rays;
   BakeSettings settings;
   settings.samplesPerDegree = 2;
-  EyeViews generous(*scene, kAll, settings, std::size_t(1) << 30);
+  MemoryBudget much;
+  EyeViews generous(*scene, kAll, settings, much);
   const auto first = generous.at({0, 0, 1}, runner, rays, {});
   EXPECT_EQ(generous.at({0, 0, 1}, runner, rays, {}), first);
   generous.at({1, 0, 1}, runner, rays, {});
   EXPECT_EQ(generous.traced(), 2);
   EXPECT_EQ(generous.bytes(), 2 * first->bytes());
 
-  EyeViews tight(*scene, kAll, settings, 2 * first->bytes());
+  MemoryBudget little(3 * 2 * first->bytes());
+  EyeViews tight(*scene, kAll, settings, little);
   for (const double x : {0.0, 1.0, 2.0, 1.0, 0.0}) ASSERT_NE(tight.at({x, 0, 1}, runner, rays, {}), nullptr);
   EXPECT_EQ(tight.traced(), 4) << "the one at 0 was used longest ago when the third came";
   EXPECT_LE(tight.bytes(), 2 * first->bytes());

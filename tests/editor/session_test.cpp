@@ -94,6 +94,10 @@ TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
     waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
     EXPECT_EQ(session.walk()->missing, 0);
     EXPECT_EQ(session.lastBake()->captures.baked, int(session.built()->layout->cameras.size()));
+    EXPECT_EQ(session.bakeQueue().count(CameraStage::done), session.lastBake()->captures.baked);
+    EXPECT_EQ(session.bakeQueue().share(), 1);
+    EXPECT_GT(session.neededBytes().value_or(0), 0);
+    EXPECT_GT(session.freeBytes().value_or(0), 0u);
     for (const BakeState state : session.captures()->regions) EXPECT_EQ(state, BakeState::baked);
   }
   Session again(options());
@@ -103,6 +107,44 @@ TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
   again.startBake();
   waitFor(again, [&] { return again.lastBake().has_value() && !again.working(); });
   EXPECT_EQ(again.lastBake()->captures.baked, 0);
+}
+
+TEST_F(SessionTest, ABakeIsPausedGoneOnWithAndCancelled) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  BakeSettings finer = session.project().bake;
+  finer.samplesPerDegree = 6;
+  session.apply(setBakeSettings(session.project(), finer, "finer"));
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  const auto traced = [&] {
+    double sum = session.bakeQueue().previewed();
+    for (const QueuedCamera& camera : session.bakeQueue().cameras()) sum += camera.traced;
+    return sum;
+  };
+  session.startBake();
+  waitFor(session, [&] { return traced() > 0.5; });
+  session.pauseBake(true);
+  EXPECT_TRUE(session.bakePaused());
+  // What was under way comes to its end; then nothing moves any more.
+  double before = -1;
+  int still = 0;
+  waitFor(session, [&] {
+    still = traced() == before ? still + 1 : 0;
+    before = traced();
+    return still > 60;
+  });
+  EXPECT_TRUE(session.baking().running());
+  EXPECT_LT(session.bakeQueue().finished(), int(session.bakeQueue().cameras().size()));
+  session.pauseBake(false);
+  waitFor(session, [&] { return traced() > before + 0.5; });
+  session.pauseBake(true);
+  session.cancelBake();
+  waitFor(session, [&] { return !session.baking().running(); });
+  EXPECT_EQ(session.bakeQueue().count(CameraStage::tracing), 0);
+  EXPECT_FALSE(session.lastBake().has_value());
+  waitFor(session, [&] { return !session.working(); });
 }
 
 TEST_F(SessionTest, RemovingACellAndUndoingItLeavesEverythingBaked) {

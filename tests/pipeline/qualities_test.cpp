@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,6 +55,7 @@ TEST_F(Qualities, TheWalkShowsTheBestOfEachCamera) {
   LoadedWalk walk = loaded(open);
   EXPECT_EQ(walk.missing, 0);
   EXPECT_EQ(walk.coarse, cameras);
+  EXPECT_EQ(coarseText(walk), fmt::format("{0} of {0} cameras are previews or drafts so far", cameras));
   EXPECT_EQ(walk.walk.captures[0]->camera.columns, 30) << "a quarter of the resolution";
   EXPECT_EQ(std::ranges::count(bakedCameras(open), true), 0) << "a preview is not the bake";
 
@@ -81,20 +83,18 @@ TEST_F(Qualities, CoarseFirstMakesPreviewsOnlyOfWhatHasNothingYet) {
   std::stop_source stop;
   TaskRunner runner(1);
   // Stopped at the first camera of the final pass: by then every camera has a preview.
-  int started = 0;
-  const auto stopped = bakeProject(
-      open, request, runner,
-      [&](const ProgressState&) {
-        if (++started > int(open.keys.size()) + 5) stop.request_stop();
-      },
-      stop.get_token());
+  request.watch = [&](const CameraNews& news) {
+    if (!news.preview) stop.request_stop();
+  };
+  const auto stopped = bakeProject(open, request, runner, {}, stop.get_token());
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
   EXPECT_EQ(loaded(open).missing, 0);
   EXPECT_GT(loaded(open).coarse, 0);
+  request.watch = {};
   const ProjectBakeReport rest = baked(open, request);
   EXPECT_EQ(rest.captures.baked + rest.captures.reused, int(open.keys.size()));
-  EXPECT_EQ(loaded(open).coarse, 0);
+  EXPECT_EQ(coarseText(loaded(open)), "");
   EXPECT_EQ(baked(open, request).captures.baked, 0);
 }
 

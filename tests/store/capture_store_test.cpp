@@ -78,6 +78,9 @@ TEST_F(StoreTest, StoppedAtAnyMomentItHoldsACaptureWholeOrNotAtAll) {
 
   std::stop_source stop;
   stop.request_stop();
+  const auto read = store.inspect(kFirst, true, stop.get_token());
+  EXPECT_TRUE(!read && read.error().kind == ErrorKind::cancelled);
+  EXPECT_EQ(store.inspect(kFirst, true)->condition, CaptureStore::Condition::sound);
   const Status light = store.putSurfaceLight(kSecond, {{0}, {}, {}, {}}, stop.get_token());
   EXPECT_TRUE(!light && light.error().kind == ErrorKind::cancelled);
   EXPECT_FALSE(store.hasSurfaceLight(kSecond) || hasTemporaries(store.folder()));

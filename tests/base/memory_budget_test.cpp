@@ -1,0 +1,54 @@
+#include "engine/base/memory_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace acentric {
+namespace {
+
+TEST(MemoryBudget, CountsWhatSharesHoldAndTheMostThatWas) {
+  MemoryBudget budget(100);
+  {
+    MemoryBudget::Share a(budget), b(budget);
+    a.set(70);
+    b.set(60);
+    EXPECT_EQ(budget.held(), 130u) << "what is there is counted, room or not";
+    a.set(10);
+    b.add(5);
+    MemoryBudget::Share moved(std::move(b));
+    a = std::move(moved);
+    EXPECT_EQ(budget.held(), 65u);
+  }
+  EXPECT_EQ(budget.held(), 0u);
+  EXPECT_EQ(budget.peak(), 130u);
+  MemoryBudget::Share nobody;
+  nobody.set(1000);
+  EXPECT_EQ(budget.peak(), 130u);
+}
+
+TEST(MemoryBudget, WaitsForWhatGoesByItselfAndForNothingElse) {
+  MemoryBudget budget(100);
+  MemoryBudget::Share own(budget);
+  own.set(90);
+  EXPECT_TRUE(budget.waitForRoom(50, {})) << "nobody would ever make room";
+  MemoryBudget::Share passing(budget);
+  passing.set(10);
+  passing.pass();
+  std::stop_source stop;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    stop.request_stop();
+  });
+  EXPECT_FALSE(budget.waitForRoom(50, stop.get_token()));
+  std::jthread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    passing = {};
+  });
+  EXPECT_TRUE(budget.waitForRoom(50, {}));
+  EXPECT_EQ(budget.held(), 90u);
+}
+
+}  // namespace
+}  // namespace acentric
