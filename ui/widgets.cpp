@@ -99,9 +99,10 @@ void progressBar(double fraction, const std::string& text, double seconds, const
 void badge(const Colour& colour, const std::string& text) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float line = ImGui::GetTextLineHeight();
-  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5, at.y + line / 2 + 0.5F}, 4, colour.packed());
   ImGui::SetCursorScreenPos({at.x + 15, at.y});
   ImGui::TextUnformatted(text.c_str());
+  const float top = ImGui::GetItemRectMin().y;  // lower than `at` beside buttons
+  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5, top + line / 2 + 0.5F}, 4, colour.packed());
 }
 
 void tooltip(const std::string& text) {

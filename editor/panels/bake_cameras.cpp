@@ -21,7 +21,7 @@ Look lookOf(const QueuedCamera& camera) {
     case CameraStage::tracing:
       return {ui::palette::accent, camera.previewing ? "tracing a preview" : "tracing"};
     case CameraStage::writing:
-      return {ui::palette::accent, "writing"};
+      return {ui::palette::accent, camera.previewing ? "writing a preview" : "writing"};
     case CameraStage::done:
       return {ui::palette::good, "done"};
     case CameraStage::reused:

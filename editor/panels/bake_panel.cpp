@@ -75,10 +75,11 @@ void drawFacts(PanelContext& context) {
   if (captures != nullptr) {
     const auto& walk = session.walk();
     ui::keyValue("Captures",
-                 fmt::format("{} of {} on disk", ui::formatCount(std::uint64_t(captures->baked)),
-                             ui::formatCount(captures->cameras.size())),
+                 fmt::format("{} of {} on disk{}", ui::formatCount(std::uint64_t(captures->baked)),
+                             ui::formatCount(captures->cameras.size()),
+                             walk && walk->coarse > 0 ? fmt::format(", {} previews or drafts", walk->coarse)
+                                                      : std::string()),
                  kValueX);
-    if (walk && walk->coarse > 0) ui::keyValue("", coarseText(*walk), kValueX);
   }
   drawDisk(session);
   if (const auto& last = session.lastBake(); last && !session.baking().running()) {

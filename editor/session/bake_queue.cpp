@@ -34,11 +34,10 @@ void BakeQueue::tell(double now, int storey, const CameraNews& news) {
   row.error = news.error;
   if (news.preview) {
     // The camera itself goes on waiting.
-    row.previewing = news.stage == CameraStage::tracing;
+    row.previewing = news.stage == CameraStage::tracing || news.stage == CameraStage::writing;
     const bool there = news.stage == CameraStage::done || news.stage == CameraStage::reused;
     if (there && !row.previewed) row.previewed = true, ++previewed_;
-    const bool shown = news.stage == CameraStage::tracing || news.stage == CameraStage::failed;
-    setStage(row, shown ? news.stage : CameraStage::waiting);
+    setStage(row, there ? CameraStage::waiting : news.stage);
     return;
   }
   row.previewing = false;

@@ -20,7 +20,7 @@ struct QueuedCamera {
   int camera = 0;  ///< of the storey's layout
   double pixels = 0;
   CameraStage stage = CameraStage::waiting;
-  bool previewing = false;  ///< what is being traced is its preview
+  bool previewing = false;  ///< what is being traced or written is its preview
   bool previewed = false;   ///< its preview is there
   double traced = 0;        ///< share of its columns, while it is traced
   double seconds = 0;       ///< of tracing

@@ -1,5 +1,7 @@
 /// Session's dealings with baking: the bake itself, and what it would take.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -135,8 +137,13 @@ void Session::cancelBake() {
 
 void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
   bakeQueue_.end();
+  const int finished = bakeQueue_.count(CameraStage::done) + bakeQueue_.count(CameraStage::reused);
   loadWanted_ = true;
   nextLoad_ = 0;
+  if (!report && report.error().kind == ErrorKind::cancelled)
+    return messages_.add(MessageLevel::info,
+                         fmt::format("Baking was cancelled: {} captures and {} previews are kept", finished,
+                                     bakeQueue_.previewed()));
   if (!report) return messages_.addFailure("Baking", report.error());
   lastBake_ = *report;
   const BakeReport& captures = report->captures;
