@@ -3,21 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <mutex>
 #include <new>
 
 #include "engine/bake/capture_writer.h"
+#include "engine/base/stopwatch.h"
 
 namespace acentric {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Tells of cameras, from the thread that bakes and those that trace and write, one at a time.
 class Teller {
@@ -29,7 +23,7 @@ class Teller {
     const std::lock_guard lock(mutex_);
     number_ = number;
     stage_ = fmt::format("baking camera {} ({} of {})", camera, number + 1, cameras_);
-    began_ = Clock::now();
+    began_ = Stopwatch();
     now_ = {camera, CameraStage::tracing, false, columns};
     tell();
   }
@@ -39,12 +33,14 @@ class Teller {
     now_.rays = std::max(now_.rays, rays);
     tell();
   }
-  /// Of the camera last begun.
-  void end(CameraStage stage) {
+  /// Of the camera last begun: what was told of it.
+  CameraNews end(CameraStage stage, std::string error = {}) {
     const std::lock_guard lock(mutex_);
     now_.stage = stage;
-    now_.seconds = secondsSince(began_);
+    now_.error = std::move(error);
+    now_.seconds = began_.seconds();
     if (watch_) watch_(now_);
+    return now_;
   }
   void tell(const CameraNews& news) {
     const std::lock_guard lock(mutex_);
@@ -53,7 +49,7 @@ class Teller {
 
  private:
   void tell() {
-    now_.seconds = secondsSince(began_);
+    now_.seconds = began_.seconds();
     if (watch_) watch_(now_);
     const double part = now_.columns > 0 ? double(now_.columnsDone) / now_.columns : 0;
     if (progress_) progress_({double(number_) + part, double(cameras_), stage_});
@@ -64,7 +60,7 @@ class Teller {
   std::size_t cameras_, number_ = 0;
   std::mutex mutex_;
   std::string stage_;
-  Clock::time_point began_;
+  Stopwatch began_;
   CameraNews now_;
 };
 
@@ -129,29 +125,20 @@ class BakeRun {
       teller_.end(CameraStage::reused);
       return {};
     }
-    const auto start = Clock::now();
+    const Stopwatch watch;
     CaptureCounts counts;
     auto capture = baker_.bake(camera, columns, runner_, counts, stop_,
                                [this](int done, std::uint64_t rays) { teller_.traced(done, rays); });
     report_.counts += counts;
     if (!capture) {
       if (capture.error().kind != ErrorKind::cancelled)
-        teller_.tell({index, CameraStage::failed, false, columns.columns, 0, counts.rays.total(),
-                      secondsSince(start), capture.error().describe()});
+        teller_.end(CameraStage::failed, capture.error().describe());
       return tl::unexpected(capture.error());
     }
-    baked.seconds = secondsSince(start);
+    baked.seconds = watch.seconds();
     baked.samples = counts.samples;
     sink_.tell(baked.key, baked.samples);
-    teller_.end(CameraStage::writing);
-    sink_.expect(baked.key, {index,
-                             CameraStage::writing,
-                             false,
-                             columns.columns,
-                             columns.columns,
-                             counts.rays.total(),
-                             baked.seconds,
-                             {}});
+    sink_.expect(baked.key, teller_.end(CameraStage::writing));
     if (auto put = writer_.put(baked.key, std::move(*capture)); !put) return put;
     ++report_.baked;
     report_.cameras.push_back(baked);
@@ -189,7 +176,7 @@ Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::
     if (index < 0 || std::size_t(index) >= layout.cameras.size())
       return fail(ErrorKind::notFound, fmt::format("no camera {}: the layout has cameras 0..{}", index,
                                                    int(layout.cameras.size()) - 1));
-  const auto start = Clock::now();
+  const Stopwatch clock;
   try {
     Teller teller(progress, watch, which.size());
     BakeRun run(scene, layout, settings, sink, runner, stop, memoryBytes, teller);
@@ -205,7 +192,7 @@ Result<BakeReport> bake(const RayScene& scene, const Layout& layout, const std::
     if (!outcome) return tl::unexpected(outcome.error());
     if (progress) progress({double(which.size()), double(which.size()), "baked"});
     BakeReport report = run.takeReport();
-    report.seconds = secondsSince(start);
+    report.seconds = clock.seconds();
     return report;
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory to bake; lower the samples per degree",

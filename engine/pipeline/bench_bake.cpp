@@ -96,37 +96,33 @@ class Bench {
     return settings;
   }
 
+  Status bakeOnce(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
+                  CaptureCounts& counts, std::vector<Capture>* captures = nullptr) const {
+    counts = {};
+    CameraBaker baker(rays, settings);
+    for (const LayoutCamera& camera : ring_.cameras) {
+      auto capture = baker.bake(camera, columnsOf(camera, settings), runner, counts, stop_);
+      if (!capture) return tl::unexpected(capture.error());
+      if (captures != nullptr) captures->push_back(std::move(*capture));
+    }
+    return {};
+  }
+
   /// Seconds of the fastest repeat. Captures are kept of the last: memory that is used again costs nothing.
   Result<double> bakeRing(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
                           CaptureCounts& counts, std::vector<Capture>* captures = nullptr) const {
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-      counts = {};
-      CameraBaker baker(rays, settings);
-      const Stopwatch watch;
-      for (const LayoutCamera& camera : ring_.cameras) {
-        auto capture = baker.bake(camera, columnsOf(camera, settings), runner, counts, stop_);
-        if (!capture) return tl::unexpected(capture.error());
-        if (captures != nullptr && repeat + 1 == options_.repeats) captures->push_back(std::move(*capture));
-      }
-      fastest = std::min(fastest, watch.seconds());
-    }
-    return fastest;
+    return fastest(
+        [&](bool last) { return bakeOnce(rays, settings, runner, counts, last ? captures : nullptr); });
   }
 
   /// The same ring from start to files.
   Result<double> ringToFiles(const RayScene& rays, TaskRunner& runner,
                              const std::filesystem::path& folder) const {
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-      const Stopwatch watch;
-      auto written = writeRing(rays, runner, folder);
-      if (!written) return tl::unexpected(written.error());
-      fastest = std::min(fastest, watch.seconds());
+    const auto remove = [&] {
       std::error_code ignored;
       std::filesystem::remove_all(folder, ignored);
-    }
-    return fastest;
+    };
+    return fastest([&](bool) { return writeRing(rays, runner, folder); }, remove);
   }
 
   double firstRays(const BakeSettings& settings) const {
@@ -134,18 +130,28 @@ class Bench {
   }
 
   /// The ray tracer alone on each camera's first rays, those of the march.
-  double traceAlone(const RayScene& rays, TaskRunner& runner) const {
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-      const Stopwatch watch;
+  Result<double> traceAlone(const RayScene& rays, TaskRunner& runner) const {
+    return fastest([&](bool) -> Status {
       for (const LayoutCamera& camera : ring_.cameras)
         traceFirstRays(rays, camera, columnsOf(camera, open_.project.bake), runner);
-      fastest = std::min(fastest, watch.seconds());
-    }
-    return fastest;
+      return {};
+    });
   }
 
  private:
+  /// Seconds of the fastest repeat of `work(is it the last)`; `after` each is not timed.
+  template <class Work, class After = void (*)()>
+  Result<double> fastest(
+      const Work& work, const After& after = [] {}) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+      const Stopwatch watch;
+      if (Status done = work(repeat + 1 == options_.repeats); !done) return tl::unexpected(done.error());
+      least = std::min(least, watch.seconds());
+      after();
+    }
+    return least;
+  }
   Status writeRing(const RayScene& rays, TaskRunner& runner, const std::filesystem::path& folder) const;
 
   const OpenProject& open_;
@@ -242,7 +248,11 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     const EffectPlan plan = planWith(open.plan, kind.light);
     const auto rays = RayScene::build(open.scene, plan);
     if (!rays) return tl::unexpected(rays.error());
-    if (kind.light == Lighting::none) out.tracerSeconds = bench.traceAlone(**rays, runner);
+    if (kind.light == Lighting::none) {
+      const auto tracer = bench.traceAlone(**rays, runner);
+      if (!tracer) return tl::unexpected(tracer.error());
+      out.tracerSeconds = *tracer;
+    }
     const BakeSettings settings = bench.settingsOf(kind.quality);
     const bool last = kind.quality == Quality::full;
     BakeBenchSet set;
@@ -257,7 +267,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
       BakeSettings everything = bench.settingsOf(Quality::full);
       everything.pruning = false;
       CaptureCounts met;
-      if (const auto counted = bench.bakeRing(**rays, everything, runner, met); !counted)
+      if (Status counted = bench.bakeOnce(**rays, everything, runner, met); !counted)
         return tl::unexpected(counted.error());
       out.bytes.everySurface = kSampleBytes * double(met.samples.keptInAll());
     }
