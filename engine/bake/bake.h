@@ -83,6 +83,7 @@ class CameraBaker {
   std::unique_ptr<MemoryBudget> ownBudget_;
   MemoryBudget& budget_;
   std::unique_ptr<Shader> shader_;
+  std::stop_token shaderStop_;
   std::unique_ptr<FlatMirrors> mirrors_;
   std::unique_ptr<EyeViews> views_;
 };

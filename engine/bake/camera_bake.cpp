@@ -456,10 +456,11 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
   };
   const auto stopped = [] { return fail(ErrorKind::cancelled, "the bake was stopped"); };
   try {
-    if (!shader_) {
-      shader_ = std::make_unique<Shader>(scene_, settings_);
-      mirrors_ = std::make_unique<FlatMirrors>(scene_.scene(), scene_.plan());
+    if (!shader_ || shaderStop_ != stop) {
+      shader_ = std::make_unique<Shader>(scene_, settings_, stop);
+      shaderStop_ = stop;
     }
+    if (!mirrors_) mirrors_ = std::make_unique<FlatMirrors>(scene_.scene(), scene_.plan());
     std::optional<RegionSight> sight;
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};

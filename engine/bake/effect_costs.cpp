@@ -27,8 +27,8 @@ struct Pixel {
 
 class CostProbe {
  public:
-  CostProbe(const RayScene& scene, const Layout& layout, const BakeSettings& settings)
-      : scene_(scene), layout_(layout), settings_(settings) {
+  CostProbe(const RayScene& scene, const Layout& layout, const BakeSettings& settings, std::stop_token stop)
+      : scene_(scene), layout_(layout), settings_(settings), stop_(std::move(stop)) {
     if (gathersLight(scene.plan(), settings))
       gathered_ = std::make_shared<const GatheredLight>(scene, settings);
     for (const LayoutCamera& camera : layout.cameras)
@@ -43,11 +43,11 @@ class CostProbe {
     });
   }
   double secondsToShade(const EffectPlan& plan) const {
-    const Shader shader(scene_, plan, settings_, gathered_);
+    const Shader shader(scene_, plan, settings_, gathered_, stop_);
     return quickest([&] { shadeAll(shader); });
   }
   double secondsToShadeFirst() const {
-    const Shader shader(scene_, scene_.plan(), settings_, gathered_);
+    const Shader shader(scene_, scene_.plan(), settings_, gathered_, stop_);
     const Stopwatch watch;
     shadeAll(shader);
     return watch.seconds();
@@ -139,6 +139,7 @@ class CostProbe {
   const RayScene& scene_;
   const Layout& layout_;
   const BakeSettings& settings_;
+  std::stop_token stop_;
   std::vector<ColumnCamera> columns_;
   std::vector<Pixel> pixels_;
   std::shared_ptr<const GatheredLight> gathered_;
@@ -151,7 +152,7 @@ EffectCosts measureEffectCosts(const RayScene& scene, const Layout& layout, cons
                                std::stop_token stop) {
   const FlushDenormals flush;
   EffectCosts costs;
-  const CostProbe probe(scene, layout, settings);
+  const CostProbe probe(scene, layout, settings, stop);
   const EffectPlan& plan = scene.plan();
   if (probe.pixels().empty()) return costs;
   const bool gathers = gathersLight(plan, settings);

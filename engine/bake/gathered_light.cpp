@@ -7,16 +7,11 @@
 #include <numbers>
 
 #include "engine/bake/surface.h"
+#include "engine/base/contract.h"
 #include "engine/scene/surface_light.h"
 
 namespace acentric {
 namespace {
-
-/// Cells that bounces are read from are this much larger than places: what a surface sends is seen from afar,
-/// and averaged over many cells.
-constexpr double kCellTexels = 4;
-/// Rays gathered for a cell; the same reason.
-constexpr int kCellRays = 32;
 
 /// Places are told apart by their number, not by where they are: a scene in another unit or elsewhere on the
 /// map is gathered by the same rays.
@@ -24,23 +19,22 @@ PositionSamples::Points pointsFor(std::uint32_t triangle, std::uint32_t place) {
   return PositionSamples::Points(mixBits(triangle ^ mixBits(place)));
 }
 
-std::uint32_t cellCount(std::uint32_t resolution) { return resolution * resolution; }
+std::uint32_t cellsOf(std::uint32_t resolution) { return resolution * resolution; }
 
-/// The cell, one of R x R equal triangles, that holds a place, and its middle.
-struct Cell {
-  std::uint32_t index;
-  glm::vec2 middle;
-};
-Cell cellAt(std::uint32_t resolution, const glm::vec2& barycentric) {
-  const float r = float(resolution);
-  const float x = std::clamp(barycentric.x, 0.0f, 1.0f) * r, y = std::clamp(barycentric.y, 0.0f, 1.0f) * r;
-  const std::uint32_t i = std::min(std::uint32_t(x), resolution - 1);
-  const std::uint32_t j = std::min(std::uint32_t(y), resolution - 1 - i);
-  // Row i has R - i upright cells and R - i - 1 inverted ones between them.
-  const bool inverted = (x - float(i)) + (y - float(j)) > 1 && i + j + 1 < resolution;
-  const float inset = inverted ? 2.0f / 3 : 1.0f / 3;
-  return {i * (2 * resolution - i) + 2 * j + (inverted ? 1u : 0u),
-          glm::vec2((float(i) + inset) / r, (float(j) + inset) / r)};
+/// Row i has R - i upright cells and R - i - 1 inverted ones between them.
+std::uint32_t cellsBefore(std::uint32_t resolution, std::uint32_t row) {
+  return row * (2 * resolution - row);
+}
+
+/// The last row that begins at `index` or before.
+template <class Before>
+std::uint32_t rowOf(std::uint32_t rows, std::uint32_t index, const Before& before) {
+  std::uint32_t first = 0;
+  for (std::uint32_t last = rows; last - first > 1;) {
+    const std::uint32_t middle = (first + last) / 2;
+    (before(middle) <= index ? first : last) = middle;
+  }
+  return first;
 }
 
 }  // namespace
@@ -82,7 +76,7 @@ GatheredLight::Grids GatheredLight::layOut(double texel, bool corners) const {
       const std::uint32_t r = resolutionFor(mesh, t, texel, kMaxResolution);
       grids.first.push_back(std::uint32_t(std::min<std::uint64_t>(next, kMaxPlaces)));
       grids.resolution.push_back(std::uint16_t(r));
-      next += 2 * std::uint64_t(corners ? surfaceSampleCount(r) : cellCount(r));
+      next += 2 * std::uint64_t(corners ? surfaceSampleCount(r) : cellsOf(r));
     }
   grids.first.push_back(std::uint32_t(std::min<std::uint64_t>(next, kMaxPlaces + 1)));
   return grids;
@@ -112,52 +106,163 @@ GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings
   for (int n = 0; n < settings_.bounces; ++n) cellValues_.emplace_back(cells_.first.back());
 }
 
-/// A place of the hit's triangle. Its normal is the corners': that of a hit may differ in its last bit from
-/// ray to ray, and who comes first to a place decides what all others read there.
-Hit GatheredLight::placeOn(const Hit& hit, const glm::vec2& barycentric) const {
-  return {0, hit.mesh, hit.triangle, barycentric,
-          triangleNormal(scene_->scene().meshes[hit.mesh], hit.triangle)};
+/// One of R x R equal triangles, and its middle.
+struct GatheredLight::Cell {
+  std::uint32_t index;
+  glm::vec2 middle;
+
+  Cell(std::uint32_t resolution, std::uint32_t i, std::uint32_t j, bool inverted)
+      : index(cellsBefore(resolution, i) + 2 * j + (inverted ? 1u : 0u)) {
+    const float inset = inverted ? 2.0f / 3 : 1.0f / 3;
+    middle = glm::vec2(float(i) + inset, float(j) + inset) / float(resolution);
+  }
+  static Cell at(std::uint32_t resolution, const glm::vec2& barycentric) {
+    const glm::vec2 place = glm::clamp(barycentric, 0.0f, 1.0f) * float(resolution);
+    const std::uint32_t i = std::min(std::uint32_t(place.x), resolution - 1);
+    const std::uint32_t j = std::min(std::uint32_t(place.y), resolution - 1 - i);
+    return {resolution, i, j, (place.x - float(i)) + (place.y - float(j)) > 1 && i + j + 1 < resolution};
+  }
+  static Cell numbered(std::uint32_t resolution, std::uint32_t index) {
+    const std::uint32_t i =
+        rowOf(resolution, index, [&](std::uint32_t row) { return cellsBefore(resolution, row); });
+    const std::uint32_t along = index - cellsBefore(resolution, i);
+    return {resolution, i, along / 2, along % 2 == 1};
+  }
+};
+
+GatheredLight::Side GatheredLight::sideOf(const Hit& hit, bool back) const {
+  return {hit.mesh, hit.triangle, firstTriangles_[hit.mesh] + hit.triangle, back};
 }
 
-GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& rays) const {
-  const std::uint32_t number = firstTriangles_[hit.mesh] + hit.triangle;
-  const std::uint32_t r = places_.resolution[number];
-  const std::uint32_t first = places_.first[number] + (back ? surfaceSampleCount(r) : 0);
-  const SurfaceCell cell = surfaceCellAt(r, hit.barycentric);
+/// The side that has the number-th value of the grids; `within`: its number there.
+GatheredLight::Side GatheredLight::sideAt(const Grids& grids, std::size_t number,
+                                          std::uint32_t& within) const {
+  require(number < grids.first.back(), "light is gathered for places and cells of the scene");
+  Side side;
+  const auto next = std::ranges::upper_bound(grids.first, std::uint32_t(number));
+  side.sceneTriangle = std::uint32_t(next - grids.first.begin()) - 1;
+  const auto mesh = std::ranges::upper_bound(firstTriangles_, side.sceneTriangle);
+  side.mesh = std::uint32_t(mesh - firstTriangles_.begin()) - 1;
+  side.triangle = side.sceneTriangle - firstTriangles_[side.mesh];
+  within = std::uint32_t(number) - grids.first[side.sceneTriangle];
+  const std::uint32_t ofOneSide = (*next - grids.first[side.sceneTriangle]) / 2;
+  side.back = within >= ofOneSide;
+  within -= side.back ? ofOneSide : 0;
+  return side;
+}
+
+GatheredLight::Spot GatheredLight::spotOn(const Side& side, const glm::vec2& barycentric,
+                                          double share) const {
+  const Mesh& mesh = scene_->scene().meshes[side.mesh];
+  const glm::uvec3& t = mesh.triangles[side.triangle];
+  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  const glm::vec3 normal = triangleNormal(mesh, side.triangle);
+  return {side.mesh,
+          side.triangle,
+          side.sceneTriangle,
+          side.back,
+          a + double(barycentric.x) * (b - a) + double(barycentric.y) * (c - a),
+          side.back ? -normal : normal,
+          share * 0.5 * glm::length(glm::cross(b - a, c - a))};
+}
+
+/// The normal is the corners': that of a hit may differ in its last bit from ray to ray, and who comes first
+/// to a place decides what all others read there.
+Surface GatheredLight::surfaceOf(const Side& side, const glm::vec2& barycentric) const {
+  const glm::vec3 normal = triangleNormal(scene_->scene().meshes[side.mesh], side.triangle);
+  const Hit hit{0, side.mesh, side.triangle, barycentric, normal};
+  const glm::vec3 facing = side.back ? -hit.geometricNormal() : hit.geometricNormal();
+  return surfaceAt<false>(scene_->scene(), hit, facing, {}, false);
+}
+
+GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& rays,
+                                          const std::stop_token& stop) const {
+  const Side side = sideOf(hit, back);
+  const SurfaceCell cell = surfaceCellAt(places_.resolution[side.sceneTriangle], hit.barycentric);
   glm::vec4 sum(0);
-  for (int c = 0; c < 3; ++c) {
-    if (cell.weight[c] <= 0) continue;
-    const glm::uvec2& at = cell.sample[c];
-    const std::size_t index = first + surfaceSampleIndex(r, at.x, at.y);
-    sum += cell.weight[c] * unpackColour(values_.at(index, rays, [&](RayCounts& own) {
-             const Hit place = placeOn(hit, surfaceSamplePlace(r, at.x, at.y));
-             const glm::vec3 side = back ? -place.geometricNormal() : place.geometricNormal();
-             const Surface surface = surfaceAt<false>(scene_->scene(), place, side, {}, false);
-             const Gathered g = gather(surface, number, std::uint32_t(index), own, rays);
-             return packColour({g.radiance, 0.5f + 0.5f * g.open});
-           }));
-  }
+  for (int c = 0; c < 3; ++c)
+    if (cell.weight[c] > 0)
+      sum += cell.weight[c] * unpackColour(placeLight(side, cell.sample[c].x, cell.sample[c].y, rays, stop));
   return {glm::vec3(sum), std::clamp(2 * sum.a - 1, 0.0f, 1.0f)};
 }
 
+HalfColour GatheredLight::placeLight(const Side& side, std::uint32_t i, std::uint32_t j, RayCounts& rays,
+                                     const std::stop_token& stop) const {
+  const std::uint32_t r = places_.resolution[side.sceneTriangle];
+  const std::uint32_t first = places_.first[side.sceneTriangle] + (side.back ? surfaceSampleCount(r) : 0);
+  const std::uint32_t index = first + surfaceSampleIndex(r, i, j);
+  return values_.at(index, rays, [&](RayCounts& own) {
+    const Surface surface = surfaceOf(side, surfaceSamplePlace(r, i, j));
+    const Gathered g = gather(surface, side.sceneTriangle, index, own, rays, stop);
+    return stop.stop_requested() ? HalfColour(0) : packColour({g.radiance, 0.5f + 0.5f * g.open});
+  });
+}
+
+/// A place by its number.
+struct GatheredLight::Place {
+  Side side;
+  std::uint32_t resolution = 0, i = 0, j = 0;
+};
+GatheredLight::Place GatheredLight::placeNumbered(std::size_t number) const {
+  Place place;
+  std::uint32_t within = 0;
+  place.side = sideAt(places_, number, within);
+  const std::uint32_t r = place.resolution = places_.resolution[place.side.sceneTriangle];
+  place.i = rowOf(r + 1, within, [&](std::uint32_t row) { return surfaceSampleIndex(r, row, 0); });
+  place.j = within - surfaceSampleIndex(r, place.i, 0);
+  return place;
+}
+
+GatheredLight::Spot GatheredLight::place(std::size_t number) const {
+  const auto [side, r, i, j] = placeNumbered(number);
+  // It is read from the cells around it: one at a corner of the triangle, three along an edge, or six.
+  const int edges = (i == 0 ? 1 : 0) + (j == 0 ? 1 : 0) + (i + j == r ? 1 : 0);
+  const double cells = edges == 0 ? 6 : edges == 1 ? 3 : 1;
+  const glm::vec2 corner = glm::vec2(float(i), float(j)) / float(r);
+  const glm::vec2 inside = corner + (glm::vec2(1.0f / 3) - corner) / float(r);
+  return spotOn(side, inside, cells / cellsOf(r));
+}
+
+void GatheredLight::gatherPlace(std::size_t number, RayCounts& rays, const std::stop_token& stop) const {
+  const Place place = placeNumbered(number);
+  placeLight(place.side, place.i, place.j, rays, stop);
+}
+
+GatheredLight::Spot GatheredLight::cell(std::size_t number) const {
+  std::uint32_t within = 0;
+  const Side side = sideAt(cells_, number, within);
+  const std::uint32_t r = cells_.resolution[side.sceneTriangle];
+  return spotOn(side, Cell::numbered(r, within).middle, 1.0 / cellsOf(r));
+}
+
+void GatheredLight::gatherCell(std::size_t number, int bounces, RayCounts& rays,
+                               const std::stop_token& stop) const {
+  std::uint32_t within = 0;
+  const Side side = sideAt(cells_, number, within);
+  cellLight(side, Cell::numbered(cells_.resolution[side.sceneTriangle], within), bounces, rays, stop);
+}
+
 GatheredLight::Gathered GatheredLight::gather(const Surface& surface, std::uint32_t triangle,
-                                              std::uint32_t place, RayCounts& own, RayCounts& kept) const {
+                                              std::uint32_t place, RayCounts& own, RayCounts& kept,
+                                              const std::stop_token& stop) const {
   if (bounced_)
     return gatherBounced(surface, settings_.bounces, settings_.ambientRays, pointsFor(triangle, place), own,
-                         kept);
+                         kept, stop);
   const Ambient::Gathered ambient = ambient_.gather<true>(*scene_, surface, own);
   return {ambient.radiance, ambient.open};
 }
 
 /// `own` rays are of this place, `kept` those of cells met for the first time: they count even if another
-/// thread was quicker with this place.
+/// thread was quicker with this place. A cell's rays may each lead to a cell nobody has read before, so that
+/// one place alone can take minutes: all of them look for a stop.
 GatheredLight::Gathered GatheredLight::gatherBounced(const Surface& surface, int bounces, int count,
                                                      const PositionSamples::Points& points, RayCounts& own,
-                                                     RayCounts& kept) const {
+                                                     RayCounts& kept, const std::stop_token& stop) const {
   const Across across(surface.normal);
   glm::vec3 light(0);
   int open = 0, drawn = 0;
   for (std::uint32_t k = 0; k < std::uint32_t(count); ++k) {
+    if (stop.stop_requested()) return {};
     // As many directions to a solid angle as its cosine says.
     const glm::vec2 u = points.at(k);
     const float aside = std::sqrt(u.x), angle = 2 * std::numbers::pi_v<float> * u.y;
@@ -169,7 +274,7 @@ GatheredLight::Gathered GatheredLight::gatherBounced(const Surface& surface, int
     ++own.bounce;
     const Hit hit = scene_->traceSolid({surface.rayOrigin, direction});
     if (hit.found()) {
-      light += sentBy(hit, direction, bounces, kept);
+      light += sentBy(hit, direction, bounces, kept, stop);
     } else {
       light += ambient_.radianceFrom(direction);
       ++open;
@@ -180,30 +285,30 @@ GatheredLight::Gathered GatheredLight::gatherBounced(const Surface& surface, int
 }
 
 /// Radiance of a surface towards where a ray met it.
-glm::vec3 GatheredLight::sentBy(const Hit& hit, const glm::vec3& direction, int bounces,
-                                RayCounts& rays) const {
+glm::vec3 GatheredLight::sentBy(const Hit& hit, const glm::vec3& direction, int bounces, RayCounts& rays,
+                                const std::stop_token& stop) const {
   const Surface seen = surfaceAt<true>(scene_->scene(), hit, -direction, detail_, emission_);
   const glm::vec3 colour(seen.baseColour);
-  if (rules_[std::size_t(scene_->scene().meshes[hit.mesh].material)].unlit) return colour;
+  if (!lights(scene_->scene().meshes[hit.mesh].material)) return colour;
   // What lights others by itself is among the lights.
   const glm::vec3 glow = scene_->areaLights().include(hit.mesh) ? glm::vec3(0) : seen.emission;
-  return colour * cellLight(hit, glm::dot(hit.geometricNormal(), direction) > 0, bounces - 1, rays) + glow;
+  const Side side = sideOf(hit, glm::dot(hit.geometricNormal(), direction) > 0);
+  const Cell cell = Cell::at(cells_.resolution[side.sceneTriangle], hit.barycentric);
+  return colour * cellLight(side, cell, bounces - 1, rays, stop) + glow;
 }
 
-glm::vec3 GatheredLight::cellLight(const Hit& hit, bool back, int bounces, RayCounts& rays) const {
-  const std::uint32_t number = firstTriangles_[hit.mesh] + hit.triangle;
-  const std::uint32_t r = cells_.resolution[number];
-  const Cell cell = cellAt(r, hit.barycentric);
-  const std::size_t index = cells_.first[number] + (back ? cellCount(r) : 0) + cell.index;
+glm::vec3 GatheredLight::cellLight(const Side& side, const Cell& cell, int bounces, RayCounts& rays,
+                                   const std::stop_token& stop) const {
+  const std::uint32_t r = cells_.resolution[side.sceneTriangle];
+  const std::uint32_t index = cells_.first[side.sceneTriangle] + (side.back ? cellsOf(r) : 0) + cell.index;
   return glm::vec3(unpackColour(cellValues_[std::size_t(bounces)].at(index, rays, [&](RayCounts& own) {
-    const Hit middle = placeOn(hit, cell.middle);
-    const Surface surface = surfaceAt<false>(
-        scene_->scene(), middle, back ? -middle.geometricNormal() : middle.geometricNormal(), {}, false);
+    const Surface surface = surfaceOf(side, cell.middle);
     glm::vec3 light = lights_.at(surface, own) * std::numbers::inv_pi_v<float>;
     if (bounces > 0)
-      light += gatherBounced(surface, bounces, kCellRays, pointsFor(number, std::uint32_t(index)), own, rays)
-                   .radiance;
-    return packColour({light, 1});
+      light +=
+          gatherBounced(surface, bounces, kCellRays, pointsFor(side.sceneTriangle, index), own, rays, stop)
+              .radiance;
+    return stop.stop_requested() ? HalfColour(0) : packColour({light, 1});
   })));
 }
 

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "engine/bake/ambient.h"
@@ -38,8 +39,8 @@ struct GatherSettings {
 class ValuesOnDemand {
  public:
   explicit ValuesOnDemand(std::size_t count);
-  /// `make(rays)` gives a value with alpha > 0, the same whenever it is called; only the thread whose value
-  /// is kept adds its rays to `rays`.
+  /// `make(rays)` gives a value with alpha > 0, the same whenever it is called, or 0 if it could not; only
+  /// the thread whose value is kept adds its rays to `rays`.
   template <class Make>
   HalfColour at(std::size_t index, RayCounts& rays, const Make& make) const;
 
@@ -57,9 +58,13 @@ HalfColour ValuesOnDemand::at(std::size_t index, RayCounts& rays, const Make& ma
     return std::bit_cast<HalfColour>(known);
   RayCounts own;
   const HalfColour made = make(own);
+  const auto bits = std::bit_cast<std::uint64_t>(made);
   std::uint64_t nothing = 0;
-  if (value.compare_exchange_strong(nothing, std::bit_cast<std::uint64_t>(made), std::memory_order_relaxed))
+  if (bits == 0) return made;
+  if (value.compare_exchange_strong(nothing, bits, std::memory_order_relaxed)) {
+    own.gathered = own.total();
     rays += own;
+  }
   return made;
 }
 
@@ -68,6 +73,10 @@ class GatheredLight {
   static constexpr std::uint64_t kMaxPlaces = 64ull << 20;  ///< both sides counted
 
   static constexpr std::uint32_t kMaxResolution = 2048;  ///< places along an edge
+  /// Rays gathered for a cell, and how much larger than places cells are: what a surface sends is seen from
+  /// afar, and averaged over many cells.
+  static constexpr int kCellRays = 32;
+  static constexpr double kCellTexels = 4;
 
   GatheredLight(const RayScene& scene, const BakeSettings& settings);
 
@@ -75,28 +84,66 @@ class GatheredLight {
     glm::vec3 radiance{0};  ///< cosine-weighted mean, i.e. what a white Lambert surface sends back
     float open = 1;         ///< share that no occluder takes, or with bounces, that meets no surface
   };
-  /// At a hit, on the side that `toViewer` sees.
-  Gathered at(const Hit& hit, bool back, RayCounts& rays) const;
+  /// At a hit, on the side that `toViewer` sees. A stop ends it soon, however many bounces are still to be
+  /// followed: what it gives then means nothing, and is not kept.
+  Gathered at(const Hit& hit, bool back, RayCounts& rays, const std::stop_token& stop = {}) const;
+
+  /// What light is gathered for: a place that surfaces read, or a cell that bounces read.
+  struct Spot {
+    std::uint32_t mesh = 0, triangle = 0;  ///< of the mesh
+    std::uint32_t sceneTriangle = 0;
+    bool back = false;
+    glm::dvec3 position{0};   ///< amid what reads it, metres
+    glm::vec3 normal{0};      ///< of its side, unit
+    double squareMetres = 0;  ///< of the surface that reads it
+  };
+  std::size_t placeCount() const { return places_.first.back(); }
+  Spot place(std::size_t number) const;
+  void gatherPlace(std::size_t number, RayCounts& rays, const std::stop_token& stop = {}) const;
+  /// The same cells for each of the bounces; none without interreflection.
+  std::size_t cellCount() const { return cellValues_.empty() ? 0 : cells_.first.back(); }
+  Spot cell(std::size_t number) const;
+  /// With its light after 0..bounces - 1 bounces.
+  void gatherCell(std::size_t number, int bounces, RayCounts& rays, const std::stop_token& stop = {}) const;
+  /// Is light gathered for what has this material?
+  bool lights(int material) const { return !rules_[std::size_t(material)].unlit; }
 
   const GatherSettings& settings() const { return settings_; }
   /// Metres between places: as set, or more to stay within kMaxPlaces.
   double texel() const { return texel_; }
 
  private:
-  Hit placeOn(const Hit& hit, const glm::vec2& barycentric) const;
   /// One grid per triangle and side: the finest reads between corners of cells, bounces read whole cells.
   struct Grids {
     std::vector<std::uint32_t> first;  ///< by scene triangle, + 1 sentinel
     std::vector<std::uint16_t> resolution;
   };
   Grids layOut(double texel, bool corners) const;
+  /// One side of a triangle.
+  struct Side {
+    std::uint32_t mesh = 0, triangle = 0;  ///< of the mesh
+    std::uint32_t sceneTriangle = 0;
+    bool back = false;
+  };
+  Side sideOf(const Hit& hit, bool back) const;
+  Side sideAt(const Grids& grids, std::size_t number, std::uint32_t& within) const;
+  struct Place;
+  Place placeNumbered(std::size_t number) const;
+  Spot spotOn(const Side& side, const glm::vec2& barycentric, double share) const;
+  Surface surfaceOf(const Side& side, const glm::vec2& barycentric) const;
+  HalfColour placeLight(const Side& side, std::uint32_t i, std::uint32_t j, RayCounts& rays,
+                        const std::stop_token& stop) const;
   Gathered gather(const Surface& surface, std::uint32_t triangle, std::uint32_t place, RayCounts& own,
-                  RayCounts& kept) const;
+                  RayCounts& kept, const std::stop_token& stop) const;
   Gathered gatherBounced(const Surface& surface, int bounces, int count,
-                         const PositionSamples::Points& points, RayCounts& own, RayCounts& kept) const;
-  glm::vec3 sentBy(const Hit& hit, const glm::vec3& direction, int bounces, RayCounts& rays) const;
-  /// Light of a white surface in the cell of a hit, from its sources and `bounces` bounces.
-  glm::vec3 cellLight(const Hit& hit, bool back, int bounces, RayCounts& rays) const;
+                         const PositionSamples::Points& points, RayCounts& own, RayCounts& kept,
+                         const std::stop_token& stop) const;
+  glm::vec3 sentBy(const Hit& hit, const glm::vec3& direction, int bounces, RayCounts& rays,
+                   const std::stop_token& stop) const;
+  struct Cell;
+  /// Light of a white surface in a cell, from its sources and `bounces` bounces.
+  glm::vec3 cellLight(const Side& side, const Cell& cell, int bounces, RayCounts& rays,
+                      const std::stop_token& stop) const;
 
   const RayScene* scene_;
   GatherSettings settings_;

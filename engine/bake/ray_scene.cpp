@@ -176,6 +176,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
   bounce += other.bounce;
   mirror += other.mirror;
   through += other.through;
+  gathered += other.gathered;
   return *this;
 }
 

@@ -53,7 +53,8 @@ struct RayCounts {
   std::uint64_t ambient = 0;
   std::uint64_t bounce = 0;
   std::uint64_t mirror = 0;
-  std::uint64_t through = 0;  ///< of the others: those that met glass or a blended surface
+  std::uint64_t through = 0;   ///< of the others: those that met glass or a blended surface
+  std::uint64_t gathered = 0;  ///< of the others: those that a place's light was gathered by, once for all
   std::uint64_t total() const {
     return primary + visibility + shadow + softShadow + ambient + bounce + mirror;
   }

@@ -33,7 +33,7 @@ struct ShadingKernels {
       const Ambient::Gathered ambient = shader.ambient_.gather<false>(*shader.scene_, surface, rays);
       return {ambient.radiance, ambient.open};
     } else {
-      return shader.gathered_->at(hit, glm::dot(hit.geometricNormal(), toViewer) < 0, rays);
+      return shader.gathered_->at(hit, glm::dot(hit.geometricNormal(), toViewer) < 0, rays, shader.stop_);
     }
   }
 
@@ -137,19 +137,21 @@ struct ShadingKernels {
   }
 };
 
-Shader::Shader(const RayScene& scene, const BakeSettings& settings)
+Shader::Shader(const RayScene& scene, const BakeSettings& settings, std::stop_token stop)
     : Shader(scene, scene.plan(), settings,
-             gathersLight(scene.plan(), settings) ? scene.gatheredLight(settings) : nullptr) {}
+             gathersLight(scene.plan(), settings) ? scene.gatheredLight(settings) : nullptr,
+             std::move(stop)) {}
 
 Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings,
-               std::shared_ptr<const GatheredLight> gathered)
+               std::shared_ptr<const GatheredLight> gathered, std::stop_token stop)
     : scene_(&scene),
       rules_(materialRules(scene.scene(), plan)),
       detail_(detailRules(plan)),
       emission_(plan.on(Effect::emission)),
       lights_(scene, plan, settings),
       ambient_(scene, plan, lights_.set(), settings),
-      gathered_(std::move(gathered)) {
+      gathered_(std::move(gathered)),
+      stop_(std::move(stop)) {
   const auto use = [](bool any, bool shadows) {
     return !any ? DirectLight::none : shadows ? DirectLight::shadowed : DirectLight::unshadowed;
   };

@@ -12,6 +12,7 @@
 /// on metals, mirrors and glass.
 
 #include <glm/glm.hpp>
+#include <stop_token>
 #include <vector>
 
 #include "engine/bake/ambient.h"
@@ -40,11 +41,12 @@ float justBehind(float distance);
 
 class Shader {
  public:
-  Shader(const RayScene& scene, const BakeSettings& settings);
+  /// A stop ends the gathering of light soon; what is shaded after it means nothing.
+  Shader(const RayScene& scene, const BakeSettings& settings, std::stop_token stop = {});
   /// With fewer effects than the scene was built for, and with gathered light of one's own (null where the
   /// plan gathers none).
   Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings& settings,
-         std::shared_ptr<const GatheredLight> gathered);
+         std::shared_ptr<const GatheredLight> gathered, std::stop_token stop = {});
 
   /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
   /// only.
@@ -102,6 +104,7 @@ class Shader {
   DirectLights lights_;
   Ambient ambient_;
   std::shared_ptr<const GatheredLight> gathered_;
+  std::stop_token stop_;
   Switches switches_;
   Kernel kernel_;
   std::vector<HalfColour> evenColours_;

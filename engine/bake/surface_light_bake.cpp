@@ -35,9 +35,10 @@ struct Plan {
 class SurfaceLightBaker {
  public:
   SurfaceLightBaker(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
-                    const std::vector<glm::vec3>& viewer, const BakeSettings& settings)
+                    const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
+                    const std::stop_token& stop = {})
       : scene_(scene),
-        shader_(scene, settings),
+        shader_(scene, settings, stop),
         viewer_(viewer),
         rules_(materialRules(scene.scene(), scene.plan())) {
     plan_.texel = settings.surfaceTexel;
@@ -173,7 +174,7 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
           "surface light is asked for triangle by triangle");
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
   try {
-    SurfaceLightBaker baker(scene, wanted, viewer, settings);
+    SurfaceLightBaker baker(scene, wanted, viewer, settings, stop);
     if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
     const auto starts = baker.chunkStarts();
     const std::size_t chunks = starts.size() - 1;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <stop_token>
 #include <thread>
 
 #include "engine/bake/shading.h"
@@ -205,6 +207,100 @@ TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
   EXPECT_LT(std::sqrt(square / count), 0.01 * sum / count);
 }
 
+/// Rooms of which every place and cell is asked for.
+SceneBuilder furnishedRoom() {
+  SceneBuilder builder;
+  const int white = builder.material(matte(glm::vec3(0.8f)));
+  return builder.box(white, {-2, -1.5f, 0}, {2, 1.5f, 2.5f}, true)
+      .box(white, {0.5f, 0.5f, 0.2f}, {1.53f, 1.2f, 1})
+      .point({-1, -1, 2}, 9);
+}
+
+TEST(GatheredLight, PlacesAndCellsKnowWhatSurfaceReadsThem) {
+  const auto scene = withBounces(furnishedRoom());
+  const GatheredLight light(*scene, bouncing(2));
+  double area = 0;  // of both sides
+  for (const Mesh& mesh : scene->scene().meshes)
+    for (const glm::uvec3& t : mesh.triangles)
+      area += double(glm::length(
+          glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x])));
+  const auto sumOf = [&](std::size_t count, const auto& spotAt) {
+    double sum = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      const GatheredLight::Spot spot = spotAt(n);
+      const Mesh& mesh = scene->scene().meshes[spot.mesh];
+      const glm::uvec3& t = mesh.triangles[spot.triangle];
+      // Strictly inside its triangle, on its plane; the back faces the other way.
+      const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+      const glm::dvec3 across = glm::cross(b - a, c - a);
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        EXPECT_GT(glm::dot(glm::cross(to - from, spot.position - from), across), 0);
+      EXPECT_NEAR(glm::dot(spot.position - a, across), 0, 1e-6);
+      EXPECT_GT(glm::dot(glm::dvec3(spot.normal), across) * (spot.back ? -1 : 1), 0);
+      sum += spot.squareMetres;
+    }
+    return sum;
+  };
+  EXPECT_NEAR(sumOf(light.placeCount(), [&](std::size_t n) { return light.place(n); }), 3 * area, 1e-4)
+      << "each point of a surface reads three places";
+  EXPECT_NEAR(sumOf(light.cellCount(), [&](std::size_t n) { return light.cell(n); }), area, 1e-4);
+  const auto without = withBounces(furnishedRoom(), {Effect::diffuseInterreflection});
+  EXPECT_EQ(GatheredLight(*without, bouncing(2)).cellCount(), 0u);
+}
+
+TEST(GatheredLight, WhatWasGatheredByNumberIsWhatSurfacesRead) {
+  const auto scene = withBounces(furnishedRoom());
+  const auto gathered = scene->gatheredLight(bouncing(2));
+  RayCounts cells, places, read;
+  for (std::size_t n = 0; n < gathered->cellCount(); ++n)
+    for (int bounces = 0; bounces < 2; ++bounces) gathered->gatherCell(n, bounces, cells);
+  EXPECT_GT(cells.shadow, 0u);
+  EXPECT_EQ(cells.gathered, cells.total());
+  EXPECT_LE(cells.bounce, gathered->cellCount() * std::uint64_t(GatheredLight::kCellRays));
+  for (std::size_t n = 0; n < gathered->placeCount(); ++n) gathered->gatherPlace(n, places);
+  EXPECT_EQ(places.gathered, places.bounce) << "every cell was there already";
+  EXPECT_LE(places.bounce, gathered->placeCount() * std::uint64_t(bouncing(2).ambientRays));
+  EXPECT_GT(places.bounce, gathered->placeCount() * std::uint64_t(bouncing(2).ambientRays) * 9 / 10);
+  const Shader shader(*scene, bouncing(2));
+  for (int i = 0; i < 300; ++i)
+    shader.seenAlong(
+        {{-1, 0, 1}, glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.4f), std::sin(i * 1.1f)))},
+        &RayCounts::primary, read);
+  EXPECT_GT(read.primary, 0u);
+  EXPECT_EQ(read.gathered, 0u);
+}
+
+/// One place here leads to tens of thousands of cells that nobody has read yet, each of which leads to more.
+TEST(GatheredLight, AStopEndsEvenALongGatherAndKeepsNothingUnfinished) {
+  const auto scene = withBounces(furnishedRoom());
+  BakeSettings settings = bouncing(8);
+  settings.surfaceTexel = 0.004;
+  settings.ambientRays = 1024;
+  const GatheredLight light(*scene, settings);
+  std::stop_source stop;
+  RayCounts rays;
+  std::chrono::steady_clock::time_point stopped;
+  std::jthread timer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stopped = std::chrono::steady_clock::now();
+    stop.request_stop();
+  });
+  light.gatherPlace(5, rays, stop.get_token());
+  const auto ended = std::chrono::steady_clock::now();
+  timer.join();
+  EXPECT_GE(ended, stopped);
+  EXPECT_LT(ended - stopped, std::chrono::seconds(1));
+
+  const GatheredLight whole(*scene, bouncing(3)), interrupted(*scene, bouncing(3));
+  const Hit hit = scene->trace({{-1, 0, 1.5f}, {1, 0, 0}});
+  RayCounts all, none, again;
+  const glm::vec3 expected = whole.at(hit, false, all).radiance;
+  interrupted.at(hit, false, none, stop.get_token());
+  EXPECT_EQ(none.total(), 0u) << "nothing was kept";
+  EXPECT_EQ(interrupted.at(hit, false, again).radiance, expected);
+  EXPECT_EQ(again.total(), all.total());
+}
+
 TEST(ValuesOnDemand, AreMadeOnceAndKept) {
   const ValuesOnDemand values(3);
   RayCounts rays;
@@ -219,6 +315,23 @@ TEST(ValuesOnDemand, AreMadeOnceAndKept) {
     }
   EXPECT_EQ(made, 3);
   EXPECT_EQ(rays.bounce, 3u);
+  EXPECT_EQ(rays.gathered, 3u);
+}
+
+TEST(ValuesOnDemand, AreMadeAgainIfTheyCouldNotBeMade) {
+  const ValuesOnDemand values(1);
+  RayCounts rays;
+  const auto made = [&](float alpha) {
+    return unpackColour(values.at(0, rays, [&](RayCounts& own) {
+      ++own.bounce;
+      return packColour({alpha, 0, 0, alpha});
+    }));
+  };
+  EXPECT_EQ(made(0), glm::vec4(0));
+  EXPECT_EQ(rays.bounce, 0u);
+  EXPECT_EQ(made(1).r, 1);
+  EXPECT_EQ(made(0).r, 1);
+  EXPECT_EQ(rays.bounce, 1u);
 }
 
 }  // namespace

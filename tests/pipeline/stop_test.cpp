@@ -128,6 +128,31 @@ TEST_F(StopTest, ABakeEndsSoonAtAnyMomentAndWhatItLeavesIsSound) {
   RecordProperty("worstSeconds", std::to_string(worst));
 }
 
+/// Where nothing is gathered yet, each ray of light may lead to a place that has to be lit first.
+TEST_F(StopTest, ABakeEndsSoonWhileItFollowsManyBounces) {
+  OpenProject bouncing = open_;
+  bouncing.project.bake.bounces = 8;
+  bouncing.project.bake.ambientRays = 1024;
+  bouncing.project.bake.surfaceTexel = 0.005;
+  ASSERT_TRUE(bouncing.plan.on(Effect::diffuseInterreflection));
+  TaskRunner runner(1);
+  double worst = 0;
+  for (int n = 1; n <= 4; ++n) {
+    OpenProject open = bouncing;
+    open.file = fresh(n).file;
+    BakeRequest request;
+    request.cameras.emplace();
+    if (n % 2 == 0) request.cameras->push_back(0);  // else the light on surfaces
+    const Ended ended = stopAfter(
+        0.3 * n, [&](const std::stop_token& stop) { return bakeProject(open, request, runner, {}, stop); });
+    EXPECT_FALSE(ended.finished);
+    worst = std::max(worst, ended.secondsAfterStop);
+    EXPECT_FALSE(hasTemporaries(open.file.parent_path()));
+  }
+  EXPECT_LT(worst, kPromptSeconds);
+  RecordProperty("worstSeconds", std::to_string(worst));
+}
+
 TEST_F(StopTest, AnEstimateEndsSoonAtAnyMomentAndLeavesNothing) {
   TaskRunner runner(1);
   EstimateOptions options;
