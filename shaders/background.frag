@@ -1,24 +1,82 @@
-// The background where no capture has rows (engine/view/background.h).
+// The background: where no capture has rows (engine/view/background.h), or, with CAPTURED, where a capture shows it
+// (engine/view/captured_background.h); CLIP_TO_PART as in points.vert.
 #include "colour.glsl"
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint source;
 uniform mat3 worldFromPicture;  // pixel centre (x, y from the top, 1) -> a direction
 uniform float pictureHeight;
-uniform float above;  // row tangents
-uniform float below;
 uniform vec3 zenith;  // of the sky; all black without one
 uniform vec3 horizon;
 uniform vec3 ground;
 uniform float exposure;
 uniform uint sourceOfBackground;
 
+#ifdef CAPTURED
+struct Run {
+  uint rows;  // first, and one below the last in the high half
+  uint roles;
+};
+layout(std430, binding = 0) readonly buffer ColumnRuns { uvec2 columnRuns[]; };  // first and one behind the last; none: equal
+layout(std430, binding = 1) readonly buffer Runs { Run runs[]; };
+uniform vec2 middle;               // of the capture's sector
+uniform vec2 columnsAndPerRadian;  // of the capture
+uniform vec2 topAndRowsPerRadian;
+uniform uint roles;  // of the region that the picture is drawn for
+#else
+uniform float above;  // row tangents
+uniform float below;
+#endif
+#ifdef CLIP_TO_PART
+uniform vec2 partLow;  // unit directions of the part's borders, half-open [low, high)
+uniform vec2 partHigh;
+uniform bool partIsWide;  // more than half a turn
+#endif
+
 const float kSkyDepth = 1e-30;  // as in points.vert
+
+float left(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+#ifdef CLIP_TO_PART
+bool inPart(vec2 inPlan) {
+  bool fromLow = left(partLow, inPlan) >= 0.0;
+  bool toHigh = left(inPlan, partHigh) > 0.0;
+  return partIsWide ? fromLow || toHigh : fromLow && toHigh;
+}
+#endif
+
+#ifdef CAPTURED
+bool holds(vec3 direction) {
+  float ahead = dot(middle, direction.xy);
+  if (ahead <= 0.0) return false;  // no sector is wider than half a turn
+  float column = atan(left(middle, direction.xy), ahead) * columnsAndPerRadian.y + 0.5 * columnsAndPerRadian.x;
+  if (column < 0.0 || column >= columnsAndPerRadian.x) return false;
+  uvec2 all = columnRuns[uint(column)];
+  if (all.x == all.y) return false;
+  float down = (topAndRowsPerRadian.x - atan(direction.z, length(direction.xy))) * topAndRowsPerRadian.y;
+  if (down < 0.0) return false;
+  uint row = uint(down);
+  uint first = all.x, last = all.y;  // the first run that ends below the row
+  while (first < last) {
+    uint between = (first + last) / 2u;
+    if ((runs[between].rows >> 16) <= row) first = between + 1u;
+    else last = between;
+  }
+  return first < all.y && (runs[first].rows & 0xffffu) <= row && (runs[first].roles & roles) != 0u;
+}
+#else
+bool holds(vec3 direction) {
+  float flatLength = length(direction.xy);
+  return direction.z > above * flatLength || direction.z < below * flatLength;
+}
+#endif
 
 void main() {
   vec3 direction = normalize(worldFromPicture * vec3(gl_FragCoord.x, pictureHeight - gl_FragCoord.y, 1.0));
-  float flatLength = length(direction.xy);
-  if (direction.z <= above * flatLength && direction.z >= below * flatLength) discard;
+#ifdef CLIP_TO_PART
+  if (!inPart(direction.xy)) discard;
+#endif
+  if (!holds(direction)) discard;
   vec3 radiance = direction.z < 0.0 ? ground : mix(horizon, zenith, min(direction.z, 1.0));
   colour = vec4(srgbFromLinear(toneMap(radiance * exposure)), 1.0);
   source = sourceOfBackground;

@@ -4,11 +4,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <new>
 #include <optional>
 
 #include "engine/bake/bake.h"
+#include "engine/bake/chunk_samples.h"
 #include "engine/bake/flat_mirrors.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/region_sight.h"
@@ -27,52 +27,6 @@ constexpr double kBorderSlack = 1e-6;
 constexpr double kSameDepth = 0.5;
 /// Of a sample's spacing: how far the picture may shift by the rounding of a distance.
 constexpr double kShiftByRounding = 0.1;
-
-/// Samples of some neighbouring columns, in capture order.
-struct SampleList {
-  std::vector<std::uint32_t> perColumn;
-  std::vector<std::uint16_t> row;
-  std::vector<float> inverseDistance;
-  std::vector<HalfColour> colour;
-  std::vector<std::uint8_t> roles;
-  std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
-
-  static constexpr std::size_t kBytes =
-      sizeof(std::uint16_t) + sizeof(float) + sizeof(HalfColour) + 2 * sizeof(std::uint8_t);  ///< of a sample
-
-  void reserve(std::size_t samples) {
-    row.reserve(samples);
-    inverseDistance.reserve(samples);
-    colour.reserve(samples);
-    roles.reserve(samples);
-  }
-  /// Gives back what was reserved in vain.
-  void trim() {
-    row.shrink_to_fit();
-    inverseDistance.shrink_to_fit();
-    colour.shrink_to_fit();
-    roles.shrink_to_fit();
-    mirror.shrink_to_fit();
-  }
-  void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
-    row.push_back(std::uint16_t(r));
-    inverseDistance.push_back(w);
-    colour.push_back(packed);
-    roles.push_back(mask);
-  }
-};
-
-struct Samples : SampleList {
-  SampleList reflections;  ///< in a scene with flat mirrors
-  CaptureCounts counts;
-  MemoryBudget::Share held;
-
-  void close() {
-    trim();
-    reflections.trim();
-    held.set(kBytes * (row.size() + reflections.row.size()));
-  }
-};
 
 /// A role as one column of the camera meets it.
 struct ColumnRole {
@@ -154,7 +108,7 @@ struct March {
 /// Marches along the rays of one column after the other, on one thread.
 class ColumnMarch {
  public:
-  ColumnMarch(const March& march, Samples& out)
+  ColumnMarch(const March& march, ChunkSamples& out)
       : march_(march),
         out_(out),
         sameDepth_(kSameDepth * march.columns.rowPitch()),
@@ -174,6 +128,7 @@ class ColumnMarch {
       runRows(row, std::min(row + RayPacket::kSize, march_.columns.rows), stop);
     }
     out_.perColumn.push_back(std::uint32_t(out_.row.size() - before));
+    out_.background.closeColumn();
     if (march_.mirrors != nullptr)
       out_.reflections.perColumn.push_back(std::uint32_t(out_.reflections.row.size() - shownBefore));
     return true;
@@ -199,7 +154,8 @@ class ColumnMarch {
   bool addAlone(int row, const glm::vec3& direction, const Hit& hit) {
     const std::uint8_t mask = roles_.front().bit;
     if (!hit.found()) {
-      out_.add(row, 0, packColour({march_.shader.background(direction), 1}), mask);
+      addBackground(row, mask);
+      return true;
     } else {
       const double horizontal = double(hit.distance) * march_.rows.cosine[std::size_t(row)];
       const float stored = storedInverseDistance(1 / horizontal, march_.distanceStep);
@@ -239,7 +195,7 @@ class ColumnMarch {
   /// if the pixel is done.
   const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit) {
     if (!hit.found()) {
-      addBackground(direction);
+      addBackgroundAlong(direction);
       return nullptr;
     }
     addSurface(direction, hit);
@@ -315,14 +271,18 @@ class ColumnMarch {
     shown_.clear();
   }
 
-  void addBackground(const glm::vec3& direction) {
-    needed_.clear();
+  void addBackgroundAlong(const glm::vec3& direction) {
+    std::uint8_t mask = 0;
     for (const ColumnRole& role : roles_)
       if (role.holdsBackground && !isFull(role) &&
           (march_.sight == nullptr ||
            march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
-        needed_.push_back(&role);
-    if (!needed_.empty()) add(0, march_.shader.background(direction), 1);
+        mask |= role.bit;
+    if (mask != 0) addBackground(row_, mask);
+  }
+  void addBackground(int row, std::uint8_t mask) {
+    out_.background.add(row, mask);
+    ++out_.counts.samples.background;
   }
 
   /// A sample for the roles in needed_.
@@ -344,7 +304,7 @@ class ColumnMarch {
   };
 
   const March& march_;
-  Samples& out_;
+  ChunkSamples& out_;
   double sameDepth_;  ///< metres per metre of ray
   std::array<Hit, RayPacket::kSize> hits_;
   RegionSight::Hints hints_;
@@ -359,56 +319,6 @@ class ColumnMarch {
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::vector<Shown> shown_;               ///< by the mirrors of the pixel
 };
-
-/// One of the lists of all chunks. Its arrays are filled side by side: they are too large for any cache, and
-/// one thread would not use the memory's whole rate. A part only, when stopped.
-template <class ListOf>
-void join(const std::vector<Samples>& chunks, const ListOf& listOf, TaskRunner& runner,
-          const std::stop_token& stop, CaptureSamples& out) {
-  std::size_t columns = 0;
-  for (const Samples& chunk : chunks) columns += listOf(chunk).perColumn.size();
-  const auto fill = [&](auto& all, auto SampleList::*part) {
-    std::size_t total = 0;
-    for (const Samples& chunk : chunks) total += (listOf(chunk).*part).size();
-    all.reserve(total);
-    for (const Samples& chunk : chunks) {
-      if (stop.stop_requested()) return;
-      const auto& some = listOf(chunk).*part;
-      all.insert(all.end(), some.begin(), some.end());
-    }
-  };
-  const auto starts = [&] {
-    out.columnStart.reserve(columns + 1);
-    out.columnStart.push_back(0);
-    for (const Samples& chunk : chunks)
-      for (const std::uint32_t count : listOf(chunk).perColumn)
-        out.columnStart.push_back(out.columnStart.back() + count);
-  };
-  const std::array<std::function<void()>, 6> parts{
-      [&] { fill(out.colour, &SampleList::colour); },
-      [&] { fill(out.inverseDistance, &SampleList::inverseDistance); },
-      [&] { fill(out.row, &SampleList::row); },
-      [&] { fill(out.roles, &SampleList::roles); },
-      [&] { fill(out.mirror, &SampleList::mirror); },
-      starts};
-  runner.parallelFor(parts.size(), [&](std::size_t part) { parts[part](); });
-}
-
-/// The samples of all columns as one capture.
-Capture joined(const March& march, const std::vector<Samples>& chunks, bool reflections, TaskRunner& runner,
-               const std::stop_token& stop) {
-  Capture capture;
-  capture.camera = march.columns;
-  capture.distanceStep = march.distanceStep;
-  const auto surfaces = [](const Samples& s) -> const SampleList& { return s; };
-  const auto shown = [](const Samples& s) -> const SampleList& { return s.reflections; };
-  join(chunks, surfaces, runner, stop, capture);
-  if (reflections)
-    join(chunks, shown, runner, stop, capture.reflections);
-  else
-    capture.mirror = {};  // a mirror that shows nothing to anybody is a surface like others
-  return capture;
-}
 
 }  // namespace
 
@@ -483,7 +393,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                       mirrors_->any() ? mirrors_.get() : nullptr,
                       distanceStepFor(camera, columns)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
-    std::vector<Samples> chunks(chunkCount);
+    std::vector<ChunkSamples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;
     std::atomic<int> columnsTraced = 0;
     std::atomic<std::uint64_t> raysTraced = counts.rays.total();
@@ -494,12 +404,12 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       const int first = int(chunk) * kColumnsPerChunk;
       const int last = std::min(first + kColumnsPerChunk, columns.columns);
       const std::size_t pixels = std::size_t(last - first) * std::size_t(columns.rows);
-      if (!budget_.waitForRoom(pixels * Samples::kBytes, stop)) return;
+      if (!budget_.waitForRoom(pixels * ChunkSamples::kBytes, stop)) return;
       try {
-        Samples samples;  // not in `chunks`, where another thread works on the next
+        ChunkSamples samples;  // not in `chunks`, where another thread works on the next
         samples.held = MemoryBudget::Share(budget_);
         samples.reserve(pixels);
-        samples.held.set(pixels * Samples::kBytes);
+        samples.held.set(pixels * ChunkSamples::kBytes);
         ColumnMarch columnMarch(march, samples);
         for (int column = first; column < last && columnMarch.run(column, stop);) ++column;
         samples.close();
@@ -518,13 +428,16 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       return fail(ErrorKind::tooLarge, "more than 2^31 samples in one capture; lower the samples per degree",
                   scene_.scene().name);
     CaptureCounts counted;
-    for (const Samples& s : chunks) counted += s.counts;
+    for (const ChunkSamples& s : chunks) counted += s.counts;
     counts += counted;
-    if (!budget_.waitForRoom(total * Samples::kBytes, stop)) return stopped();
+    if (!budget_.waitForRoom(total * ChunkSamples::kBytes, stop)) return stopped();
     MemoryBudget::Share whole(budget_);
-    whole.set(total * Samples::kBytes);
-    Capture capture = joined(march, chunks, counted.reflections > 0, runner, stop);
+    whole.set(total * ChunkSamples::kBytes);
+    Capture capture = joined(chunks, counted.reflections > 0, runner, stop);
     if (stop.stop_requested()) return stopped();
+    capture.camera = columns;
+    capture.distanceStep = march.distanceStep;
+    if (capture.background.runCount() > 0) capture.background.sky = shader_->sky();
     return capture;
   } catch (const std::bad_alloc&) {
     return noMemory();

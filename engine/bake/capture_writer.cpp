@@ -21,13 +21,6 @@ Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& captur
 /// While it is encoded a capture is there twice more: as planes, and as the files' bytes.
 constexpr std::size_t kCopies = 3;
 
-std::size_t bytesOf(const CaptureSamples& samples) {
-  return samples.columnStart.size() * sizeof samples.columnStart[0] +
-         samples.sampleCount() * (sizeof samples.row[0] + sizeof samples.roles[0] +
-                                  sizeof samples.inverseDistance[0] + sizeof samples.colour[0]) +
-         samples.mirror.size();
-}
-
 /// After a stop, for what waits.
 constexpr auto kGrace = std::chrono::milliseconds(500);
 
@@ -45,7 +38,8 @@ Status CaptureWriter::status() const {
 
 Status CaptureWriter::put(const ContentKey& key, Capture capture) {
   Job job{key, std::move(capture), MemoryBudget::Share(budget_)};
-  const std::size_t bytes = bytesOf(job.capture) + bytesOf(job.capture.reflections);
+  // In OpenEXR the background takes samples like others.
+  const std::size_t bytes = job.capture.bytes() + kCaptureSampleBytes * job.capture.background.pixelCount();
   job.held.set(bytes);
   const bool room = budget_.waitForRoom((kCopies - 1) * bytes, stop_);
   const std::lock_guard lock(mutex_);

@@ -173,10 +173,6 @@ Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings
     }
 }
 
-glm::vec3 Shader::background(const glm::vec3& direction) const {
-  return scene_->plan().on(Effect::sky) ? scene_->scene().sky.radiance(direction) : glm::vec3(0);
-}
-
 Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const {
   const auto surfaceOf = detail_.any() ? surfaceAt<true> : surfaceAt<false>;
   const Surface surface = surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_);

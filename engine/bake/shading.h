@@ -53,8 +53,9 @@ class Shader {
   Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false) const {
     return kernel_(*this, hit, toViewer, seenInMirror, rays);
   }
-  /// Where a ray hits nothing: the sky, or black without one.
-  glm::vec3 background(const glm::vec3& direction) const;
+  /// What is seen where a ray hits nothing; all zero (black) where the plan has none.
+  Sky sky() const { return scene_->plan().on(Effect::sky) ? scene_->scene().sky : Sky{}; }
+  glm::vec3 background(const glm::vec3& direction) const { return sky().radiance(direction); }
 
   struct Seen {
     glm::vec3 radiance{0};

@@ -219,6 +219,7 @@ Json toJson(const RayCounts& rays) {
 Json toJson(const SampleCounts& samples) {
   return {{"kept", samples.keptInAll()},
           {"keptByLayer", samples.kept},
+          {"backgroundPixels", samples.background},
           {"droppedHidden", samples.hidden},
           {"droppedOverLimit", samples.overLimit}};
 }

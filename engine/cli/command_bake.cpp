@@ -8,16 +8,19 @@
 namespace acentric::cli {
 namespace {
 
-/// "12: 812,345 samples in 4 layers (620,100, 150,200, 40,045, 2,000), dropped: 301,000 hidden, 12 over the
-/// limit; 7.9 MB".
+/// "12: 812,345 samples in 4 layers (620,100, 150,200, 40,045, 2,000), background in 90,500 pixels, dropped:
+/// 301,000 hidden, 12 over the limit; 7.9 MB".
 std::string cameraText(int camera, const std::optional<SampleCounts>& samples, std::uint64_t bytes) {
   if (!samples) return fmt::format("  {:>4}: {}\n", camera, bytesText(bytes));
   std::vector<std::string> layers;
   for (const std::uint64_t kept : samples->kept)
     if (kept > 0) layers.push_back(countText(kept));
-  return fmt::format("  {:>4}: {} samples in {} layers ({}), dropped: {} hidden, {} over the limit; {}\n",
-                     camera, countText(samples->keptInAll()), layers.size(), fmt::join(layers, ", "),
-                     countText(samples->hidden), countText(samples->overLimit), bytesText(bytes));
+  return fmt::format(
+      "  {:>4}: {} samples in {} layers ({}), background in {} pixels, dropped: {} hidden, {} over the "
+      "limit; {}\n",
+      camera, countText(samples->keptInAll()), layers.size(), fmt::join(layers, ", "),
+      countText(samples->background), countText(samples->hidden), countText(samples->overLimit),
+      bytesText(bytes));
 }
 
 Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, const BakeOptions& options,

@@ -56,6 +56,7 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
                  {"bytesPerCamera",
                   {{"everySurface", bytes.everySurface / cameras},
                    {"pruned", bytes.pruned / cameras},
+                   {"surfaces", bytes.surfaces / cameras},
                    {"quantised", bytes.quantised / cameras},
                    {"pack", bytes.pack / cameras},
                    {"exr", bytes.exr / cameras}}}};
@@ -76,12 +77,14 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
       "  final: tracing {:.2f} s, shading {:.2f} s, pruning and deeper layers {:.2f} s; encoding {:.2f} s "
       "and "
       "writing {:.2f} s on one thread behind them\n"
-      "  bytes a camera, final: every surface {}, what some region sees {}, distances of 16 bits {}; "
+      "  bytes a camera, final: every surface {}, what some region sees {}, the background "
+      "as runs of rows {}, distances of 16 bits {}; "
       "compressed: {} packed, {} OpenEXR\n"
       "  1 to {} threads: {:.2f} times as fast\n",
       bench->ringSeconds, bench->sets.front().seconds, bench->shadingSeconds, bench->pruningSeconds,
       bench->encodingSeconds, bench->writingSeconds, perCamera(bytes.everySurface), perCamera(bytes.pruned),
-      perCamera(bytes.quantised), perCamera(bytes.pack), perCamera(bytes.exr), bench->threads, scaling);
+      perCamera(bytes.surfaces), perCamera(bytes.quantised), perCamera(bytes.pack), perCamera(bytes.exr),
+      bench->threads, scaling);
   return report;
 }
 

@@ -63,6 +63,7 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
       if (s.row[i] >= camera.rows) return bad("row lies below the image");
       if (!(s.inverseDistance[i] >= 0) || !std::isfinite(s.inverseDistance[i]))
         return bad("inverse distance is not a finite number >= 0");
+      if (!reflections && s.inverseDistance[i] == 0) return bad("is infinitely far: that is the background");
       if ((std::bit_cast<std::uint32_t>(s.inverseDistance[i]) & 0xffu) != 0)
         return bad("inverse distance has more than 16 significant bits");
       if (s.roles[i] == 0) return bad("no role needs it");
@@ -74,6 +75,38 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
       if (s.row[i] < s.row[i - 1]) return bad("rows are not sorted");
       if (s.row[i] == s.row[i - 1] && s.inverseDistance[i] > s.inverseDistance[i - 1])
         return bad("layers of a pixel are not sorted nearest first");
+    }
+  }
+  return {};
+}
+
+Status checkBackground(const CaptureBackground& b, const ColumnCamera& camera) {
+  if (b == CaptureBackground{}) return {};
+  const auto columns = static_cast<std::size_t>(camera.columns);
+  if (b.runCount() == 0) return malformed("its background has no rows, and yet colours or column offsets");
+  for (const glm::vec3& radiance : {b.sky.zenith, b.sky.horizon, b.sky.ground})
+    for (int i = 0; i < 3; ++i)
+      if (!(radiance[i] >= 0) || !std::isfinite(radiance[i]))
+        return malformed("radiance of its background is not a finite number >= 0");
+  if (b.endRow.size() != b.runCount() || b.roles.size() != b.runCount())
+    return malformed(
+        fmt::format("its background has {} first rows, {} ends and {} roles: they must be equally many",
+                    b.runCount(), b.endRow.size(), b.roles.size()));
+  if (b.columnStart.size() != columns + 1 || b.columnStart.front() != 0 ||
+      b.columnStart.back() != b.runCount() || !std::is_sorted(b.columnStart.begin(), b.columnStart.end()))
+    return malformed("column offsets of its background do not partition the runs of rows");
+  for (std::size_t column = 0; column < columns; ++column) {
+    const std::size_t first = b.columnStart[column];
+    for (std::size_t i = first; i < b.columnStart[column + 1]; ++i) {
+      const auto bad = [&](const char* what) {
+        return malformed(fmt::format("run {} of its background (column {}): {}", i, column, what));
+      };
+      if (b.firstRow[i] >= b.endRow[i] || b.endRow[i] > camera.rows) return bad("no rows of the image");
+      if (b.roles[i] == 0) return bad("no role needs it");
+      if (i == first) continue;
+      if (b.firstRow[i] < b.endRow[i - 1]) return bad("does not lie below the one before");
+      if (b.firstRow[i] == b.endRow[i - 1] && b.roles[i] == b.roles[i - 1])
+        return bad("goes on with the one before");
     }
   }
   return {};
@@ -119,6 +152,52 @@ int CaptureSamples::maxLayers() const {
   return most;
 }
 
+std::size_t CaptureSamples::bytes() const {
+  return columnStart.size() * sizeof columnStart[0] + sampleCount() * kCaptureSampleBytes + mirror.size();
+}
+
+std::size_t CaptureBackground::pixelCount() const {
+  std::size_t pixels = 0;
+  for (std::size_t i = 0; i < runCount(); ++i) pixels += std::size_t(endRow[i] - firstRow[i]);
+  return pixels;
+}
+
+std::size_t CaptureBackground::bytes() const {
+  return columnStart.size() * sizeof columnStart[0] +
+         runCount() * (sizeof firstRow[0] + sizeof endRow[0] + sizeof roles[0]);
+}
+
+void BackgroundBuilder::add(int row, std::uint8_t roles) {
+  const std::size_t first = runs_.columnStart.empty() ? 0 : runs_.columnStart.back();
+  const bool goesOn = runs_.runCount() > first && runs_.endRow.back() == row && runs_.roles.back() == roles;
+  if (!goesOn) {
+    runs_.firstRow.push_back(std::uint16_t(row));
+    runs_.endRow.push_back(0);
+    runs_.roles.push_back(roles);
+  }
+  runs_.endRow.back() = std::uint16_t(row + 1);
+}
+
+void BackgroundBuilder::append(const BackgroundBuilder& other) {
+  const auto before = std::uint32_t(runs_.runCount());
+  for (const std::uint32_t start : other.runs_.columnStart) runs_.columnStart.push_back(before + start);
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(runs_.firstRow, other.runs_.firstRow);
+  add(runs_.endRow, other.runs_.endRow);
+  add(runs_.roles, other.runs_.roles);
+}
+
+CaptureBackground BackgroundBuilder::finish(const Sky& sky) && {
+  if (runs_.runCount() == 0) return {};
+  runs_.sky = sky;
+  runs_.columnStart.insert(runs_.columnStart.begin(), 0);
+  return std::move(runs_);
+}
+
+std::size_t Capture::bytes() const {
+  return CaptureSamples::bytes() + background.bytes() + reflections.bytes();
+}
+
 Status Capture::check() const {
   if (auto sound = camera.check(); !sound) return sound;
   if (!(distanceStep >= 0) || !std::isfinite(distanceStep))
@@ -126,6 +205,7 @@ Status Capture::check() const {
   const auto columns = static_cast<std::size_t>(camera.columns);
   if (auto sound = checkArrays(*this, columns, hasReflections(), "sample"); !sound) return sound;
   if (auto sound = checkSamples(*this, camera, false, "sample"); !sound) return sound;
+  if (auto sound = checkBackground(background, camera); !sound) return sound;
   if (reflections == CaptureSamples{}) return {};
   if (!hasReflections()) return malformed("its list of reflections is there, and empty");
   if (auto sound = checkArrays(reflections, columns, true, "reflection"); !sound) return sound;

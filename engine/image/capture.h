@@ -6,6 +6,9 @@
 /// first). An opaque sample has alpha 1, a blended one (glass, alpha blend) less. A pixel without any sample
 /// was not needed by any region. Each sample says who needs it: bit r for role r of the camera (layout.h).
 ///
+/// The background, infinitely far behind all samples, looks the same from everywhere. So it needs no samples:
+/// each column tells in which rows it is seen, and by whom.
+///
 /// What flat mirrors show is a second list of samples at their virtual places: seen in a plane mirror a point
 /// lies at its mirror image, the same one for every eye, and on the camera's own ray as far behind the mirror
 /// as the reflected ray went. It is drawn where the mirror itself is what a pixel shows. A capture without
@@ -17,6 +20,7 @@
 
 #include "engine/base/result.h"
 #include "engine/geometry/column_camera.h"
+#include "engine/image/sky.h"
 
 namespace acentric {
 
@@ -36,7 +40,7 @@ float storedInverseDistance(double inverseDistance, double step);
 struct CaptureSamples {
   std::vector<std::uint32_t> columnStart;  ///< columns + 1 offsets into the arrays below
   std::vector<std::uint16_t> row;
-  std::vector<float> inverseDistance;  ///< 1/m, horizontal; 0 = sky
+  std::vector<float> inverseDistance;  ///< 1/m, horizontal; 0 = infinitely far, of reflections alone
   std::vector<HalfColour> colour;
   std::vector<std::uint8_t> roles;  ///< that need the sample, at least one
   /// Of a surface: which of the scene's mirrors it belongs to, 0 = none; the array is empty in a capture
@@ -44,20 +48,60 @@ struct CaptureSamples {
   std::vector<std::uint8_t> mirror;
 
   std::size_t sampleCount() const { return row.size(); }
+  /// What the arrays hold, without their slack.
+  std::size_t bytes() const;
   /// Largest number of samples in one pixel.
   int maxLayers() const;
   bool operator==(const CaptureSamples&) const = default;
 };
 
-/// The surfaces, and what mirrors among them show.
+/// Of a surface sample without a mirror.
+inline constexpr std::size_t kCaptureSampleBytes =
+    sizeof(std::uint16_t) + sizeof(float) + sizeof(HalfColour) + sizeof(std::uint8_t);
+
+/// Where a capture's pixels show the background behind their samples. Of a column the runs of rows lie one
+/// below the other; those that touch differ in their roles.
+struct CaptureBackground {
+  Sky sky;                                 ///< linear radiance by direction; all zero without runs
+  std::vector<std::uint32_t> columnStart;  ///< columns + 1 offsets into the arrays below; empty without runs
+  std::vector<std::uint16_t> firstRow;
+  std::vector<std::uint16_t> endRow;  ///< one below the last
+  std::vector<std::uint8_t> roles;    ///< that need it, at least one
+
+  std::size_t runCount() const { return firstRow.size(); }
+  std::size_t pixelCount() const;
+  std::size_t bytes() const;
+  bool operator==(const CaptureBackground&) const = default;
+};
+
+/// Gathers the background of one column after the other.
+class BackgroundBuilder {
+ public:
+  /// Rows of a column from top to bottom; each once.
+  void add(int row, std::uint8_t roles);
+  void closeColumn() { runs_.columnStart.push_back(std::uint32_t(runs_.runCount())); }
+  /// The columns that the other has closed, behind the own.
+  void append(const BackgroundBuilder& other);
+  /// Of as many columns as were closed.
+  CaptureBackground finish(const Sky& sky) &&;
+
+ private:
+  CaptureBackground runs_;
+};
+
+/// The surfaces, the background behind them, and what mirrors among them show.
 struct Capture : CaptureSamples {
   ColumnCamera camera;
-  double distanceStep = 0;     ///< 1/m, see storedInverseDistance
+  double distanceStep = 0;  ///< 1/m, see storedInverseDistance
+  CaptureBackground background;
   CaptureSamples reflections;  ///< opaque; all arrays empty where there are none
 
   bool hasReflections() const { return !reflections.row.empty(); }
+  /// What all arrays hold.
+  std::size_t bytes() const;
   /// Every invariant above that a single capture shows: the camera, array sizes, order of rows and layers,
-  /// finite inverseDistance >= 0 with 16 significant bits, finite radiance >= 0, alpha in [0,1], mirrors.
+  /// finite inverseDistance > 0 (of reflections >= 0) with 16 significant bits, finite radiance >= 0, alpha
+  /// in [0,1], runs of the background, mirrors.
   /// Used on whatever comes from a file.
   Status check() const;
 };

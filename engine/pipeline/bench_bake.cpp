@@ -30,8 +30,13 @@ constexpr Kind kKinds[] = {
     {"draft", Lighting::all, Quality::draft}, {"final", Lighting::all, Quality::full}};
 constexpr std::size_t kGeometry = 0, kAllEffects = 2;
 
-/// In memory: row, distance, colour, roles; and with the distance in two bytes.
-constexpr double kSampleBytes = 15, kQuantisedBytes = 13;
+/// The distance in two bytes instead of four.
+constexpr double kQuantisedBytes = double(kCaptureSampleBytes) - 2;
+
+/// As if the background were samples like others.
+double bytesWithBackground(const SampleCounts& samples) {
+  return double(kCaptureSampleBytes) * double(samples.keptInAll() + samples.background);
+}
 
 EffectPlan planWith(const EffectPlan& plan, Lighting light) {
   EffectPlan out = plan;
@@ -269,7 +274,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
       CaptureCounts met;
       if (Status counted = bench.bakeOnce(**rays, everything, runner, met); !counted)
         return tl::unexpected(counted.error());
-      out.bytes.everySurface = kSampleBytes * double(met.samples.keptInAll());
+      out.bytes.everySurface = bytesWithBackground(met.samples);
     }
     if (kind.light == Lighting::hardShadows) {
       const auto ringSeconds = bench.ringToFiles(**rays, runner, folder->path() / "ring");
@@ -288,8 +293,12 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   const BakeBenchSet& final = out.sets.back();
   out.shadingSeconds = std::max(0.0, out.sets[kAllEffects].seconds - out.sets[kGeometry].seconds);
   out.pruningSeconds = std::max(0.0, final.seconds - out.sets[kAllEffects].seconds);
-  out.bytes.pruned = kSampleBytes * double(final.counts.samples.keptInAll());
-  out.bytes.quantised = kQuantisedBytes * double(final.counts.samples.keptInAll());
+  const double kept = double(final.counts.samples.keptInAll());
+  double runs = 0;
+  for (const Capture& capture : captures) runs += double(capture.background.bytes());
+  out.bytes.pruned = bytesWithBackground(final.counts.samples);
+  out.bytes.surfaces = double(kCaptureSampleBytes) * kept + runs;
+  out.bytes.quantised = kQuantisedBytes * kept + runs;
   const auto costs = fileCosts(captures, folder->path());
   if (!costs) return tl::unexpected(costs.error());
   out.encodingSeconds = costs->encodingSeconds;

@@ -53,11 +53,6 @@ void add(Hasher& hasher, const Light& light) {
 
 }  // namespace
 
-glm::vec3 Sky::radiance(const glm::vec3& direction) const {
-  if (direction.z < 0) return ground;
-  return glm::mix(horizon, zenith, glm::min(direction.z, 1.0f));
-}
-
 std::size_t Scene::triangleCount() const {
   std::size_t count = 0;
   for (const Mesh& mesh : meshes) count += mesh.triangles.size();

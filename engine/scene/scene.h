@@ -13,6 +13,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/image/image.h"
+#include "engine/image/sky.h"
 
 namespace acentric {
 
@@ -84,16 +85,6 @@ struct Light {
   /// docs/light.md.
   float radius = 0;         ///< metres, of a point or spot light
   float angularRadius = 0;  ///< radians, of a directional light
-};
-
-/// Light from all around: sky above, its bounce below. Radiance by direction's z: mix horizon->zenith above,
-/// ground below. All zero = none.
-struct Sky {
-  glm::vec3 zenith{0};
-  glm::vec3 horizon{0};
-  glm::vec3 ground{0};
-  bool present() const { return zenith != glm::vec3(0) || horizon != glm::vec3(0) || ground != glm::vec3(0); }
-  glm::vec3 radiance(const glm::vec3& direction) const;
 };
 
 struct Bounds {

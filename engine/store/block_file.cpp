@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
 /// Of each kind of file its own: one that changes leaves the others readable.
-constexpr std::uint32_t versionOf(BlockFileKind kind) { return kind == BlockFileKind::capture ? 3 : 2; }
+constexpr std::uint32_t versionOf(BlockFileKind kind) { return kind == BlockFileKind::capture ? 4 : 2; }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;
 constexpr std::size_t kTableEntryBytes = 8;

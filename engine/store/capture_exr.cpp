@@ -1,6 +1,6 @@
 #include "engine/store/capture_exr.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace acentric {
 namespace {
@@ -26,6 +26,86 @@ HalfColour straightened(const HalfColour& premultiplied) {
   return result;
 }
 
+CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> premultipliedColours) {
+  CaptureSamples all = capture;
+  all.colour = std::move(premultipliedColours);
+  const CaptureBackground& back = capture.background;
+  if (back.runCount() == 0) return all;
+  const std::size_t total = capture.sampleCount() + back.pixelCount();
+  const CaptureSamples samples = std::move(all);
+  all = {};
+  all.row.reserve(total);
+  all.inverseDistance.reserve(total);
+  all.colour.reserve(total);
+  all.roles.reserve(total);
+  all.mirror.reserve(samples.mirror.empty() ? 0 : total);
+  all.columnStart.push_back(0);
+  const ColumnCamera& camera = capture.camera;
+  for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column) {
+    std::size_t next = samples.columnStart[column];
+    const auto copyUpTo = [&](int row) {  // and with it
+      for (; next < samples.columnStart[column + 1] && int(samples.row[next]) <= row; ++next) {
+        all.row.push_back(samples.row[next]);
+        all.inverseDistance.push_back(samples.inverseDistance[next]);
+        all.colour.push_back(samples.colour[next]);
+        all.roles.push_back(samples.roles[next]);
+        if (!samples.mirror.empty()) all.mirror.push_back(samples.mirror[next]);
+      }
+    };
+    const glm::dvec2 along = camera.directionAt(double(column) + 0.5);
+    for (std::size_t run = back.columnStart[column]; run < back.columnStart[column + 1]; ++run)
+      for (int row = back.firstRow[run]; row < back.endRow[run]; ++row) {
+        copyUpTo(row);
+        const glm::vec3 direction(glm::normalize(glm::dvec3(along, camera.tangentAt(row + 0.5))));
+        all.row.push_back(std::uint16_t(row));
+        all.inverseDistance.push_back(0);
+        all.colour.push_back(packColour({back.sky.radiance(direction), 1}));
+        all.roles.push_back(back.roles[run]);
+        if (!samples.mirror.empty()) all.mirror.push_back(0);
+      }
+    copyUpTo(camera.rows);
+    all.columnStart.push_back(std::uint32_t(all.row.size()));
+  }
+  return all;
+}
+
+Status takeBackground(CaptureSamples& samples, const Sky& sky, CaptureBackground& out) {
+  BackgroundBuilder background;
+  std::size_t kept = 0, begin = 0;
+  for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column) {
+    int behind = -1;  // the last row with background
+    const std::size_t end = samples.columnStart[column + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      const int row = samples.row[i];
+      const bool far = samples.inverseDistance[i] == 0;
+      if (row == behind || (far && !samples.mirror.empty() && samples.mirror[i] != 0))
+        return fail(ErrorKind::malformed,
+                    row == behind ? "a sample lies behind the background" : "the background is no mirror");
+      if (far) {
+        background.add(row, samples.roles[i]);
+        behind = row;
+        continue;
+      }
+      samples.row[kept] = samples.row[i];
+      samples.inverseDistance[kept] = samples.inverseDistance[i];
+      samples.colour[kept] = samples.colour[i];
+      samples.roles[kept] = samples.roles[i];
+      if (!samples.mirror.empty()) samples.mirror[kept] = samples.mirror[i];
+      ++kept;
+    }
+    background.closeColumn();
+    begin = end;
+    samples.columnStart[column + 1] = std::uint32_t(kept);
+  }
+  samples.row.resize(kept);
+  samples.inverseDistance.resize(kept);
+  samples.colour.resize(kept);
+  samples.roles.resize(kept);
+  if (!samples.mirror.empty()) samples.mirror.resize(kept);
+  out = std::move(background).finish(sky);
+  return {};
+}
+
 ContentKey checksumOf(const ContentKey& key, const Capture& capture,
                       const std::vector<HalfColour>& premultipliedColours) {
   Hasher hasher;
@@ -39,6 +119,12 @@ ContentKey checksumOf(const ContentKey& key, const Capture& capture,
     if (capture.hasReflections()) hasher.array(std::span(samples.mirror));
   };
   add(capture, premultipliedColours);
+  if (const CaptureBackground& back = capture.background; back.runCount() > 0) {
+    for (const glm::vec3& radiance : {back.sky.zenith, back.sky.horizon, back.sky.ground})
+      hasher.value(radiance.x).value(radiance.y).value(radiance.z);
+    hasher.array(std::span(back.columnStart)).array(std::span(back.firstRow));
+    hasher.array(std::span(back.endRow)).array(std::span(back.roles));
+  }
   if (capture.hasReflections()) add(capture.reflections, capture.reflections.colour);
   return hasher.finish();
 }

@@ -10,7 +10,7 @@
 
 namespace acentric {
 
-inline constexpr int kCaptureExrVersion = 3;
+inline constexpr int kCaptureExrVersion = 4;
 /// Value of channel W where a flat file's pixel has no sample.
 inline constexpr float kNoSample = -1.0f;
 
@@ -30,11 +30,21 @@ inline constexpr char kAttributeFov[] = "acentricFov";
 inline constexpr char kAttributeTop[] = "acentricTopElevation";
 inline constexpr char kAttributeBottom[] = "acentricBottomElevation";
 inline constexpr char kAttributeStep[] = "acentricDistanceStep";
+/// Only in files of captures that show it.
+inline constexpr char kAttributeZenith[] = "acentricSkyZenith";
+inline constexpr char kAttributeHorizon[] = "acentricSkyHorizon";
+inline constexpr char kAttributeGround[] = "acentricSkyGround";
 
 /// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else each direction
 /// rounds to the nearest half, and the colour under alpha 0 is lost.
 HalfColour premultiplied(const HalfColour& straight);
 HalfColour straightened(const HalfColour& premultiplied);
+
+/// The samples of a picture: in the background there is one more, infinitely far and opaque. Colours are
+/// premultiplied.
+CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> premultipliedColours);
+/// Takes it out again. Fails where a sample lies behind it, or it is said to be a mirror.
+Status takeBackground(CaptureSamples& samples, const Sky& sky, CaptureBackground& out);
 
 /// Guards what the compression's own check does not: attributes, sample counts, the order of samples.
 /// Reflections are opaque: their colours are the same premultiplied.

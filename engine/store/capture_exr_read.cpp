@@ -80,6 +80,16 @@ ColumnCamera cameraOf(const Imf::Header& header, std::uint64_t fileBytes) {
   return camera;
 }
 
+/// All zero in a file that shows none.
+Sky skyOf(const Imf::Header& header) {
+  if (header.findTypedAttribute<Imf::V3fAttribute>(kAttributeZenith) == nullptr) return {};
+  const auto radiance = [&](const char* name) {
+    const Imath::V3f c = attribute<Imf::V3fAttribute>(header, name);
+    return glm::vec3(c.x, c.y, c.z);
+  };
+  return {radiance(kAttributeZenith), radiance(kAttributeHorizon), radiance(kAttributeGround)};
+}
+
 template <class T>
 char* slicePointer(T& value) {
   return reinterpret_cast<char*>(&value);
@@ -279,6 +289,8 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
     readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections, stop});
   }
 
+  if (const Status taken = takeBackground(capture, skyOf(header), capture.background); !taken)
+    refuse(taken.error().message);
   if (checksumOf(result.key, capture, capture.colour) != keyAttribute(header, kAttributeChecksum))
     refuse("is damaged or was edited: its checksum differs");
   for (HalfColour& colour : capture.colour) colour = straightened(colour);

@@ -84,6 +84,13 @@ void addAttributes(Imf::Header& header, const Capture& capture, const ContentKey
   header.insert(kAttributeTop, Imf::DoubleAttribute(camera.topElevation));
   header.insert(kAttributeBottom, Imf::DoubleAttribute(camera.bottomElevation));
   header.insert(kAttributeStep, Imf::DoubleAttribute(capture.distanceStep));
+  if (capture.background.runCount() == 0) return;
+  const auto radiance = [&](const char* name, const glm::vec3& c) {
+    header.insert(name, Imf::V3fAttribute(Imath::V3f(c.x, c.y, c.z)));
+  };
+  radiance(kAttributeZenith, capture.background.sky.zenith);
+  radiance(kAttributeHorizon, capture.background.sky.horizon);
+  radiance(kAttributeGround, capture.background.sky.ground);
 }
 
 /// Distance along the ray of a sample of this row.
@@ -115,10 +122,10 @@ struct Pixel {
   std::uint32_t mirror;
 };
 
-/// `File`: a whole file or a part of one. `colours` are premultiplied.
+/// `File`: a whole file or a part of one. Colours are premultiplied.
 template <class File>
 void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
-               const std::vector<HalfColour>& colours, const std::stop_token& stop) {
+               const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
   const bool mirrors = !samples.mirror.empty();
   std::vector<Pixel> line(columns);
@@ -145,7 +152,7 @@ void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
       }
       const float w = samples.inverseDistance[first];
       const std::uint32_t mirror = mirrors ? samples.mirror[first] : 0;
-      line[x] = {colours[first], rayDistance(perHorizontal, w), w, samples.roles[first], mirror};
+      line[x] = {samples.colour[first], rayDistance(perHorizontal, w), w, samples.roles[first], mirror};
     }
     file.writePixels(1);
   }
@@ -153,7 +160,7 @@ void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
 
 template <class File>
 void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
-               const std::vector<HalfColour>& colours, const std::stop_token& stop) {
+               const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
   const bool mirrors = !samples.mirror.empty();
   std::vector<Pixel> line;  // its samples, one behind the other
@@ -183,7 +190,7 @@ void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
       counts[x] = count;
       for (std::uint32_t i = first; i < first + count; ++i) {
         const float w = samples.inverseDistance[i];
-        line.push_back({colours[i], rayDistance(perHorizontal, w), w, samples.roles[i],
+        line.push_back({samples.colour[i], rayDistance(perHorizontal, w), w, samples.roles[i],
                         mirrors ? std::uint32_t(samples.mirror[i]) : 0});
       }
     }
@@ -201,31 +208,30 @@ void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
   }
 }
 
-void writeWhole(const Capture& capture, const std::vector<HalfColour>& colours, const Imf::Header& header,
+void writeWhole(const ColumnCamera& camera, const CaptureSamples& surfaces, const Imf::Header& header,
                 Imf::OStream& stream, const std::stop_token& stop) {
   if (header.hasType())
-    writeDeep(Imf::DeepScanLineOutputFile(stream, header, 0), capture.camera, capture, colours, stop);
+    writeDeep(Imf::DeepScanLineOutputFile(stream, header, 0), camera, surfaces, stop);
   else
-    writeFlat(Imf::OutputFile(stream, header, 0), capture.camera, capture, colours, stop);
+    writeFlat(Imf::OutputFile(stream, header, 0), camera, surfaces, stop);
 }
 
-void writeParts(const Capture& capture, const std::vector<HalfColour>& colours, const Imf::Header& header,
-                Imf::OStream& stream, const std::stop_token& stop) {
-  const CaptureSamples& reflections = capture.reflections;
-  std::array headers = {header, headerFor(capture.camera, reflections)};
+void writeParts(const ColumnCamera& camera, const CaptureSamples& surfaces, const CaptureSamples& reflections,
+                const Imf::Header& header, Imf::OStream& stream, const std::stop_token& stop) {
+  std::array headers = {header, headerFor(camera, reflections)};
   headers[0].setName(kSurfacesPart);
   headers[1].setName(kReflectionsPart);
   for (Imf::Header& part : headers)
     if (!part.hasType()) part.setType(Imf::SCANLINEIMAGE);
   Imf::MultiPartOutputFile file(stream, headers.data(), int(headers.size()), false, 0);
-  const auto write = [&](int part, const CaptureSamples& samples, const std::vector<HalfColour>& of) {
+  const auto write = [&](int part, const CaptureSamples& samples) {
     if (headers[static_cast<std::size_t>(part)].type() == Imf::DEEPSCANLINE)
-      writeDeep(Imf::DeepScanLineOutputPart(file, part), capture.camera, samples, of, stop);
+      writeDeep(Imf::DeepScanLineOutputPart(file, part), camera, samples, stop);
     else
-      writeFlat(Imf::OutputPart(file, part), capture.camera, samples, of, stop);
+      writeFlat(Imf::OutputPart(file, part), camera, samples, stop);
   };
-  write(0, capture, colours);
-  write(1, reflections, reflections.colour);
+  write(0, surfaces);
+  write(1, reflections);
 }
 
 Status writeExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
@@ -234,11 +240,17 @@ Status writeExr(const Capture& capture, const ContentKey& key, const std::filesy
   std::vector<HalfColour> colours(capture.sampleCount());
   obey(stop);
   std::ranges::transform(capture.colour, colours.begin(), premultiplied);
+  const ContentKey checksum = checksumOf(key, capture, colours);
   obey(stop);
-  Imf::Header header = headerFor(capture.camera, capture);
-  addAttributes(header, capture, key, checksumOf(key, capture, colours));
+  const CaptureSamples surfaces = withBackground(capture, std::move(colours));
+  obey(stop);
+  Imf::Header header = headerFor(capture.camera, surfaces);
+  addAttributes(header, capture, key, checksum);
   ExrMemoryOutput memory(path.string());
-  (capture.hasReflections() ? writeParts : writeWhole)(capture, colours, header, memory, stop);
+  if (capture.hasReflections())
+    writeParts(capture.camera, surfaces, capture.reflections, header, memory, stop);
+  else
+    writeWhole(capture.camera, surfaces, header, memory, stop);
   return writeFileAtomically(path, memory.parts(), stop);
 }
 

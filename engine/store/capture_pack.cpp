@@ -1,6 +1,7 @@
 #include <array>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/store/block_file.h"
 #include "engine/store/capture_store.h"
@@ -20,20 +21,30 @@ auto sampleLanes(AnySamples& samples) {
 }
 constexpr std::uint64_t kColumnBytes = 4, kSampleBytes = 15, kMirrorBytes = 1;
 
-/// Samples of each column: small numbers, unlike the offsets.
-std::vector<std::uint32_t> columnCounts(const CaptureSamples& samples) {
-  std::vector<std::uint32_t> counts(samples.columnStart.size() - 1);
-  for (std::size_t k = 0; k < counts.size(); ++k)
-    counts[k] = samples.columnStart[k + 1] - samples.columnStart[k];
-  return counts;
+/// First row, one below the last, roles.
+template <class AnyBackground>
+auto runLanes(AnyBackground& background) {
+  return std::array{laneOf(background.firstRow), laneOf(background.endRow), laneOf(background.roles)};
+}
+constexpr std::uint64_t kRunBytes = 5;
+
+/// Samples or runs of each column: small numbers, unlike the offsets.
+Status addColumns(BlockFileWriter& file, const std::vector<std::uint32_t>& columnStart) {
+  std::vector<std::uint32_t> counts(columnStart.size() - 1);
+  for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = columnStart[k + 1] - columnStart[k];
+  return file.addRecords(std::array{laneOf(std::as_const(counts))}, counts.size());
 }
 
 /// Columns, samples, and where there are mirrors their numbers.
 Status add(BlockFileWriter& file, const CaptureSamples& samples) {
-  const std::vector<std::uint32_t> counts = columnCounts(samples);
-  if (Status added = file.addRecords(std::array{laneOf(counts)}, counts.size()); !added) return added;
+  if (Status added = addColumns(file, samples.columnStart); !added) return added;
   if (Status added = file.addRecords(sampleLanes(samples), samples.sampleCount()); !added) return added;
   return file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size());
+}
+
+Status add(BlockFileWriter& file, const CaptureBackground& background) {
+  if (Status added = addColumns(file, background.columnStart); !added) return added;
+  return file.addRecords(runLanes(background), background.runCount());
 }
 
 Status writePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
@@ -48,27 +59,40 @@ Status writePack(const Capture& capture, const ContentKey& key, const std::files
   file.describe(static_cast<std::uint32_t>(camera.columns));
   file.describe(static_cast<std::uint32_t>(camera.rows));
   file.describe(static_cast<std::uint64_t>(capture.sampleCount()));
+  const CaptureBackground& background = capture.background;
+  file.describe(static_cast<std::uint64_t>(background.runCount()));
+  for (const glm::vec3& radiance : {background.sky.zenith, background.sky.horizon, background.sky.ground})
+    for (int i = 0; i < 3; ++i) file.describe(radiance[i]);
   if (capture.hasReflections()) file.describe(static_cast<std::uint64_t>(capture.reflections.sampleCount()));
 
-  if (Status added = add(file, capture); !added) return added;
+  if (Status added = add(file, static_cast<const CaptureSamples&>(capture)); !added) return added;
+  if (background.runCount() > 0)
+    if (Status added = add(file, background); !added) return added;
   if (capture.hasReflections())
     if (Status added = add(file, capture.reflections); !added) return added;
   return file.write(path);
 }
 
+/// What `addColumns` wrote, of `total` samples or runs.
+Status takeColumns(BlockFileReader& file, std::size_t columns, std::uint64_t total,
+                   std::vector<std::uint32_t>& columnStart) {
+  std::vector<std::uint32_t> counts(columns);
+  if (Status read = file.nextRecords(std::array{laneOf(counts)}, columns); !read) return read;
+  columnStart.reserve(columns + 1);
+  std::uint64_t start = 0;
+  columnStart.push_back(0);
+  for (std::uint32_t count : counts) {
+    start += count;
+    if (start > total) return file.malformed("its columns hold more than it has");
+    columnStart.push_back(static_cast<std::uint32_t>(start));
+  }
+  return {};
+}
+
 /// What `add` wrote; the number of samples is known to agree with the file's size.
 Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, bool mirrors,
             CaptureSamples& out) {
-  std::vector<std::uint32_t> counts(columns);
-  if (Status read = file.nextRecords(std::array{laneOf(counts)}, columns); !read) return read;
-  out.columnStart.reserve(columns + 1);
-  std::uint64_t start = 0;
-  out.columnStart.push_back(0);
-  for (std::uint32_t count : counts) {
-    start += count;
-    if (start > samples) return file.malformed("its columns hold more samples than it has");
-    out.columnStart.push_back(static_cast<std::uint32_t>(start));
-  }
+  if (Status read = takeColumns(file, columns, samples, out.columnStart); !read) return read;
   out.row.resize(samples);
   out.inverseDistance.resize(samples);
   out.colour.resize(samples);
@@ -76,6 +100,14 @@ Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, b
   out.mirror.resize(mirrors ? samples : 0);
   if (Status read = file.nextRecords(sampleLanes(out), samples); !read) return read;
   return file.nextRecords(std::array{laneOf(out.mirror)}, out.mirror.size());
+}
+
+Status take(BlockFileReader& file, std::size_t columns, std::uint64_t runs, CaptureBackground& out) {
+  if (Status read = takeColumns(file, columns, runs, out.columnStart); !read) return read;
+  out.firstRow.resize(runs);
+  out.endRow.resize(runs);
+  out.roles.resize(runs);
+  return file.nextRecords(runLanes(out), runs);
 }
 
 Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
@@ -90,6 +122,10 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
   const auto columns = file->described<std::uint32_t>();
   const auto rows = file->described<std::uint32_t>();
   const auto samples = file->described<std::uint64_t>();
+  const auto runs = file->described<std::uint64_t>();
+  CaptureBackground& background = capture.background;
+  for (glm::vec3* radiance : {&background.sky.zenith, &background.sky.horizon, &background.sky.ground})
+    for (int i = 0; i < 3; ++i) (*radiance)[i] = file->described<float>();
   const bool mirrors = file->describesMore();
   const auto reflections = mirrors ? file->described<std::uint64_t>() : 0;
   if (!file->describedAll() || columns > 65535 || rows > 65535 || (mirrors && reflections == 0))
@@ -99,12 +135,15 @@ Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
   const auto bytesOf = [&](std::uint64_t count) {
     return kColumnBytes * columns + (kSampleBytes + (mirrors ? kMirrorBytes : 0)) * count;
   };
-  if (samples > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
-      file->rawBytes() != bytesOf(samples) + (mirrors ? bytesOf(reflections) : 0))
+  const std::uint64_t backgroundBytes = runs > 0 ? kColumnBytes * columns + kRunBytes * runs : 0;
+  if (samples > kMaxCaptureSamples || runs > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
+      file->rawBytes() != bytesOf(samples) + backgroundBytes + (mirrors ? bytesOf(reflections) : 0))
     return file->malformed("its number of samples contradicts its size");
 
   if (Status read = take(*file, columns, samples, mirrors, capture); !read)
     return tl::unexpected(read.error());
+  if (runs > 0)
+    if (Status read = take(*file, columns, runs, background); !read) return tl::unexpected(read.error());
   if (mirrors)
     if (Status read = take(*file, columns, reflections, true, capture.reflections); !read)
       return tl::unexpected(read.error());

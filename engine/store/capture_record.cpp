@@ -9,7 +9,7 @@
 namespace acentric {
 namespace {
 
-constexpr const char* kFirstLine = "acentric record 1";
+constexpr const char* kFirstLine = "acentric record 2";
 
 /// One line, whatever a storey is called.
 std::string oneLine(std::string text) {
@@ -27,8 +27,8 @@ std::string formatRecord(const CaptureRecord& record) {
   for (const FileRecord& file : record.files)
     text += fmt::format("file {} {} {}\n", file.extension, file.bytes, file.content.toHex());
   if (record.samples)
-    text += fmt::format("samples {} hidden {} over {}\n", fmt::join(record.samples->kept, " "),
-                        record.samples->hidden, record.samples->overLimit);
+    text += fmt::format("samples {} background {} hidden {} over {}\n", fmt::join(record.samples->kept, " "),
+                        record.samples->background, record.samples->hidden, record.samples->overLimit);
   for (const KeyPart& part : record.parts) text += fmt::format("key {} {}\n", part.name, part.key.toHex());
   return text + fmt::format("end {}\n", checksumOf(text));
 }
@@ -50,7 +50,7 @@ Result<CaptureRecord> parseRecord(const std::string& text, const std::string& wh
     if (kind == "samples") {
       SampleCounts& samples = record.samples.emplace();
       for (std::uint64_t& kept : samples.kept) words >> kept;
-      words >> name >> samples.hidden >> name >> samples.overLimit;
+      words >> name >> samples.background >> name >> samples.hidden >> name >> samples.overLimit;
     }
     if (kind == "key") {
       words >> name >> hex;

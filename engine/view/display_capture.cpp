@@ -63,7 +63,14 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
 }  // namespace
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
-  DisplayCapture display = prepare(capture.camera, capture, exposure);
+  const ColumnCamera& camera = capture.camera;
+  DisplayCapture display = prepare(camera, capture, exposure);
+  if (capture.background.runCount() > 0) {
+    DisplayBackground& background = display.background;
+    background.runs = capture.background;
+    for (int x = 0; x <= camera.columns; ++x) background.columnBorder.push_back(camera.directionAt(x));
+    for (int y = 0; y <= camera.rows; ++y) background.rowBorder.push_back(camera.tangentAt(y));
+  }
   if (capture.hasReflections())
     display.reflections =
         std::make_shared<const DisplayCapture>(prepare(capture.camera, capture.reflections, exposure));

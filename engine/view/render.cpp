@@ -1,5 +1,4 @@
 #include "engine/view/render.h"
-#include "engine/view/background.h"
 
 #include <algorithm>
 #include <new>
@@ -7,6 +6,8 @@
 
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
+#include "engine/view/background.h"
+#include "engine/view/captured_background.h"
 #include "engine/view/hole_fill.h"
 #include "engine/view/local_raster.h"
 #include "engine/view/view_plan.h"
@@ -25,6 +26,7 @@ void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImag
   std::vector<PixelSource> sources{kSourceHole};
   for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
   sources.push_back(kSourceBackground);
+  for (const PieceDraw& piece : plan.backgrounds) sources.push_back(sourceOfCamera(piece.camera));
   for (const PieceDraw& piece : plan.reflections) sources.push_back(sourceOfCamera(piece.camera));
   constexpr int kBlock = 16;
   const std::size_t blocks = static_cast<std::size_t>((canvas.height + kBlock - 1) / kBlock);
@@ -59,6 +61,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     images.insert(piece.camera);
     blended = blended || scene.captures[static_cast<std::size_t>(piece.camera)]->blended;
   }
+  for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
   WarpOptions options;
   options.project = settings.renderer == Renderer::scalar ? projectSamplesScalar : fastestProjectSamples();
   options.depthTest = settings.renderer == Renderer::zbuffer;
@@ -66,6 +69,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty());
   if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
     paintBackground(scene, view, limits, backgroundSlot(plan), canvas, runner);
+  paintCapturedBackground(scene, view, plan, canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
   develop(canvas, plan, frame, inverseZDepth, runner);
   stats.images = static_cast<int>(images.size());

@@ -55,6 +55,23 @@ std::vector<char> visibleColumns(const DisplayCapture& capture, const PieceDraw&
   return visible;
 }
 
+/// Columns whose background the piece draws. What is infinitely far moves with the eye.
+std::vector<char> visibleBackground(const DisplayCapture& capture, const PieceDraw& piece,
+                                    const FrustumPlanes& planes) {
+  const CaptureBackground& runs = capture.background.runs;
+  std::vector<char> visible(static_cast<std::size_t>(capture.camera.columns), 0);
+  for (std::size_t k = 0; k < visible.size(); ++k) {
+    const std::size_t first = runs.columnStart[k], end = runs.columnStart[k + 1];
+    if (first == end || (!piece.minInverseDistance.empty() && piece.minInverseDistance[k] > 0)) continue;
+    const TangentRange rows{capture.background.rowBorder[runs.endRow[end - 1]],
+                            capture.background.rowBorder[runs.firstRow[first]]};
+    visible[k] =
+        visibleTangents(planes, glm::dvec2(capture.columnDirection[k]), glm::dvec3(0), glm::dvec2(0), rows)
+            .has_value();
+  }
+  return visible;
+}
+
 int roleIn(const Cover& cover, const OrderedPiece& ordered) {
   const auto found = std::ranges::find_if(cover.pieces, [&](const Piece& piece) {
     return piece.camera == ordered.camera && piece.clip == ordered.clip;
@@ -134,6 +151,10 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
         piece.nearestFirst = samples.layered && mostlyBeforeFoot(samples, piece);
         draws.push_back(piece);
       };
+      if (capture.background.runs.runCount() > 0) {
+        piece.runs = keepColumns(order.runs, visibleBackground(capture, piece, planes));
+        if (!piece.runs.empty()) plan.backgrounds.push_back(piece);
+      }
       if (capture.reflections) add(*capture.reflections, plan.reflections);
       add(capture, plan.pieces);
     }

@@ -46,6 +46,7 @@ inline glm::vec2 drawnRange(const DisplayCapture& capture, const PieceDraw& piec
 struct ViewPlan {
   int region = -1;
   std::vector<PieceDraw> pieces;       ///< back to front
+  std::vector<PieceDraw> backgrounds;  ///< of DisplayCapture::background, in that order; drawn before them
   std::vector<PieceDraw> reflections;  ///< of DisplayCapture::reflections, in that order; drawn after them
   int missingImages = 0;
 };

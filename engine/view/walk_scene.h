@@ -16,6 +16,13 @@ namespace acentric {
 
 inline constexpr std::uint32_t kSamplesPerBlock = 64;
 
+/// Where a capture shows the background, and the borders of its columns and rows.
+struct DisplayBackground {
+  CaptureBackground runs;
+  std::vector<glm::dvec2> columnBorder;  ///< columns + 1 unit directions; empty without runs
+  std::vector<double> rowBorder;         ///< rows + 1 tangents, falling; empty without runs
+};
+
 /// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.
 struct DisplayCapture {
   ColumnCamera camera;
@@ -31,6 +38,7 @@ struct DisplayCapture {
   std::vector<glm::vec2> blockRange;
   std::vector<std::uint8_t> blockRoles;  ///< that need any of them
   std::vector<std::uint32_t> columnBlock;
+  DisplayBackground background;
   bool layered = false;              ///< some pixel has more than one sample
   bool blended = false;              ///< some sample has alpha < 255
   std::vector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does

@@ -227,7 +227,7 @@ Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors
 
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner) {
-  require(plan.pieces.size() + plan.reflections.size() < static_cast<std::size_t>(kMaxSlots),
+  require(reflectionSlot(plan, plan.reflections.size()) <= static_cast<std::uint32_t>(kMaxSlots) + 1,
           "more pieces than a canvas pixel can name");
   require(plan.reflections.empty() || !canvas.mirrors.empty(), "a canvas that can say what mirrors it shows");
   const int bands = std::clamp(options.bands, 1, view.height);

@@ -30,12 +30,16 @@ struct WarpCounts {
 /// plan has reflections.
 Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors);
 
-/// Slots on the canvas: plan.pieces[i] has i + 1, then come the background and the reflections.
+/// Slots on the canvas: plan.pieces[i] has i + 1, then come the background without a capture, those of
+/// captures and the reflections.
 inline std::uint32_t backgroundSlot(const ViewPlan& plan) {
   return static_cast<std::uint32_t>(plan.pieces.size()) + 1;
 }
-inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
+inline std::uint32_t capturedBackgroundSlot(const ViewPlan& plan, std::size_t i) {
   return backgroundSlot(plan) + 1 + static_cast<std::uint32_t>(i);
+}
+inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
+  return capturedBackgroundSlot(plan, plan.backgrounds.size() + i);
 }
 
 /// Paints all pieces, then what mirrors show over those pixels that the same mirror came to cover: they keep

@@ -35,6 +35,13 @@ Status checkArrays(const DisplayCapture& capture, const char* name) {
   if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
       !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
     return bad("the capture's columns do not partition its samples");
+  const CaptureBackground& background = capture.background.runs;
+  if (background.runCount() > 0 &&
+      (background.columnStart.size() != columns + 1 || background.columnStart.front() != 0 ||
+       background.columnStart.back() != background.runCount() ||
+       !std::is_sorted(background.columnStart.begin(), background.columnStart.end()) ||
+       background.endRow.size() != background.runCount() || background.roles.size() != background.runCount()))
+    return bad("the capture's columns do not partition its background");
   const auto outside = [&](std::uint16_t row) { return row >= rows; };
   if (std::any_of(capture.row.begin(), capture.row.end(), outside))
     return bad("a sample's row is outside the picture");
@@ -51,6 +58,15 @@ std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, i
       packed.push_back({std::bit_cast<std::uint32_t>(capture.inverseDistance[s]) | capture.roles[s],
                         capture.row[s] | std::uint32_t(column) << 16,
                         std::bit_cast<std::uint32_t>(capture.colour[s])});
+  return packed;
+}
+
+std::vector<glm::uvec2> packBackground(const CaptureBackground& background) {
+  std::vector<glm::uvec2> packed;
+  packed.reserve(background.runCount());
+  for (std::size_t i = 0; i < background.runCount(); ++i)
+    packed.emplace_back(background.firstRow[i] | std::uint32_t(background.endRow[i]) << 16,
+                        background.roles[i]);
   return packed;
 }
 
@@ -123,6 +139,8 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
   }
   buffers.clearSamples = clearSamplesOf(*capture);
   buffers.rowTangents = makeBuffer(capture->rowTangent, buffers.bytes);
+  if (capture->background.runs.runCount() > 0)
+    buffers.background = makeBuffer(packBackground(capture->background.runs), buffers.bytes);
   const std::string doing = fmt::format("uploading {}", name);
   if (Status uploaded = checkGl(doing.c_str()); !uploaded) return tl::unexpected(uploaded.error());
   return buffers;

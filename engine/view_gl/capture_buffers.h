@@ -29,6 +29,7 @@ struct CaptureBuffers {
   std::weak_ptr<const DisplayCapture> owner;
   std::vector<CaptureChunk> chunks;
   GlBuffer rowTangents;  ///< float per row
+  GlBuffer background;   ///< 8 bytes a run: first row | end row << 16, roles; none without background
   std::vector<std::uint8_t>
       clearSamples;  ///< per column: most clear samples in one pixel, at most kMostClearRanks
   std::size_t bytes = 0;

@@ -50,7 +50,7 @@ struct GlRenderer::Impl {
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
-  BackgroundPass background{programs};
+  BackgroundPass background{programs, captures};
   PointPass points{programs, captures};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
@@ -77,7 +77,8 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
   target.begin();
   const Clock::time_point warpStart = Clock::now();
-  if (Status drawn = background.draw(scene, view, target); !drawn) return tl::unexpected(drawn.error());
+  if (Status drawn = background.draw(scene, *plan, view, target); !drawn)
+    return tl::unexpected(drawn.error());
   if (Status drawn = points.draw(scene, *plan, view, settings, target, stats); !drawn)
     return tl::unexpected(drawn.error());
   stats.warpSeconds = secondsOfDrawing(warpStart);

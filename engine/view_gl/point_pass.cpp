@@ -134,6 +134,7 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
   if (anyMirror)
     if (Status ready = target.beginMirrors(); !ready) return ready;
   std::set<int> images;
+  for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
   for (const PieceDraw& planned : plan.pieces) {
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
     if (!capture || capture->row.empty() || planned.runs.empty()) continue;

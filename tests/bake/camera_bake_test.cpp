@@ -34,7 +34,8 @@ struct Baked {
     glm::vec4 colour;
     int roles;
   };
-  /// Samples of the pixel that looks in a direction, nearest first.
+  /// Samples of the pixel that looks in a direction, nearest first, and last, without distance, the
+  /// background.
   std::vector<Sample> pixel(double azimuth, double elevation) const {
     const int k = int((azimuth - columns.lowAzimuth) / columns.columnPitch());
     const int r = int((columns.topElevation - elevation) / columns.rowPitch());
@@ -46,6 +47,14 @@ struct Baked {
       if (capture.row[i] == r)
         samples.push_back(
             {double(capture.inverseDistance[i]), unpackColour(capture.colour[i]), capture.roles[i]});
+    const CaptureBackground& runs = capture.background;
+    if (runs.runCount() == 0) return samples;
+    for (auto i = runs.columnStart[std::size_t(k)]; i < runs.columnStart[std::size_t(k) + 1]; ++i)
+      if (runs.firstRow[i] <= r && r < runs.endRow[i]) {
+        const glm::dvec3 direction(columns.directionAt(k + 0.5), columns.tangentAt(r + 0.5));
+        samples.push_back(
+            {0, glm::vec4(runs.sky.radiance(glm::vec3(glm::normalize(direction))), 1), runs.roles[i]});
+      }
     return samples;
   }
 };
@@ -299,7 +308,7 @@ TEST(BakeCamera, MoreLayersThanAllowedKeepTheNearestAndEndOnAnOpaqueOne) {
   EXPECT_EQ(pixel[2].colour.a, 1);
 }
 
-TEST(BakeCamera, TheSkyIsASampleWithoutDistanceAndSoIsAnEmptyBackground) {
+TEST(BakeCamera, TheSkyIsBackgroundAndSoIsBlackWithoutOne) {
   SceneBuilder builder;
   const int white = builder.material(matte());
   builder.floor(white, 3)
@@ -307,6 +316,7 @@ TEST(BakeCamera, TheSkyIsASampleWithoutDistanceAndSoIsAnEmptyBackground) {
       .sky({0.2f, 0.4f, 0.8f}, {1, 1, 1}, {0.1f, 0.1f, 0.1f});
   const Baked open = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)}));
   const double elevation = open.columns.elevationAt(10.5);
+  EXPECT_EQ(open.counts.background, open.capture.background.pixelCount());
   const auto up = open.pixelAt(40, 10);
   ASSERT_EQ(up.size(), 1u);
   EXPECT_EQ(up[0].w, 0);
@@ -381,6 +391,7 @@ TEST(BakeCamera, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(many.capture.row, one.capture.row);
     EXPECT_EQ(many.capture.inverseDistance, one.capture.inverseDistance);
     EXPECT_EQ(many.capture.colour, one.capture.colour);
+    EXPECT_EQ(many.capture.background, one.capture.background);
     EXPECT_EQ(many.rays.primary, one.rays.primary);
     EXPECT_EQ(many.rays.ambient, one.rays.ambient);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -14,16 +15,20 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Three columns of four rows: column 0 has a pane of glass over a wall, column 1 nothing, column 2 sky.
+const Sky kBlue{{0.25f, 0.5f, 1}, {0.5f, 0.5f, 1}, {0, 0, 0}};
+
+/// Three columns of four rows: column 0 has a pane of glass over a wall, column 1 nothing, column 2 a wall
+/// before the sky.
 Capture smallCapture() {
   Capture capture;
   capture.camera = {{1, 2, 1.6}, 0.5, 1.0, 0.6, -0.6, 3, 4};
   capture.columnStart = {0, 3, 3, 4};
-  capture.row = {1, 1, 3, 0};
-  capture.inverseDistance = {0.5f, 0.25f, 1.0f, 0.0f};
+  capture.row = {1, 1, 3, 2};
+  capture.inverseDistance = {0.5f, 0.25f, 1.0f, 0.125f};
   const HalfColour wall = packColour({0.5f, 0.25f, 2, 1});
   capture.colour = {packColour({0.1f, 0.2f, 0.3f, 0.25f}), wall, wall, wall};
   capture.roles = {1, 3, 2, 0x80};
+  capture.background = {kBlue, {0, 0, 0, 3}, {0, 1, 3}, {1, 3, 4}, {0x80, 1, 0x80}};
   return capture;
 }
 
@@ -132,6 +137,7 @@ TEST(Capture, EveryBrokenInvariantIsFound) {
       {"radiance NaN", [](Capture& c) { c.colour[2].b = 0x7e00; }},
       {"radiance negative", [](Capture& c) { c.colour[2].g = 0xbc00; }},
       {"alpha above 1", [](Capture& c) { c.colour[2].a = 0x3c01; }},
+      {"infinitely far", [](Capture& c) { c.inverseDistance[3] = 0; }},
   };
   for (const auto& [name, damage] : breakages) {
     Capture capture = smallCapture();
@@ -140,6 +146,79 @@ TEST(Capture, EveryBrokenInvariantIsFound) {
     ASSERT_FALSE(status) << name;
     EXPECT_EQ(status.error().kind, ErrorKind::malformed) << name;
   }
+}
+
+TEST(Capture, EveryBrokenBackgroundIsFound) {
+  const std::pair<const char*, std::function<void(Capture&)>> breakages[] = {
+      {"a sky that is nowhere seen",
+       [](Capture& c) {
+         c.background = {kBlue, {}, {}, {}, {}};
+       }},
+      {"offsets of nothing",
+       [](Capture& c) {
+         c.background = {{}, {0, 0, 0, 0}, {}, {}, {}};
+       }},
+      {"radiance NaN", [](Capture& c) { c.background.sky.horizon.y = kNan; }},
+      {"radiance negative", [](Capture& c) { c.background.sky.ground.z = -1; }},
+      {"radiance infinite", [](Capture& c) { c.background.sky.zenith.x = kInfinity; }},
+      {"fewer ends", [](Capture& c) { c.background.endRow.pop_back(); }},
+      {"fewer roles", [](Capture& c) { c.background.roles.pop_back(); }},
+      {"no offsets", [](Capture& c) { c.background.columnStart.clear(); }},
+      {"columns", [](Capture& c) { c.background.columnStart.pop_back(); }},
+      {"first offset", [](Capture& c) { c.background.columnStart[0] = 1; }},
+      {"last offset", [](Capture& c) { c.background.columnStart[3] = 4; }},
+      {"falling offsets",
+       [](Capture& c) { c.background.columnStart[1] = 2, c.background.columnStart[2] = 1; }},
+      {"no row", [](Capture& c) { c.background.endRow[0] = 0; }},
+      {"row outside", [](Capture& c) { c.background.endRow[2] = 5; }},
+      {"rows twice", [](Capture& c) { c.background.firstRow[1] = 0; }},
+      {"unsorted", [](Capture& c) { c.background.firstRow[2] = 0, c.background.endRow[2] = 1; }},
+      {"one run as two", [](Capture& c) { c.background.roles[1] = 0x80; }},
+      {"needed by nobody", [](Capture& c) { c.background.roles[0] = 0; }},
+  };
+  for (const auto& [name, damage] : breakages) {
+    Capture capture = smallCapture();
+    damage(capture);
+    const Status status = capture.check();
+    ASSERT_FALSE(status) << name;
+    EXPECT_EQ(status.error().kind, ErrorKind::malformed) << name;
+  }
+}
+
+/// Whatever pixels are told, in parts of any number of columns, the runs hold just these.
+TEST(BackgroundBuilder, HoldsThePixelsThatItWasTold) {
+  std::mt19937 random(11);
+  constexpr int kColumns = 40, kRows = 25;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<std::uint8_t> told(kColumns * kRows, 0);
+    BackgroundBuilder all, part;
+    for (int column = 0; column < kColumns; ++column) {
+      for (int row = 0; row < kRows; ++row) {
+        if (random() % 3 == 0) continue;
+        const auto roles = std::uint8_t(1 + random() % 2);
+        told[std::size_t(column * kRows + row)] = roles;
+        part.add(row, roles);
+      }
+      part.closeColumn();
+      if (random() % 4 == 0 || column + 1 == kColumns) all.append(part), part = {};
+    }
+    Capture capture;
+    capture.camera = {{1, 2, 1.6}, 0.5, 1.0, 0.6, -0.6, kColumns, kRows};
+    capture.columnStart.assign(kColumns + 1, 0);
+    capture.background = std::move(all).finish(kBlue);
+    ASSERT_TRUE(capture.check());
+    const CaptureBackground& runs = capture.background;
+    std::vector<std::uint8_t> held(told.size(), 0);
+    for (std::size_t column = 0; column < kColumns; ++column)
+      for (std::size_t i = runs.columnStart[column]; i < runs.columnStart[column + 1]; ++i)
+        for (std::size_t row = runs.firstRow[i]; row < runs.endRow[i]; ++row)
+          held[column * kRows + row] = runs.roles[i];
+    EXPECT_EQ(held, told);
+    EXPECT_EQ(runs.pixelCount(), std::size_t(kColumns * kRows) - std::size_t(std::ranges::count(told, 0)));
+  }
+  BackgroundBuilder nothing;
+  nothing.closeColumn();
+  EXPECT_EQ(std::move(nothing).finish(kBlue), CaptureBackground{});
 }
 
 TEST(Capture, EveryBrokenReflectionIsFound) {

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "engine/base/file.h"
+#include "engine/store/capture_exr.h"
 #include "engine/store/capture_store.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
@@ -34,6 +35,7 @@ void expectSame(const Capture& a, const Capture& b, bool coloursExact) {
   EXPECT_EQ(a.distanceStep, b.distanceStep);
   EXPECT_EQ(a.roles, b.roles);
   EXPECT_EQ(a.mirror, b.mirror);
+  EXPECT_EQ(a.background, b.background);
   EXPECT_EQ(a.reflections, b.reflections);
   ASSERT_EQ(a.colour.size(), b.colour.size());
   for (std::size_t i = 0; i < a.colour.size(); ++i) {
@@ -54,6 +56,7 @@ Capture emptyCapture() {
   capture.inverseDistance.clear();
   capture.colour.clear();
   capture.roles.clear();
+  capture.background = {};
   std::fill(capture.columnStart.begin(), capture.columnStart.end(), 0u);
   return capture;
 }
@@ -61,7 +64,7 @@ Capture emptyCapture() {
 Capture deepButEmptyColumns() {
   Capture capture = emptyCapture();
   capture.row = {3, 3};
-  capture.inverseDistance = {1, 0};
+  capture.inverseDistance = {1, 0.5f};
   capture.colour = {packColour({1, 2, 3, 0.5f}), packColour({0, 0, 0, 1})};
   capture.roles = {1, 0xff};
   for (std::size_t k = 8; k < capture.columnStart.size(); ++k) capture.columnStart[k] = 2;
@@ -100,7 +103,7 @@ TEST_P(CaptureFiles, RoundTripsEveryShape) {
 
 TEST_P(CaptureFiles, KeepExtremeDistancesBitForBit) {
   Capture capture = syntheticCapture({4, 8, false, false, 1});
-  const double exact[] = {0, 1e-38, 1e-40, 1e-4, 3.3e38, 1000, 1 + 0x1p-15, 1.0 / 3};
+  const double exact[] = {7.5, 1e-38, 1e-40, 1e-4, 3.3e38, 1000, 1 + 0x1p-15, 1.0 / 3};
   float extremes[8];
   std::transform(std::begin(exact), std::end(exact), extremes,
                  [](double w) { return storedInverseDistance(w, 0); });
@@ -161,8 +164,58 @@ TEST_P(CaptureFiles, WithoutMirrorsHoldNoByteForThem) {
   if (GetParam() == &kPack) {
     std::uint32_t descriptionBytes = 0;
     std::memcpy(&descriptionBytes, without->data() + 48, sizeof descriptionBytes);
-    EXPECT_EQ(descriptionBytes, 80u);
+    EXPECT_EQ(descriptionBytes, 124u);
   }
+}
+
+/// Nor does a capture that shows none hold anything of the background.
+TEST_P(CaptureFiles, HoldTheBackgroundAsRunsOfRows) {
+  const fs::path path = folder_ / GetParam()->name;
+  Capture capture = syntheticCapture({64, 64, false, false, 3});
+  ASSERT_GE(capture.background.pixelCount(), 64u * 10u);
+  ASSERT_LE(capture.background.runCount(), 64u);
+  ASSERT_TRUE(GetParam()->write(capture, kKey, path));
+  const auto withBackground = fs::file_size(path);
+  capture.background = {};
+  ASSERT_TRUE(GetParam()->write(capture, kKey, path));
+  EXPECT_LT(fs::file_size(path), withBackground);
+  if (GetParam() == &kPack) {
+    EXPECT_LT(withBackground - fs::file_size(path), 64u * 6u);
+  }
+  const auto without = readFile(path);
+  ASSERT_TRUE(without);
+  const std::string_view text(reinterpret_cast<const char*>(without->data()), without->size());
+  EXPECT_EQ(text.find("acentricSky"), std::string_view::npos);
+}
+
+TEST(CaptureExr, BackgroundIsTakenOutOfTheSamplesAsItWasPutIn) {
+  for (const bool mirrors : {false, true}) {
+    const Capture capture = syntheticCapture({40, 30, true, true, 6, mirrors});
+    CaptureSamples all = withBackground(capture, capture.colour);
+    EXPECT_EQ(all.sampleCount(), capture.sampleCount() + capture.background.pixelCount());
+    CaptureBackground background;
+    ASSERT_TRUE(takeBackground(all, capture.background.sky, background));
+    EXPECT_EQ(all, static_cast<const CaptureSamples&>(capture));
+    EXPECT_EQ(background, capture.background);
+  }
+}
+
+TEST(CaptureExr, BackgroundThatIsNotLastOrIsAMirrorIsRefused) {
+  const CaptureSamples sound{{0, 2}, {3, 3}, {1, 0}, std::vector(2, packColour({1, 1, 1, 1})),
+                             {1, 1}, {0, 0}};
+  CaptureBackground background;
+  CaptureSamples samples = sound;
+  EXPECT_TRUE(takeBackground(samples, {}, background));
+  EXPECT_EQ(background.pixelCount(), 1u);
+  samples = sound;
+  samples.inverseDistance = {0, 1};
+  EXPECT_EQ(takeBackground(samples, {}, background).error().kind, ErrorKind::malformed);
+  samples = sound;
+  samples.inverseDistance = {0, 0};
+  EXPECT_EQ(takeBackground(samples, {}, background).error().kind, ErrorKind::malformed);
+  samples = sound;
+  samples.mirror = {0, 7};
+  EXPECT_EQ(takeBackground(samples, {}, background).error().kind, ErrorKind::malformed);
 }
 
 TEST_P(CaptureFiles, DamagedByChanceAreRefusedOrUnharmed) {
@@ -219,7 +272,7 @@ TEST_F(FolderTest, PacksForgedWithAMatchingChecksumAreHarmless) {
     const auto sound = readFile(path);
     ASSERT_TRUE(sound);
     // Preamble, description and table fill the first bytes; the key's 16 bytes and the magic are left alone.
-    const std::size_t head = mirrors ? 200 : 150;
+    const std::size_t head = mirrors ? 244 : 194;
     int refused = 0;
     for (int round = 0; round < 2000; ++round) {
       auto bytes = *sound;
@@ -247,7 +300,7 @@ TEST_F(FolderTest, PacksThatClaimReflectionsTheyDoNotHaveAreRefused) {
   ASSERT_TRUE(kPack.write(syntheticCapture({16, 12, true, true, 1, true}), kKey, path));
   const auto sound = readFile(path);
   ASSERT_TRUE(sound);
-  constexpr std::size_t kReflectionCount = 56 + 80;
+  constexpr std::size_t kReflectionCount = 56 + 124;
   std::uint64_t count = 0;
   std::memcpy(&count, sound->data() + kReflectionCount, sizeof count);
   ASSERT_EQ(count, syntheticCapture({16, 12, true, true, 1, true}).reflections.sampleCount());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/store/capture_exr.h"
 #include "engine/store/capture_store.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
@@ -30,15 +31,15 @@ std::map<std::string, int> channelNumbers(const OIIO::ImageSpec& spec) {
   return numbers;
 }
 
-double rayDistanceOf(const Capture& capture, std::size_t sample) {
-  const double t = capture.camera.tangentAt(capture.row[sample] + 0.5);
-  return std::sqrt(1 + t * t) / static_cast<double>(capture.inverseDistance[sample]);
+double rayDistanceOf(const ColumnCamera& camera, const CaptureSamples& samples, std::size_t sample) {
+  const double t = camera.tangentAt(samples.row[sample] + 0.5);
+  return std::sqrt(1 + t * t) / static_cast<double>(samples.inverseDistance[sample]);
 }
 
 void expectAttributes(const OIIO::ImageSpec& spec, const ColumnCamera& camera) {
   EXPECT_EQ(spec.width, camera.columns);
   EXPECT_EQ(spec.height, camera.rows);
-  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 3);
+  EXPECT_EQ(spec.get_int_attribute("acentricVersion"), 4);
   EXPECT_EQ(spec.get_string_attribute("acentricKey"), "00000000000000070000000000000009");
   double centre[3] = {0, 0, 0}, fov = 0;
   EXPECT_TRUE(spec.getattribute("acentricCentreOfProjection",
@@ -61,29 +62,30 @@ TEST_F(Interchange, FlatFilesOpenElsewhereUnmirrored) {
   std::vector<float> pixels(static_cast<std::size_t>(spec.width * spec.height) * n);
   ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
 
+  const CaptureSamples all = withBackground(capture, capture.colour);
   int empty = 0, sky = 0;
   for (int x = 0; x < spec.width; ++x) {
     const int column = spec.width - 1 - x;  // column 0 is the most clockwise, so the rightmost
-    std::size_t next = capture.columnStart[static_cast<std::size_t>(column)];
+    std::size_t next = all.columnStart[static_cast<std::size_t>(column)];
     for (int y = 0; y < spec.height; ++y) {
       const float* pixel = &pixels[static_cast<std::size_t>(y * spec.width + x) * n];
       const float z = pixel[channel["Z"]], w = pixel[channel["W"]];
-      if (next == capture.columnStart[static_cast<std::size_t>(column) + 1] || capture.row[next] != y) {
+      if (next == all.columnStart[static_cast<std::size_t>(column) + 1] || all.row[next] != y) {
         ++empty;
         EXPECT_EQ(pixel[channel["A"]], 0);
         EXPECT_EQ(w, -1);
         EXPECT_TRUE(std::isinf(z));
         continue;
       }
-      const glm::vec4 colour = unpackColour(capture.colour[next]);
+      const glm::vec4 colour = unpackColour(all.colour[next]);
       EXPECT_EQ(glm::vec4(pixel[channel["R"]], pixel[channel["G"]], pixel[channel["B"]], pixel[channel["A"]]),
                 colour);
-      EXPECT_EQ(w, capture.inverseDistance[next]);
+      EXPECT_EQ(w, all.inverseDistance[next]);
       if (w == 0) {
         ++sky;
         EXPECT_TRUE(std::isinf(z));
       } else {
-        EXPECT_NEAR(z, rayDistanceOf(capture, next), 1e-6 * static_cast<double>(z));
+        EXPECT_NEAR(z, rayDistanceOf(capture.camera, all, next), 1e-6 * static_cast<double>(z));
       }
       ++next;
     }
@@ -103,26 +105,29 @@ TEST_F(Interchange, DeepFilesOpenElsewhereNearestFirst) {
   OIIO::DeepData deep;
   ASSERT_TRUE(input->read_native_deep_image(0, 0, deep));
   auto channel = channelNumbers(spec);
+  std::vector<HalfColour> colours;
+  for (const HalfColour& colour : capture.colour) colours.push_back(premultiplied(colour));
+  const CaptureSamples all = withBackground(capture, colours);
   std::size_t seen = 0;
   for (int x = 0; x < spec.width; ++x) {
-    std::size_t next = capture.columnStart[static_cast<std::size_t>(spec.width - 1 - x)];
+    std::size_t next = all.columnStart[static_cast<std::size_t>(spec.width - 1 - x)];
     for (int y = 0; y < spec.height; ++y) {
       const int pixel = y * spec.width + x;
       float last = 0;
       for (int s = 0; s < deep.samples(pixel); ++s, ++next, ++seen) {
-        ASSERT_LT(next, capture.sampleCount());
-        ASSERT_EQ(capture.row[next], y);
-        const glm::vec4 straight = unpackColour(capture.colour[next]);
+        ASSERT_LT(next, all.sampleCount());
+        ASSERT_EQ(all.row[next], y);
+        const glm::vec4 colour = unpackColour(all.colour[next]);
         const auto value = [&](const char* name) { return deep.deep_value(pixel, channel[name], s); };
-        EXPECT_EQ(value("W"), capture.inverseDistance[next]);
-        EXPECT_EQ(value("A"), straight.a);
-        EXPECT_NEAR(value("R"), straight.r * straight.a, straight.r * 0x1p-10f) << "colour is premultiplied";
+        EXPECT_EQ(value("W"), all.inverseDistance[next]);
+        EXPECT_EQ(value("A"), colour.a);
+        EXPECT_EQ(value("R"), colour.r) << "colour is premultiplied";
         EXPECT_GE(value("Z"), last) << "nearest first";
         last = value("Z");
       }
     }
   }
-  EXPECT_EQ(seen, capture.sampleCount());
+  EXPECT_EQ(seen, all.sampleCount());
 }
 
 TEST_F(Interchange, ReflectionsAreAPartOfTheirOwn) {

@@ -52,6 +52,7 @@ inline Capture syntheticCapture(const SyntheticOptions& options) {
                     options.columns,   options.rows};
   capture.distanceStep = 1.0 / (1 << 14);
   capture.columnStart.push_back(0);
+  BackgroundBuilder background;
   const auto add = [&](int row, double w, float alpha) {
     capture.row.push_back(static_cast<std::uint16_t>(row));
     capture.inverseDistance.push_back(storedInverseDistance(w, capture.distanceStep));
@@ -69,11 +70,17 @@ inline Capture syntheticCapture(const SyntheticOptions& options) {
       const double floor = -tangent / 1.6;
       const double first = tangent > 0.5 ? 0.0 : std::max(wall, floor);
       if (options.layered && draw % 8 == 1) add(row, first + 0.5, 0.3f);
-      add(row, first, 1);
+      if (first > 0)
+        add(row, first, 1);
+      else
+        background.add(row, static_cast<std::uint8_t>(1 + k % 3));
       if (options.layered && draw % 4 == 2 && first > 0) add(row, first * 0.5, 1);
     }
     capture.columnStart.push_back(static_cast<std::uint32_t>(capture.row.size()));
+    background.closeColumn();
   }
+  capture.background =
+      std::move(background).finish({{0.1f, 0.2f, 0.7f}, {0.6f, 0.6f, 0.5f}, {0.2f, 0.1f, 0.1f}});
   return options.mirrors ? withMirrors(std::move(capture), options.layered) : capture;
 }
 

@@ -58,6 +58,7 @@ Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const Co
   Capture out;
   out.camera = camera;
   out.columnStart.push_back(0);
+  BackgroundBuilder background;
   for (int k = 0; k < camera.columns; ++k) {
     const glm::dvec2 c = camera.directionAt(k + 0.5);
     double from = 0;
@@ -79,10 +80,12 @@ Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const Co
         add(1 / crossing.distance, crossing.colour);
         closed = closed || crossing.colour.a >= 1;
       }
-      if (kept < layers || !closed) add(0, scene.skyColour);
+      if (kept < layers || !closed) background.add(r, 0xff);
     }
+    background.closeColumn();
     out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
   }
+  out.background = std::move(background).finish(scene.sky());
   return out;
 }
 

@@ -22,6 +22,7 @@ struct AnalyticScene {
   bool floor = true;
   glm::vec4 floorColour{0.2f, 0.25f, 0.2f, 1};
   glm::vec4 skyColour{0.3f, 0.5f, 0.7f, 1};
+  Sky sky() const { return {glm::vec3(skyColour), glm::vec3(skyColour), glm::vec3(skyColour)}; }
 
   struct Crossing {
     double distance = 0;  ///< in units of `direction`

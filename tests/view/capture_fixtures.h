@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/view/captured_background.h"
 #include "engine/view/column_order.h"
 #include "engine/view/render.h"
 #include "engine/view/warp.h"
@@ -63,6 +64,7 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
   WarpOptions options;
   options.depthTest = depthTest;
   options.bands = bands;
+  paintCapturedBackground(scene, view, plan, canvas, runner);
   warpPieces(scene, view, settings, plan, options, canvas, runner);
   return canvas;
 }
@@ -79,6 +81,7 @@ inline OneCapture oneCapture(const AnalyticScene& analytic, const ColumnCamera& 
                                   std::numeric_limits<float>::infinity());
   piece.runs = columnOrder(camera, glm::dvec2(view.eye) - glm::dvec2(camera.centreOfProjection)).runs;
   one.plan.pieces.push_back(piece);
+  if (one.scene.captures[0]->background.runs.runCount() > 0) one.plan.backgrounds.push_back(piece);
   return one;
 }
 

@@ -169,7 +169,7 @@ TEST(HardCases, SkyAtInfinityStaysWhereItIsAndSkyAtAFarPlaneDoesNot) {
   view.fovRadians = radians(45);
   const OneCapture one = oneCapture(analytic, camera, view);
   const Canvas canvas = paint(one.scene, view, plainSettings(), one.plan);
-  const Rgba8 sky = encodeForDisplay(glm::vec3(unpackColour(packColour(analytic.skyColour))), 1);
+  const Rgba8 sky = encodeForDisplay(glm::vec3(analytic.skyColour), 1);
   for (CanvasPixel pixel : canvas.pixels) {
     ASSERT_EQ(colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u), sky);
     ASSERT_EQ(inverseZDepthOf(pixel), 0.0f);

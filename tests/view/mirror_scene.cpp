@@ -64,6 +64,7 @@ Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const Conv
     list.colour.push_back(packColour(seen.colour));
     list.mirror.push_back(seen.mirror);
   };
+  BackgroundBuilder background;
   out.columnStart.push_back(0);
   out.reflections.columnStart.push_back(0);
   for (int k = 0; k < camera.columns; ++k) {
@@ -74,12 +75,17 @@ Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const Conv
     for (int r = 0; r < camera.rows; ++r)
       for (const auto& seen :
            scene.along(camera.centreOfProjection, glm::dvec3(c, camera.tangentAt(r + 0.5)), from)) {
-        add(out, r, seen.distance, seen);
+        if (std::isinf(seen.distance))
+          background.add(r, 0xff);
+        else
+          add(out, r, seen.distance, seen);
         if (seen.mirror != 0) add(out.reflections, r, seen.virtualDistance, seen);
       }
+    background.closeColumn();
     out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
     out.reflections.columnStart.push_back(static_cast<std::uint32_t>(out.reflections.row.size()));
   }
+  out.background = std::move(background).finish(scene.surfaces.sky());
   if (out.hasReflections()) return out;
   out.mirror.clear();
   out.reflections = {};

@@ -230,6 +230,7 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
                          {}},
                         camera,
                         0,
+                        {},
                         {}};
   const DisplayCapture display = prepareForDisplay(capture, 2);
   EXPECT_TRUE(display.layered);

@@ -132,7 +132,7 @@ TEST(Warp, PutsASampleWhereItsPointLies) {
     const ColumnCamera camera =
         cameraAt({unit(random), unit(random), 1.6 + unit(random)}, 180 * unit(random), 1, 1);
     const float w = static_cast<float>(std::abs(unit(random)));
-    Capture capture{{{0, 1}, {0}, {w}, {packColour({1, 1, 1, 1})}, {1}, {}}, camera, 0, {}};
+    Capture capture{{{0, 1}, {0}, {w}, {packColour({1, 1, 1, 1})}, {1}, {}}, camera, 0, {}, {}};
     PerspectiveView view;
     view.eye = {unit(random), unit(random), 1.6 + unit(random)};
     view.yawRadians = camera.azimuthAt(0.5) + 0.8 * unit(random);

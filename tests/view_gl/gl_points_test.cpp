@@ -42,7 +42,7 @@ class GlPoints : public test::WithGl {
     EXPECT_LE(differingSources(cpu, gl), tolerance) << degrees(view.fovRadians);
     EXPECT_EQ(gl.stats.images, cpu.stats.images);
     EXPECT_EQ(gl.stats.missingImages, cpu.stats.missingImages);
-    EXPECT_GT(gl.stats.samplesRead, 0u);
+    EXPECT_EQ(gl.stats.samplesRead > 0, cpu.stats.samplesRead > 0);
   }
 };
 
@@ -133,7 +133,7 @@ TEST_F(GlPoints, ShowsTheSkyAtInfinity) {
   view.eye = {0.3, -0.2, layout->eyeZ()};
   view.width = 160, view.height = 90;
   const Frame gl = onGl(scene, view, ViewSettings{});
-  const Rgba8 sky = encodeForDisplay(glm::vec3(unpackColour(packColour(analytic.skyColour))), 1);
+  const Rgba8 sky = encodeForDisplay(glm::vec3(analytic.skyColour), 1);
   for (const Rgba8& pixel : gl.colour.pixels) ASSERT_EQ(pixel, sky);
   EXPECT_EQ(gl.holeCount(), 0u);
 }

@@ -1,0 +1,51 @@
+#pragma once
+/// What a bake's threads gather of some neighbouring columns each, and how it becomes one capture.
+
+#include <stop_token>
+
+#include "engine/bake/bake.h"
+#include "engine/base/memory_budget.h"
+#include "engine/base/task_runner.h"
+#include "engine/image/capture.h"
+
+namespace acentric {
+
+/// In capture order.
+struct SampleList {
+  std::vector<std::uint32_t> perColumn;
+  std::vector<std::uint16_t> row;
+  std::vector<float> inverseDistance;
+  std::vector<HalfColour> colour;
+  std::vector<std::uint8_t> roles;
+  std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
+
+  void reserve(std::size_t samples);
+  /// Gives back what was reserved in vain.
+  void trim();
+  void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
+    row.push_back(std::uint16_t(r));
+    inverseDistance.push_back(w);
+    colour.push_back(packed);
+    roles.push_back(mask);
+  }
+};
+
+struct ChunkSamples : SampleList {
+  BackgroundBuilder background;
+  SampleList reflections;  ///< in a scene with flat mirrors
+  CaptureCounts counts;
+  MemoryBudget::Share held;
+
+  /// Of a sample that belongs to a mirror.
+  static constexpr std::size_t kBytes = kCaptureSampleBytes + sizeof(std::uint8_t);
+
+  /// No more will come.
+  void close();
+};
+
+/// All chunks behind one another: samples, background (without its sky) and, if there are any, reflections.
+/// Only a part when stopped.
+Capture joined(const std::vector<ChunkSamples>& chunks, bool reflections, TaskRunner& runner,
+               const std::stop_token& stop);
+
+}  // namespace acentric
