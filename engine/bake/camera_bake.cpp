@@ -112,7 +112,9 @@ class ColumnMarch {
       : march_(march),
         out_(out),
         sameDepth_(kSameDepth * march.columns.rowPitch()),
-        stored_(march.camera.roles.size()) {
+        rightBehind_(std::max(sameDepth_, kSameSurface)),
+        stored_(march.camera.roles.size()),
+        opaqueAt_(march.camera.roles.size()) {
     if (march.sight != nullptr) hints_ = march.sight->hints();
   }
 
@@ -175,7 +177,8 @@ class ColumnMarch {
     row_ = row;
     flat_ = march_.rows.cosine[std::size_t(row)];
     layer_ = 0;
-    for (int& stored : stored_) stored = 0;
+    std::ranges::fill(stored_, 0);
+    std::ranges::fill(opaqueAt_, 0);
   }
 
   /// What is behind the pixel's first hit: from surface to surface, until every role has all it may have, or
@@ -219,7 +222,8 @@ class ColumnMarch {
       if (isFull(role)) {
         limited = limited || inPart;
       } else if (march_.sight == nullptr ||
-                 march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays)) {
+                 (horizontal * (1 - rightBehind_) > opaqueAt_[role.index] &&
+                  march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays))) {
         if (inPart) needed_.push_back(&role);
         if (mirror != 0) facing_.push_back(&role);
       }
@@ -240,6 +244,8 @@ class ColumnMarch {
       ++out_.counts.samples.overLimit;
       return;
     }
+    if (opaque)
+      for (const ColumnRole* role : needed_) opaqueAt_[role->index] = horizontal;
     add(storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
         opaque ? 1 : shaded.alpha, mirror);
   }
@@ -305,7 +311,8 @@ class ColumnMarch {
 
   const March& march_;
   ChunkSamples& out_;
-  double sameDepth_;  ///< metres per metre of ray
+  double sameDepth_;    ///< metres per metre of ray
+  double rightBehind_;  ///< the same: what the test eyes do not tell from what lies before it
   std::array<Hit, RayPacket::kSize> hits_;
   RegionSight::Hints hints_;
   glm::dvec2 direction_{0};        ///< of the column
@@ -315,6 +322,9 @@ class ColumnMarch {
   double flat_ = 1;                ///< of the pixel: horizontal metres per metre of ray
   int layer_ = 0;                  ///< of the pixel: samples that it has
   std::vector<int> stored_;        ///< of the pixel, by role
+  /// The same: horizontal distance of the last opaque surface stored. What lies right behind it, as the backs
+  /// of panels and mouldings, would pass for it before the test eyes, and show in its cracks.
+  std::vector<double> opaqueAt_;
   std::vector<const ColumnRole*> needed_;
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::vector<Shown> shown_;               ///< by the mirrors of the pixel

@@ -11,9 +11,8 @@
 namespace acentric {
 namespace {
 
-/// Of an inverse distance: nearer than this to the surface of the map is on it ...
-constexpr double kSameSurface = 2e-3;
-/// ... and farther behind than this is behind it, wherever between four rays the point lies.
+/// Of an inverse distance: what is farther than this behind the surface of the map is behind it, wherever
+/// between four rays the point lies.
 constexpr double kBehind = 1e-2;
 /// Four rays show one plane when they depart from it by no more than this share.
 constexpr double kFlat = 4e-3;
@@ -148,6 +147,7 @@ EyeView::Sees EyeView::look(const glm::dvec3& way, double far) const {
   const double a = double(at[0]), b = double(at[1]), c = double(at[samples]), d = double(at[samples + 1]);
   const double least = std::min({a, b, c, d}), most = std::max({a, b, c, d});
   if (least < 0) return Sees::unsure;
+  if (far == 0) return least == 0 ? Sees::yes : Sees::no;
   if (inverse >= most * (1 - kSameSurface)) return Sees::yes;
   if (inverse < least * (1 - kBehind)) return Sees::no;
   if (least > 0.5 * most && std::abs(a + d - b - c) <= kFlat * most) {

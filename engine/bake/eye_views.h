@@ -21,6 +21,10 @@
 
 namespace acentric {
 
+/// Of a distance: what lies nearer behind a surface than this passes for the surface itself, since maps do
+/// not tell them apart.
+inline constexpr double kSameSurface = 2e-3;
+
 /// Elevations, radians.
 struct ElevationRange {
   double bottom = 0, top = 0;
@@ -44,7 +48,8 @@ class EyeView {
   enum class Sees { no, yes, unsure };
   /// Does the map show the point? Unsure along edges, and in directions that were not looked at.
   Sees looksAt(const glm::dvec3& point) const;
-  /// The same for what lies infinitely far in a direction.
+  /// The same for what lies infinitely far in a direction. Along its edges yes: eyes between the test eyes
+  /// see them elsewhere, and a pixel of background costs nothing.
   Sees looksAlong(const glm::dvec3& direction) const;
 
   const glm::dvec3& eye() const { return eye_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/view/sky_table.h"
+
 namespace acentric {
 
 bool BackgroundLimits::holds(const glm::vec3& direction) const {
@@ -29,6 +31,11 @@ BackgroundLimits backgroundLimits(const WalkScene& scene, const glm::dvec3& eye)
   return limits;
 }
 
+glm::dvec3 directionThrough(const PerspectiveView& view, double u, double v) {
+  return glm::transpose(view.viewFromWorld()) *
+         glm::dvec3(u - 0.5 * view.width, v - 0.5 * view.height, view.focalPixels());
+}
+
 bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view) {
   if (!std::isfinite(limits.above) && !std::isfinite(limits.below)) return false;
   // A picture that does not hold the zenith or the nadir is steepest on its border.
@@ -50,15 +57,14 @@ bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view
 
 void paintBackground(const WalkScene& scene, const PerspectiveView& view, const BackgroundLimits& limits,
                      std::uint32_t slot, Canvas& canvas, TaskRunner& runner) {
-  const bool sky = scene.plan.on(Effect::sky);
+  const SkyTable sky(scene.plan.on(Effect::sky) ? scene.scene->sky : Sky{}, scene.exposure);
   runner.parallelFor(std::size_t(view.width), [&](std::size_t x) {
     CanvasPixel* column = canvas.column(int(x));
+    const glm::dvec3 first = directionThrough(view, int(x) + 0.5, 0.5);
+    const glm::dvec3 step = directionThrough(view, int(x) + 0.5, 1.5) - first;
     for (int y = 0; y < view.height; ++y) {
-      const glm::vec3 direction(view.rayThrough(int(x) + 0.5, y + 0.5));
-      if (!limits.holds(direction)) continue;
-      const glm::vec3 radiance = sky ? scene.scene->sky.radiance(direction) : glm::vec3(0);
-      const std::uint32_t colour = wordOf(encodeForDisplay(radiance, scene.exposure)) & 0x00ffffffu;
-      column[y] = canvasPixel(colour | slot << 24, 0);
+      const glm::vec3 direction(first + double(y) * step);
+      if (limits.holds(direction)) column[y] = canvasPixel(sky.towards(direction) | slot << 24, 0);
     }
   });
 }

@@ -19,6 +19,9 @@ struct BackgroundLimits {
 /// Of an eye in one of the layout's regions. None without a scene.
 BackgroundLimits backgroundLimits(const WalkScene& scene, const glm::dvec3& eye);
 
+/// World direction through image position (u, v) in pixels: as long as its pixel is away, so linear in both.
+glm::dvec3 directionThrough(const PerspectiveView& view, double u, double v);
+
 /// Does the view show such a direction?
 bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/geometry/conventions.h"
+#include "engine/view/background.h"
+#include "engine/view/sky_table.h"
 #include "engine/view/warp.h"
 
 namespace acentric {
@@ -40,34 +42,12 @@ struct Pixels {
   }
 };
 
-/// The sky's colour on the screen by the z of a direction.
-class SkyTable {
- public:
-  SkyTable(const Sky& sky, float exposure) : sky_(sky) {
-    const auto word = [&](float z) {
-      return wordOf(encodeForDisplay(sky.radiance({0, 0, z}), exposure)) & 0x00ffffffu;
-    };
-    for (int i = 0; i <= kSteps; ++i) words_.push_back(word(static_cast<float>(i) / kSteps));
-    ground_ = word(-1);
-  }
-  const Sky& sky() const { return sky_; }
-  std::uint32_t at(float z) const {
-    return z < 0 ? ground_ : words_[static_cast<std::size_t>(z * kSteps + 0.5f)];
-  }
-
- private:
-  static constexpr int kSteps = 4096;
-  Sky sky_;
-  std::vector<std::uint32_t> words_;
-  std::uint32_t ground_ = 0;
-};
-
 /// One column of the picture: directions along it run on a straight line.
 class PictureColumn {
  public:
   PictureColumn(const PerspectiveView& view, int x, CanvasPixel* pixels)
-      : first_(direction(view, x, 0.5)),
-        step_(direction(view, x, 1.5) - first_),
+      : first_(directionThrough(view, x + 0.5, 0.5)),
+        step_(directionThrough(view, x + 0.5, 1.5) - first_),
         height_(view.height),
         pixels_(pixels) {}
 
@@ -97,11 +77,6 @@ class PictureColumn {
   }
 
  private:
-  /// Not of unit length: so that it is linear in y.
-  static glm::dvec3 direction(const PerspectiveView& view, int x, double y) {
-    const glm::dmat3 worldFromView = glm::transpose(view.viewFromWorld());
-    return worldFromView * glm::dvec3(x + 0.5 - 0.5 * view.width, y - 0.5 * view.height, view.focalPixels());
-  }
   Ramp leftOf(const glm::dvec2& border) const {
     return {cross(border, glm::dvec2(first_)), cross(border, glm::dvec2(step_))};
   }
@@ -154,7 +129,7 @@ class PictureColumn {
     const glm::vec3 first(first_), step(step_);
     for (int y = pixels.first; y < pixels.end; ++y) {
       const glm::vec3 d = first + static_cast<float>(y) * step;
-      pixels_[y] = canvasPixel(sky.at(std::min(d.z / std::sqrt(glm::dot(d, d)), 1.0f)) | slot << 24, 0);
+      pixels_[y] = canvasPixel(sky.towards(d) | slot << 24, 0);
     }
   }
 

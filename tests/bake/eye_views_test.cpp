@@ -100,9 +100,10 @@ TEST(EyeView, IsUnsureWhereItDidNotLook) {
   const auto scene = builder.rays();
   TaskRunner runner;
   RayCounts rays;
-  const auto view = EyeView::trace(*scene, {0, 0, 2}, 90, {radians(-30), radians(20)}, runner, rays, {});
+  const auto view = EyeView::trace(*scene, {0.5, 0, 2}, 90, {radians(-30), radians(20)}, runner, rays, {});
   EXPECT_EQ(view->looksAlong({1, 0, 0.1}), EyeView::Sees::yes) << "the sky";
   EXPECT_EQ(view->looksAlong({1, 0, -0.3}), EyeView::Sees::no) << "the floor";
+  EXPECT_EQ(view->looksAlong({1, 0, -0.08}), EyeView::Sees::yes) << "along the sky's edge too";
   EXPECT_EQ(view->looksAlong({0.1, 0, 1}), EyeView::Sees::unsure);
   EXPECT_TRUE(seesAlong(*scene, *view, glm::normalize(glm::dvec3(0.1, 0, 1)), rays));
   EXPECT_EQ(view->looksAt({0, 0, 0}), EyeView::Sees::unsure);
