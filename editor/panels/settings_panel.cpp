@@ -260,13 +260,18 @@ void drawView(PanelContext& context) {
       double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
 
   ViewSettings view = project.view;
-  const std::array<ui::Choice, 2> kReconstructions = {
+  const std::array<ui::Choice, 3> kChoices = {
       ui::Choice{"Points", "One pixel a sample: shows the sampling.", true, ""},
-      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true, ""}};
-  int reconstruction = view.reconstruction == Reconstruction::point ? 0 : 1;
-  if (const ui::FieldEdit edit =
-          ui::choiceField("Reconstruction", kReconstructions, reconstruction, kLabelWidth)) {
-    view.reconstruction = reconstruction == 0 ? Reconstruction::point : Reconstruction::splat;
+      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true, ""},
+      ui::Choice{
+          "Filtered",
+          "Smooth edges and surfaces, fewest cracks: rectangles that follow the surface, then a mean "
+          "of the samples around each pixel. Takes one more pass over the picture. The OpenGL renderer draws "
+          "splats instead.",
+          true, ""}};
+  int reconstruction = int(view.reconstruction);
+  if (const ui::FieldEdit edit = ui::choiceField("Reconstruction", kChoices, reconstruction, kLabelWidth)) {
+    view.reconstruction = kReconstructions[reconstruction];
     applyFieldEdit(context, edit, setViewSettings(project, view, "reconstruction"));
   }
   if (const ui::FieldEdit edit = ui::numberField(

@@ -34,7 +34,8 @@ FrameMaker::~FrameMaker() = default;
 
 Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProject> storeys,
                                                        const std::string& rendererName, const Common& common,
-                                                       TaskRunner& runner) {
+                                                       TaskRunner& runner,
+                                                       const std::string& reconstruction) {
   std::unique_ptr<FrameMaker> maker(new FrameMaker(storeys, common, runner));
   maker->settings = storeys.front().project.view;
   maker->truth_ = rendererName == "truth";
@@ -42,6 +43,11 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
   const auto renderer = parseRenderer(rendererName);
   if (!renderer) return tl::unexpected(renderer.error());
   maker->settings.renderer = *renderer;
+  if (!reconstruction.empty()) {
+    const auto parsed = parseReconstruction(reconstruction);
+    if (!parsed) return tl::unexpected(parsed.error());
+    maker->settings.reconstruction = *parsed;
+  }
   if (*renderer == Renderer::gl) {
     maker->gl_ = std::make_unique<Gl>();
     auto context = HeadlessContext::create();
@@ -94,6 +100,8 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
 
 std::vector<std::string> FrameMaker::warnings() const {
   std::vector<std::string> all;
+  if (gl_ && settings.reconstruction == Reconstruction::filtered)
+    all.push_back("the OpenGL renderer draws splats where filtered samples are asked for");
   for (const auto& walk : walks_)
     if (walk) {
       all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());

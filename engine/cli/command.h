@@ -66,10 +66,11 @@ std::string timeText(double seconds);
 /// a storey is loaded with the first frame there.
 class FrameMaker {
  public:
-  /// `storeys`, at least one, must outlive it.
+  /// `storeys`, at least one, must outlive it. `reconstruction` empty: the project's.
   static Result<std::unique_ptr<FrameMaker>> create(std::span<const OpenProject> storeys,
                                                     const std::string& rendererName, const Common& common,
-                                                    TaskRunner& runner);
+                                                    TaskRunner& runner,
+                                                    const std::string& reconstruction = {});
   ~FrameMaker();
   /// Loads what frames from an eye need; render() does so too.
   Status load(const glm::dvec3& eye);

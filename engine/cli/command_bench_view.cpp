@@ -17,7 +17,7 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
     const Stopwatch watch;
-    auto maker = FrameMaker::create(walk->storeys, name, common, *runner);
+    auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.reconstruction);
     if (!maker) return tl::unexpected(maker.error());
     if (Status loaded = (*maker)->load(views.front().eye); !loaded) return tl::unexpected(loaded.error());
     if (makers.empty()) loadSeconds = watch.seconds();
@@ -41,11 +41,17 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
         samples[m] += frame->stats.samplesRead;
       }
   Report report;
-  report.json = {{"version", ACENTRIC_VERSION},  {"processor", processorName()},
-                 {"threads", runner->threads()}, {"project", options.project.string()},
-                 {"width", walk->size.width},    {"height", walk->size.height},
-                 {"frames", views.size()},       {"repeats", options.repeats},
-                 {"loadSeconds", loadSeconds},   {"renderers", Json::array()}};
+  report.json = {{"version", ACENTRIC_VERSION},
+                 {"processor", processorName()},
+                 {"threads", runner->threads()},
+                 {"project", options.project.string()},
+                 {"width", walk->size.width},
+                 {"height", walk->size.height},
+                 {"frames", views.size()},
+                 {"repeats", options.repeats},
+                 {"reconstruction", nameOf(makers.front()->settings.reconstruction)},
+                 {"loadSeconds", loadSeconds},
+                 {"renderers", Json::array()}};
   report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; captures loaded in {:.2f} s\n",
                             processorName(), runner->threads(), walk->size.width, walk->size.height,
                             views.size(), options.repeats, loadSeconds);

@@ -32,7 +32,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   const OpenProject& open = walk->storeys.front();
   const auto views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.reconstruction);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<double> psnr, ssim, holes, milliseconds;
@@ -63,6 +63,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   Report report;
   report.json = {{"project", options.project.string()},
                  {"renderer", options.renderer},
+                 {"reconstruction", nameOf((*maker)->settings.reconstruction)},
                  {"width", walk->size.width},
                  {"height", walk->size.height},
                  {"threads", runner->threads()},

@@ -75,7 +75,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
     if (!all) return tl::unexpected(all.error());
     storeys = std::move(*all);
   }
-  auto maker = FrameMaker::create(storeys, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(storeys, options.renderer, common, *runner, options.reconstruction);
   if (!maker) return tl::unexpected(maker.error());
   if (Status loaded = (*maker)->load(view.eye); !loaded) return tl::unexpected(loaded.error());
   (*maker)->truthSamples = options.truthSamples;

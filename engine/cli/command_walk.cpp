@@ -33,7 +33,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
   if (!walk) return tl::unexpected(walk.error());
   const auto& views = walk->views;
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.reconstruction);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<ColourImage> pictures;

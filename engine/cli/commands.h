@@ -109,7 +109,7 @@ Result<PictureSize> parseSize(const std::string& text);
 
 struct RenderOptions {
   std::filesystem::path project, output, holes;
-  std::string eye, size = "960x540", renderer = "list";
+  std::string eye, size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
   double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
   int truthSamples = 4;
   bool stats = false;
@@ -118,8 +118,8 @@ Result<Report> runRender(const RenderOptions& options, const Common& common);
 
 struct WalkOptions {
   std::filesystem::path project, path, output;
-  std::string size = "960x540", renderer = "list";
-  double fovDegrees = 0;  ///< 0 = the project's
+  std::string size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
+  double fovDegrees = 0;                                            ///< 0 = the project's
 };
 Result<Report> runWalk(const WalkOptions& options, const Common& common);
 
@@ -131,7 +131,7 @@ Result<Report> runTour(const TourOptions& options, const Common& common);
 
 struct MeasureOptions {
   std::filesystem::path project, path, images;
-  std::string size = "640x360", renderer = "list";
+  std::string size = "640x360", renderer = "list", reconstruction;  ///< empty = the project's
   double fovDegrees = 0;
   int frames = 0;  ///< 0 = all; else so many, evenly chosen
   int truthSamples = 1;
@@ -145,7 +145,7 @@ Result<Report> runValidate(const ValidateOptions& options, const Common& common)
 
 struct BenchOptions {
   std::filesystem::path project;
-  std::string size = "960x540";
+  std::string size = "960x540", reconstruction;  ///< empty = the project's
   std::vector<std::string> renderers{"list", "scalar", "zbuffer", "gl"};
   int frames = 30, repeats = 3;
 };

@@ -5,6 +5,13 @@
 namespace acentric::cli {
 namespace {
 
+void addReconstruction(CLI::App& command, std::string& reconstruction) {
+  command
+      .add_option("--reconstruction", reconstruction,
+                  "point, splat or filtered (default: the project's); gl draws splats for filtered")
+      ->check(CLI::IsMember({"point", "splat", "filtered"}));
+}
+
 void addRender(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(
       app, chosen, "render", "Render one picture",
@@ -21,6 +28,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
       ->capture_default_str();
+  addReconstruction(*c, o.reconstruction);
   c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of --renderer truth: 1, 4, 9 or 16")
       ->check(CLI::IsMember({1, 4, 9, 16}))
       ->capture_default_str();
@@ -53,6 +61,7 @@ void addWalk(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
       ->capture_default_str();
+  addReconstruction(*c, o.reconstruction);
 }
 
 void addMeasure(CLI::App& app, Chosen& chosen) {
@@ -66,6 +75,7 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, "list, scalar, zbuffer or gl")
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
       ->capture_default_str();
+  addReconstruction(*c, o.reconstruction);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
   c->add_option("--frames", o.frames, "Only so many frames, evenly chosen (0 = all)")->capture_default_str();
@@ -84,6 +94,7 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
       ->delimiter(',')
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
       ->capture_default_str();
+  addReconstruction(*c, o.reconstruction);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--frames", o.frames, "Frames of the tour")
       ->check(CLI::Range(1, 100000))

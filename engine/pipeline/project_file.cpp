@@ -39,10 +39,6 @@ const char* nameOf(UpAxis up) {
   return "guess";
 }
 
-const char* nameOf(Reconstruction reconstruction) {
-  return reconstruction == Reconstruction::point ? "point" : "splat";
-}
-
 Json toJson(const glm::dvec2& point) { return Json::array({point.x, point.y}); }
 glm::dvec2 pointFrom(const Json& json) { return {json[0].get<double>(), json[1].get<double>()}; }
 
@@ -175,8 +171,7 @@ void readImport(const Json& json, ImportOptions& options) {
 
 void readView(const Json& json, Project& project) {
   project.view.renderer = *parseRenderer(json.value("renderer", "list"));
-  project.view.reconstruction =
-      json.value("reconstruction", "splat") == "point" ? Reconstruction::point : Reconstruction::splat;
+  project.view.reconstruction = *parseReconstruction(json.value("reconstruction", "splat"));
   read(json, "maxSplatPixels", project.view.maxSplatPixels);
   read(json, "localGeometry", project.view.localGeometry);
   read(json, "secondaryCover", project.view.secondaryCover);

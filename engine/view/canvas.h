@@ -3,6 +3,7 @@
 /// vertical lines, so that successive samples write to neighbouring memory. One 64-bit word a pixel: a
 /// splat's pixel is one store.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -27,6 +28,21 @@ constexpr float inverseZDepthOf(CanvasPixel pixel) {
 }
 constexpr std::uint32_t slotOf(CanvasPixel pixel) { return static_cast<std::uint32_t>(pixel) >> 24; }
 
+/// Where places are kept (Reconstruction::filtered), the lowest bits of the inverse depth say where the
+/// sample lies: in bits 0..3 eighths of a pixel right of the pixel's centre, in 4..7 below it, each -8..7,
+/// and in 8..10 how far it spreads (Splat::spread). So a pixel written without them has its sample in its
+/// centre. Depths are then exact to 12 bits.
+inline constexpr CanvasPixel kPlaceBits = CanvasPixel(0x7ff) << 32;
+
+/// `fromLeft`, `fromTop`: eighths of a pixel from the pixel's left and upper border; beyond a pixel around
+/// the centre they are cut off.
+constexpr CanvasPixel placeBits(int fromLeft, int fromTop, std::uint32_t spread) {
+  const auto code = [](int fromBorder) {
+    return static_cast<unsigned>(std::clamp(fromBorder - 4, -8, 7)) & 15u;
+  };
+  return CanvasPixel(code(fromLeft) | code(fromTop) << 4 | spread << 8) << 32;
+}
+
 inline constexpr CanvasPixel kEmptyPixel = canvasPixel(0, -1.0f);
 
 inline std::uint32_t wordOf(const Rgba8& colour) {
@@ -47,6 +63,7 @@ struct Canvas {
   std::vector<std::uint64_t>
       stamps;  ///< the sample last blended into each pixel; empty if nothing is blended
   std::vector<std::uint8_t> mirrors;  ///< the mirror that each pixel shows, 0 = none; empty if none is needed
+  bool places = false;                ///< pixels say where their samples lie (kPlaceBits)
 
   CanvasPixel* column(int x) { return pixels.data() + std::size_t(x) * std::size_t(height); }
   const CanvasPixel* column(int x) const { return pixels.data() + std::size_t(x) * std::size_t(height); }

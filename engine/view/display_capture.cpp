@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "engine/base/contract.h"
+#include "engine/view/slant.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
@@ -28,6 +29,7 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   display.inverseDistance = capture.inverseDistance;
   display.roles = capture.roles;
   display.mirror = capture.mirror;
+  display.slant = slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {

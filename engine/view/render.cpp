@@ -8,6 +8,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/view/background.h"
 #include "engine/view/captured_background.h"
+#include "engine/view/develop.h"
 #include "engine/view/hole_fill.h"
 #include "engine/view/local_raster.h"
 #include "engine/view/view_plan.h"
@@ -20,30 +21,14 @@ namespace {
 constexpr int kFillRings = 4096;
 constexpr int kFillRingsWhileLoading = 8;
 
-/// Turns the canvas the right way round: rows of colours and sources, and depth for the passes that follow.
-void develop(const Canvas& canvas, const ViewPlan& plan, Frame& frame, FloatImage& inverseZDepth,
-             TaskRunner& runner) {
+/// By slot of the canvas.
+std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
   std::vector<PixelSource> sources{kSourceHole};
   for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
   sources.push_back(kSourceBackground);
   for (const PieceDraw& piece : plan.backgrounds) sources.push_back(sourceOfCamera(piece.camera));
   for (const PieceDraw& piece : plan.reflections) sources.push_back(sourceOfCamera(piece.camera));
-  constexpr int kBlock = 16;
-  const std::size_t blocks = static_cast<std::size_t>((canvas.height + kBlock - 1) / kBlock);
-  runner.parallelFor(blocks, [&](std::size_t block) {
-    const int y0 = static_cast<int>(block) * kBlock, y1 = std::min(y0 + kBlock, canvas.height);
-    for (int x = 0; x < canvas.width; ++x) {
-      const CanvasPixel* column = canvas.column(x);
-      for (int y = y0; y < y1; ++y) {
-        const CanvasPixel pixel = column[y];
-        const std::uint32_t slot = slotOf(pixel);
-        if (slot == 0) continue;
-        frame.colour.at(x, y) = colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u);
-        frame.source.at(x, y) = sources[slot];
-        inverseZDepth.at(x, y) = inverseZDepthOf(pixel);
-      }
-    }
-  });
+  return sources;
 }
 
 Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
@@ -63,15 +48,18 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   }
   for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
   WarpOptions options;
-  options.project = settings.renderer == Renderer::scalar ? projectSamplesScalar : fastestProjectSamples();
+  const bool scalar = settings.renderer == Renderer::scalar;
+  options.project = scalar ? projectSamplesScalar : fastestProjectSamples();
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.bands = runner.threads();
-  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty());
+  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
+                             settings.reconstruction == Reconstruction::filtered);
   if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
     paintBackground(scene, view, limits, backgroundSlot(plan), canvas, runner);
   paintCapturedBackground(scene, view, plan, canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
-  develop(canvas, plan, frame, inverseZDepth, runner);
+  develop(canvas, sourcesOf(plan), scalar ? filterPixelsScalar : fastestFilterPixels(), frame, inverseZDepth,
+          runner);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;

@@ -25,6 +25,26 @@ Result<Renderer> parseRenderer(std::string_view name) {
               fmt::format("no renderer is called '{}': use list, scalar, zbuffer or gl", name), "renderer");
 }
 
+const char* nameOf(Reconstruction reconstruction) {
+  switch (reconstruction) {
+    case Reconstruction::point:
+      return "point";
+    case Reconstruction::splat:
+      return "splat";
+    case Reconstruction::filtered:
+      return "filtered";
+  }
+  return "splat";
+}
+
+Result<Reconstruction> parseReconstruction(std::string_view name) {
+  for (Reconstruction reconstruction : kReconstructions)
+    if (name == nameOf(reconstruction)) return reconstruction;
+  return fail(ErrorKind::invalidArgument,
+              fmt::format("no reconstruction is called '{}': use point, splat or filtered", name),
+              "reconstruction");
+}
+
 Status ViewSettings::check() const {
   if (maxSplatPixels < 1 || maxSplatPixels > 64)
     return fail(ErrorKind::invalidArgument,

@@ -11,6 +11,7 @@
 #include "engine/scene/effect_plan.h"
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
+#include "engine/view/slant_code.h"
 
 namespace acentric {
 
@@ -31,6 +32,7 @@ struct DisplayCapture {
   std::vector<float> inverseDistance;      ///< 1/m, horizontal
   std::vector<Rgba8> colour;               ///< sRGB, straight alpha
   std::vector<std::uint8_t> roles;         ///< that need the sample
+  std::vector<Slant> slant;                ///< how its surface is turned (slant.h)
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)

@@ -43,6 +43,10 @@ ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view
                          ? static_cast<float>(focal * pitch * kSlantAllowance)
                          : 0.0f;
   column.maxSide = static_cast<float>(settings.maxSplatPixels);
+  column.slanted = settings.reconstruction == Reconstruction::filtered;
+  column.acrossStep = static_cast<float>(0.5 * kOverlap * capture.camera.columnPitch());
+  column.perSpread = static_cast<float>(8 * 0.5 * kOverlap);
+  column.downStep = static_cast<float>(0.5 * kOverlap * capture.camera.rowPitch());
   column.roles = piece.roles;
   column.centreX = 0.5f * static_cast<float>(view.width);
   column.centreY = 0.5f * static_cast<float>(view.height);
@@ -121,6 +125,7 @@ class BandWarp {
     if (begin == end) return;
 
     axes_.project(glm::dvec3(direction, 0), column.a);
+    axes_.project(double(column.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), column.across);
     column.maxInverseDistance = piece.maxInverseDistance[k];
     column.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
@@ -161,8 +166,8 @@ class BandWarp {
       if (to <= from) return;
       count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
                                 capture.inverseDistance.data() + from, capture.roles.data() + from,
-                                static_cast<int>(to - from), static_cast<std::uint32_t>(from - begin),
-                                splats_.data() + count);
+                                capture.slant.data() + from, static_cast<int>(to - from),
+                                static_cast<std::uint32_t>(from - begin), splats_.data() + count);
       counts_.samplesRead += to - from;
     };
     for (std::size_t block = (begin - start) / kSamplesPerBlock; start + block * kSamplesPerBlock < end;
@@ -214,10 +219,11 @@ class BandWarp {
 
 }  // namespace
 
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors) {
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors, bool withPlaces) {
   Canvas canvas;
   canvas.width = view.width;
   canvas.height = view.height;
+  canvas.places = withPlaces;
   const std::size_t size = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
   canvas.pixels.assign(size, kEmptyPixel);
   if (withStamps) canvas.stamps.assign(size, 0);
@@ -230,6 +236,8 @@ WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const
   require(reflectionSlot(plan, plan.reflections.size()) <= static_cast<std::uint32_t>(kMaxSlots) + 1,
           "more pieces than a canvas pixel can name");
   require(plan.reflections.empty() || !canvas.mirrors.empty(), "a canvas that can say what mirrors it shows");
+  require(canvas.places == (settings.reconstruction == Reconstruction::filtered),
+          "a canvas that says where samples lie where they are filtered, and only there");
   const int bands = std::clamp(options.bands, 1, view.height);
   std::vector<WarpCounts> counts(static_cast<std::size_t>(bands));
   runner.parallelFor(counts.size(), [&](std::size_t band) {

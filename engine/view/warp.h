@@ -13,6 +13,9 @@ namespace acentric {
 /// degrees.
 inline constexpr double kSlantAllowance = 1.25;
 
+/// Rectangles after the slant of their surface are this much larger than the sample's share of it.
+inline constexpr double kOverlap = 1.1;
+
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one
@@ -27,8 +30,8 @@ struct WarpCounts {
 };
 
 /// A cleared canvas for this view; `withStamps` if some piece holds blended samples, `withMirrors` if the
-/// plan has reflections.
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors);
+/// plan has reflections, `withPlaces` if it is to be filtered.
+Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors, bool withPlaces = false);
 
 /// Slots on the canvas: plan.pieces[i] has i + 1, then come the background without a capture, those of
 /// captures and the reflections.
@@ -43,7 +46,7 @@ inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
 }
 
 /// Paints all pieces, then what mirrors show over those pixels that the same mirror came to cover: they keep
-/// the mirror's depth. At most kMaxSlots slots.
+/// the mirror's depth. At most kMaxSlots slots. The canvas keeps places if the settings filter.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The inner loop of the warp: from samples of one capture column to squares on the picture.
+/// The inner loop of the warp: from samples of one capture column to squares or rectangles on the picture.
 ///
 /// One template (warp_kernel_body.h) is compiled twice: one sample at a time for any processor, and eight at
 /// a time with AVX2. Both do the same operations in the same order without fused multiply-adds, so their
@@ -11,13 +11,19 @@
 
 #include <cstdint>
 
+#include "engine/view/slant_code.h"
+
 namespace acentric {
 
-/// A square of `side` pixels with its top left pixel at (x, y).
+/// A square with its top left pixel at (x, y); with ProjectColumn::slanted a rectangle.
 struct alignas(16) Splat {
   std::int16_t x, y;
-  std::int32_t side;
-  std::uint32_t index;  ///< of the sample: firstIndex + its place among those handed in
+  std::uint8_t width, height;
+  /// Of a rectangle: the sample's place, eighths of a pixel from its left and upper border, 255 at most.
+  std::uint8_t placeX, placeY;
+  std::uint32_t index : 28;  ///< of the sample: firstIndex + its place among those handed in
+  /// Of a rectangle: samples of its surface lie 8 / (8 - spread) pixels apart, or less if it is 0.
+  std::uint32_t spread : 4;
   float inverseZDepth;  ///< 1/m along the view axis; 0 = sky
 };
 
@@ -35,6 +41,11 @@ struct ProjectColumn {
   float maxInverseDistance;  ///< nearer samples are dropped
   float minInverseDistance;  ///< farther ones too; 0: none
   float footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
+  bool slanted;              ///< rectangles after each sample's slant instead of squares
+  float across[3];           ///< slanted: half the rectangle's size along a row, as q is
+  float acrossStep;          ///< slanted: half its size along a row and along a column, radians
+  float downStep;
+  float perSpread;  ///< slanted: eight times half a rectangle's size where samples lie a pixel apart
   float maxSide;
   std::uint32_t roles;          ///< samples that none of these needs are dropped
   float centreX, centreY;       ///< picture centre, pixels
@@ -47,16 +58,16 @@ struct ProjectColumn {
 };
 
 /// Writes the splats that touch the rectangle to `out` (room for count + 8), in the order of the samples, and
-/// returns how many. `rowTangent` is the capture's table.
+/// returns how many. `rowTangent` is the capture's table; `slant` is read where the column is slanted.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                               const float* inverseDistance, const std::uint8_t* roles, int count,
-                               std::uint32_t firstIndex, Splat* out);
+                               const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
+                               int count, std::uint32_t firstIndex, Splat* out);
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, int count,
-                         std::uint32_t firstIndex, Splat* out);
+                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
+                         int count, std::uint32_t firstIndex, Splat* out);
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, const std::uint8_t* roles, int count,
+                       const float* inverseDistance, const std::uint8_t* roles, const Slant* slant, int count,
                        std::uint32_t firstIndex, Splat* out);
 
 /// The fastest kernel that this processor runs.

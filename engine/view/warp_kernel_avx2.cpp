@@ -17,6 +17,7 @@ struct Floats {
 struct Ints {
   __m256i v;
   friend Ints operator+(Ints a, Ints b) { return {_mm256_add_epi32(a.v, b.v)}; }
+  friend Ints operator-(Ints a, Ints b) { return {_mm256_sub_epi32(a.v, b.v)}; }
 };
 
 struct Mask {
@@ -56,15 +57,35 @@ struct EightLanes {
   static I floor(F a) { return {_mm256_cvttps_epi32(_mm256_floor_ps(a.v))}; }
   static I ceil(F a) { return {_mm256_cvttps_epi32(_mm256_ceil_ps(a.v))}; }
 
+  static I mini(I a, I b) { return {_mm256_min_epi32(a.v, b.v)}; }
+  static I maxi(I a, I b) { return {_mm256_max_epi32(a.v, b.v)}; }
+  static void slants(const Slant* p, F& across, F& down) {
+    static_assert(sizeof(Slant) == 2);
+    const __m256i both = _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+    const auto tangent = [](__m256i code) {
+      const F size = toFloat({code});
+      return size / (set(127) - abs(size));
+    };
+    across = tangent(_mm256_srai_epi32(_mm256_slli_epi32(both, 24), 24));
+    down = tangent(_mm256_srai_epi32(both, 8));
+  }
+  static I pack(I width, I height, I placeX, I placeY) {
+    const __m256i size = _mm256_or_si256(width.v, _mm256_slli_epi32(height.v, 8));
+    const __m256i place = _mm256_or_si256(placeX.v, _mm256_slli_epi32(placeY.v, 8));
+    return {_mm256_or_si256(size, _mm256_slli_epi32(place, 16))};
+  }
+
   /// Writes all eight splats one after the other and steps on only past the accepted ones: no branches.
-  static int append(M accepted, I x, I y, I side, std::uint32_t index, F inverseZDepth, Splat* out) {
+  static int append(M accepted, I x, I y, I size, std::uint32_t index, I spread, F inverseZDepth,
+                    Splat* out) {
     const unsigned bits = static_cast<unsigned>(_mm256_movemask_ps(accepted.v));
     if (bits == 0) return 0;
     const __m256i xy = _mm256_blend_epi16(x.v, _mm256_slli_epi32(y.v, 16), 0xaa);
-    const __m256i indices = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(index)),
+    const __m256i counted = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(index)),
                                              _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    const __m256i indices = _mm256_or_si256(counted, _mm256_slli_epi32(spread.v, 28));
     const __m256i depth = _mm256_castps_si256(inverseZDepth.v);
-    const __m256i low01 = _mm256_unpacklo_epi32(xy, side.v), high01 = _mm256_unpackhi_epi32(xy, side.v);
+    const __m256i low01 = _mm256_unpacklo_epi32(xy, size.v), high01 = _mm256_unpackhi_epi32(xy, size.v);
     const __m256i low23 = _mm256_unpacklo_epi32(indices, depth),
                   high23 = _mm256_unpackhi_epi32(indices, depth);
     const __m256i lanes[4] = {_mm256_unpacklo_epi64(low01, low23), _mm256_unpackhi_epi64(low01, low23),
@@ -85,9 +106,9 @@ struct EightLanes {
 }  // namespace
 
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, const std::uint8_t* roles, int count,
+                       const float* inverseDistance, const std::uint8_t* roles, const Slant* slant, int count,
                        std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, roles, count,
+  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, roles, slant, count,
                                                 firstIndex, out);
 }
 

@@ -33,9 +33,35 @@ struct OneLane {
     const I whole = static_cast<I>(a);
     return whole + (static_cast<float>(whole) < a);
   }
-  static int append(M accepted, I x, I y, I side, std::uint32_t index, F inverseZDepth, Splat* out) {
+  static I mini(I a, I b) { return a < b ? a : b; }
+  static I maxi(I a, I b) { return a > b ? a : b; }
+  /// Tangents of the slants along row and column.
+  static void slants(const Slant* p, F& across, F& down) {
+    const auto tangent = [](std::int8_t code) {
+      const F size = static_cast<F>(code);
+      return size / (127.0f - abs(size));
+    };
+    across = tangent(p->across), down = tangent(p->down);
+  }
+  struct Size {
+    std::uint8_t width, height, placeX, placeY;
+  };
+  static Size pack(I width, I height, I placeX, I placeY) {
+    return {static_cast<std::uint8_t>(width), static_cast<std::uint8_t>(height),
+            static_cast<std::uint8_t>(placeX), static_cast<std::uint8_t>(placeY)};
+  }
+  static int append(M accepted, I x, I y, Size size, std::uint32_t index, I spread, F inverseZDepth,
+                    Splat* out) {
     if (!accepted) return 0;
-    *out = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), side, index, inverseZDepth};
+    *out = {static_cast<std::int16_t>(x),
+            static_cast<std::int16_t>(y),
+            size.width,
+            size.height,
+            size.placeX,
+            size.placeY,
+            index & 0xfffffffu,
+            static_cast<std::uint32_t>(spread) & 15u,
+            inverseZDepth};
     return 1;
   }
 };
@@ -43,9 +69,9 @@ struct OneLane {
 }  // namespace
 
 int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, int count,
-                         std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, roles, count,
+                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
+                         int count, std::uint32_t firstIndex, Splat* out) {
+  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, roles, slant, count,
                                              firstIndex, out);
 }
 

@@ -112,7 +112,8 @@ struct PointPass::Piece {
   enum class Mirrors { none, mark, reflect } mirrors = Mirrors::none;
   std::vector<std::pair<const CaptureChunk*, int>> columns = {};  ///< visible ones, in drawing order
 
-  bool splat() const { return settings.reconstruction == Reconstruction::splat; }
+  /// Filtered samples are drawn as splats too (view_settings.h).
+  bool splat() const { return settings.reconstruction != Reconstruction::point; }
   /// A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
   /// the largest splat, and the framebuffer's border cuts.
   int margin() const { return splat() ? settings.maxSplatPixels / 2 + 1 : 0; }

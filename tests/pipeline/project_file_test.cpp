@@ -64,6 +64,17 @@ TEST(ProjectFile, RoundTripsEveryField) {
   EXPECT_EQ(*back, project);
 }
 
+TEST(ProjectFile, RoundTripsEveryReconstruction) {
+  Project project = everythingSet();
+  for (Reconstruction reconstruction : kReconstructions) {
+    project.view.reconstruction = reconstruction;
+    const auto back = parseProject(formatProject(project), "p");
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(back->view.reconstruction, reconstruction);
+  }
+  EXPECT_FALSE(parseReconstruction("smooth"));
+}
+
 TEST(ProjectFile, WritingIsStable) {
   const std::string once = formatProject(everythingSet());
   EXPECT_EQ(formatProject(*parseProject(once, "p")), once);

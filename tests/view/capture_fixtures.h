@@ -59,7 +59,8 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
                     const ViewPlan& plan, bool depthTest = false, int bands = 4) {
   bool blended = false;
   for (const auto& capture : scene.captures) blended = blended || (capture && capture->blended);
-  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty());
+  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
+                             settings.reconstruction == Reconstruction::filtered);
   TaskRunner runner(0);
   WarpOptions options;
   options.depthTest = depthTest;

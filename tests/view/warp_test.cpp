@@ -53,9 +53,10 @@ TEST_P(ListPriority, IsTheSameForAnyThreadCountAndKernel) {
   const int region = *layout->regionAt({0.1, 0.05});
   const WalkScene scene = test::walkScene(test::randomBoxes(6, 40, 3.4), layout, region, 3, 3);
   RandomViews views(13);
-  for (double fov : {20.0, 60.0, 140.0}) {
+  for (double fov : {20.0, 60.0, 140.0, 60.0}) {
     const PerspectiveView view = views.next(*layout, region, fov);
     ViewSettings settings;
+    settings.reconstruction = fov == 60 ? Reconstruction::filtered : Reconstruction::splat;
     settings.renderer = Renderer::scalar;
     const Frame truth = frameOf(scene, view, settings, 0);
     settings.renderer = Renderer::list;
@@ -86,6 +87,10 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     column.maxInverseDistance = round % 3 == 0 ? 0.5f : std::numeric_limits<float>::infinity();
     column.footprint = round % 5 == 0 ? 0 : uniform(0, 20);
     column.maxSide = 16;
+    column.slanted = round % 2 == 0;
+    for (float& a : column.across) a = uniform(-3, 3);
+    column.across[2] /= 300;
+    column.acrossStep = uniform(0, 0.02f), column.downStep = uniform(0, 0.02f), column.perSpread = 4.4f;
     column.roles = round % 4 == 0 ? 0xffu : std::uint32_t(random() % 256);
     column.centreX = 320, column.centreY = 200, column.inverseFocal = 1 / uniform(100, 500);
     column.x0 = 0, column.y0 = 50, column.x1 = 640, column.y1 = 300;
@@ -96,7 +101,10 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     std::vector<std::uint16_t> rows;
     std::vector<float> inverse;
     std::vector<std::uint8_t> roles;
+    std::vector<Slant> slants;
     for (int i = 0; i < count; ++i) {
+      slants.push_back({static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125),
+                        static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125)});
       rows.push_back(static_cast<std::uint16_t>(random() % tangents.size()));
       roles.push_back(static_cast<std::uint8_t>(random()));
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
@@ -104,9 +112,9 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
     }
     std::vector<Splat> one(static_cast<std::size_t>(count) + 8), eight(one.size());
     const int n1 = projectSamplesScalar(column, tangents.data(), rows.data(), inverse.data(), roles.data(),
-                                        count, 7, one.data());
+                                        slants.data(), count, 7, one.data());
     const int n8 = fastestProjectSamples()(column, tangents.data(), rows.data(), inverse.data(), roles.data(),
-                                           count, 7, eight.data());
+                                           slants.data(), count, 7, eight.data());
     ASSERT_EQ(n1, n8);
     for (int i = 0; i < n1; ++i)
       ASSERT_NE(roles[one[static_cast<std::size_t>(i)].index - 7] & column.roles, 0u);
@@ -114,11 +122,17 @@ TEST(ProjectSamples, GivesTheSameBitsOneAtATimeAndEightAtATime) {
       const Splat &a = one[static_cast<std::size_t>(i)], &b = eight[static_cast<std::size_t>(i)];
       ASSERT_EQ(a.x, b.x);
       ASSERT_EQ(a.y, b.y);
-      ASSERT_EQ(a.side, b.side);
+      ASSERT_EQ(a.width, b.width);
+      ASSERT_EQ(a.height, b.height);
+      ASSERT_EQ(a.placeX, b.placeX);
+      ASSERT_EQ(a.placeY, b.placeY);
+      ASSERT_EQ(a.spread, b.spread);
       ASSERT_EQ(a.index, b.index);
       ASSERT_EQ(a.inverseZDepth, b.inverseZDepth);
-      EXPECT_GE(a.side, 1);
-      EXPECT_LE(a.side, 16);
+      for (int side : {int(a.width), int(a.height)}) {
+        EXPECT_GE(side, 1);
+        EXPECT_LE(side, 17);  // a rectangle is as long as it is: it may hold one centre more
+      }
     }
   }
 }
@@ -224,6 +238,38 @@ TEST(Warp, BlendsEachPaneOnceOverWhatLiesBehind) {
   }
 }
 
+TEST(Warp, BlendsEachOfTwoPanesThatNearlyTouch) {
+  // 12 cm apart at 3 m: nearer to each other than neighbouring samples of one slanted pane may be.
+  AnalyticScene analytic;
+  analytic.floor = false;
+  analytic.boxes.push_back({{6, -20, -20}, {7, 20, 20}, {0, 0, 0, 1}});
+  for (double x : {3.0, 3.12})
+    analytic.boxes.push_back({{x, -0.8, 0.8}, {x + 0.01, 0.8, 2.4}, {0.7f, 0.7f, 0.7f, 0.5f}});
+  const ColumnCamera camera = cameraAt({0, 0, 1.6}, 0);
+  PerspectiveView view;
+  view.eye = camera.centreOfProjection + glm::dvec3(0.3, 0.2, 0.05);
+  view.width = 320, view.height = 240;
+  const OneCapture one = oneCapture(analytic, camera, view, 3);
+  const Rgba8 pane = encodeForDisplay(glm::vec3(unpackColour(packColour({0.7f, 0.7f, 0.7f, 0.5f}))), 1, 0.5f);
+  const Rgba8 tinted = blendOver(pane, blendOver(pane, Rgba8(0, 0, 0, 255)));
+  for (Reconstruction reconstruction : {Reconstruction::splat, Reconstruction::filtered}) {
+    ViewSettings settings = plainSettings();
+    settings.reconstruction = reconstruction;
+    const Canvas canvas = paint(one.scene, view, settings, one.plan);
+    std::size_t twice = 0, other = 0;
+    for (int x = 0; x < view.width; ++x)
+      for (int y = 0; y < view.height; ++y) {
+        const glm::dvec3 ray = view.rayThrough(x + 0.5, y + 0.5);
+        const glm::dvec3 at = view.eye + (3 - view.eye.x) / ray.x * ray;
+        if (std::abs(at.y) > 0.7 || at.z < 0.9 || at.z > 2.3) continue;  // well within both
+        const Rgba8 pixel = colourOf(static_cast<std::uint32_t>(canvas.column(x)[y]) | 0xff000000u);
+        (pixel == tinted ? twice : other) += 1;
+      }
+    EXPECT_GT(twice, 1000u);
+    EXPECT_LT(static_cast<double>(other), 0.02 * static_cast<double>(twice)) << nameOf(reconstruction);
+  }
+}
+
 TEST(Warp, DoesNotDependOnTheBands) {
   const AnalyticScene analytic = test::randomBoxes(15, 60, 1.5);
   const ColumnCamera camera = cameraAt({0, 0, 1.6}, 0);
@@ -232,9 +278,13 @@ TEST(Warp, DoesNotDependOnTheBands) {
   view.pitchRadians = -0.3;
   view.width = 300, view.height = 170;
   const OneCapture one = oneCapture(analytic, camera, view);
-  const Canvas whole = paint(one.scene, view, plainSettings(), one.plan, false, 1);
-  for (int bands : {2, 7, 170})
-    EXPECT_EQ(paint(one.scene, view, plainSettings(), one.plan, false, bands).pixels, whole.pixels);
+  for (Reconstruction reconstruction : kReconstructions) {
+    ViewSettings settings = plainSettings();
+    settings.reconstruction = reconstruction;
+    const Canvas whole = paint(one.scene, view, settings, one.plan, false, 1);
+    for (int bands : {2, 7, 170})
+      EXPECT_EQ(paint(one.scene, view, settings, one.plan, false, bands).pixels, whole.pixels);
+  }
 }
 
 }  // namespace
