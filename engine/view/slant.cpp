@@ -22,12 +22,14 @@ class ColumnCursor {
  public:
   ColumnCursor(std::span<const std::uint16_t> row, std::uint32_t begin, std::uint32_t end)
       : row_(row), at_(begin), end_(end) {}
-  /// The samples of a row; rows must not fall from call to call.
+  bool atEnd() const { return at_ == end_; }
+  int rowAt() const { return row_[at_]; }
+  /// The samples of a row, which lies below those asked for before. The cursor then stands behind them.
   Pixel pixel(int wanted) {
     while (at_ < end_ && row_[at_] < wanted) ++at_;
-    Pixel found{at_, at_};
-    while (found.last < end_ && row_[found.last] == wanted) ++found.last;
-    return found;
+    const std::uint32_t first = at_;
+    while (at_ < end_ && row_[at_] == wanted) ++at_;
+    return {first, at_};
   }
 
  private:
@@ -43,21 +45,22 @@ float stepFrom(std::span<const float> inverseDistance, const Pixel& pixel, float
   return step;
 }
 
+std::int8_t codeOf(float tangent) {
+  const float size = std::abs(tangent);
+  const int code = std::min(static_cast<int>(127.5f - 127.0f / (1 + size)), kLargestSlantCode);
+  return static_cast<std::int8_t>(tangent < 0 ? -code : code);
+}
+
 std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch) {
   float flatter = fromBefore, steeper = toAfter;
   if (std::abs(flatter) > std::abs(steeper)) std::swap(flatter, steeper);
   const float step = std::abs(steeper) < kConnected * inverse * pitch ? steeper : flatter;
-  return std::abs(step) < kBroken * inverse ? slantCode(double(step) / (double(inverse) * double(pitch)))
-                                            : std::int8_t(0);
+  return std::abs(step) < kBroken * inverse ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
 }
 
 }  // namespace
 
-std::int8_t slantCode(double tangent) {
-  const double size = std::abs(tangent);
-  const int code = std::min(int(std::lround(127 - 127 / (1 + size))), kLargestSlantCode);
-  return std::int8_t(tangent < 0 ? -code : code);
-}
+std::int8_t slantCode(double tangent) { return codeOf(static_cast<float>(tangent)); }
 
 double slantTangent(std::int8_t code) { return double(code) / (127 - std::abs(int(code))); }
 
@@ -65,21 +68,29 @@ std::vector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uin
                             std::span<const std::uint16_t> row, std::span<const float> inverseDistance) {
   std::vector<Slant> slants(row.size());
   const float columnPitch = float(camera.columnPitch()), rowPitch = float(camera.rowPitch());
-  const auto cursor = [&](std::size_t column) {
-    return column + 1 < columnStart.size() ? ColumnCursor(row, columnStart[column], columnStart[column + 1])
+  const auto cursor = [&](std::size_t column) {  // also of the columns beside the first and the last
+    return column < columnStart.size() - 1 ? ColumnCursor(row, columnStart[column], columnStart[column + 1])
                                            : ColumnCursor(row, 0, 0);
   };
   for (std::size_t k = 0; k + 1 < columnStart.size(); ++k) {
-    ColumnCursor left = k > 0 ? cursor(k - 1) : ColumnCursor(row, 0, 0), right = cursor(k + 1);
-    ColumnCursor above = cursor(k), below = cursor(k);
-    for (std::uint32_t i = columnStart[k]; i < columnStart[k + 1]; ++i) {
-      const float w = inverseDistance[i];
-      if (!(w > 0)) continue;
-      const float fromLeft = stepFrom(inverseDistance, left.pixel(row[i]), w),
-                  toRight = -stepFrom(inverseDistance, right.pixel(row[i]), w),
-                  fromAbove = stepFrom(inverseDistance, above.pixel(row[i] - 1), w),
-                  toBelow = -stepFrom(inverseDistance, below.pixel(row[i] + 1), w);
-      slants[i] = {leaning(fromLeft, toRight, w, columnPitch), leaning(fromAbove, toBelow, w, rowPitch)};
+    ColumnCursor left = cursor(k - 1), own = cursor(k), right = cursor(k + 1);
+    Pixel above;
+    for (int rowAbove = -2; !own.atEnd();) {
+      const int r = own.rowAt();
+      const Pixel here = own.pixel(r);
+      const Pixel below = ColumnCursor(own).pixel(r + 1);
+      if (rowAbove != r - 1) above = {};
+      const Pixel beforeIt = left.pixel(r), afterIt = right.pixel(r);
+      for (std::uint32_t i = here.first; i < here.last; ++i) {
+        const float w = inverseDistance[i];
+        if (!(w > 0)) continue;
+        slants[i] = {
+            leaning(stepFrom(inverseDistance, beforeIt, w), -stepFrom(inverseDistance, afterIt, w), w,
+                    columnPitch),
+            leaning(stepFrom(inverseDistance, above, w), -stepFrom(inverseDistance, below, w), w, rowPitch)};
+      }
+      above = here;
+      rowAbove = r;
     }
   }
   return slants;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "analytic_scene.h"
 #include "engine/view/render.h"
@@ -35,8 +36,9 @@ int main() {
   PerspectiveView view;
   view.eye = {0.4, 0.3, layout->eyeZ()};
   view.yawRadians = 0.7;
-  ViewSettings settings;
+
   for (bool secondary : {false, true}) {
+    ViewSettings settings;
     settings.secondaryCover = secondary;
     const auto plan = planView(scene, view, settings);
     if (!plan) return 1;
@@ -73,8 +75,14 @@ int main() {
           counts.samplesDrawn, static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
           static_cast<double>(counts.samplesRead) / seconds * 1e-6);
     }
-    for (Renderer renderer : {Renderer::scalar, Renderer::list, Renderer::zbuffer}) {
+    for (const auto& [renderer, reconstruction] : {std::pair(Renderer::scalar, Reconstruction::splat),
+                                                   std::pair(Renderer::list, Reconstruction::splat),
+                                                   std::pair(Renderer::zbuffer, Reconstruction::splat),
+                                                   std::pair(Renderer::list, Reconstruction::point),
+                                                   std::pair(Renderer::scalar, Reconstruction::filtered),
+                                                   std::pair(Renderer::list, Reconstruction::filtered)}) {
       settings.renderer = renderer;
+      settings.reconstruction = reconstruction;
       settings.fillHoles = true;
       FrameStats stats;
       std::size_t holes = 0;
@@ -83,8 +91,9 @@ int main() {
         stats = frame->stats;
         holes = frame->holeCount();
       });
-      fmt::print("frame {} 2 threads {:.2f} ms (warp {:.2f}, fill {:.2f}), {} holes\n", nameOf(renderer),
-                 seconds * 1e3, stats.warpSeconds * 1e3, stats.fillSeconds * 1e3, holes);
+      fmt::print("frame {} {} 2 threads {:.2f} ms (warp {:.2f}, fill {:.2f}), {} holes\n", nameOf(renderer),
+                 nameOf(reconstruction), seconds * 1e3, stats.warpSeconds * 1e3, stats.fillSeconds * 1e3,
+                 holes);
     }
   }
 }
