@@ -50,6 +50,7 @@ void SampleList::reserve(std::size_t samples) {
 }
 
 void SampleList::trim() {
+  if (2 * row.size() > row.capacity()) return;
   row.shrink_to_fit();
   inverseDistance.shrink_to_fit();
   colour.shrink_to_fit();
@@ -60,7 +61,7 @@ void SampleList::trim() {
 void ChunkSamples::close() {
   trim();
   reflections.trim();
-  held.set(kBytes * (row.size() + reflections.row.size()));
+  held.set(kBytes * (heldSamples() + reflections.heldSamples()));
 }
 
 Capture joined(const std::vector<ChunkSamples>& chunks, bool reflections, TaskRunner& runner,

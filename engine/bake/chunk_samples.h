@@ -20,9 +20,10 @@ struct SampleList {
   std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
 
   void reserve(std::size_t samples);
-  /// Gives back what was reserved in vain.
+  /// Gives back what was reserved in vain, where it is much: a copy takes time.
   void trim();
-  void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
+  std::size_t heldSamples() const { return row.capacity(); }
+  [[gnu::always_inline]] void add(int r, float w, const HalfColour& packed, std::uint8_t mask) {
     row.push_back(std::uint16_t(r));
     inverseDistance.push_back(w);
     colour.push_back(packed);

@@ -124,21 +124,6 @@ glm::vec4 unpackColour(const HalfColour& colour) {
                    glm::unpackHalf1x16(colour.b), glm::unpackHalf1x16(colour.a));
 }
 
-float storedInverseDistance(double inverseDistance, double step) {
-  if (!(inverseDistance > 0)) return 0;
-  // The power of two at or below the number, by its exponent's bits.
-  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
-  const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(inverseDistance) & kExponent);
-  const double own = power * 0x1p-15;     // of 16 significant bits
-  constexpr double kSmallest = 0x1p-141;  // of the smallest floats the last 8 bits
-  const double coarser = std::max({step, own, kSmallest});
-  constexpr double kRound = 0x1.8p52;  // leaves no bit behind the point
-  // A power of two times 2^52 is no less exact as a summand than as a divisor, and faster.
-  const double shift = kRound * coarser;
-  const double stored = inverseDistance + shift - shift;
-  return float(std::max(stored, step));
-}
-
 int CaptureSamples::maxLayers() const {
   int most = 0;
   for (std::size_t column = 0; column + 1 < columnStart.size(); ++column) {

@@ -14,6 +14,8 @@
 /// as the reflected ray went. It is drawn where the mirror itself is what a pixel shows. A capture without
 /// flat mirrors has no such list and no byte for it.
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -34,7 +36,20 @@ glm::vec4 unpackColour(const HalfColour& colour);
 /// An inverse distance as captures store it: the nearest of those `step` apart, and of the floats with 16
 /// significant bits, so that its last 8 bits are zero. Off by at most half a step, or by 2^-17 of itself;
 /// what is not 0 stays at least one step. `step` is a power of two, or 0 for the second alone.
-float storedInverseDistance(double inverseDistance, double step);
+inline float storedInverseDistance(double inverseDistance, double step) {
+  if (!(inverseDistance > 0)) return 0;
+  // The power of two at or below the number, by its exponent's bits.
+  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000;
+  const double power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(inverseDistance) & kExponent);
+  const double own = power * 0x1p-15;     // of 16 significant bits
+  constexpr double kSmallest = 0x1p-141;  // of the smallest floats the last 8 bits
+  const double coarser = std::max({step, own, kSmallest});
+  constexpr double kRound = 0x1.8p52;  // leaves no bit behind the point
+  // A power of two times 2^52 is no less exact as a summand than as a divisor, and faster.
+  const double shift = kRound * coarser;
+  const double stored = inverseDistance + shift - shift;
+  return float(std::max(stored, step));
+}
 
 /// Samples of all pixels, in capture order.
 struct CaptureSamples {
