@@ -235,6 +235,20 @@ GatheredLight::Spot GatheredLight::cell(std::size_t number) const {
   return spotOn(side, Cell::numbered(r, within).middle, 1.0 / cellsOf(r));
 }
 
+double GatheredLight::areaOf(std::uint32_t sceneTriangle) const {
+  const auto next = std::ranges::upper_bound(firstTriangles_, sceneTriangle);
+  const auto mesh = std::uint32_t(next - firstTriangles_.begin()) - 1;
+  return spotOn({mesh, sceneTriangle - firstTriangles_[mesh], sceneTriangle, false}, {}, 1).squareMetres;
+}
+
+double GatheredLight::placesPerSquareMetre(std::uint32_t sceneTriangle) const {
+  return surfaceSampleCount(places_.resolution[sceneTriangle]) / areaOf(sceneTriangle);
+}
+
+double GatheredLight::cellsPerSquareMetre(std::uint32_t sceneTriangle) const {
+  return cellsOf(cells_.resolution[sceneTriangle]) / areaOf(sceneTriangle);
+}
+
 void GatheredLight::gatherCell(std::size_t number, int bounces, RayCounts& rays,
                                const std::stop_token& stop) const {
   std::uint32_t within = 0;

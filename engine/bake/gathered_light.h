@@ -105,6 +105,9 @@ class GatheredLight {
   Spot cell(std::size_t number) const;
   /// With its light after 0..bounces - 1 bounces.
   void gatherCell(std::size_t number, int bounces, RayCounts& rays, const std::stop_token& stop = {}) const;
+  /// On one side of a triangle.
+  double placesPerSquareMetre(std::uint32_t sceneTriangle) const;
+  double cellsPerSquareMetre(std::uint32_t sceneTriangle) const;
   /// Is light gathered for what has this material?
   bool lights(int material) const { return !rules_[std::size_t(material)].unlit; }
 
@@ -129,6 +132,7 @@ class GatheredLight {
   Side sideAt(const Grids& grids, std::size_t number, std::uint32_t& within) const;
   struct Place;
   Place placeNumbered(std::size_t number) const;
+  double areaOf(std::uint32_t sceneTriangle) const;
   Spot spotOn(const Side& side, const glm::vec2& barycentric, double share) const;
   Surface surfaceOf(const Side& side, const glm::vec2& barycentric) const;
   HalfColour placeLight(const Side& side, std::uint32_t i, std::uint32_t j, RayCounts& rays,

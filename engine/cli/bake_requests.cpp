@@ -11,8 +11,6 @@
 namespace acentric::cli {
 namespace {
 
-constexpr double kProbeSeconds = 2;
-
 /// "0-3, 7, 9-11"
 std::string rangesText(const std::vector<int>& sorted) {
   std::string text;
@@ -119,8 +117,7 @@ Result<Report> dryRun(BakePlan& plan, const std::vector<BakeRequest>& requests, 
     const std::vector<int> stale = staleOf(requests[s], (*states)[s]);
     EstimateOptions options;
     options.surfaceLight = requests[s].surfaceLight && !(*states)[s].light.baked();
-    options.captureSeconds = 0.65 * kProbeSeconds / double(plan.storeys.size());
-    options.lightSeconds = 0.35 * kProbeSeconds / double(plan.storeys.size());
+    options.effort = 1 / double(plan.storeys.size());
     if (stale.empty() && !options.surfaceLight) continue;
     if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
     const auto runner = common.runner();

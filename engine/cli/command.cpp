@@ -221,7 +221,7 @@ std::string countText(std::uint64_t count) {
 Json toJson(const RayCounts& rays) {
   return {{"primary", rays.primary},       {"visibility", rays.visibility}, {"shadow", rays.shadow},
           {"softShadow", rays.softShadow}, {"ambient", rays.ambient},       {"bounce", rays.bounce},
-          {"mirror", rays.mirror},         {"through", rays.through}};
+          {"mirror", rays.mirror},         {"through", rays.through},       {"gathered", rays.gathered}};
 }
 
 Json toJson(const SampleCounts& samples) {

@@ -23,15 +23,14 @@ struct StoreyEstimate {
 };
 
 Result<StoreyEstimate> estimateStorey(const OpenProject& open, const EstimateCommandOptions& options,
-                                      double spend, const Common& common, TaskRunner& runner) {
+                                      double effort, const Common& common, TaskRunner& runner) {
   std::vector<int> missing;
   const std::vector<bool> baked = bakedCameras(open);
   for (std::size_t c = 0; c < baked.size(); ++c)
     if (!baked[c]) missing.push_back(int(c));
 
   EstimateOptions estimating;
-  estimating.captureSeconds = 0.65 * spend;
-  estimating.lightSeconds = 0.35 * spend;
+  estimating.effort = effort;
   const auto estimate = estimateProjectBake(open, {}, estimating, runner, common.progress, common.stop);
   if (!estimate) return tl::unexpected(estimate.error());
   const BakeEstimate& e = *estimate;
@@ -45,9 +44,11 @@ Result<StoreyEstimate> estimateStorey(const OpenProject& open, const EstimateCom
                  {"megapixels", e.pixels / 1e6},
                  {"samples", toJson(e.samples)},
                  {"rays", toJson(e.rays)},
+                 {"gatheredRays", e.gatheredRays},
                  {"captureBytes", toJson(e.captureBytes)},
                  {"traceSeconds", toJson(e.traceSeconds)},
                  {"writeSeconds", toJson(e.writeSeconds)},
+                 {"sightSeconds", e.sightSeconds},
                  {"captureSeconds", toJson(e.captureSeconds)},
                  {"surfaceLight",
                   {{"samples", toJson(e.lightSamples)},
@@ -92,7 +93,7 @@ Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& 
   std::vector<Report> reports;
   double bytes = 0, seconds = 0;
   for (const OpenProject& open : *storeys) {
-    auto one = estimateStorey(open, options, options.seconds / double(storeys->size()), common, *runner);
+    auto one = estimateStorey(open, options, options.effort / double(storeys->size()), common, *runner);
     if (!one) return tl::unexpected(one.error());
     reports.push_back(std::move(one->report));
     bytes += one->bytes, seconds += one->seconds;

@@ -16,7 +16,6 @@ namespace {
 
 /// A task opens the project first; that should be a small part of it.
 constexpr double kLeastOpenings = 10;
-constexpr double kProbeSeconds = 2;
 
 /// What is still to be baked of all storeys, by this machine's pace.
 struct Work {
@@ -33,8 +32,7 @@ Result<Work> workOf(std::span<const OpenProject> storeys, const Common& common) 
     for (std::size_t camera = 0; camera < baked.size(); ++camera)
       if (!baked[camera]) missing.push_back(int(camera));
     EstimateOptions options;
-    options.captureSeconds = 0.65 * kProbeSeconds / double(storeys.size());
-    options.lightSeconds = 0.35 * kProbeSeconds / double(storeys.size());
+    options.effort = 1 / double(storeys.size());
     options.surfaceLight = !surfaceLightBaked(open);
     if (missing.empty() && !options.surfaceLight) continue;
     const auto estimate = estimateProjectBake(open, missing, options, *runner, common.progress, common.stop);

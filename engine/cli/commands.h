@@ -159,7 +159,7 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
 
 struct EstimateCommandOptions {
   std::filesystem::path project, output;
-  double seconds = 4;  ///< spent on probing parts of cameras and of the light
+  double effort = 1;  ///< EstimateOptions, of all storeys together
 };
 Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& common);
 

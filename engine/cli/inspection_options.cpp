@@ -103,13 +103,13 @@ void addEstimate(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "estimate",
                     "Tell what a bake will take (samples, bytes, minutes) by baking a little of it",
                     "  acentric estimate kitchen.acentric.json --threads 2\n"
-                    "  acentric estimate kitchen.acentric.json --seconds 10 -o estimate.svg --json",
+                    "  acentric estimate kitchen.acentric.json --effort 4 -o estimate.svg --json",
                     runEstimate);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
-  c->add_option("--seconds", o.seconds,
-                "Time to spend on parts of cameras (more narrows the error); a dozen whole ones come on top")
-      ->check(CLI::Range(0.0, 3600.0))
+  c->add_option("--effort", o.effort,
+                "How much more or less to probe than usual: four times halves the error")
+      ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }

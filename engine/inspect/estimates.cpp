@@ -11,8 +11,10 @@ namespace {
 
 /// Fewer tell nothing about how cameras differ.
 constexpr std::size_t kFewestProbes = 16;
-/// Of these, baked whole too.
-constexpr std::size_t kWholeProbes = 12;
+/// Of these, slices are baked densely too.
+constexpr std::size_t kSlicedProbes = 8;
+/// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
+constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
 
 /// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
 /// probed.
@@ -49,110 +51,126 @@ Figure sum(const Figure& a, const Figure& b, double exact = 0) {
 
 Error stopped() { return {ErrorKind::cancelled, "the estimate was stopped", "estimate"}; }
 
-/// A camera's seconds as its part foretells them, and as it took.
+/// A slice's seconds as the camera's part foretells them, and as it took.
 struct Pace {
   double foretold = 0, taken = 0;
 };
 
-/// How much of the time that parts foretell whole cameras take.
+/// How much of the time that parts foretell dense slices take.
 Result<Figure> measurePace(const std::vector<double>& pixels, const std::vector<int>& order,
                            const std::vector<CaptureProbe>& probes, const CaptureOverhead& overhead,
                            BakeProber& prober) {
-  const std::size_t count = std::min(kWholeProbes, probes.size());
-  const auto taken = prober.bakeWhole({order.begin(), order.begin() + std::ptrdiff_t(count)});
-  if (!taken) return tl::unexpected(taken.error());
+  const std::size_t count = std::min(kSlicedProbes, probes.size());
+  const auto slices = prober.bakeSlices({order.begin(), order.begin() + std::ptrdiff_t(count)});
+  if (!slices) return tl::unexpected(slices.error());
   std::vector<Pace> tracing, writing;
-  double traced = 0, written = 0;
+  double traced = 0, written = 0, sliced = 0, all = 0;
   for (std::size_t p = 0; p < count; ++p) {
     const CaptureProbe& probe = probes[p];
-    const double times = probe.pixels > 0 ? pixels[std::size_t(order[p])] / probe.pixels : 0;
+    const auto& [slicePixels, seconds] = (*slices)[p];
+    const double times = probe.pixels > 0 ? slicePixels / probe.pixels : 0;
     const double perSample = probe.writtenSamples > 0 ? probe.writeSeconds / probe.writtenSamples : 0;
-    tracing.push_back({overhead.traceSeconds + times * probe.traceSeconds, (*taken)[p]});
-    writing.push_back({overhead.writeSeconds + times * probe.samples * perSample, (*taken)[p]});
+    tracing.push_back({overhead.traceSeconds + times * probe.traceSeconds, seconds});
+    writing.push_back({overhead.writeSeconds + times * probe.samples * perSample, seconds});
     traced += tracing.back().foretold, written += writing.back().foretold;
+    sliced += slicePixels, all += pixels[std::size_t(order[p])];
   }
   // The slower of the two over all of them, as for the whole bake: each waits for the other's queue only.
   const std::vector<Pace>& paces = traced >= written ? tracing : writing;
-  return ratioOf(paces, &Pace::taken, &Pace::foretold, double(count) / double(pixels.size()));
+  const double share = double(count) / double(pixels.size()) * (all > 0 ? sliced / all : 1);
+  return ratioOf(paces, &Pace::taken, &Pace::foretold, share);
 }
 
-Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions& options, BakeProber& prober,
-                        const Progress& progress, const std::stop_token& stop, BakeEstimate& estimate) {
+/// Probes cameras until enough rays are traced.
+Result<std::vector<CaptureProbe>> probeCaptures(const std::vector<int>& order, const EstimateOptions& options,
+                                                BakeProber& prober, const Progress& progress,
+                                                const std::stop_token& stop) {
+  const double wanted = kCaptureRays * options.effort;
+  double rays = 0;
+  for (std::size_t probed = 0; probed < order.size(); ++probed) {
+    if (probed >= kFewestProbes && rays >= wanted) break;
+    if (stop.stop_requested()) return tl::unexpected(stopped());
+    if (progress) {
+      const double fewest = double(probed) / double(std::min(kFewestProbes, order.size()));
+      progress({std::min(fewest, wanted > 0 ? rays / wanted : fewest), 1, "probing cameras"});
+    }
+    const auto traced = prober.probeCapture(order[probed]);
+    if (!traced) return tl::unexpected(traced.error());
+    rays += *traced;
+  }
+  return prober.finishCaptures();
+}
+
+Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions& options,
+                        const GatherForecast& gathering, BakeProber& prober, const Progress& progress,
+                        const std::stop_token& stop, BakeEstimate& estimate) {
   const auto overhead = prober.captureOverhead();
   if (!overhead) return tl::unexpected(overhead.error());
   const std::vector<int> order = spreadOrder(int(pixels.size()));
-  const Stopwatch watch;
-  std::size_t probed = 0;
-  for (; probed < order.size(); ++probed) {
-    const double spent = watch.seconds();
-    if (probed >= kFewestProbes && spent >= options.captureSeconds) break;
-    if (stop.stop_requested()) return tl::unexpected(stopped());
-    if (progress)
-      progress({std::min(spent, options.captureSeconds), options.captureSeconds, "probing cameras"});
-    if (Status done = prober.probeCapture(order[probed]); !done) return done;
-  }
-  const auto probes = prober.finishCaptures();
+  const auto probes = probeCaptures(order, options, prober, progress, stop);
   if (!probes) return tl::unexpected(probes.error());
 
-  const double cameras = double(pixels.size()), share = double(probed) / cameras;
+  const double cameras = double(pixels.size());
   double probedPixels = 0;
   for (const CaptureProbe& probe : *probes) probedPixels += probe.pixels;
-  const double seenShare = std::min(share, probedPixels / estimate.pixels);
+  const double seenShare = std::min(double(probes->size()) / cameras, probedPixels / estimate.pixels);
   const auto ratio = [&](double CaptureProbe::*part, double CaptureProbe::*whole) {
     return ratioOf(*probes, part, whole, seenShare);
   };
-  estimate.probedCameras = int(probed);
-  estimate.samples = times(ratio(&CaptureProbe::samples, &CaptureProbe::pixels), estimate.pixels);
-  estimate.rays = times(ratio(&CaptureProbe::rays, &CaptureProbe::pixels), estimate.pixels);
-  estimate.traceSeconds =
-      sum(times(ratio(&CaptureProbe::traceSeconds, &CaptureProbe::pixels), estimate.pixels), {},
-          cameras * overhead->traceSeconds);
-  estimate.writeSeconds =
-      sum(product(ratio(&CaptureProbe::writeSeconds, &CaptureProbe::writtenSamples), estimate.samples), {},
-          cameras * overhead->writeSeconds);
-  estimate.captureBytes =
-      sum(product(ratio(&CaptureProbe::bytes, &CaptureProbe::writtenSamples), estimate.samples), {},
-          cameras * overhead->bytes);
-  // One camera is written while the next is traced: the slower of the two sets the pace, and the other adds
-  // its first or last camera.
-  const bool tracing = estimate.traceSeconds.value >= estimate.writeSeconds.value;
-  const Figure& slower = tracing ? estimate.traceSeconds : estimate.writeSeconds;
-  const Figure& faster = tracing ? estimate.writeSeconds : estimate.traceSeconds;
+  const auto perPixel = [&](double CaptureProbe::*part) {
+    return times(ratio(part, &CaptureProbe::pixels), estimate.pixels);
+  };
+  const auto perSample = [&](double CaptureProbe::*part) {
+    return product(ratio(part, &CaptureProbe::writtenSamples), estimate.samples);
+  };
+  const Figure gathered{gathering.captureRays, gathering.relativeError};
+  estimate.probedCameras = int(probes->size());
+  estimate.samples = perPixel(&CaptureProbe::samples);
+  estimate.gatheredRays = gathered.value;
+  estimate.rays = sum(perPixel(&CaptureProbe::rays), gathered);
+  estimate.captureBytes = sum(perSample(&CaptureProbe::bytes), {}, cameras * overhead->bytes);
+  const Figure tracing = sum(perPixel(&CaptureProbe::traceSeconds), {}, cameras * overhead->traceSeconds);
+  const Figure writing = sum(perSample(&CaptureProbe::writeSeconds), {}, cameras * overhead->writeSeconds);
   const auto pace = measurePace(pixels, order, *probes, *overhead, prober);
   if (!pace) return tl::unexpected(pace.error());
+  estimate.traceSeconds = sum(product(tracing, *pace), times(gathered, gathering.secondsPerRay));
+  estimate.writeSeconds = product(writing, *pace);
   estimate.sightSeconds = prober.sightSeconds();
-  estimate.captureSeconds =
-      sum(product(sum(slower, times(faster, 1 / cameras)), *pace), {}, estimate.sightSeconds);
-  estimate.traceSeconds = product(estimate.traceSeconds, *pace);
-  estimate.writeSeconds = product(estimate.writeSeconds, *pace);
+  // One camera is written while the next is traced: the slower of the two sets the pace, and the other adds
+  // its first or last camera.
+  const bool traced = estimate.traceSeconds.value >= estimate.writeSeconds.value;
+  const Figure& slower = traced ? estimate.traceSeconds : estimate.writeSeconds;
+  const Figure& faster = traced ? estimate.writeSeconds : estimate.traceSeconds;
+  estimate.captureSeconds = sum(slower, times(faster, 1 / cameras), estimate.sightSeconds);
   return {};
 }
 
-Status estimateLight(const EstimateOptions& options, BakeProber& prober, const Progress& progress,
-                     const std::stop_token& stop, BakeEstimate& estimate) {
+Status estimateLight(const EstimateOptions& options, const GatherForecast& gathering, BakeProber& prober,
+                     const Progress& progress, const std::stop_token& stop, BakeEstimate& estimate) {
   if (progress) progress({0, 0, "finding local geometry"});
   const auto overhead = prober.lightOverhead();
   if (!overhead) return tl::unexpected(overhead.error());
   const std::vector<double>& samples = overhead->samplesOfKind;
   std::vector<std::vector<LightProbe>> probes(samples.size());
   std::vector<bool> exhausted(samples.size(), false);
-  const Stopwatch watch;
-  for (int round = 0; round < 2 || watch.seconds() < options.lightSeconds; ++round) {
+  const double wanted = kLightSamples * options.effort;
+  double all = 0;
+  for (int round = 0; round < 2 || all < wanted; ++round) {
     for (std::size_t kind = 0; kind < samples.size(); ++kind) {
       if (exhausted[kind]) continue;
       if (stop.stop_requested()) return tl::unexpected(stopped());
-      if (progress)
-        progress({std::min(watch.seconds(), options.lightSeconds), options.lightSeconds,
-                  "probing light on surfaces"});
+      if (progress) progress({std::min(all, wanted), wanted, "probing light on surfaces"});
       const auto probe = prober.probeLight(int(kind));
       if (!probe) return tl::unexpected(probe.error());
       exhausted[kind] = probe->samples == 0;
       if (!exhausted[kind]) probes[kind].push_back(*probe);
+      all += probe->samples;
     }
     if (std::ranges::find(exhausted, false) == exhausted.end()) break;
   }
   estimate.lightBytes = {overhead->bytes, 0};
-  estimate.lightSeconds = {overhead->seconds, 0};
+  estimate.lightSeconds =
+      sum({overhead->seconds, 0}, {gathering.lightRays * gathering.secondsPerRay, gathering.relativeError});
   for (std::size_t kind = 0; kind < samples.size(); ++kind) {
     double probed = 0;
     for (const LightProbe& probe : probes[kind]) probed += probe.samples;
@@ -170,9 +188,8 @@ Status estimateLight(const EstimateOptions& options, BakeProber& prober, const P
 }  // namespace
 
 Status EstimateOptions::check() const {
-  for (const double seconds : {captureSeconds, lightSeconds})
-    if (!(seconds >= 0 && seconds <= 3600))
-      return fail(ErrorKind::invalidArgument, "time for probing must lie in 0..3600 s", "estimate");
+  if (!(effort >= 0 && effort <= 1000))
+    return fail(ErrorKind::invalidArgument, "the effort must lie in 0..1000", "estimate");
   return {};
 }
 
@@ -195,11 +212,14 @@ Result<BakeEstimate> estimateBake(const std::vector<double>& pixels, const Estim
   BakeEstimate estimate;
   estimate.cameras = int(pixels.size());
   estimate.pixels = std::accumulate(pixels.begin(), pixels.end(), 0.0);
+  if (progress && (!pixels.empty() || options.surfaceLight)) progress({0, 0, "asking what needs light"});
+  const auto gathering = prober.forecastGathering(options.surfaceLight);
+  if (!gathering) return tl::unexpected(gathering.error());
   if (!pixels.empty())
-    if (Status done = estimateCaptures(pixels, options, prober, progress, stop, estimate); !done)
+    if (Status done = estimateCaptures(pixels, options, *gathering, prober, progress, stop, estimate); !done)
       return tl::unexpected(done.error());
   if (options.surfaceLight)
-    if (Status done = estimateLight(options, prober, progress, stop, estimate); !done)
+    if (Status done = estimateLight(options, *gathering, prober, progress, stop, estimate); !done)
       return tl::unexpected(done.error());
   estimate.bytes = sum(estimate.captureBytes, estimate.lightBytes);
   estimate.seconds = sum(estimate.captureSeconds, estimate.lightSeconds);

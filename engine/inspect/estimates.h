@@ -1,10 +1,13 @@
 #pragma once
 /// What a bake will take, told before it is run: cameras, megapixels, samples, rays, bytes and seconds.
-/// Nothing is assumed about the machine or the scene: a spread of cameras is probed for a second or so, by
-/// the very routines of the bake, and the rates found are carried over to all of them.
+/// Nothing is assumed about the machine or the scene: a spread of cameras is probed by the very routines of
+/// the bake, and the rates found are carried over to all of them. How much is probed is a matter of rays, not
+/// of time: what is foretold of samples, rays and bytes does not depend on what else the machine does.
 ///
-/// Many cameras are probed in part, to see how they differ; a few of them also whole, since parts are slower:
-/// rays that lie apart share less in the caches, small pictures pack worse.
+/// Many cameras are probed in part, to see how they differ; slices of a few of them also as densely as a bake
+/// does, since parts are slower: rays that lie apart share less in the caches, small pictures pack worse.
+/// Light that is gathered once for all who read it is foretold apart from the rest: a part finds none of it
+/// there, the whole bake most of it.
 ///
 /// Each figure comes with its standard error: cameras differ, and a probe sees some of them. Probing is
 /// injected, since inspect neither traces nor writes; engine/pipeline wires it.
@@ -27,18 +30,33 @@ struct CaptureOverhead {
 
 /// What part of one camera's capture cost, beyond the overhead.
 struct CaptureProbe {
-  double pixels = 0;   ///< traced
-  double samples = 0;  ///< that came of it
-  double rays = 0;     ///< of all purposes
-  double traceSeconds = 0;
+  double pixels = 0;          ///< traced
+  double samples = 0;         ///< that came of it
+  double rays = 0;            ///< of all purposes but gathering light and the regions' sight
+  double traceSeconds = 0;    ///< where all light is gathered already
   double writtenSamples = 0;  ///< encoded and written, of which the next two
   double bytes = 0;
   double writeSeconds = 0;
 };
 
+/// A dense slice of a camera's capture.
+struct SliceProbe {
+  double pixels = 0;   ///< traced
+  double seconds = 0;  ///< from its beginning to that of the next, less gathering
+};
+
+/// Rays that light is gathered with, once for all who read it.
+struct GatherForecast {
+  double captureRays = 0;
+  double lightRays = 0;  ///< for the surfaces' own light, which is baked after the captures
+  double relativeError = 0;
+  double secondsPerRay = 0;
+};
+
 /// What part of the surfaces' own light cost, beyond the overhead.
 struct LightProbe {
-  double samples = 0, bytes = 0, seconds = 0;
+  double samples = 0, bytes = 0;
+  double seconds = 0;  ///< where all light is gathered already
 };
 struct LightOverhead {
   double bytes = 0, seconds = 0;
@@ -52,13 +70,15 @@ struct LightOverhead {
 class BakeProber {
  public:
   virtual ~BakeProber() = default;
+  /// With or without the surfaces' own light.
+  virtual Result<GatherForecast> forecastGathering(bool surfaceLight) = 0;
   virtual Result<CaptureOverhead> captureOverhead() = 0;
-  virtual Status probeCapture(int camera) = 0;
+  /// How many rays it took, of all purposes.
+  virtual Result<double> probeCapture(int camera) = 0;
   /// Waits until all is written: one entry per probed camera, in order.
   virtual Result<std::vector<CaptureProbe>> finishCaptures() = 0;
-  /// Bakes these cameras whole, one after another as a bake does; seconds of each, from its beginning to that
-  /// of the next, of the last until all is written.
-  virtual Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) = 0;
+  /// Bakes slices of these cameras, one after another as a bake does; the last ends when all is written.
+  virtual Result<std::vector<SliceProbe>> bakeSlices(const std::vector<int>& cameras) = 0;
   /// Seconds to find out what the regions of all cameras see; by the views of the cameras probed so far.
   virtual double sightSeconds() = 0;
   virtual Result<LightOverhead> lightOverhead() = 0;
@@ -67,9 +87,9 @@ class BakeProber {
 };
 
 struct EstimateOptions {
-  double captureSeconds =
-      2.6;                    ///< spent on parts of captures; a few cameras are probed however long it takes
-  double lightSeconds = 1.4;  ///< the same for surface light
+  /// Of the rays that cameras and light are probed with. However small, a few are probed; four times as many
+  /// halve the error. 0..1000.
+  double effort = 1;
   bool surfaceLight = true;
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
   Status check() const;
@@ -83,7 +103,8 @@ struct Figure {
 struct BakeEstimate {
   int cameras = 0;
   double pixels = 0;
-  Figure samples, rays;  ///< rays without those from the regions' eyes
+  Figure samples, rays;     ///< rays without those from the regions' eyes and for the surfaces' own light
+  double gatheredRays = 0;  ///< of these, to gather light
   Figure captureBytes;
   Figure traceSeconds, writeSeconds;  ///< they overlap ...
   Figure captureSeconds;              ///< ... in this, with `sightSeconds`

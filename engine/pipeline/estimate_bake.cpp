@@ -12,9 +12,11 @@
 
 #include "engine/bake/capture_writer.h"
 #include "engine/bake/eye_views.h"
+#include "engine/bake/gathered_light.h"
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
+#include "engine/pipeline/gather_forecast.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/trial_folder.h"
 
@@ -27,6 +29,48 @@ namespace {
 constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
+/// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
+constexpr int kSliceColumns = 32;
+constexpr double kSlicePixels = 2e5;
+constexpr std::size_t kTimedViews = 8;  ///< what eyes see, as finely as a bake looks
+
+/// With which cameras are probed: maps of what eyes see that do for few pixels (more is traced along edges),
+/// and little gathering, since a part would gather nearly all for itself alone. Colours are then rougher by
+/// too little to change how well they pack.
+BakeSettings probingSettings(BakeSettings settings) {
+  constexpr double kSamplesPerDegree = 2;
+  constexpr int kAmbientRays = 4;
+  settings.samplesPerDegree = std::min(settings.samplesPerDegree, kSamplesPerDegree);
+  settings.ambientRays = std::min(settings.ambientRays, kAmbientRays);
+  settings.bounces = 1;
+  return settings;
+}
+
+/// The same for the surfaces' own light, which packs as it was gathered: one bounce looks like many.
+BakeSettings lightProbingSettings(BakeSettings settings) {
+  settings.bounces = 1;
+  return settings;
+}
+
+/// Neighbouring columns of a camera, as it would bake them.
+ColumnCamera sliceOf(const ColumnCamera& whole, int first, int columns) {
+  ColumnCamera slice = whole;
+  slice.lowAzimuth = whole.azimuthAt(first);
+  slice.fovRadians = columns * whole.columnPitch();
+  slice.columns = columns;
+  return slice;
+}
+
+/// Slices spread over a camera; all of it where they would be half.
+std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole) {
+  const int count = std::max(1, int(kSlicePixels / (double(kSliceColumns) * whole.rows)));
+  if (2 * count * kSliceColumns > whole.columns) return {whole};
+  std::vector<ColumnCamera> slices;
+  for (int n = 0; n < count; ++n)
+    slices.push_back(
+        sliceOf(whole, int((n + 0.5) / count * whole.columns) - kSliceColumns / 2, kSliceColumns));
+  return slices;
+}
 
 /// Which of a trial capture's two files has the size that the whole capture's would have in proportion: with
 /// rows left out the rows of the EXR stay as they are, with columns left out the columns of the pack.
@@ -111,7 +155,7 @@ class ProjectProber final : public BakeProber {
         runner_(runner),
         stop_(std::move(stop)),
         budget_(memoryBytes),
-        baker_(*open.rays, open.project.bake, &budget_),
+        baker_(*open.rays, probingSettings(open.project.bake), &budget_),
         lightFile_(folder.path() / "trial.light"),
         sink_(folder.path()) {}
 
@@ -119,18 +163,25 @@ class ProjectProber final : public BakeProber {
     return columnCameraFor(layoutCamera(camera), *open_.layout, open_.scene->bounds, open_.project.bake);
   }
 
+  Result<GatherForecast> forecastGathering(bool surfaceLight) override {
+    if (surfaceLight)
+      if (Status laidOut = layOutLight(); !laidOut) return tl::unexpected(laidOut.error());
+    auto forecast =
+        acentric::forecastGathering(open_, cameras_, surfaceLight ? &layout_ : nullptr, runner_, stop_);
+    if (forecast) secondsPerGatheredRay_ = forecast->secondsPerRay;
+    return forecast;
+  }
+
   Result<CaptureOverhead> captureOverhead() override {
     ColumnCamera one = columnsOf(0);
     one.columns = one.rows = 1;
     constexpr int kRepeats = 3;  // the first also warms up
     for (int n = 0; n < kRepeats; ++n) {
-      const Stopwatch watch;
-      CaptureCounts counts;
-      const auto capture = bake(0, one, counts);
+      const auto capture = bake(0, one);
       if (!capture) return tl::unexpected(capture.error());
-      overhead_.traceSeconds = watch.seconds() - counts.eyeViewSeconds;
+      overhead_.traceSeconds = capture->seconds;
       TrialSink sink(lightFile_.parent_path());
-      if (Status done = sink.put({}, *capture, stop_); !done) return tl::unexpected(done.error());
+      if (Status done = sink.put({}, capture->capture, stop_); !done) return tl::unexpected(done.error());
       smallest_ = sink.written().front();
     }
     overhead_.writeSeconds = smallest_.seconds;
@@ -138,7 +189,7 @@ class ProjectProber final : public BakeProber {
     return overhead_;
   }
 
-  Status probeCapture(int camera) override {
+  Result<double> probeCapture(int camera) override {
     if (!writer_) writer_.emplace(sink_, budget_, stop_);
     const ColumnCamera whole = columnsOf(camera);
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads());
@@ -150,8 +201,11 @@ class ProjectProber final : public BakeProber {
     fewColumns.columns =
         std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
     fewRows.rows = std::clamp(int(std::lround(whole.rows / thinning)), 1, whole.rows);
-    if (Status done = traceTrial(camera, fewColumns, Thinned::columns); !done) return done;
-    return traceTrial(camera, fewRows, Thinned::rows);
+    const auto columns = traceTrial(camera, fewColumns, Thinned::columns);
+    if (!columns) return columns;
+    const auto rows = traceTrial(camera, fewRows, Thinned::rows);
+    if (!rows) return rows;
+    return *columns + *rows;
   }
 
   Result<std::vector<CaptureProbe>> finishCaptures() override {
@@ -173,60 +227,71 @@ class ProjectProber final : public BakeProber {
     return probes_;
   }
 
-  Result<std::vector<double>> bakeWhole(const std::vector<int>& cameras) override {
+  Result<std::vector<SliceProbe>> bakeSlices(const std::vector<int>& cameras) override {
     TrialSink sink(lightFile_.parent_path());
     CaptureWriter writer(sink, budget_, stop_);
-    std::vector<double> seconds;
-    Stopwatch watch;
+    std::vector<SliceProbe> probes;
     for (const int camera : cameras) {
-      watch = {};
-      CaptureCounts counts;
-      auto capture = bake(camera, columnsOf(camera), counts);
-      if (!capture) return tl::unexpected(capture.error());
-      if (Status put = writer.put({}, std::move(*capture)); !put) return tl::unexpected(put.error());
-      seconds.push_back(watch.seconds() - counts.eyeViewSeconds);
+      SliceProbe& probe = probes.emplace_back();
+      const std::vector<ColumnCamera> slices = slicesOf(columnsOf(camera));
+      const Stopwatch watch;
+      double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
+      for (const ColumnCamera& slice : slices) {
+        auto traced = bake(camera, slice);
+        if (!traced) return tl::unexpected(traced.error());
+        probe.pixels += double(slice.columns) * slice.rows;
+        apart +=
+            traced->counts.eyeViewSeconds + double(traced->counts.rays.gathered) * secondsPerGatheredRay_;
+        if (Status put = writer.put({}, std::move(traced->capture)); !put) return tl::unexpected(put.error());
+      }
+      probe.seconds = std::max(0.0, watch.seconds() - apart);
     }
-    watch = {};
+    const Stopwatch watch;
     if (Status done = writer.finish(); !done) return tl::unexpected(done.error());
-    seconds.back() += watch.seconds();
-    return seconds;
+    probes.back().seconds += watch.seconds();
+    return probes;
   }
 
   double sightSeconds() override {
-    if (eyeViews_ == 0) return 0;
+    if (!open_.project.bake.pruning) return 0;
     std::set<std::array<double, 3>> eyes;
     for (int camera = 0; camera < int(cameras_.size()); ++camera)
       for (const Role& role : layoutCamera(camera).roles)
         for (const glm::dvec3& eye : testEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake))
           eyes.insert({eye.x, eye.y, eye.z});
-    return eyeViewSeconds_ / eyeViews_ * double(eyes.size());
+    const ColumnCamera columns = columnsOf(0);
+    EyeViews views(*open_.rays, {columns.bottomElevation, columns.topElevation}, open_.project.bake, budget_);
+    const std::size_t step = std::max<std::size_t>(1, eyes.size() / kTimedViews);
+    RayCounts rays;
+    const Stopwatch watch;
+    std::size_t n = 0;
+    for (const auto& eye : eyes)
+      if (n++ % step == 0 && !views.at({eye[0], eye[1], eye[2]}, runner_, rays, stop_)) return 0;
+    return views.traced() == 0 ? 0 : watch.seconds() / views.traced() * double(eyes.size());
   }
 
   Result<LightOverhead> lightOverhead() override {
-    const Stopwatch finding;
-    local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
-    if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
-    const double findingSeconds = finding.seconds();
-    const auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
-    if (!layout) return tl::unexpected(layout.error());
+    if (Status laidOut = layOutLight(); !laidOut) return tl::unexpected(laidOut.error());
     LightOverhead overhead;
     for (std::size_t t = 0; t < local_.wanted.size(); ++t)
-      if (const double samples = double(layout->firstSample[t + 1] - layout->firstSample[t]); samples > 0)
+      if (const double samples = double(layout_.firstSample[t + 1] - layout_.firstSample[t]); samples > 0)
         kinds_[kindOf(samples)].add(t, samples);
     for (const TriangleKind& kind : kinds_) overhead.samplesOfKind.push_back(kind.samples());
     // The tables that a file of light has however dark it is, and the time they take.
-    const auto dark = writeLight(*layout);
+    const auto dark = writeLight(layout_);
     if (!dark) return tl::unexpected(dark.error());
     const auto nothing = bakeLight({});
     if (!nothing) return tl::unexpected(nothing.error());
     nothingSeconds_ = nothing->seconds;
     overhead.bytes = dark->bytes;
-    overhead.seconds = findingSeconds + dark->seconds + nothing->seconds;
+    overhead.seconds = findingSeconds_ + dark->seconds + nothing->seconds;
     return overhead;
   }
 
   Result<LightProbe> probeLight(int kind) override {
-    const std::vector<std::size_t> chosen = kinds_[std::size_t(kind)].next(kLightSamples);
+    constexpr double kUsualRays = 64;  // with more, fewer samples do
+    const double wanted = kLightSamples * std::min(1.0, kUsualRays / open_.project.bake.ambientRays);
+    const std::vector<std::size_t> chosen = kinds_[std::size_t(kind)].next(wanted);
     if (chosen.empty()) return LightProbe{};
     auto probe = bakeLight(chosen);
     if (probe) probe->seconds = std::max(0.0, probe->seconds - nothingSeconds_);
@@ -238,26 +303,56 @@ class ProjectProber final : public BakeProber {
     return open_.layout->cameras[std::size_t(cameras_[std::size_t(camera)])];
   }
 
-  Result<Capture> bake(int camera, const ColumnCamera& columns, CaptureCounts& counts) {
-    auto capture = baker_.bake(layoutCamera(camera), columns, runner_, counts, stop_);
-    eyeViews_ += counts.eyeViews;
-    eyeViewSeconds_ += counts.eyeViewSeconds;
-    return capture;
+  struct Traced {
+    Capture capture;
+    CaptureCounts counts;
+    double seconds = 0;  ///< without looking what regions see
+  };
+  Result<Traced> bake(int camera, const ColumnCamera& columns) {
+    Traced traced;
+    const Stopwatch watch;
+    auto capture = baker_.bake(layoutCamera(camera), columns, runner_, traced.counts, stop_);
+    if (!capture) return tl::unexpected(capture.error());
+    traced.capture = std::move(*capture);
+    traced.seconds = watch.seconds() - traced.counts.eyeViewSeconds;
+    return traced;
   }
 
-  Status traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
-    CaptureCounts counts;
-    const Stopwatch watch;
-    auto capture = bake(camera, columns, counts);
-    const double seconds = watch.seconds() - counts.eyeViewSeconds;
-    if (!capture) return tl::unexpected(capture.error());
+  /// Rays of all purposes.
+  Result<double> traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
+    auto first = bake(camera, columns);
+    if (!first) return tl::unexpected(first.error());
+    const RayCounts& rays = first->counts.rays;
+    double seconds = first->seconds, traced = double(rays.total());
+    if (rays.gathered > 0) {  // now that it is there, what the rest takes
+      const auto again = bake(camera, columns);
+      if (!again) return tl::unexpected(again.error());
+      seconds = again->seconds;
+      traced += double(again->counts.rays.total());
+    }
     CaptureProbe& probe = probes_.back();
     probe.pixels += double(columns.columns) * columns.rows;
-    probe.samples += double(capture->sampleCount());
+    probe.samples += double(first->capture.sampleCount());
     // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
-    probe.rays += double(counts.rays.total() - counts.rays.visibility);
+    probe.rays += double(rays.total() - rays.visibility - rays.gathered);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
-    return writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(*capture));
+    if (Status put = writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(first->capture));
+        !put)
+      return tl::unexpected(put.error());
+    return traced;
+  }
+
+  /// Once.
+  Status layOutLight() {
+    if (!layout_.resolution.empty()) return {};
+    const Stopwatch finding;
+    local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
+    findingSeconds_ = finding.seconds();
+    auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
+    if (!layout) return tl::unexpected(layout.error());
+    layout_ = std::move(*layout);
+    return {};
   }
 
   struct LightFile {
@@ -274,12 +369,22 @@ class ProjectProber final : public BakeProber {
   Result<LightProbe> bakeLight(const std::vector<std::size_t>& triangles) const {
     std::vector<std::uint8_t> wanted(local_.wanted.size(), 0);
     for (const std::size_t t : triangles) wanted[t] = 1;
-    const Stopwatch watch;
-    auto light = bakeSurfaceLight(*open_.rays, wanted, local_.viewer, open_.project.bake, runner_, {}, stop_);
+    const auto bakeOnce = [&] {
+      return bakeSurfaceLight(*open_.rays, wanted, local_.viewer, lightProbingSettings(open_.project.bake),
+                              runner_, {}, stop_);
+    };
+    Stopwatch watch;
+    auto light = bakeOnce();
     if (!light) return tl::unexpected(light.error());
+    double seconds = watch.seconds();
+    if (gathersLight(open_.plan, open_.project.bake) && !triangles.empty()) {
+      watch = {};
+      if (const auto again = bakeOnce(); !again) return tl::unexpected(again.error());
+      seconds = watch.seconds();
+    }
     const auto lit = writeLight(*light);
     if (!lit) return tl::unexpected(lit.error());
-    LightProbe probe{double(light->light.size()), 0, watch.seconds()};
+    LightProbe probe{double(light->light.size()), 0, seconds + lit->seconds};
     std::ranges::fill(light->light, HalfColour(0));
     const auto dark = writeLight(*light);
     if (!dark) return tl::unexpected(dark.error());
@@ -293,15 +398,16 @@ class ProjectProber final : public BakeProber {
   std::stop_token stop_;
   MemoryBudget budget_;
   CameraBaker baker_;
-  int eyeViews_ = 0;
-  double eyeViewSeconds_ = 0;
   fs::path lightFile_;
   TrialSink sink_;
   std::optional<CaptureWriter> writer_;
   CaptureOverhead overhead_;
   Written smallest_;
   std::vector<CaptureProbe> probes_;
+  double secondsPerGatheredRay_ = 0;
   LocalTriangles local_;
+  SurfaceLight layout_;
+  double findingSeconds_ = 0;
   std::array<TriangleKind, kKinds> kinds_;
   double nothingSeconds_ = 0;  ///< of baking no light at all
 };

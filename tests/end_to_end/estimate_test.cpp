@@ -39,7 +39,7 @@ TEST(EstimateTest, ForetellsSamplesAndBytesWithinAQuarter) {
               ratio(estimate["captureSeconds"], bake["seconds"].get<double>()),
               ratio(estimate["surfaceLight"]["seconds"], bake["surfaceLight"]["seconds"].get<double>()));
 
-  const auto after = acentric({"estimate", project.file(), "--seconds", "0", "--json"});
+  const auto after = acentric({"estimate", project.file(), "--effort", "0", "--json"});
   ASSERT_EQ(after.exitCode, 0) << after.errors;
   EXPECT_EQ(Json::parse(after.output)["missingCameras"].get<int>(), 0);
 }
@@ -48,7 +48,7 @@ TEST(EstimateTest, SaysWhatIsWrong) {
   const auto none = acentric({"estimate", "none.acentric.json"});
   EXPECT_EQ(none.exitCode, 1);
   EXPECT_NE(none.errors.find("none.acentric.json"), std::string::npos) << none.errors;
-  EXPECT_EQ(acentric({"estimate", "x", "--seconds", "-1"}).exitCode, 2);
+  EXPECT_EQ(acentric({"estimate", "x", "--effort", "-1"}).exitCode, 2);
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ class KnownBake final : public BakeProber {
   double writeSecondsPerSample = 1e-7;
   std::vector<double> lightSamples{5e5, 2e5}, lightSecondsPerSample{4e-6, 1e-6};
   double probedShare = 0.1;  ///< of each camera, and of each kind of triangle
-  double wholePace = 1;      ///< seconds of whole cameras against those that their parts foretell
+  double slicePace = 1;      ///< seconds of slices against those that the cameras' parts foretell
+  double raysPerProbe = 2e5;
+  GatherForecast gathering;
   std::vector<int> probed;
   std::vector<int> lightProbes = std::vector<int>(2, 0);
 
@@ -61,19 +63,25 @@ class KnownBake final : public BakeProber {
 
   double sightSeconds() override { return sight; }
   Result<CaptureOverhead> captureOverhead() override { return overhead; }
-  Status probeCapture(int camera) override {
-    probed.push_back(camera);
-    return {};
+  Result<GatherForecast> forecastGathering(bool surfaceLight) override {
+    GatherForecast forecast = gathering;
+    if (!surfaceLight) forecast.lightRays = 0;
+    return forecast;
   }
-  Result<std::vector<double>> bakeWhole(const std::vector<int>& numbers) override {
-    std::vector<double> seconds;
+  Result<double> probeCapture(int camera) override {
+    probed.push_back(camera);
+    return raysPerProbe;
+  }
+  Result<std::vector<SliceProbe>> bakeSlices(const std::vector<int>& numbers) override {
+    std::vector<SliceProbe> slices;
     for (const int number : numbers) {
       const Camera& c = cameras[std::size_t(number)];
-      seconds.push_back(
-          wholePace * std::max(overhead.traceSeconds + c.pixels * c.secondsPerPixel,
-                               overhead.writeSeconds + c.pixels * c.samplesPerPixel * writeSecondsPerSample));
+      const double pixels = 0.4 * c.pixels;
+      slices.push_back({pixels, slicePace * std::max(overhead.traceSeconds + pixels * c.secondsPerPixel,
+                                                     overhead.writeSeconds + pixels * c.samplesPerPixel *
+                                                                                 writeSecondsPerSample)});
     }
-    return seconds;
+    return slices;
   }
   Result<std::vector<CaptureProbe>> finishCaptures() override {
     std::vector<CaptureProbe> probes;
@@ -102,14 +110,14 @@ class KnownBake final : public BakeProber {
 
 EstimateOptions brief() {
   EstimateOptions options;
-  options.captureSeconds = options.lightSeconds = 0;
+  options.effort = 0;
   return options;
 }
 
 TEST(Estimates, OfEveryCameraProbedWholeAreExact) {
   KnownBake bake = KnownBake::random(12, 1);
   bake.probedShare = 1;
-  const auto estimate = estimateBake(bake.pixels(), {60, 60, true}, bake);
+  const auto estimate = estimateBake(bake.pixels(), {1000, true}, bake);
   ASSERT_TRUE(estimate) << estimate.error().describe();
   EXPECT_EQ(estimate->cameras, 12);
   EXPECT_EQ(estimate->probedCameras, 12);
@@ -124,7 +132,7 @@ TEST(Estimates, OfEveryCameraProbedWholeAreExact) {
   EXPECT_NEAR(estimate->bytes.value, estimate->captureBytes.value + estimate->lightBytes.value, 1e-3);
   bake.sight = 5;
   bake.probed.clear();
-  const auto slower = estimateBake(bake.pixels(), {60, 0, false}, bake);
+  const auto slower = estimateBake(bake.pixels(), {1000, false}, bake);
   ASSERT_TRUE(slower) << slower.error().describe();
   EXPECT_EQ(slower->sightSeconds, 5);
   EXPECT_NEAR(slower->captureSeconds.value, estimate->captureSeconds.value + 5, 1e-9);
@@ -179,6 +187,38 @@ TEST(Estimates, GiveEachKindOfTriangleItsOwnRate) {
   EXPECT_EQ(estimateBake({}, none, bake)->seconds.value, 0);
 }
 
+TEST(Estimates, ProbeByRaysNotByTime) {
+  KnownBake bake = KnownBake::random(300, 6);
+  const auto probedWith = [&](double raysPerProbe, double effort) {
+    bake.raysPerProbe = raysPerProbe;
+    bake.probed.clear();
+    return estimateBake(bake.pixels(), {effort, false}, bake)->probedCameras;
+  };
+  const int usual = probedWith(2e5, 1);
+  EXPECT_GT(usual, 20);
+  EXPECT_LT(usual, 300);
+  EXPECT_EQ(probedWith(1e5, 1), 2 * usual);
+  EXPECT_EQ(probedWith(2e5, 2), 2 * usual);
+  EXPECT_EQ(probedWith(1e9, 1), 16) << "a few tell how they differ, whatever it takes";
+  EXPECT_EQ(probedWith(2e5, 0), 16);
+  EXPECT_EQ(probedWith(2e5, 1000), 300);
+}
+
+TEST(Estimates, AddWhatIsGatheredOnceForAll) {
+  KnownBake bake = KnownBake::random(40, 7);
+  const auto without = estimateBake(bake.pixels(), {1000, true}, bake);
+  KnownBake gathering = KnownBake::random(40, 7);
+  gathering.gathering = {3e6, 1e6, 0.1, 1e-6};
+  const auto with = estimateBake(gathering.pixels(), {1000, true}, gathering);
+  ASSERT_TRUE(without && with);
+  EXPECT_EQ(with->gatheredRays, 3e6);
+  EXPECT_NEAR(with->rays.value, without->rays.value + 3e6, 1e-3);
+  EXPECT_NEAR(with->rays.relativeError, 0.1 * 3e6 / with->rays.value, 1e-9);
+  EXPECT_NEAR(with->traceSeconds.value, without->traceSeconds.value + 3, 1e-9);
+  EXPECT_NEAR(with->lightSeconds.value, without->lightSeconds.value + 1, 1e-9);
+  EXPECT_EQ(with->bytes.value, without->bytes.value);
+}
+
 TEST(Estimates, StopAndRefuse) {
   KnownBake bake = KnownBake::random(30, 5);
   std::stop_source source;
@@ -186,8 +226,8 @@ TEST(Estimates, StopAndRefuse) {
   const auto stopped = estimateBake(bake.pixels(), brief(), bake, {}, source.get_token());
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
-  EXPECT_FALSE(estimateBake(bake.pixels(), {-1, 0, true}, bake));
-  EXPECT_FALSE(estimateBake(bake.pixels(), {NAN, 0, true}, bake));
+  EXPECT_FALSE(estimateBake(bake.pixels(), {-1, true}, bake));
+  EXPECT_FALSE(estimateBake(bake.pixels(), {NAN, true}, bake));
 }
 
 TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
@@ -208,15 +248,15 @@ TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
   }
 }
 
-TEST(Estimates, WholeCamerasSetThePaceWherePartsMislead) {
+TEST(Estimates, DenseSlicesSetThePaceWherePartsMislead) {
   KnownBake bake = KnownBake::random(300, 8);
   EstimateOptions options;
-  options.captureSeconds = 0;
+  options.effort = 0;
   options.surfaceLight = false;
   const auto plain = estimateBake(bake.pixels(), options, bake);
   ASSERT_TRUE(plain);
   KnownBake brisk = KnownBake::random(300, 8);
-  brisk.wholePace = 0.7;
+  brisk.slicePace = 0.7;
   const auto paced = estimateBake(brisk.pixels(), options, brisk);
   ASSERT_TRUE(paced);
   EXPECT_NEAR(paced->seconds.value, 0.7 * plain->seconds.value, 1e-9);

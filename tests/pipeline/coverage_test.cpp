@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/bake/scene_builder.h"
+#include "tests/pipeline/small_project.h"
 
 namespace acentric {
 namespace {
@@ -14,18 +14,9 @@ using test::SceneBuilder;
 
 /// A furnished room and a small layout in it, opened as a project that was never saved.
 OpenProject openRoom(const SceneBuilder& builder, double samplesPerDegree) {
-  OpenProject open;
-  open.file = "room.acentric.json";
-  open.project.layout().cellSize = 1.2;
-  open.project.layout().nearBand = 0.6;
-  open.project.layout().outline.loops = {{{-1.5, -1.5}, {1.5, -1.5}, {1.5, 1.5}, {-1.5, 1.5}}};
-  open.project.bake.samplesPerDegree = samplesPerDegree;
-  open.project.bake.ambientRays = 0;
-  open.rays = builder.rays();
-  open.scene = open.rays->sharedScene();
-  open.plan = open.rays->plan();
-  open.layout = std::make_shared<const Layout>(buildLayout(open.project.layout()).value());
-  return open;
+  Project project = test::smallProject(1.5, samplesPerDegree);
+  project.bake.ambientRays = 0;
+  return test::openWith(builder.rays(), project, "room.acentric.json");
 }
 
 SceneBuilder furnishedRoom() {

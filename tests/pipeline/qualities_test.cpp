@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/pipeline/pipeline.h"
-#include "tests/bake/scene_builder.h"
+#include "tests/pipeline/small_project.h"
 #include "tests/store/temporary_folder.h"
 
 namespace acentric {
@@ -17,19 +16,9 @@ class Qualities : public FolderTest {
   OpenProject openSmallRoom() const {
     SceneBuilder builder;
     builder.box(builder.material(test::matte()), {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5f}, 50);
-    OpenProject open;
-    open.file = folder_ / "room.acentric.json";
-    open.project.layout().cellSize = 1.2;
-    open.project.layout().nearBand = 0.6;
-    open.project.layout().outline.loops = {{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-    open.project.bake.samplesPerDegree = 2;
-    open.project.bake.ambientRays = 0;
-    open.rays = builder.rays();
-    open.scene = open.rays->sharedScene();
-    open.plan = open.rays->plan();
-    open.layout = std::make_shared<const Layout>(buildLayout(open.project.layout()).value());
-    open.keys = captureKeys(*open.scene, open.plan, open.project.bake, *open.layout);
-    return open;
+    Project project = test::smallProject(0.5, 2);
+    project.bake.ambientRays = 0;
+    return test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
   }
   static ProjectBakeReport baked(const OpenProject& open, const BakeRequest& request) {
     TaskRunner runner(1);

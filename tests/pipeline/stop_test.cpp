@@ -11,8 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/estimate_bake.h"
-#include "engine/pipeline/pipeline.h"
-#include "tests/bake/scene_builder.h"
+#include "tests/pipeline/small_project.h"
 #include "tests/store/temporary_folder.h"
 
 namespace acentric {
@@ -39,19 +38,11 @@ class StopTest : public FolderTest {
     builder.box(paint, {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5f}, 50);
     for (const glm::vec2 at : {glm::vec2(2, 2), glm::vec2(-2, 2), glm::vec2(2, -2), glm::vec2(-2, -2.5f)})
       builder.box(paint, {at.x - 0.3f, at.y - 0.3f, 0.1f}, {at.x + 0.3f, at.y + 0.3f, 2});
-    open_.project.layout().cellSize = 1.2;
-    open_.project.layout().nearBand = 0.6;
-    open_.project.layout().outline.loops = {{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.3, 0.3}}};
-    open_.project.bake.samplesPerDegree = 10;
-    open_.project.bake.surfaceTexel = 1;
-    open_.project.bake.ambientRays = 4;
-    open_.project.bake.testEyes = 1;
-    open_.rays = builder.rays();
-    open_.scene = open_.rays->sharedScene();
-    open_.plan = open_.rays->plan();
-    open_.layout = std::make_shared<const Layout>(buildLayout(open_.project.layout()).value());
-    open_.keys = captureKeys(*open_.scene, open_.plan, open_.project.bake, *open_.layout);
-    open_.surfaceLightKey = {1, 2};
+    Project project = test::smallProject(0.3, 10);
+    project.bake.surfaceTexel = 1;
+    project.bake.ambientRays = 4;
+    project.bake.testEyes = 1;
+    open_ = test::openWith(builder.rays(), project);
   }
 
   /// Of a project of its own, without anything baked.
@@ -156,7 +147,7 @@ TEST_F(StopTest, ABakeEndsSoonWhileItFollowsManyBounces) {
 TEST_F(StopTest, AnEstimateEndsSoonAtAnyMomentAndLeavesNothing) {
   TaskRunner runner(1);
   EstimateOptions options;
-  options.captureSeconds = options.lightSeconds = 0.2;
+  options.effort = 0.1;
   options.surfaceLight = true;
   std::mt19937 random(8);
   std::uniform_real_distribution<double> moment(0, 2);

@@ -1,0 +1,297 @@
+#include "engine/pipeline/gather_forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "engine/bake/eye_views.h"
+#include "engine/bake/flush_denormals.h"
+#include "engine/bake/gathered_light.h"
+#include "engine/bake/position_samples.h"
+#include "engine/base/stopwatch.h"
+#include "engine/pipeline/coverage.h"
+
+namespace acentric {
+namespace {
+
+using Spot = GatheredLight::Spot;
+
+constexpr std::size_t kPlaces = 4096, kCells = 512;  ///< asked, at most
+constexpr int kWaysFromCell = 8;
+/// Samples on a spot from which on it is as good as certain that one reads it.
+constexpr double kPlenty = 4;
+/// Neighbouring places gathered one after the other, as surfaces ask for them; rays to measure the rate by.
+constexpr std::size_t kRun = 16;
+constexpr double kRateRays = 2e6;
+
+double chanceOf(double expected) { return 1 - std::exp(-expected); }
+
+/// `count` numbers below `all`, spread evenly whatever the order of what they number.
+std::vector<std::size_t> spread(std::size_t count, std::size_t all) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::size_t> numbers;
+  for (std::size_t n = 0; n < std::min(count, all); ++n)
+    numbers.push_back(all <= count ? n
+                                   : std::size_t(std::fmod((double(n) + 0.5) * kGolden, 1.0) * double(all)));
+  return numbers;
+}
+
+/// Who reads a spot: samples of the cameras' captures, and of the surfaces' own light.
+class Readers {
+ public:
+  Readers(const OpenProject& open, const std::vector<int>& cameras, const SurfaceLight* light)
+      : open_(open), reach_(open), light_(light) {
+    for (const int number : cameras) {
+      const LayoutCamera& camera = open.layout->cameras[std::size_t(number)];
+      Served& served = cameras_.emplace_back(Served{number, &camera, {}});
+      for (const Role& role : camera.roles) served.eyes.push_back(eyesOf(role));
+    }
+  }
+
+  /// That captures read it.
+  double chance(const Spot& spot) const {
+    std::vector<std::int8_t> seen(eyes_.size(), kNotAsked);
+    double samples = 0;
+    for (const Served& served : cameras_) {
+      const double more = samplesOn(spot, served);
+      if (more > 0 && needs(served, spot.position, seen) && (*reach_).holds(served.number, spot.position))
+        samples += more;
+      if (samples > kPlenty) break;
+    }
+    return chanceOf(samples);
+  }
+  bool lightReads(const Spot& spot) const {
+    return light_ != nullptr && light_->resolution[spot.sceneTriangle] > 0 &&
+           (!spot.back || light_->hasBack[spot.sceneTriangle] != 0);
+  }
+
+ private:
+  static constexpr std::int8_t kNotAsked = -1;
+  struct Served {
+    int number = 0;
+    const LayoutCamera* camera = nullptr;
+    std::vector<std::vector<std::size_t>> eyes;  ///< by role, into eyes_
+  };
+
+  std::vector<std::size_t> eyesOf(const Role& role) {
+    std::vector<std::size_t> numbers;
+    if (!open_.project.bake.pruning) return numbers;
+    for (const glm::dvec3& eye : testEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake)) {
+      const auto [known, added] = numbers_.try_emplace(std::array{eye.x, eye.y, eye.z}, eyes_.size());
+      if (added) eyes_.push_back(eye);
+      numbers.push_back(known->second);
+    }
+    return numbers;
+  }
+
+  /// Pixels of the camera that a spot in full view covers.
+  double samplesOn(const Spot& spot, const Served& served) const {
+    const ColumnCamera& columns = (*reach_).columns(served.number);
+    const glm::dvec3 way = spot.position - columns.centreOfProjection;
+    const double azimuth = std::remainder(
+        std::atan2(way.y, way.x) - columns.lowAzimuth - columns.fovRadians / 2, 2 * std::numbers::pi);
+    if (std::abs(azimuth) > columns.fovRadians / 2) return 0;
+    const double distance = glm::length(way), flat = glm::length(glm::dvec2(way));
+    if (!(flat > 0)) return 0;
+    const double facing = -glm::dot(glm::dvec3(spot.normal), way) / distance;
+    const double pixel = columns.columnPitch() * columns.rowPitch() * flat / distance;
+    return facing <= 0 ? 0 : spot.squareMetres * facing / (distance * distance * pixel);
+  }
+
+  /// As the bake asks, without its maps.
+  bool sees(const glm::dvec3& eye, const glm::dvec3& point, double tolerance) const {
+    const glm::dvec3 way = point - eye;
+    const double distance = glm::length(way);
+    const float farthest = float(distance - tolerance);
+    return !(farthest > 0) || !(open_.rays->occluderDistance(
+                                    {glm::vec3(eye), glm::vec3(way / distance), 0, farthest}) < farthest);
+  }
+
+  /// Does a role of the camera need the point? `seen`: of each eye, as far as it was asked.
+  bool needs(const Served& served, const glm::dvec3& point, std::vector<std::int8_t>& seen) const {
+    const glm::dvec2 way = glm::dvec2(point) - served.camera->position;
+    const double flat = glm::length(way);
+    // Half a sample of the first camera that asks: what the bake takes for the same surface.
+    const ColumnCamera& columns = (*reach_).columns(served.number);
+    const double tolerance = 0.5 * columns.rowPitch() * glm::distance(point, columns.centreOfProjection);
+    for (std::size_t r = 0; r < served.eyes.size(); ++r) {
+      const Role& role = served.camera->roles[r];
+      if (exitDistance(*served.camera, role, way / flat) > flat) continue;
+      if (role.clip && !role.clip->holds(glm::dvec2(point))) continue;
+      if (!open_.project.bake.pruning) return true;
+      for (const std::size_t eye : served.eyes[r]) {
+        if (seen[eye] == kNotAsked) seen[eye] = sees(eyes_[eye], point, tolerance) ? 1 : 0;
+        if (seen[eye] == 1) return true;
+      }
+    }
+    return false;
+  }
+
+  const OpenProject& open_;
+  ProjectReach reach_;
+  const SurfaceLight* light_;
+  std::vector<Served> cameras_;
+  std::vector<glm::dvec3> eyes_;
+  std::map<std::array<double, 3>, std::size_t> numbers_;
+};
+
+/// Of a spot, that it is read: by captures, and by them or the surfaces' own light.
+struct Chances {
+  double captures = 0, any = 0;
+};
+
+class Forecaster {
+ public:
+  Forecaster(const OpenProject& open, const std::vector<int>& cameras, const SurfaceLight* light,
+             TaskRunner& runner, const std::stop_token& stop)
+      : open_(open),
+        settings_(open.project.bake),
+        gathered_(*open.rays, open.project.bake),
+        readers_(open, cameras, light),
+        firstTriangles_(open.scene->firstTriangles()),
+        runner_(runner),
+        stop_(stop) {}
+
+  GatherForecast run() {
+    const std::vector<std::size_t> numbers = spread(kPlaces, gathered_.placeCount());
+    std::vector<Chances> places(numbers.size());
+    runner_.parallelFor(numbers.size(), [&](std::size_t n) {
+      const FlushDenormals flush;
+      if (!stop_.stop_requested()) places[n] = ofPlace(gathered_.place(numbers[n]));
+    });
+    std::vector<std::size_t> read;
+    for (std::size_t n = 0; n < numbers.size(); ++n)
+      if (places[n].any > 0.5) read.push_back(numbers[n]);
+    std::ranges::sort(read);
+    GatherForecast forecast;
+    const double raysPerPlace = measureRate(read, forecast);
+    const double share = double(gathered_.placeCount()) / double(std::max<std::size_t>(1, numbers.size()));
+    double captures = 0, any = 0, squares = 0;
+    for (const Chances& c : places) captures += c.captures, any += c.any, squares += c.any * c.any;
+    const Chances cells = raysForCells();
+    forecast.captureRays = share * captures * raysPerPlace + cells.captures;
+    forecast.lightRays = share * any * raysPerPlace + cells.any - forecast.captureRays;
+    if (any > 0 && numbers.size() < gathered_.placeCount())
+      forecast.relativeError = std::sqrt(std::max(0.0, squares - any * any / double(places.size()))) / any;
+    return forecast;
+  }
+
+ private:
+  Chances ofPlace(const Spot& spot) const {
+    if (!gathered_.lights(open_.scene->meshes[spot.mesh].material)) return {};
+    const double captures = readers_.chance(spot);
+    return {captures, readers_.lightReads(spot) ? 1 : captures};
+  }
+
+  /// Gathers runs of places that begin with those given; rays for a place itself.
+  double measureRate(const std::vector<std::size_t>& read, GatherForecast& forecast) {
+    std::vector<std::size_t> starts;
+    for (const std::size_t n : read)
+      if (starts.empty() || n >= starts.back() + kRun) starts.push_back(n);
+    std::ranges::sort(starts, {}, [](std::size_t n) { return mixBits(std::uint32_t(n)); });
+    const std::size_t batch = std::size_t(4 * runner_.threads());
+    RayCounts rays;
+    std::size_t places = 0;
+    const Stopwatch watch;
+    for (std::size_t first = 0; first < starts.size() && double(rays.gathered) < kRateRays; first += batch) {
+      const std::size_t count = std::min(batch, starts.size() - first);
+      std::vector<RayCounts> counts(count);
+      runner_.parallelFor(count, [&](std::size_t run) {
+        const FlushDenormals flush;
+        const std::size_t begin = starts[first + run];
+        for (std::size_t n = begin; n < std::min(begin + kRun, gathered_.placeCount()); ++n)
+          if (!stop_.stop_requested()) gathered_.gatherPlace(n, counts[run], stop_);
+      });
+      for (const RayCounts& count1 : counts) rays += count1;
+      for (std::size_t run = 0; run < count; ++run)
+        places += std::min(kRun, gathered_.placeCount() - starts[first + run]);
+      if (stop_.stop_requested()) return 0;
+    }
+    if (rays.gathered > 0) forecast.secondsPerRay = watch.seconds() / double(rays.gathered);
+    return gathered_.cellCount() > 0 || places == 0 ? settings_.ambientRays
+                                                    : double(rays.gathered) / double(places);
+  }
+
+  /// Rays that come to a cell, gathered for places that are read and for other cells: as many as light that
+  /// leaves the cell comes to such places, each with its share of rays.
+  struct Arriving {
+    Chances fromPlaces;
+    double fromCells = 0;
+  };
+  Arriving arrivingAt(const Spot& cell, std::uint32_t number) const {
+    const Across across(cell.normal);
+    const PositionSamples::Points points(mixBits(number));
+    const float lift = 1e-3f * float(std::sqrt(cell.squareMetres));
+    Arriving sum;
+    for (int k = 0; k < kWaysFromCell; ++k) {
+      const glm::vec2 u = points.at(std::uint32_t(k));
+      const float aside = std::sqrt(u.x), angle = 2 * std::numbers::pi_v<float> * u.y;
+      const glm::vec3 way =
+          across.at(aside * std::cos(angle), aside * std::sin(angle)) + cell.normal * std::sqrt(1 - u.x);
+      const Hit hit = open_.rays->traceSolid({glm::vec3(cell.position), way, lift});
+      if (!hit.found()) continue;
+      Spot met{hit.mesh, hit.triangle, firstTriangles_[hit.mesh] + hit.triangle};
+      const double places = gathered_.placesPerSquareMetre(met.sceneTriangle);
+      met.back = glm::dot(hit.across, way) > 0;
+      met.position = cell.position + double(hit.distance) * glm::dvec3(way);
+      met.normal = met.back ? -hit.geometricNormal() : hit.geometricNormal();
+      met.squareMetres = 3 / places;  // each point reads three
+      const Chances read = ofPlace(met);
+      const double each = cell.squareMetres / kWaysFromCell;
+      sum.fromPlaces.captures += each * places * settings_.ambientRays * read.captures;
+      sum.fromPlaces.any += each * places * settings_.ambientRays * read.any;
+      sum.fromCells += each * gathered_.cellsPerSquareMetre(met.sceneTriangle) * GatheredLight::kCellRays;
+    }
+    return sum;
+  }
+
+  /// Rays gathered for all cells that are read, of every bounce: the last from places, others from cells.
+  Chances raysForCells() const {
+    const std::vector<std::size_t> numbers = spread(kCells, gathered_.cellCount());
+    if (numbers.empty()) return {};
+    std::vector<Chances> rays(numbers.size());
+    runner_.parallelFor(numbers.size(), [&](std::size_t n) {
+      const FlushDenormals flush;
+      const Spot cell = gathered_.cell(numbers[n]);
+      if (stop_.stop_requested() || !gathered_.lights(open_.scene->meshes[cell.mesh].material)) return;
+      const Arriving arriving = arrivingAt(cell, std::uint32_t(n));
+      RayCounts direct;
+      gathered_.gatherCell(numbers[n], 0, direct, stop_);
+      const auto raysWith = [&](double fromPlaces) {
+        double sum = 0;
+        for (int bounce = settings_.bounces - 1; bounce >= 0 && fromPlaces > 0; --bounce)
+          sum += chanceOf(bounce + 1 == settings_.bounces ? fromPlaces : arriving.fromCells) *
+                 (double(direct.total()) + (bounce > 0 ? GatheredLight::kCellRays : 0));
+        return sum;
+      };
+      rays[n] = {raysWith(arriving.fromPlaces.captures), raysWith(arriving.fromPlaces.any)};
+    });
+    Chances sum;
+    for (const Chances& r : rays) sum.captures += r.captures, sum.any += r.any;
+    const double share = double(gathered_.cellCount()) / double(numbers.size());
+    return {share * sum.captures, share * sum.any};
+  }
+
+  const OpenProject& open_;
+  const BakeSettings& settings_;
+  GatheredLight gathered_;
+  Readers readers_;
+  std::vector<std::uint32_t> firstTriangles_;
+  TaskRunner& runner_;
+  std::stop_token stop_;
+};
+
+}  // namespace
+
+Result<GatherForecast> forecastGathering(const OpenProject& open, const std::vector<int>& cameras,
+                                         const SurfaceLight* light, TaskRunner& runner,
+                                         const std::stop_token& stop) {
+  if (!gathersLight(open.plan, open.project.bake)) return GatherForecast{};
+  const GatherForecast forecast = Forecaster(open, cameras, light, runner, stop).run();
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
+  return forecast;
+}
+
+}  // namespace acentric
