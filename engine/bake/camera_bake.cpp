@@ -9,8 +9,11 @@
 
 #include "engine/bake/bake.h"
 #include "engine/bake/chunk_samples.h"
+#include "engine/bake/column_roles.h"
 #include "engine/bake/flat_mirrors.h"
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/mirror_march.h"
+#include "engine/bake/mirror_sight.h"
 #include "engine/bake/region_sight.h"
 #include "engine/bake/shading.h"
 #include "engine/base/stopwatch.h"
@@ -19,40 +22,10 @@ namespace acentric {
 namespace {
 
 constexpr int kColumnsPerChunk = 4;
-/// Surfaces met along one ray at most; a guard, not a quality setting.
-constexpr int kMaxMarch = 4096;
-/// A surface on a region's border itself lies beyond it, whichever way the distance was rounded.
-constexpr double kBorderSlack = 1e-6;
 /// Of a sample's footprint: what lies nearer behind it than this is still the same surface.
 constexpr double kSameDepth = 0.5;
 /// Of a sample's spacing: how far the picture may shift by the rounding of a distance.
 constexpr double kShiftByRounding = 0.1;
-
-/// A role as one column of the camera meets it.
-struct ColumnRole {
-  double exit = 0;  ///< horizontal metres: where the column's rays leave the grown polygon
-  std::size_t index = 0;
-  std::uint8_t bit = 0;
-  const Clip* clip = nullptr;
-  bool holdsBackground = true;  ///< the part holds what is infinitely far along the column
-};
-
-/// By rising exit.
-std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction) {
-  std::vector<ColumnRole> roles;
-  for (std::size_t i = 0; i < camera.roles.size(); ++i) {
-    const Role& role = camera.roles[i];
-    // Infinitely far as seen from any region, so that its part can be told.
-    constexpr double kFar = 1e6;
-    const auto& corners = role.grown.corners;
-    const double size = corners.size() < 2 ? 1 : glm::distance(corners[0], corners[1]);
-    roles.push_back({exitDistance(camera, role, direction), i, roleBit(camera, int(i)),
-                     role.clip ? &*role.clip : nullptr,
-                     !role.clip || role.clip->holds(camera.position + kFar * size * direction)});
-  }
-  std::ranges::stable_sort(roles, {}, &ColumnRole::exit);
-  return roles;
-}
 
 /// The largest step of inverse distances that shifts no picture from a served region by more than a share of
 /// a sample: a sample off by dw is seen off by dw times the eye's distance from the camera.
@@ -102,6 +75,7 @@ struct March {
   const BakeSettings& settings;
   const RegionSight* sight;    ///< null: no pruning
   const FlatMirrors* mirrors;  ///< null: there are none
+  const MirrorSight* beyond;   ///< null: only what the camera itself sees in them
   double distanceStep;
 };
 
@@ -116,6 +90,8 @@ class ColumnMarch {
         stored_(march.camera.roles.size()),
         opaqueAt_(march.camera.roles.size()) {
     if (march.sight != nullptr) hints_ = march.sight->hints();
+    if (march.beyond != nullptr)
+      mirrorMarch_.emplace(march.shader, *march.beyond, march.settings.maxLayers, sameDepth_, rightBehind_);
   }
 
   /// False when stopped.
@@ -148,6 +124,9 @@ class ColumnMarch {
       beginPixel(row);
       if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
         runPixel(packet.direction[n], hits_[n].distance, next, stop);
+      if (mirrorMarch_)
+        mirrorMarch_->run({march_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), flat_, roles_},
+                          shown_, out_.counts.rays, stop);
       if (!shown_.empty()) addShown();
     }
   }
@@ -261,16 +240,16 @@ class ColumnMarch {
     for (const ColumnRole* role : facing_)
       if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
     if (mask != 0)
-      shown_.push_back({sky ? 0 : storedInverseDistance(1 / reach, march_.distanceStep),
-                        packColour({mirrored.surface.radiance(), 1}), mask, mirror});
+      shown_.push_back({reach / flat_, packColour({mirrored.surface.radiance(), 1}), mask, mirror});
     return mirrored.surface;
   }
 
   /// What the mirrors of the pixel show, nearest first.
   void addShown() {
-    std::ranges::stable_sort(shown_, std::ranges::greater{}, &Shown::inverseDistance);
-    for (const Shown& s : shown_) {
-      out_.reflections.add(row_, s.inverseDistance, s.colour, s.roles);
+    std::ranges::stable_sort(shown_, {}, &ShownInMirror::distance);
+    for (const ShownInMirror& s : shown_) {
+      const float w = s.isSky() ? 0 : storedInverseDistance(1 / (s.distance * flat_), march_.distanceStep);
+      out_.reflections.add(row_, w, s.colour, s.roles);
       out_.reflections.mirror.push_back(s.mirror);
     }
     out_.counts.reflections += shown_.size();
@@ -303,12 +282,6 @@ class ColumnMarch {
     ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
   }
 
-  struct Shown {
-    float inverseDistance = 0;
-    HalfColour colour{0};
-    std::uint8_t roles = 0, mirror = 0;
-  };
-
   const March& march_;
   ChunkSamples& out_;
   double sameDepth_;    ///< metres per metre of ray
@@ -327,7 +300,8 @@ class ColumnMarch {
   std::vector<double> opaqueAt_;
   std::vector<const ColumnRole*> needed_;
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
-  std::vector<Shown> shown_;               ///< by the mirrors of the pixel
+  std::optional<MirrorMarch> mirrorMarch_;
+  std::vector<ShownInMirror> shown_;  ///< by the mirrors of the pixel
 };
 
 }  // namespace
@@ -393,6 +367,9 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       counts.eyeViews += views_->traced() - before;
       counts.eyeViewSeconds += watch.seconds();
     }
+    const FlatMirrors* mirrors = mirrors_->any() ? mirrors_.get() : nullptr;
+    std::optional<MirrorSight> beyond;
+    if (sight && mirrors != nullptr) beyond.emplace(scene_, *mirrors, *sight);
     const RowAngles rows(columns);
     const March march{*shader_,
                       camera,
@@ -400,7 +377,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                       rows,
                       settings_,
                       sight ? &*sight : nullptr,
-                      mirrors_->any() ? mirrors_.get() : nullptr,
+                      mirrors,
+                      beyond && beyond->any() ? &*beyond : nullptr,
                       distanceStepFor(camera, columns)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<ChunkSamples> chunks(chunkCount);

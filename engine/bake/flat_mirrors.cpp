@@ -55,7 +55,7 @@ std::vector<Facet> flatFacets(const Scene& scene, const EffectPlan& plan) {
 FlatMirrors::FlatMirrors(const Scene& scene, const EffectPlan& plan) : planeOf_(scene.meshes.size()) {
   std::vector<Facet> facets = flatFacets(scene, plan);
   std::ranges::stable_sort(facets, std::ranges::greater{}, &Facet::area);
-  const float slack = facets.empty() ? 0 : kSamePlane * glm::length(scene.bounds.size());
+  slack_ = facets.empty() ? 0 : kSamePlane * glm::length(scene.bounds.size());
   for (const Facet& facet : facets) {
     const Mesh& mesh = scene.meshes[facet.mesh];
     const glm::uvec3& corners = mesh.triangles[facet.triangle];
@@ -63,18 +63,34 @@ FlatMirrors::FlatMirrors(const Scene& scene, const EffectPlan& plan) : planeOf_(
     auto plane = std::ranges::find_if(planes_, [&](const Plane& p) {
       if (std::abs(glm::dot(p.normal, normal)) < kSameNormal) return false;
       for (int c = 0; c < 3; ++c)
-        if (std::abs(glm::dot(p.normal, mesh.positions[corners[c]] - p.point)) > slack) return false;
+        if (std::abs(glm::dot(p.normal, mesh.positions[corners[c]] - p.point)) > slack_) return false;
       return true;
     });
     if (plane == planes_.end()) {
       if (planes_.size() == kMaxPlanes) continue;
-      planes_.push_back({normal, mesh.positions[corners.x]});
+      const glm::vec3 level = std::abs(normal.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
+      const glm::vec3 right = glm::normalize(glm::cross(level, normal));
+      planes_.push_back({normal, mesh.positions[corners.x], right, glm::cross(normal, right)});
       plane = planes_.end() - 1;
+    }
+    for (int c = 0; c < 3; ++c) {
+      const glm::vec3 way = mesh.positions[corners[c]] - plane->point;
+      const glm::vec2 at(glm::dot(plane->right, way), glm::dot(plane->up, way));
+      plane->low = glm::min(plane->low, at), plane->high = glm::max(plane->high, at);
     }
     std::vector<std::uint8_t>& planes = planeOf_[facet.mesh];
     if (planes.empty()) planes.assign(mesh.triangles.size(), kNoPlane);
     planes[facet.triangle] = std::uint8_t(plane - planes_.begin());
   }
+}
+
+std::vector<FlatMirror> FlatMirrors::sides() const {
+  std::vector<FlatMirror> sides;
+  for (const Plane& p : planes_)
+    for (const double side : {1.0, -1.0})
+      sides.push_back({std::uint8_t(sides.size() + 1), p.point, side * glm::normalize(glm::dvec3(p.normal)),
+                       p.right, p.up, p.low, p.high});
+  return sides;
 }
 
 }  // namespace acentric

@@ -11,6 +11,22 @@
 
 namespace acentric {
 
+/// One side of a plane with mirrors on it. Where on the plane they are is known by a rectangle around them
+/// all; a ray tells the rest.
+struct FlatMirror {
+  std::uint8_t number = 0;  ///< as FlatMirrors::at
+  glm::dvec3 point{0};      ///< on the plane
+  glm::dvec3 normal{0};     ///< unit, towards those who see it
+  glm::dvec3 right{0}, up{0};
+  glm::dvec2 low{0}, high{0};  ///< metres from `point` along right and up
+
+  /// Metres before the plane; negative behind it.
+  double height(const glm::dvec3& place) const { return glm::dot(normal, place - point); }
+  glm::dvec2 inPlane(const glm::dvec3& way) const { return {glm::dot(right, way), glm::dot(up, way)}; }
+  glm::dvec3 imageOf(const glm::dvec3& place) const { return place - 2 * height(place) * normal; }
+  glm::dvec3 reflected(const glm::dvec3& way) const { return way - 2 * glm::dot(normal, way) * normal; }
+};
+
 class FlatMirrors {
  public:
   /// None where the plan has no mirrors. Of more planes than can be numbered those with the largest
@@ -28,13 +44,20 @@ class FlatMirrors {
     if (plane == kNoPlane) return 0;
     return std::uint8_t(1 + 2 * plane + (glm::dot(planes_[plane].normal, toViewer) < 0 ? 1 : 0));
   }
+  /// Both sides of all planes, by number.
+  std::vector<FlatMirror> sides() const;
+  /// Metres: how far a mirror may lie off its plane.
+  float slack() const { return slack_; }
 
  private:
   static constexpr std::uint8_t kNoPlane = 0xff;
   struct Plane {
     glm::vec3 normal{0};  ///< unit
     glm::vec3 point{0};
+    glm::vec3 right{0}, up{0};
+    glm::vec2 low{0}, high{0};
   };
+  float slack_ = 0;
   std::vector<Plane> planes_;
   std::vector<std::vector<std::uint8_t>> planeOf_;  ///< by mesh and triangle; empty: none of the mesh
 };

@@ -24,18 +24,11 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
   return sight;
 }
 
-template <class Test>
-bool RegionSight::any(std::size_t role, Hints& hints, const Test& test) const {
-  const std::size_t region = region_[role];
-  const auto& eyes = eyes_[region];
-  std::size_t& hint = hints.eye[region];
-  if (hint < eyes.size() && test(*eyes[hint])) return true;
-  for (std::size_t e = 0; e < eyes.size(); ++e)
-    if (e != hint && test(*eyes[e])) {
-      hint = e;
-      return true;
-    }
-  return false;
+std::vector<glm::dvec3> RegionSight::eyes() const {
+  std::vector<glm::dvec3> eyes;
+  for (const auto& region : eyes_)
+    for (const auto& view : region) eyes.push_back(view->eye());
+  return eyes;
 }
 
 bool RegionSight::sees(std::size_t role, const glm::dvec3& point, double tolerance, Hints& hints,

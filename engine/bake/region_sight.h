@@ -28,10 +28,24 @@ class RegionSight {
   /// The same for what lies infinitely far in a direction (unit).
   bool seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints, RayCounts& rays) const;
 
- private:
+  /// Does a test hold for one of the eyes of a role's region?
   template <class Test>
-  bool any(std::size_t role, Hints& hints, const Test& test) const;
+  bool any(std::size_t role, Hints& hints, const Test& test) const {
+    const std::size_t region = region_[role];
+    const auto& eyes = eyes_[region];
+    std::size_t& hint = hints.eye[region];
+    if (hint < eyes.size() && test(*eyes[hint])) return true;
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+      if (e != hint && test(*eyes[e])) {
+        hint = e;
+        return true;
+      }
+    return false;
+  }
+  /// Of all regions.
+  std::vector<glm::dvec3> eyes() const;
 
+ private:
   const RayScene* scene_ = nullptr;
   std::vector<std::size_t> region_;  ///< of each role, into eyes_
   std::vector<std::vector<std::shared_ptr<const EyeView>>> eyes_;

@@ -173,17 +173,26 @@ Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings
     }
 }
 
-Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const {
+namespace {
+Shaded mirrorUnder(const glm::vec3& light, const Surface& surface) {
+  return {glm::vec3(surface.baseColour), light, surface.emission};
+}
+}  // namespace
+
+Surface Shader::flatMirrorAt(const Hit& hit, const glm::vec3& toViewer) const {
   const auto surfaceOf = detail_.any() ? surfaceAt<true> : surfaceAt<false>;
-  const Surface surface = surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_);
+  return surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_);
+}
+
+Shaded Shader::flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm::vec3& toViewer) const {
+  return mirrorUnder(light, flatMirrorAt(hit, toViewer));
+}
+
+Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const {
+  const Surface surface = flatMirrorAt(hit, toViewer);
   const glm::vec3 mirrored = glm::reflect(-toViewer, surface.geometricNormal);
   const Seen seen = seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true);
-  Mirrored out;
-  out.surface.baseColour = glm::vec3(surface.baseColour);
-  out.surface.emission = surface.emission;
-  out.surface.light = seen.radiance;
-  out.distance = seen.opaqueDistance;
-  return out;
+  return {mirrorUnder(seen.radiance, surface), seen.opaqueDistance};
 }
 
 Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,

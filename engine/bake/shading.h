@@ -20,6 +20,7 @@
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/bake/surface.h"
 #include "engine/image/capture.h"
 
 namespace acentric {
@@ -74,6 +75,8 @@ class Shader {
   };
   /// A hit on a mirror of FlatMirrors; the same radiance as shade() gives.
   Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const;
+  /// The same mirror where `light` arrives, whatever it is.
+  Shaded flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm::vec3& toViewer) const;
 
   /// Where nothing but its material decides how a surface looks (no light from anywhere in particular, no
   /// detail, nothing clear or mirrored): the radiance by mesh, as captures store it. Else empty.
@@ -97,6 +100,7 @@ class Shader {
  private:
   using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, RayCounts&);
   friend struct ShadingKernels;
+  Surface flatMirrorAt(const Hit& hit, const glm::vec3& toViewer) const;
 
   const RayScene* scene_;
   std::vector<MaterialRules> rules_;

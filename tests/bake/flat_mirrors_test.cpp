@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/bake/bake.h"
+#include "engine/bake/eye_views.h"
 #include "engine/bake/shading.h"
 #include "layout_builder.h"
 #include "scene_builder.h"
@@ -279,6 +280,118 @@ TEST(BakeMirrors, ServeTheRolesWhosePartHoldsTheVirtualPlace) {
         ASSERT_EQ(baked.capture.roles[i], 1) << "the mirror is the first one's";
       }
   }
+}
+
+/// A role's region may see what lies behind a mirror where the camera does not; the reference asks, at twice
+/// the density of test eyes and with rays alone, whether an eye of the region sees a virtual place in the
+/// mirror.
+bool seenInMirrorFrom(const RayScene& scene, const ConvexPolygon& region, const glm::dvec3& place,
+                      double slack) {
+  BakeSettings dense;
+  dense.testEyes = 64;
+  const double x = double(MirrorRoom::kMirrorX);
+  for (const glm::dvec3& eye : testEyes(region, kEyeZ, dense)) {
+    const glm::dvec3 at = eye + (x - eye.x) / (place.x - eye.x) * (place - eye);
+    if (std::abs(at.y) > 2 + slack || std::abs(at.z - 1.5) > 1 + slack) continue;
+    const glm::dvec3 from = at - glm::dvec3(1e-3, 0, 0),
+                     way = glm::dvec3(2 * x - place.x, place.y, place.z) - from;
+    const Ray ray{glm::vec3(from), glm::vec3(glm::normalize(way)), 0, float(glm::length(way) * (1 - slack))};
+    if (std::isinf(scene.occluderDistance(ray))) return true;
+  }
+  return false;
+}
+
+TEST(BakeMirrors, KeepWhatOnlyOtherEyesOfTheRegionSeeInThem) {
+  const MirrorRoom room;
+  const auto scene = room.builder.rays();
+  // The camera looks along the mirror from the region's border: what eyes on the other side see in it lies
+  // beside the mirror's opening for the camera.
+  const ConvexPolygon region = square(2);
+  const LayoutCamera camera = cameraAt({2, -2}, {region});
+  const Capture few = bakeFrom(scene, camera, false).capture;
+  const Baked baked = bakeFrom(scene, camera, true);
+  const CaptureSamples& shown = baked.capture.reflections;
+  std::size_t beside = 0;
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+      if (shown.inverseDistance[i] == 0) continue;
+      const glm::dvec3 place = placeOf(baked.capture, shown, k, i),
+                       from = baked.capture.camera.centreOfProjection;
+      glm::dvec3 original = place;
+      original.x = 2 * double(MirrorRoom::kMirrorX) - place.x;
+      const double slack = roundingAt(baked.capture, shown.inverseDistance[i]);
+      ASSERT_GE(room.sideOf(original, slack, glm::vec3(unpackColour(shown.colour[i]))), 0);
+      ASSERT_TRUE(seenInMirrorFrom(*scene, region, place, 0.02)) << "nothing that no eye sees";
+      const glm::dvec3 at =
+          from + (double(MirrorRoom::kMirrorX) - from.x) / (place.x - from.x) * (place - from);
+      beside += std::abs(at.y) > 2 || std::abs(at.z - 1.5) > 1 ? 1 : 0;
+    }
+  EXPECT_GT(beside, 1000u);
+  EXPECT_GT(shown.sampleCount(), few.reflections.sampleCount() + beside / 2);
+  // Completeness: what an eye sees in the mirror has a sample near by, along the camera's own columns.
+  std::set<std::pair<std::size_t, int>> pixels;
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) pixels.insert({k, shown.row[i]});
+  const ColumnCamera& columns = baked.capture.camera;
+  int missing = 0, asked = 0;
+  BakeSettings settings;
+  for (const glm::dvec3& eye : testEyes(region, kEyeZ, settings))
+    for (double y = -1.9; y < 2; y += 0.2)
+      for (double z = 0.6; z < 2.4; z += 0.2) {
+        const glm::dvec3 at(double(MirrorRoom::kMirrorX), y, z);
+        const glm::dvec3 on = glm::normalize(at - eye);
+        const Hit hit = scene->trace({glm::vec3(at - glm::dvec3(1e-3, 0, 0)), glm::vec3(-on.x, on.y, on.z)});
+        if (!hit.found()) continue;
+        const glm::dvec3 way = at + double(hit.distance) * on - columns.centreOfProjection;
+        const double azimuth = std::atan2(way.y, way.x) - camera.lowAzimuth;
+        const double k = azimuth / columns.columnPitch();
+        int row = 0;
+        const double tangent = way.z / std::hypot(way.x, way.y);
+        while (row < columns.rows && columns.tangentAt(row + 1.0) > tangent) ++row;
+        if (k < 1 || k > columns.columns - 1 || row < 1 || row >= columns.rows - 1) continue;
+        ++asked;
+        bool found = false;
+        for (int dk = -1; dk <= 1; ++dk)
+          for (int dr = -1; dr <= 1; ++dr)
+            found = found || pixels.contains({std::size_t(int(k) + dk), row + dr});
+        missing += found ? 0 : 1;
+      }
+  EXPECT_GT(asked, 300);
+  EXPECT_EQ(missing, 0);
+}
+
+TEST(BakeMirrors, KeepWhatIsHiddenBehindWhatTheyShowFirst) {
+  MirrorRoom room;
+  // A pillar between the mirror and the wall behind the region.
+  const glm::vec3 grey(0.3f, 0.31f, 0.32f);
+  room.builder.box(room.builder.material(glowing(grey)), {-4, -0.4f, 0}, {-3.5f, 0.4f, 3});
+  const auto scene = room.builder.rays();
+  const ConvexPolygon region = square(2);
+  const Baked baked = bakeFrom(scene, cameraAt({0.5, 0}, {region}), true);
+  const CaptureSamples& shown = baked.capture.reflections;
+  int behind = 0;
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k] + 1; i < shown.columnStart[k + 1]; ++i) {
+      if (shown.row[i] != shown.row[i - 1]) continue;
+      EXPECT_LT(shown.inverseDistance[i], shown.inverseDistance[i - 1]);
+      if (shown.inverseDistance[i] == 0) continue;
+      const glm::dvec3 place = placeOf(baked.capture, shown, k, i);
+      ASSERT_TRUE(seenInMirrorFrom(*scene, region, place, 0.02));
+      behind += room.shows(0, glm::vec3(unpackColour(shown.colour[i]))) ? 1 : 0;
+    }
+  EXPECT_GT(behind, 50) << "the wall behind the pillar";
+}
+
+TEST(BakeMirrors, CostNoRaysWhereNoneCanBeSeen) {
+  const MirrorRoom room;
+  auto camera = cameraAt({0.5, 0.2}, {square(1)});
+  EXPECT_EQ(bakeFrom(room.builder.rays({Effect::mirrorReflection}), camera, true).counts.rays.mirror, 0u);
+  const auto scene = room.builder.rays();
+  EXPECT_GT(bakeFrom(scene, camera, true).counts.rays.mirror, 1000u);
+  camera.lowAzimuth += kPi;
+  EXPECT_EQ(bakeFrom(scene, camera, true).counts.rays.mirror, 0u) << "the camera looks away";
+  auto behind = cameraAt({10, 0}, {square(1, {10, 0})});
+  EXPECT_EQ(bakeFrom(scene, behind, true).counts.rays.mirror, 0u) << "the region lies behind the mirror";
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#include "engine/bake/column_roles.h"
+
+#include <algorithm>
+
+#include "engine/bake/bake.h"
+
+namespace acentric {
+
+std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction) {
+  std::vector<ColumnRole> roles;
+  for (std::size_t i = 0; i < camera.roles.size(); ++i) {
+    const Role& role = camera.roles[i];
+    // Infinitely far as seen from any region, so that its part can be told.
+    constexpr double kFar = 1e6;
+    const auto& corners = role.grown.corners;
+    const double size = corners.size() < 2 ? 1 : glm::distance(corners[0], corners[1]);
+    roles.push_back({exitDistance(camera, role, direction), i, roleBit(camera, int(i)),
+                     role.clip ? &*role.clip : nullptr,
+                     !role.clip || role.clip->holds(camera.position + kFar * size * direction)});
+  }
+  std::ranges::stable_sort(roles, {}, &ColumnRole::exit);
+  return roles;
+}
+
+}  // namespace acentric

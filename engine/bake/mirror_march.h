@@ -1,0 +1,68 @@
+#pragma once
+/// What plane mirrors show the served regions along one ray of a camera: the virtual scene behind each,
+/// whether or not the camera itself sees it in the mirror.
+///
+/// The camera sees the virtual scene through the mirror as through a window, the eyes look in at other
+/// angles. So the march starts at the mirror's plane even where the ray meets it beside the mirror, or where
+/// something hides it, and goes on behind what is reflected first. Kept is what a test eye of any role sees
+/// in the mirror, for all roles whose part holds it.
+
+#include <span>
+#include <stop_token>
+
+#include "engine/bake/column_roles.h"
+#include "engine/bake/mirror_sight.h"
+#include "engine/bake/shading.h"
+
+namespace acentric {
+
+struct ShownInMirror {
+  double distance = 0;  ///< metres along the camera's ray; infinity: the sky
+  HalfColour colour{0};
+  std::uint8_t roles = 0, mirror = 0;
+  bool isSky() const { return !(distance < std::numeric_limits<double>::infinity()); }
+};
+
+class MirrorMarch {
+ public:
+  /// Metres per metre of ray: `sameDepth` and `rightBehind` behind a surface are still itself, and hidden by
+  /// it. All must outlive the march.
+  MirrorMarch(const Shader& shader, const MirrorSight& sight, int maxLayers, double sameDepth,
+              double rightBehind);
+
+  struct Pixel {
+    glm::dvec3 origin, direction;  ///< unit
+    double flat = 1;               ///< horizontal metres per metre of ray
+    std::span<const ColumnRole> roles;
+  };
+  /// Adds to what the camera itself sees in mirrors along the ray, which comes in `shown`. Only a part when
+  /// stopped.
+  void run(const Pixel& pixel, std::vector<ShownInMirror>& shown, RayCounts& rays,
+           const std::stop_token& stop);
+
+ private:
+  struct Wanting {
+    const ColumnRole* role = nullptr;
+    int stored = 0;
+    double opaqueAt = 0;  ///< metres along the ray
+  };
+  void follow(const Pixel& pixel, const MirrorSight::Span& span, std::vector<ShownInMirror>& shown,
+              RayCounts& rays, const std::stop_token& stop);
+  double addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror, std::vector<ShownInMirror>& shown,
+                         RayCounts& rays);
+  std::uint8_t wantedBy(const Pixel& pixel, const FlatMirror& mirror, double distance, bool isSeen,
+                        RayCounts& rays);
+  bool isFull(const Wanting& w) const { return w.stored >= maxLayers_; }
+
+  const Shader& shader_;
+  const MirrorSight& sight_;
+  int maxLayers_;
+  double sameDepth_, rightBehind_;
+  MirrorSight::Hints hints_;
+  std::vector<MirrorSight::Span> spans_;
+  std::vector<Wanting> wanting_;  ///< by role of the pixel
+  std::vector<Wanting*> candidates_;
+  MirrorSight::Seen seen_;  ///< by the last eye that wantedBy found
+};
+
+}  // namespace acentric

@@ -1,0 +1,63 @@
+#pragma once
+/// What the test eyes of the served regions see by way of plane mirrors. An eye sees a virtual place where
+/// the way to it meets the mirror, the eye sees the mirror there, and its original is seen from there.
+
+#include <optional>
+#include <vector>
+
+#include "engine/bake/flat_mirrors.h"
+#include "engine/bake/region_sight.h"
+
+namespace acentric {
+
+class MirrorSight {
+ public:
+  /// Scene and sight must outlive it.
+  MirrorSight(const RayScene& scene, const FlatMirrors& mirrors, const RegionSight& sight);
+
+  /// Is there a mirror that an eye stands before?
+  bool any() const { return !faced_.empty(); }
+
+  /// Where along a ray virtual places may be seen in a mirror, metres.
+  struct Span {
+    const FlatMirror* mirror = nullptr;
+    double from = 0, to = 0;
+  };
+  void spansAlong(const glm::dvec3& origin, const glm::dvec3& direction, std::vector<Span>& spans) const;
+
+  using Hints = RegionSight::Hints;
+  Hints hints() const { return sight_->hints(); }
+
+  /// Where an eye meets the mirror.
+  struct Seen {
+    Hit mirror;
+    glm::vec3 toEye{0};  ///< unit
+  };
+  /// Does the region of role `role` see a virtual place, give or take `tolerance` metres of depth?
+  std::optional<Seen> sees(std::size_t role, const FlatMirror& mirror, const glm::dvec3& place,
+                           double tolerance, Hints& hints, RayCounts& rays) const;
+  /// The same for what lies infinitely far in a virtual direction (unit).
+  std::optional<Seen> seesAlong(std::size_t role, const FlatMirror& mirror, const glm::dvec3& direction,
+                                Hints& hints, RayCounts& rays) const;
+
+ private:
+  struct EyeBefore {
+    glm::dvec2 foot{0};  ///< in the plane
+    double height = 0;
+  };
+  struct Faced {
+    FlatMirror mirror;
+    std::vector<EyeBefore> eyes;
+    glm::dvec2 lowFoot{0}, highFoot{0};
+    double lowest = 0, highest = 0;
+  };
+  std::optional<Seen> meets(const EyeView& view, const FlatMirror& mirror, const glm::dvec3& at,
+                            const Ray& onwards, RayCounts& rays) const;
+
+  const RayScene* scene_;
+  const FlatMirrors* mirrors_;
+  const RegionSight* sight_;
+  std::vector<Faced> faced_;
+};
+
+}  // namespace acentric
