@@ -54,6 +54,9 @@ std::int8_t codeOf(float tangent) {
 std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch) {
   float flatter = fromBefore, steeper = toAfter;
   if (std::abs(flatter) > std::abs(steeper)) std::swap(flatter, steeper);
+  const bool gentle = std::abs(flatter) < kConnected * inverse * pitch;
+  // A surface that turns away at its edge.
+  if (!(std::abs(steeper) < kBroken * inverse) && !gentle) return 0;
   const float step = std::abs(steeper) < kConnected * inverse * pitch ? steeper : flatter;
   return std::abs(step) < kBroken * inverse ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
 }

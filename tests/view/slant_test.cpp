@@ -54,12 +54,19 @@ TEST(Slants, AreThoseOfAPlane) {
     for (int r = 0; r < grid.camera.rows; ++r) {
       const glm::dvec2 c = grid.camera.directionAt(k + 0.5);
       const double t = grid.camera.tangentAt(r + 0.5), w = glm::dot(normal, {c, t}) / distance;
-      if (w < 0.05) continue;  // nearly along the plane
+      if (w < 0.08) continue;  // nearly along the plane
       const double across = glm::dot(normal, {-c.y, c.x, 0}) / distance / w,
                    down = -normal.z * (1 + t * t) / distance / w;
       const Slant slant = slants[static_cast<std::size_t>(k * grid.camera.rows + r)];
-      EXPECT_NEAR(slantTangent(slant.across), across, 0.02 * std::pow(1 + std::abs(across), 2));
-      EXPECT_NEAR(slantTangent(slant.down), down, 0.02 * std::pow(1 + std::abs(down), 2));
+      // At the picture's border a steep surface passes for one that turns away.
+      const bool sideBorder = k == 0 || k + 1 == grid.camera.columns;
+      const bool upperBorder = r == 0 || r + 1 == grid.camera.rows;
+      if (!sideBorder || std::abs(across) < 2.9) {
+        EXPECT_NEAR(slantTangent(slant.across), across, 0.02 * std::pow(1 + std::abs(across), 2));
+      }
+      if (!upperBorder || std::abs(down) < 2.9) {
+        EXPECT_NEAR(slantTangent(slant.down), down, 0.02 * std::pow(1 + std::abs(down), 2));
+      }
     }
 }
 
@@ -67,6 +74,23 @@ TEST(Slants, DoNotBridgeTheEdgeOfASurface) {
   // A wall in the left half, another one far behind in the right half, sky above: all seen nearly face on.
   const Grid grid([&](const glm::dvec2& c, double t) { return t > 0.5 ? 0 : c.y > 0 ? 1 / 2.0 : 1 / 9.0; });
   for (const Slant& slant : grid.slants()) EXPECT_EQ(slant, Slant{});
+}
+
+TEST(Slants, AreNoneWhereASurfaceTurnsAwayAtItsEdge) {
+  // A round tower before the sky: its outermost samples lie nearly along the camera's rays.
+  const glm::dvec2 centre(8, 0);
+  const double radius = 3;
+  const Grid grid([&](const glm::dvec2& c, double) {
+    const double along = glm::dot(c, centre), beside = c.x * centre.y - c.y * centre.x;
+    const double half = radius * radius - beside * beside;
+    return half < 0 ? 0 : 1 / (along - std::sqrt(half));
+  });
+  const std::vector<Slant> slants = grid.slants();
+  const auto at = [&](int k) { return std::size_t(k * grid.camera.rows + 45); };
+  int first = 0;
+  while (grid.inverseDistance[at(first)] == 0) ++first;
+  EXPECT_EQ(slants[at(first)].across, 0) << "the edge";
+  EXPECT_GT(std::abs(slantTangent(slants[at(first + 1)].across)), 0.5) << "beside it";
 }
 
 TEST(Slants, AreThoseOfASlowSearchThroughLayers) {
@@ -94,6 +118,7 @@ TEST(Slants, AreThoseOfASlowSearchThroughLayers) {
     const double w = double(capture.inverseDistance[i]);
     const double a = double(-before), b = double(after);
     const double steeper = std::abs(a) > std::abs(b) ? a : b, flatter = std::abs(a) > std::abs(b) ? b : a;
+    if (!(std::abs(steeper) < 0.25 * w) && !(std::abs(flatter) < 3 * w * pitch)) return 0.0;
     const double step = std::abs(steeper) < 3 * w * pitch ? steeper : flatter;
     return std::abs(step) < 0.25 * w ? step / (w * pitch) : 0;
   };
