@@ -198,6 +198,15 @@ int removeStaleTemporaries(const fs::path& folder) {
   return removed;
 }
 
+Status checkWritable(const fs::path& folder) {
+  const fs::path trial = temporaryFor(folder / "trial");
+  const int file = ::open(trial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return failErrno("nothing can be written there", folder);
+  ::close(file);
+  ::unlink(trial.c_str());
+  return {};
+}
+
 Result<std::uint64_t> freeSpace(const fs::path& path) {
   std::error_code error;
   fs::path there = fs::absolute(path, error);

@@ -44,6 +44,9 @@ std::string temporaryNameStart();
 /// gone, and all that nobody has written to for a day. Returns how many were removed.
 int removeStaleTemporaries(const std::filesystem::path& folder);
 
+/// Can files be made in a folder that is there? Tries, and leaves nothing.
+Status checkWritable(const std::filesystem::path& folder);
+
 /// Bytes that may be written where `path` is or would be made.
 Result<std::uint64_t> freeSpace(const std::filesystem::path& path);
 

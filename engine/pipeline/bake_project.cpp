@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <ranges>
@@ -110,54 +111,152 @@ std::optional<CaptureStore> storeIfThere(const OpenProject& open) {
   return store ? std::optional(std::move(*store)) : std::nullopt;
 }
 
-/// What ran out, and what to do.
+/// What could not be written, and what to do.
 Error withAdvice(Error error) {
   if (error.kind == ErrorKind::outOfSpace)
     error.message += "; what is finished is kept: make room and bake again";
+  else if (error.kind == ErrorKind::unreadable)
+    error.message += "; make the folder writable, or bake a copy of the project and its model in one that is";
   return error;
+}
+
+/// The captures and the light of one storey in one quality.
+class StoreyBake {
+ public:
+  StoreyBake(const OpenProject& open, const BakeRequest& request, const CaptureStore& store,
+             TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
+      : open_(open),
+        request_(request),
+        store_(store),
+        runner_(runner),
+        progress_(progress),
+        stop_(stop),
+        plan_(planStorey(open)),
+        sink_(store, plan_) {}
+
+  Status verify(const std::vector<int>& cameras) {
+    std::vector<ContentKey> keys;
+    for (const int camera : cameras) keys.push_back(open_.keys[std::size_t(camera)]);
+    if (request_.surfaceLight) keys.push_back(open_.surfaceLightKey);
+    return sink_.verify(keys, runner_, progress_, stop_);
+  }
+  bool has(int camera) const { return sink_.has(plan_.cameras[std::size_t(camera)].key); }
+  bool hasLight() const { return lightBaked_ || sink_.has(open_.surfaceLightKey); }
+  double pixelsOf(int camera) const { return plan_.cameras[std::size_t(camera)].pixels; }
+  double bytesOf(int camera) const { return double(store_.bytesOf(plan_.cameras[std::size_t(camera)].key)); }
+
+  Status bakeCaptures(const std::vector<int>& cameras, const BakeWatch& watch) {
+    auto captures = bake(*open_.rays, *open_.layout, cameras, open_.project.bake, sink_, runner_, progress_,
+                         stop_, request_.memoryBytes, watch);
+    if (!captures) return tl::unexpected(withAdvice(captures.error()));
+    captures_ = std::move(*captures);
+    return {};
+  }
+  Status bakeLight() {
+    const Stopwatch watch;
+    const LocalTriangles local = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    const auto light = bakeSurfaceLight(*open_.rays, local.wanted, local.viewer, open_.project.bake, runner_,
+                                        progress_, stop_);
+    if (!light) return tl::unexpected(light.error());
+    if (Status put = store_.putSurfaceLight(open_.surfaceLightKey, *light, stop_); !put)
+      return tl::unexpected(withAdvice(put.error()));
+    if (Status noted = sink_.note(open_.surfaceLightKey); !noted)
+      return tl::unexpected(withAdvice(noted.error()));
+    lightBaked_ = true;
+    lightSeconds_ = watch.seconds();
+    return {};
+  }
+
+  /// Adds what was done, or the first trouble there was in looking at what is there.
+  Status tell(ProjectBakeReport& report) {
+    if (Status looked = sink_.status(); !looked) return looked;
+    std::ranges::move(sink_.takeDamaged(), std::back_inserter(report.damaged));
+    report.captures = std::move(captures_);
+    report.surfaceLightBaked = lightBaked_;
+    report.surfaceLightReused = request_.surfaceLight && !lightBaked_;
+    report.surfaceLightSeconds = lightSeconds_;
+    return {};
+  }
+
+ private:
+  const OpenProject& open_;
+  const BakeRequest& request_;
+  const CaptureStore& store_;
+  TaskRunner& runner_;
+  const Progress& progress_;
+  const std::stop_token& stop_;
+  StoreyPlan plan_;
+  StoreSink sink_;
+  BakeReport captures_;
+  bool lightBaked_ = false;
+  double lightSeconds_ = 0;
+};
+
+/// What comes before the first camera is done: previews of those that have nothing yet.
+struct Previews {
+  OpenProject open;
+  std::vector<int> cameras;
+  std::unique_ptr<StoreyBake> bake;
+};
+
+/// What a bake has before it, of one storey.
+struct Missing {
+  std::vector<int> cameras;
+  double pixels = 0, previewPixels = 0;
+  bool light = false;
+  int known = 0;  ///< of the captures that are there
+  double knownPixels = 0, knownBytes = 0;
+  bool any() const { return !cameras.empty() || light; }
+};
+Missing missingOf(const std::vector<int>& cameras, const BakeRequest& request, const StoreyBake& bake,
+                  const Previews* previews, const std::stop_token& stop) {
+  Missing missing;
+  missing.light = request.surfaceLight && !bake.hasLight();
+  for (const int camera : cameras) {
+    if (stop.stop_requested()) break;
+    const double pixels = bake.pixelsOf(camera);
+    if (bake.has(camera))
+      ++missing.known, missing.knownPixels += pixels, missing.knownBytes += bake.bytesOf(camera);
+    else
+      missing.cameras.push_back(camera), missing.pixels += pixels;
+  }
+  if (previews != nullptr)
+    for (const int camera : previews->cameras) missing.previewPixels += previews->bake->pixelsOf(camera);
+  return missing;
 }
 
 /// Bytes a pixel of captures that are not known yet; half as much again as a furnished room takes.
 constexpr double kTypicalBytesPerPixel = 12;
 constexpr int kFewestKnown = 4;
 
-/// Refuses to begin what cannot be finished. Where room is plentiful by far, a rough figure does; else a
-/// little is baked to know better.
-Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vector<int>& cameras,
-                 const BakeRequest& request, const CaptureStore& store, const StoreSink& sink,
-                 TaskRunner& runner, ProjectBakeReport& report, const Progress& progress,
-                 const std::stop_token& stop) {
+/// Refuses to begin what cannot be finished, of all that is before the bake, previews too. Where room is
+/// plentiful by far, a rough figure does; else a little is baked to know better.
+Status checkRoom(const OpenProject& open, const Missing& missing, const BakeRequest& request,
+                 const CaptureStore& store, TaskRunner& runner, ProjectBakeReport& report,
+                 const Progress& progress, const std::stop_token& stop) {
   const auto available = freeSpace(store.folder());
   if (!available) return tl::unexpected(available.error());
-  std::vector<int> missing;
-  double missingPixels = 0, knownPixels = 0, knownBytes = 0;
-  int known = 0;
-  for (const int camera : cameras) {
-    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
-    const PlannedCapture& planned = plan.cameras[std::size_t(camera)];
-    if (sink.has(planned.key)) {
-      ++known, knownPixels += planned.pixels, knownBytes += double(store.bytesOf(planned.key));
-    } else {
-      missing.push_back(camera), missingPixels += planned.pixels;
-    }
-  }
-  const bool light = request.surfaceLight && !sink.has(open.surfaceLightKey);
   report.freeBytes = *available;
-  report.neededBytes =
-      missingPixels * (known >= kFewestKnown ? knownBytes / knownPixels : kTypicalBytesPerPixel);
+  const double perPixel =
+      missing.known >= kFewestKnown ? missing.knownBytes / missing.knownPixels : kTypicalBytesPerPixel;
+  report.neededBytes = (missing.pixels + missing.previewPixels) * perPixel;
+  if (!missing.any()) return {};
+  if (Status writable = checkWritable(store.folder()); !writable)
+    return tl::unexpected(withAdvice(writable.error()));
   constexpr double kPlenty = 4;
-  if (missing.empty() && !light) return {};
   if (kPlenty * report.neededBytes + double(std::uint64_t(1) << 30) > double(*available)) {
     EstimateOptions options;
-    options.surfaceLight = light;
+    options.surfaceLight = missing.light;
     options.memoryBytes = request.memoryBytes;
-    const auto estimate = estimateProjectBake(open, missing, options, runner, progress, stop);
+    const auto estimate = estimateProjectBake(open, missing.cameras, options, runner, progress, stop);
     if (!estimate) return tl::unexpected(estimate.error());
-    report.neededBytes =
-        (missing.empty() ? 0 : estimate->captureBytes.value) + (light ? estimate->lightBytes.value : 0);
+    report.neededBytes = missing.light ? estimate->lightBytes.value : 0;
+    if (!missing.cameras.empty())
+      report.neededBytes += estimate->captureBytes.value * (1 + missing.previewPixels / missing.pixels);
   }
-  const std::string figures = fmt::format("about {:.0f} MB are needed, {:.0f} MB are free",
-                                          report.neededBytes / 1e6, double(*available) / 1e6);
+  const std::string figures =
+      fmt::format("about {:.0f} MB are needed{}, {:.0f} MB are free", report.neededBytes / 1e6,
+                  missing.previewPixels > 0 ? " for previews and captures" : "", double(*available) / 1e6);
   if (report.neededBytes > double(*available))
     return fail(ErrorKind::outOfSpace,
                 figures + ": make room, bake fewer cameras, or lower the samples per degree",
@@ -165,32 +264,6 @@ Status checkRoom(const OpenProject& open, const StoreyPlan& plan, const std::vec
   if (progress) progress({0, 0, figures});
   if (request.tellRoom) request.tellRoom(report.neededBytes, *available);
   return {};
-}
-
-/// What comes before the first camera is done: previews of those that have nothing yet, and the light.
-Result<ProjectBakeReport> bakeCoarse(const OpenProject& open, const BakeRequest& request,
-                                     const std::vector<int>& cameras, const CaptureStore& store,
-                                     TaskRunner& runner, const Progress& progress,
-                                     const std::stop_token& stop) {
-  BakeRequest part = request;
-  part.coarseFirst = part.surfaceLight = false;
-  part.tellRoom = {};
-  part.cameras.emplace();
-  if (request.watch)
-    part.watch = [&](CameraNews news) {
-      news.preview = true;
-      request.watch(news);
-    };
-  const auto best = bestKeys(open, store);
-  std::ranges::copy_if(cameras, std::back_inserter(*part.cameras),
-                       [&](int camera) { return !best[std::size_t(camera)]; });
-  if (const auto previews = bakeProject(atQuality(open, Quality::preview), part, runner, progress, stop);
-      !previews)
-    return previews;
-  part.surfaceLight = request.surfaceLight;
-  part.cameras->clear();
-  part.watch = {};
-  return bakeProject(open, part, runner, progress, stop);
 }
 
 }  // namespace
@@ -262,54 +335,46 @@ bool surfaceLightBaked(const OpenProject& open) {
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress, std::stop_token stop) {
   const auto store = CaptureStore::open(captureFolderFor(open.file));
-  if (!store) return tl::unexpected(store.error());
+  if (!store) return tl::unexpected(withAdvice(store.error()));
   const std::vector<int> cameras = request.cameras ? *request.cameras : bakingOrder(open);
   for (int camera : cameras)
     if (camera < 0 || camera >= int(open.keys.size()))
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
-  ProjectBakeReport report;
+  StoreyBake full(open, request, *store, runner, progress, stop);
+  if (request.verify)
+    if (Status read = full.verify(cameras); !read) return tl::unexpected(read.error());
+  std::optional<Previews> previews;
   if (request.coarseFirst) {
-    const auto coarse = bakeCoarse(open, request, cameras, *store, runner, progress, stop);
-    if (!coarse) return coarse;
-    report.surfaceLightBaked = coarse->surfaceLightBaked;
-    report.surfaceLightSeconds = coarse->surfaceLightSeconds;
-    report.damaged = coarse->damaged;
+    previews.emplace(Previews{atQuality(open, Quality::preview), {}, {}});
+    previews->bake = std::make_unique<StoreyBake>(previews->open, request, *store, runner, progress, stop);
+    const auto best = bestKeys(open, *store);
+    std::ranges::copy_if(cameras, std::back_inserter(previews->cameras),
+                         [&](int camera) { return !best[std::size_t(camera)]; });
   }
-  const StoreyPlan plan = planStorey(open);
-  StoreSink sink(*store, plan);
-  if (request.verify) {
-    std::vector<ContentKey> keys;
-    for (const int camera : cameras) keys.push_back(open.keys[std::size_t(camera)]);
-    if (request.surfaceLight) keys.push_back(open.surfaceLightKey);
-    if (Status read = sink.verify(keys, runner, progress, stop); !read) return tl::unexpected(read.error());
-  }
-  if (Status room = checkRoom(open, plan, cameras, request, *store, sink, runner, report, progress, stop);
-      !room)
+  ProjectBakeReport report;
+  const Missing missing = missingOf(cameras, request, full, previews ? &*previews : nullptr, stop);
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+  if (Status room = checkRoom(open, missing, request, *store, runner, report, progress, stop); !room)
     return tl::unexpected(room.error());
-  auto captures = bake(*open.rays, *open.layout, cameras, open.project.bake, sink, runner, progress, stop,
-                       request.memoryBytes, request.watch);
-  if (!captures) return tl::unexpected(withAdvice(captures.error()));
-  report.captures = std::move(*captures);
 
-  if (request.surfaceLight && sink.has(open.surfaceLightKey)) {
-    report.surfaceLightReused = !report.surfaceLightBaked;
-  } else if (request.surfaceLight) {
-    const Stopwatch watch;
-    const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout, stop);
-    const auto light =
-        bakeSurfaceLight(*open.rays, local.wanted, local.viewer, open.project.bake, runner, progress, stop);
-    if (!light) return tl::unexpected(light.error());
-    if (Status put = store->putSurfaceLight(open.surfaceLightKey, *light, stop); !put)
-      return tl::unexpected(withAdvice(put.error()));
-    if (Status noted = sink.note(open.surfaceLightKey); !noted)
-      return tl::unexpected(withAdvice(noted.error()));
-    report.surfaceLightBaked = true;
-    report.surfaceLightSeconds = watch.seconds();
+  if (previews) {
+    const BakeWatch watch = [&](CameraNews news) {
+      news.preview = true;
+      request.watch(news);
+    };
+    if (Status done = previews->bake->bakeCaptures(previews->cameras, request.watch ? watch : BakeWatch());
+        !done)
+      return tl::unexpected(done.error());
+    if (Status told = previews->bake->tell(report); !told) return tl::unexpected(told.error());
+    if (missing.light)
+      if (Status done = full.bakeLight(); !done) return tl::unexpected(done.error());
   }
-  if (Status looked = sink.status(); !looked) return tl::unexpected(looked.error());
-  std::ranges::move(sink.takeDamaged(), std::back_inserter(report.damaged));
+  if (Status done = full.bakeCaptures(cameras, request.watch); !done) return tl::unexpected(done.error());
+  if (request.surfaceLight && !full.hasLight())
+    if (Status done = full.bakeLight(); !done) return tl::unexpected(done.error());
+  if (Status told = full.tell(report); !told) return tl::unexpected(told.error());
   for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
   return report;
 }

@@ -95,7 +95,8 @@ struct BakeRequest {
   /// done.
   bool coarseFirst = false;
   BakeWatch watch;
-  /// Told what the missing captures are expected to take and what there is, before the first is baked.
+  /// Told what all that is missing is expected to take, previews too, and what there is, before the first of
+  /// it is baked.
   std::function<void(double neededBytes, std::uint64_t freeBytes)> tellRoom;
 };
 struct ProjectBakeReport {
@@ -105,7 +106,7 @@ struct ProjectBakeReport {
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
   std::uint64_t bytes = 0;  ///< on disk, of all this project's captures
-  /// What the missing captures were expected to take when the bake began, and what there was.
+  /// What was missing was expected to take when the bake began, previews too, and what there was.
   double neededBytes = 0;
   std::uint64_t freeBytes = 0;
   /// Of another storey. Which cameras were baked is not kept: each storey numbers them for itself.

@@ -91,6 +91,14 @@ TEST_F(FileTest, RemovesTemporariesThatNobodyHasWrittenToForADay) {
   EXPECT_EQ(removeStaleTemporaries(folder_), 1);
 }
 
+TEST_F(FileTest, TriesWhetherAFolderCanBeWrittenAndLeavesNothing) {
+  EXPECT_TRUE(checkWritable(folder_));
+  EXPECT_EQ(filesInFolder(), 0u);
+  const Status missing = checkWritable(folder_ / "none");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().where, (folder_ / "none").string());
+}
+
 TEST_F(FileTest, NamesTheFileThatCannotBeRead) {
   const auto missing = readText(folder_ / "none.txt");
   ASSERT_FALSE(missing);

@@ -39,6 +39,33 @@ TEST_F(SmallDiskTest, IsRefusedBeforeTheBakeBegins) {
   EXPECT_THAT(ran.output, HasSubstr("code 1\n0\n")) << "nothing was written";
 }
 
+TEST_F(SmallDiskTest, IsRefusedBeforeThePreviewsIfTheRestHasNoRoom) {
+  // Previews and light would find room, and a sixteenth of a bake is soon done.
+  const auto ran = onSmallDisk(project.captures(), 6000,
+                               "\"$1\" bake --coarse-first '" + project.file() + "'; echo code $?; ls -A '" +
+                                   project.captures().string() + "' | wc -l");
+  EXPECT_THAT(ran.errors, HasSubstr("for previews and captures, 6 MB are free: make room"));
+  EXPECT_THAT(ran.output, HasSubstr("code 1\n0\n")) << "nothing was written";
+}
+
+TEST_F(SmallDiskTest, ThatCannotBeWrittenIsNamedAtOnceWithTheWayOut) {
+  const std::string bake = "\"$1\" bake '" + project.file() + "'; echo code $?";
+  const std::string captures = "'" + project.captures().string() + "'";
+  const auto empty = onSmallDisk(project.captures(), 65536, "mount -o remount,ro " + captures + "; " + bake);
+  // Or the folder of captures cannot even be made.
+  const auto none =
+      onSmallDisk(project.captures(), 100,
+                  "umount " + captures + "; rmdir " + captures + "; cd /; mount --bind '" +
+                      project.folder().string() + "' '" + project.folder().string() +
+                      "'; mount -o remount,ro,bind '" + project.folder().string() + "'; " + bake);
+  for (const auto& ran : {empty, none}) {
+    EXPECT_THAT(ran.output, HasSubstr("code 1\n"));
+    EXPECT_THAT(ran.errors, HasSubstr(project.captures().string()));
+    EXPECT_THAT(ran.errors, HasSubstr("Read-only file system"));
+    EXPECT_THAT(ran.errors, HasSubstr("make the folder writable, or bake a copy of the project"));
+  }
+}
+
 TEST_F(SmallDiskTest, ThatFillsUpLeavesNoPartAndGoesOnWhenThereIsRoom) {
   // What it would need is there when the bake begins; then another program takes the room.
   const std::string captures = "'" + project.captures().string() + "'", file = "'" + project.file() + "'";
