@@ -45,8 +45,8 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   ASSERT_TRUE(residency.get(scene.captures[1], "second"));
   EXPECT_EQ(residency.count(), 2u);
   const std::size_t samples = scene.captures[0]->row.size() + scene.captures[1]->row.size();
-  const std::size_t runs = scene.captures[0]->background.runs.runCount() +
-                           scene.captures[1]->background.runs.runCount();
+  const std::size_t runs =
+      scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
   EXPECT_EQ(residency.bytes(), 12 * samples + 8 * runs + 2 * 16 * sizeof(float));
 
