@@ -73,11 +73,7 @@ class ToldSink final : public CaptureSink {
   void tell(const ContentKey& key, const SampleCounts& samples) override { sink_.tell(key, samples); }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     Status done = sink_.put(key, capture, stop);
-    CameraNews news;
-    {
-      const std::lock_guard lock(mutex_);
-      news = traced_.at(key);
-    }
+    CameraNews news = take(key);
     news.stage = done ? CameraStage::done : CameraStage::failed;
     if (!done) news.error = done.error().describe();
     if (done || done.error().kind != ErrorKind::cancelled) teller_.tell(news);
@@ -85,14 +81,19 @@ class ToldSink final : public CaptureSink {
   }
   void expect(const ContentKey& key, const CameraNews& news) {
     const std::lock_guard lock(mutex_);
-    traced_[key] = news;
+    traced_.emplace(key, news);
   }
 
  private:
+  CameraNews take(const ContentKey& key) {
+    const std::lock_guard lock(mutex_);
+    return std::move(traced_.extract(key).mapped());
+  }
+
   CaptureSink& sink_;
   Teller& teller_;
   std::mutex mutex_;
-  std::map<ContentKey, CameraNews> traced_;
+  std::multimap<ContentKey, CameraNews> traced_;  ///< those on their way to the disk
 };
 
 class BakeRun {

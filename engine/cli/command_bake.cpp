@@ -77,10 +77,8 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
 }
 
 /// Of a storey of which everything asked for is on disk.
-Result<Report> nothingToDo(const BakeRequest& request, const BakeOptions& options, const BakePlan& plan,
-                           const StoreyPlan& storey) {
-  const auto store = CaptureStore::open(captureFolderFor(plan.file));
-  if (!store) return tl::unexpected(store.error());
+Report nothingToDo(const BakeRequest& request, const BakeOptions& options, const BakePlan& plan,
+                   const StoreyPlan& storey, const CaptureStore& store) {
   ProjectBakeReport report;
   report.surfaceLightReused = request.surfaceLight;
   for (const int camera : *request.cameras) {
@@ -90,36 +88,36 @@ Result<Report> nothingToDo(const BakeRequest& request, const BakeOptions& option
     reused.reused = true;
   }
   report.captures.reused = int(request.cameras->size());
-  for (const PlannedCapture& camera : storey.cameras) report.bytes += store->bytesOf(camera.key);
-  return bakeReport(report, request, options, plan, storey, *store);
+  for (const PlannedCapture& camera : storey.cameras) report.bytes += store.bytesOf(camera.key);
+  return bakeReport(report, request, options, plan, storey, store);
 }
 
 Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const BakeOptions& options,
-                          const BakePlan& plan, const Common& common, TaskRunner& runner) {
+                          const BakePlan& plan, const CaptureStore& store, const Common& common,
+                          TaskRunner& runner) {
   const OpenProject& open = plan.open[number];
-  const auto baked = bakeProject(open, request, runner, common.progress, common.stop);
+  const auto baked = bakeProject(open, request, store, runner, common.progress, common.stop);
   if (!baked) return tl::unexpected(baked.error());
-  const auto present = bakedCameras(open);
   for (const int camera : *request.cameras)
-    if (!present[std::size_t(camera)])
+    if (!store.has(open.keys[std::size_t(camera)]))
       return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
-                  captureFolderFor(open.file).string());
-  const auto store = CaptureStore::open(captureFolderFor(open.file));
-  if (!store) return tl::unexpected(store.error());
-  return bakeReport(*baked, request, options, plan, plan.storeys[number], *store);
+                  store.folder().string());
+  return bakeReport(*baked, request, options, plan, plan.storeys[number], store);
 }
 
 /// Captures alone, of a lower quality than the project's.
 Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& requests, Quality quality,
                          const Common& common) {
   if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
+  const auto store = openCaptures(plan.file);
+  if (!store) return tl::unexpected(store.error());
   const auto runner = common.runner();
   ProjectBakeReport all;
   for (std::size_t s = 0; s < plan.open.size(); ++s) {
     BakeRequest request = requests[s];
     request.surfaceLight = false;
     const auto baked =
-        bakeProject(atQuality(plan.open[s], quality), request, *runner, common.progress, common.stop);
+        bakeProject(atQuality(plan.open[s], quality), request, *store, *runner, common.progress, common.stop);
     if (!baked) return tl::unexpected(baked.error());
     all.add(*baked);
   }
@@ -137,18 +135,16 @@ Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& request
 }
 
 /// Deletes what none of the storeys uses.
-Result<std::uint64_t> prune(std::span<const OpenProject> storeys) {
-  const auto store = CaptureStore::open(captureFolderFor(storeys.front().file));
-  if (!store) return tl::unexpected(store.error());
+std::uint64_t prune(std::span<const OpenProject> storeys, const CaptureStore& store) {
   std::vector<ContentKey> used;
   for (const OpenProject& open : storeys) {
     std::ranges::copy(open.keys, std::back_inserter(used));
-    for (const auto& best : bestKeys(open, *store))
+    for (const auto& best : bestKeys(open, store))
       if (best) used.push_back(*best);
     used.push_back(open.surfaceLightKey);
     std::ranges::copy(simplifiedKeys(open), std::back_inserter(used));
   }
-  return store->prune(used);
+  return store.prune(used);
 }
 
 /// What is refused whatever the project holds.
@@ -210,12 +206,14 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const bool idle = !options.verify && allDone(requests, *states);
   if (!idle || options.prune)
     if (Status open = openStoreysOf(*plan, common); !open) return tl::unexpected(open.error());
+  const auto store = openCaptures(plan->file);
+  if (!store) return tl::unexpected(store.error());
   const auto runner = common.runner();
   std::vector<Report> reports;
   std::vector<std::string> names;
   for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
-    auto report = idle ? nothingToDo(requests[s], options, *plan, plan->storeys[s])
-                       : bakeStorey(s, requests[s], options, *plan, common, *runner);
+    auto report = idle ? Result<Report>(nothingToDo(requests[s], options, *plan, plan->storeys[s], *store))
+                       : bakeStorey(s, requests[s], options, *plan, *store, common, *runner);
     if (!report) return report;
     reports.push_back(std::move(*report));
     names.push_back(plan->storeys[s].storey);
@@ -223,9 +221,7 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   Report report = byStorey(names, std::move(reports));
   std::uint64_t freed = 0;
   if (options.prune) {
-    const auto pruned = prune(plan->open);
-    if (!pruned) return tl::unexpected(pruned.error());
-    freed = *pruned;
+    freed = prune(plan->open, *store);
     report.text += fmt::format("pruned {} of captures that this project no longer uses\n", bytesText(freed));
   }
   report.json["prunedBytes"] = freed;

@@ -332,31 +332,43 @@ bool surfaceLightBaked(const OpenProject& open) {
   return store && store->hasSurfaceLight(open.surfaceLightKey);
 }
 
+Result<CaptureStore> openCaptures(const std::filesystem::path& projectPath) {
+  auto store = CaptureStore::open(captureFolderFor(projectPath));
+  if (!store) return tl::unexpected(withAdvice(store.error()));
+  return store;
+}
+
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress, std::stop_token stop) {
-  const auto store = CaptureStore::open(captureFolderFor(open.file));
-  if (!store) return tl::unexpected(withAdvice(store.error()));
+  const auto store = openCaptures(open.file);
+  if (!store) return tl::unexpected(store.error());
+  return bakeProject(open, request, *store, runner, progress, std::move(stop));
+}
+
+Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request,
+                                      const CaptureStore& store, TaskRunner& runner, const Progress& progress,
+                                      std::stop_token stop) {
   const std::vector<int> cameras = request.cameras ? *request.cameras : bakingOrder(open);
   for (int camera : cameras)
     if (camera < 0 || camera >= int(open.keys.size()))
       return fail(ErrorKind::invalidArgument, "there is no camera " + std::to_string(camera) +
                                                   "; the layout has " + std::to_string(open.keys.size()));
 
-  StoreyBake full(open, request, *store, runner, progress, stop);
+  StoreyBake full(open, request, store, runner, progress, stop);
   if (request.verify)
     if (Status read = full.verify(cameras); !read) return tl::unexpected(read.error());
   std::optional<Previews> previews;
   if (request.coarseFirst) {
     previews.emplace(Previews{atQuality(open, Quality::preview), {}, {}});
-    previews->bake = std::make_unique<StoreyBake>(previews->open, request, *store, runner, progress, stop);
-    const auto best = bestKeys(open, *store);
+    previews->bake = std::make_unique<StoreyBake>(previews->open, request, store, runner, progress, stop);
+    const auto best = bestKeys(open, store);
     std::ranges::copy_if(cameras, std::back_inserter(previews->cameras),
                          [&](int camera) { return !best[std::size_t(camera)]; });
   }
   ProjectBakeReport report;
   const Missing missing = missingOf(cameras, request, full, previews ? &*previews : nullptr, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
-  if (Status room = checkRoom(open, missing, request, *store, runner, report, progress, stop); !room)
+  if (Status room = checkRoom(open, missing, request, store, runner, report, progress, stop); !room)
     return tl::unexpected(room.error());
 
   if (previews) {
@@ -375,7 +387,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
   if (request.surfaceLight && !full.hasLight())
     if (Status done = full.bakeLight(); !done) return tl::unexpected(done.error());
   if (Status told = full.tell(report); !told) return tl::unexpected(told.error());
-  for (const ContentKey& key : open.keys) report.bytes += store->bytesOf(key);
+  for (const ContentKey& key : open.keys) report.bytes += store.bytesOf(key);
   return report;
 }
 

@@ -112,6 +112,12 @@ struct ProjectBakeReport {
   /// Of another storey. Which cameras were baked is not kept: each storey numbers them for itself.
   void add(const ProjectBakeReport& other);
 };
+/// Where a project's captures are kept; makes the folder.
+Result<CaptureStore> openCaptures(const std::filesystem::path& projectPath);
+/// Into `store`, or into the project's own.
+Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request,
+                                      const CaptureStore& store, TaskRunner& runner,
+                                      const Progress& progress = {}, std::stop_token stop = {});
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request, TaskRunner& runner,
                                       const Progress& progress = {}, std::stop_token stop = {});
 
