@@ -193,14 +193,19 @@ void drawBudget(PanelContext& context) {
   actionButton(context, "budget.split", ButtonLook::plain, {}, "Split what exceeds");
 }
 
-/// One of the bake's settings in one line. `what` names its step in the history.
+/// After the field of one of the bake's settings. `what` names its step in the history.
+void applyBakeEdit(PanelContext& context, const char* logName, const ui::FieldEdit& edit,
+                   const BakeSettings& bake, const char* what) {
+  context.log.item(std::string("settings.") + logName);
+  if (edit) applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, what));
+}
+
 template <class Value>
 void bakeNumber(PanelContext& context, const char* logName, const ui::NumberField& field,
                 Value BakeSettings::*setting, const char* what) {
   BakeSettings bake = context.session().project().bake;
   const ui::FieldEdit edit = ui::numberField(field, bake.*setting, kLabelWidth);
-  context.log.item(std::string("settings.") + logName);
-  if (edit) applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, what));
+  applyBakeEdit(context, logName, edit, bake, what);
 }
 
 void drawBake(PanelContext& context) {
@@ -233,11 +238,10 @@ void drawBake(PanelContext& context) {
               "Surfaces kept behind each other in one pixel: what opens up behind edges. 1 to 64."},
              &BakeSettings::maxLayers, "most layers");
   BakeSettings bake = context.session().project().bake;
-  if (const ui::FieldEdit edit =
-          ui::checkField("Prune", bake.pruning, kLabelWidth,
-                         "Keep only what can be seen from somewhere in a region that the camera serves."))
-    applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, "pruning"));
-  context.log.item("settings.pruning");
+  const ui::FieldEdit edit =
+      ui::checkField("Prune", bake.pruning, kLabelWidth,
+                     "Keep only what can be seen from somewhere in a region that the camera serves.");
+  applyBakeEdit(context, "pruning", edit, bake, "pruning");
   if (bake.pruning)
     bakeNumber(
         context, "testEyes",
