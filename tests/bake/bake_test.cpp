@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <map>
-#include <mutex>
 #include <set>
 #include <thread>
 
 #include "layout_builder.h"
+#include "memory_sink.h"
 #include "scene_builder.h"
 
 namespace acentric {
@@ -20,33 +19,9 @@ namespace {
 using test::cameraAt;
 using test::layoutOf;
 using test::matte;
+using test::MemorySink;
 using test::SceneBuilder;
 using test::square;
-
-class MemorySink : public CaptureSink {
- public:
-  bool has(const ContentKey& key) const override {
-    const std::lock_guard lock(mutex_);
-    return captures_.contains(key);
-  }
-  Status put(const ContentKey& key, const Capture& capture, const std::stop_token&) override {
-    if (onPut) onPut();
-    const std::lock_guard lock(mutex_);
-    if (captures_.size() >= room) return fail(ErrorKind::outOfSpace, "the disk is full", "sink");
-    captures_[key] = capture;
-    return {};
-  }
-  std::size_t size() const {
-    const std::lock_guard lock(mutex_);
-    return captures_.size();
-  }
-  std::function<void()> onPut;
-  std::size_t room = 1000;
-
- private:
-  mutable std::mutex mutex_;
-  std::map<ContentKey, Capture> captures_;
-};
 
 SceneBuilder smallRoom() {
   SceneBuilder builder;
@@ -247,11 +222,23 @@ TEST(Bake, RefusesACameraThatDoesNotExist) {
   EXPECT_EQ(sink.size(), 0u);
 }
 
-TEST(CaptureKey, HasPartsThatTellWhatChanged) {
+/// Keys of one camera in a small room under a sky.
+class CaptureKeyTest : public testing::Test {
+ protected:
+  CaptureKeyTest() { builder.sky(glm::vec3(1)), scene = builder.scene(); }
+  /// The usual settings but for one.
+  template <class Value>
+  static BakeSettings with(Value BakeSettings::*setting, Value value) {
+    BakeSettings settings;
+    settings.*setting = value;
+    return settings;
+  }
   SceneBuilder builder = smallRoom();
-  builder.sky(glm::vec3(1));
-  const ScenePtr scene = builder.scene();
+  ScenePtr scene;
   const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
+};
+
+TEST_F(CaptureKeyTest, HasPartsThatTellWhatChanged) {
   const auto partsFor = [](const Scene& s, const BakeSettings& b, const LayoutCamera& c) {
     const EffectPlan plan = planEffects(s);
     const ColumnCamera columns = columnCameraFor(c, 1.6, 1, s.bounds, b);
@@ -269,9 +256,7 @@ TEST(CaptureKey, HasPartsThatTellWhatChanged) {
   };
   using Names = std::set<std::string>;
   EXPECT_EQ(changed(partsFor(*scene, {}, camera)), Names{});
-  BakeSettings settings;
-  settings.maxLayers = 5;
-  EXPECT_EQ(changed(partsFor(*scene, settings, camera)), Names{"settings"});
+  EXPECT_EQ(changed(partsFor(*scene, with(&BakeSettings::maxLayers, 5), camera)), Names{"settings"});
   LayoutCamera other = camera;
   other.roles.push_back(camera.roles.front());
   EXPECT_EQ(changed(partsFor(*scene, {}, other)), Names{"regions"});
@@ -285,12 +270,8 @@ TEST(CaptureKey, HasPartsThatTellWhatChanged) {
   EXPECT_THAT(changed(partsFor(brighter, {}, camera)), testing::IsSupersetOf({"scene", "lights"}));
 }
 
-TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
-  SceneBuilder builder = smallRoom();
-  builder.sky(glm::vec3(1));
-  const ScenePtr scene = builder.scene();
+TEST_F(CaptureKeyTest, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   const EffectPlan plan = planEffects(*scene);
-  const LayoutCamera camera = cameraAt({0, 0}, {square(1)});
   const auto keyFor = [](const Scene& s, const EffectPlan& p, const BakeSettings& b, const LayoutCamera& c) {
     return captureKey(s, p, b, c, columnCameraFor(c, 1.6, 1, s.bounds, b));
   };
@@ -302,26 +283,18 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   const auto changes = [&](const char* what, const ContentKey& other) {
     EXPECT_TRUE(keys.insert(other).second) << what;
   };
-  BakeSettings settings;
-  settings.samplesPerDegree = 9;
-  changes("samples per degree", keyFor(*scene, plan, settings, camera));
-  settings = {};
-  settings.ambientRays = 13;
-  changes("ambient rays", keyFor(*scene, plan, settings, camera));
-  settings = {};
-  settings.ambientRadius = 3;
-  changes("ambient radius", keyFor(*scene, plan, settings, camera));
-  settings = {};
-  settings.maxLayers = 5;
-  changes("layers", keyFor(*scene, plan, settings, camera));
-  settings = {};
-  settings.testEyes = 5;
-  changes("test eyes", keyFor(*scene, plan, settings, camera));
-  settings.pruning = false;
-  changes("pruning", keyFor(*scene, plan, settings, camera));
-  const ContentKey unpruned = keyFor(*scene, plan, settings, camera);
+  const auto keyWith = [&](const BakeSettings& settings) { return keyFor(*scene, plan, settings, camera); };
+  changes("samples per degree", keyWith(with(&BakeSettings::samplesPerDegree, 9.0)));
+  changes("ambient rays", keyWith(with(&BakeSettings::ambientRays, 13)));
+  changes("ambient radius", keyWith(with(&BakeSettings::ambientRadius, 3.0)));
+  changes("layers", keyWith(with(&BakeSettings::maxLayers, 5)));
+  changes("test eyes", keyWith(with(&BakeSettings::testEyes, 5)));
+  changes("places of gathered light", keyWith(with(&BakeSettings::surfaceTexel, 0.5)));
+  BakeSettings settings = with(&BakeSettings::pruning, false);
+  const ContentKey unpruned = keyWith(settings);
+  changes("pruning", unpruned);
   settings.testEyes = 6;
-  EXPECT_EQ(keyFor(*scene, plan, settings, camera), unpruned) << "no eye is asked without pruning";
+  EXPECT_EQ(keyWith(settings), unpruned) << "no eye is asked without pruning";
   changes("an effect", keyFor(*scene, planEffects(*scene, {{Effect::hardShadows, false}}), {}, camera));
   LayoutCamera other = camera;
   other.position.x = 0.5;
@@ -345,13 +318,8 @@ TEST(CaptureKey, ChangesWithEverythingThatChangesPixelsAndWithNothingElse) {
   brighter.point({1, 1, 2}, 5);
   changes("scene", keyFor(*brighter.scene(), plan, {}, camera));
 
-  settings = {};
-  settings.surfaceTexel = 0.5;
-  changes("distance of places for gathered light", keyFor(*scene, plan, settings, camera));
-  settings = {};
-  settings.bounces = 3;
-  settings.shadowRays = 3;
-  EXPECT_EQ(keyFor(*scene, plan, settings, camera), key) << "bounces and soft shadows are off";
+  EXPECT_EQ(keyWith(with(&BakeSettings::bounces, 3)), key) << "they are off";
+  EXPECT_EQ(keyWith(with(&BakeSettings::shadowRays, 3)), key) << "no light is soft";
   other = camera;
   other.id.i = 77;
   EXPECT_EQ(keyFor(*scene, plan, {}, other), key) << "numbering is not a pixel";

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "engine/bake/bake.h"
 #include "engine/bake/surface_light_bake.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/scene/finish_scene.h"
 #include "engine/view/render.h"
+#include "tests/bake/memory_sink.h"
 
 namespace acentric {
 namespace {
@@ -70,16 +69,6 @@ SourceScene roomOf(const Place& place) {
   return source;
 }
 
-class Memory final : public CaptureSink {
- public:
-  bool has(const ContentKey&) const override { return false; }
-  Status put(const ContentKey& key, const Capture& capture, const std::stop_token&) override {
-    captures[key] = capture;
-    return {};
-  }
-  std::map<ContentKey, Capture> captures;
-};
-
 /// What the designer chose, all lengths scaled, baked and ready to walk through.
 struct Walk {
   WalkScene scene;
@@ -129,14 +118,14 @@ Walk walkThrough(const ScenePtr& room, const Place& place, const glm::dvec3& mov
   settings.surfaceTexel = 0.25 * place.scale;
   settings.eyeRange = 0;  // heights are chosen by place, and would differ from scale to scale
   TaskRunner runner(1);
-  Memory sink;
+  test::MemorySink sink;
   std::vector<int> all(layout->cameras.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i);
   const auto baked = bake(**rays, *layout, all, settings, sink, runner);
   EXPECT_TRUE(baked) << (baked ? "" : baked.error().describe());
   for (const ContentKey& key : captureKeys(*room, plan, settings, *layout))
     walk.scene.captures.push_back(
-        std::make_shared<const DisplayCapture>(prepareForDisplay(sink.captures[key], 1)));
+        std::make_shared<const DisplayCapture>(prepareForDisplay(*sink.find(key), 1)));
   const LocalTriangles local = localTrianglesOf(*room, *layout);
   auto light = bakeSurfaceLight(**rays, local.wanted, local.viewer, settings, runner);
   EXPECT_TRUE(light) << (light ? "" : light.error().describe());

@@ -5,13 +5,13 @@
 
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "engine/bake/bake.h"
 #include "engine/bake/flat_mirrors.h"
 #include "engine/bake/truth.h"
 #include "engine/view/render.h"
+#include "tests/bake/memory_sink.h"
 #include "tests/bake/scene_builder.h"
 
 namespace acentric {
@@ -43,25 +43,15 @@ RayScenePtr hallOfMirrors() {
   return builder.rays();
 }
 
-class Memory final : public CaptureSink {
- public:
-  bool has(const ContentKey&) const override { return false; }
-  Status put(const ContentKey& key, const Capture& capture, const std::stop_token&) override {
-    captures[key] = capture;
-    return {};
-  }
-  std::map<ContentKey, Capture> captures;
-};
-
-WalkScene walkOf(const Layout& layout, const std::vector<ContentKey>& keys, const Memory& memory,
+WalkScene walkOf(const Layout& layout, const std::vector<ContentKey>& keys, const test::MemorySink& memory,
                  bool reflections) {
   WalkScene walk;
   walk.layout = std::make_shared<const Layout>(layout);
   for (const ContentKey& key : keys) {
-    const auto found = memory.captures.find(key);
+    const Capture* found = memory.find(key);
     walk.captures.push_back(nullptr);
-    if (found == memory.captures.end()) continue;
-    Capture capture = found->second;
+    if (found == nullptr) continue;
+    Capture capture = *found;
     if (!reflections) capture.mirror.clear(), capture.reflections = {};
     walk.captures.back() = std::make_shared<const DisplayCapture>(prepareForDisplay(capture, 1));
   }
@@ -112,7 +102,7 @@ TEST(MirrorWalk, ShowsReflectionsWhereTheEyeSeesThem) {
     const std::vector<int> which(cameras.begin(), cameras.end());
     BakeSettings settings;
     settings.samplesPerDegree = 4;
-    Memory memory;
+    test::MemorySink memory;
     TaskRunner runner(0);
     const auto report = bake(*scene, *layout, which, settings, memory, runner);
     ASSERT_TRUE(report) << report.error().describe();

@@ -53,40 +53,51 @@ AnalyticScene randomBoxes(unsigned seed, int count, double innerRadius) {
   return scene;
 }
 
-Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown,
-                int layers) {
+void addSample(CaptureSamples& list, int row, double distance, const glm::vec4& colour) {
+  list.row.push_back(static_cast<std::uint16_t>(row));
+  list.inverseDistance.push_back(storedInverseDistance(1 / distance, 0));
+  list.roles.push_back(0xff);
+  list.colour.push_back(packColour(colour));
+}
+
+Capture captureBy(const ColumnCamera& camera, const ConvexPolygon* grown, const Sky& sky,
+                  const std::function<void(Capture&, BackgroundBuilder&, const PixelRay&)>& addPixel) {
   Capture out;
   out.camera = camera;
   out.columnStart.push_back(0);
+  out.reflections.columnStart.push_back(0);
   BackgroundBuilder background;
   for (int k = 0; k < camera.columns; ++k) {
     const glm::dvec2 c = camera.directionAt(k + 0.5);
     double from = 0;
     if (grown != nullptr)
       if (const auto span = grown->raySpan(glm::dvec2(camera.centreOfProjection), c)) from = span->second;
-    for (int r = 0; r < camera.rows; ++r) {
-      const glm::dvec3 direction(c, camera.tangentAt(r + 0.5));
-      int kept = 0;
-      const auto add = [&](double inverseDistance, const glm::vec4& colour) {
-        out.row.push_back(static_cast<std::uint16_t>(r));
-        out.inverseDistance.push_back(storedInverseDistance(inverseDistance, 0));
-        out.roles.push_back(0xff);
-        out.colour.push_back(packColour(colour));
-        ++kept;
-      };
-      bool closed = false;
-      for (const auto& crossing : scene.along(camera.centreOfProjection, direction, from)) {
-        if (kept >= layers && closed) break;
-        add(1 / crossing.distance, crossing.colour);
-        closed = closed || crossing.colour.a >= 1;
-      }
-      if (kept < layers || !closed) background.add(r, 0xff);
-    }
+    for (int r = 0; r < camera.rows; ++r)
+      addPixel(out, background,
+               {r, camera.centreOfProjection, glm::dvec3(c, camera.tangentAt(r + 0.5)), from});
     background.closeColumn();
     out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
+    out.reflections.columnStart.push_back(static_cast<std::uint32_t>(out.reflections.row.size()));
   }
-  out.background = std::move(background).finish(scene.sky());
+  out.background = std::move(background).finish(sky);
+  if (!out.hasReflections()) out.mirror = {}, out.reflections = {};
   return out;
+}
+
+Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown,
+                int layers) {
+  return captureBy(camera, grown, scene.sky(),
+                   [&](Capture& out, BackgroundBuilder& background, const PixelRay& ray) {
+                     int kept = 0;
+                     bool closed = false;
+                     for (const auto& crossing : scene.along(ray.origin, ray.direction, ray.from)) {
+                       if (kept >= layers && closed) break;
+                       addSample(out, ray.row, crossing.distance, crossing.colour);
+                       ++kept;
+                       closed = closed || crossing.colour.a >= 1;
+                     }
+                     if (kept < layers || !closed) background.add(ray.row, 0xff);
+                   });
 }
 
 ColumnCamera columnCamera(const Layout& layout, int camera, double perDegree) {
@@ -113,8 +124,8 @@ std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, do
   return layout ? std::make_shared<const Layout>(std::move(*layout)) : nullptr;
 }
 
-WalkScene walkScene(const AnalyticScene& scene, std::shared_ptr<const Layout> layout, int region,
-                    double perDegree, int layers) {
+WalkScene walkWith(std::shared_ptr<const Layout> layout, int region, double perDegree,
+                   const std::function<Capture(const ColumnCamera&, const ConvexPolygon&)>& captureOf) {
   WalkScene walk;
   walk.captures.resize(layout->cameras.size());
   const Region& home = layout->regions[static_cast<std::size_t>(region)];
@@ -123,9 +134,17 @@ WalkScene walkScene(const AnalyticScene& scene, std::shared_ptr<const Layout> la
     for (const Piece& piece : cover.pieces) cameras.insert(piece.camera);
   for (int camera : cameras)
     walk.captures[static_cast<std::size_t>(camera)] = std::make_shared<const DisplayCapture>(
-        prepareForDisplay(capture(scene, columnCamera(*layout, camera, perDegree), &home.grown, layers), 1));
+        prepareForDisplay(captureOf(columnCamera(*layout, camera, perDegree), home.grown), 1));
   walk.layout = std::move(layout);
   return walk;
+}
+
+WalkScene walkScene(const AnalyticScene& scene, std::shared_ptr<const Layout> layout, int region,
+                    double perDegree, int layers) {
+  return walkWith(std::move(layout), region, perDegree,
+                  [&](const ColumnCamera& camera, const ConvexPolygon& grown) {
+                    return capture(scene, camera, &grown, layers);
+                  });
 }
 
 glm::dvec2 randomPointIn(const ConvexPolygon& polygon, std::mt19937& random) {

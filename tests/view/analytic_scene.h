@@ -1,6 +1,7 @@
 #pragma once
 /// Scenes whose rays are solved by hand, and captures of them: truth for the renderers, without a ray tracer.
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <random>
 #include <vector>
@@ -35,6 +36,18 @@ struct AnalyticScene {
 /// `count` opaque boxes on the floor around the origin, none nearer to it than `innerRadius`.
 AnalyticScene randomBoxes(unsigned seed, int count, double innerRadius);
 
+/// The ray of a pixel, from where it leaves the region.
+struct PixelRay {
+  int row = 0;
+  glm::dvec3 origin{0}, direction{0};
+  double from = 0;  ///< in units of `direction`
+};
+/// A capture made pixel by pixel, column after column, of what lies beyond `grown` (nullptr: of everything).
+Capture captureBy(const ColumnCamera& camera, const ConvexPolygon* grown, const Sky& sky,
+                  const std::function<void(Capture&, BackgroundBuilder&, const PixelRay&)>& addPixel);
+/// Needed by every role.
+void addSample(CaptureSamples& list, int row, double distance, const glm::vec4& colour);
+
 /// Up to `layers` surfaces per pixel, of what lies beyond `region` grown by the near band (nullptr: of
 /// everything).
 Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown,
@@ -46,7 +59,9 @@ ColumnCamera columnCamera(const Layout& layout, int camera, double perDegree);
 /// A layout around the origin with the ring (or any region) that holds the origin in its middle.
 std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize = 2);
 
-/// Captures of all the cameras of one region's covers.
+/// Captures of all the cameras of one region's covers, each made by `captureOf`.
+WalkScene walkWith(std::shared_ptr<const Layout> layout, int region, double perDegree,
+                   const std::function<Capture(const ColumnCamera&, const ConvexPolygon& grown)>& captureOf);
 WalkScene walkScene(const AnalyticScene& scene, std::shared_ptr<const Layout> layout, int region,
                     double perDegree, int layers = 1);
 

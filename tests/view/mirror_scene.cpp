@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace acentric::test {
 namespace {
@@ -55,59 +54,30 @@ std::vector<MirrorScene::Seen> MirrorScene::along(const glm::dvec3& origin, cons
 }
 
 Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown) {
-  Capture out;
-  out.camera = camera;
   const auto add = [](CaptureSamples& list, int row, double distance, const MirrorScene::Seen& seen) {
-    list.row.push_back(static_cast<std::uint16_t>(row));
-    list.inverseDistance.push_back(storedInverseDistance(1 / distance, 0));
-    list.roles.push_back(0xff);
-    list.colour.push_back(packColour(seen.colour));
+    addSample(list, row, distance, seen.colour);
     list.mirror.push_back(seen.mirror);
   };
-  BackgroundBuilder background;
-  out.columnStart.push_back(0);
-  out.reflections.columnStart.push_back(0);
-  for (int k = 0; k < camera.columns; ++k) {
-    const glm::dvec2 c = camera.directionAt(k + 0.5);
-    double from = 0;
-    if (grown != nullptr)
-      if (const auto span = grown->raySpan(glm::dvec2(camera.centreOfProjection), c)) from = span->second;
-    for (int r = 0; r < camera.rows; ++r)
-      for (const auto& seen :
-           scene.along(camera.centreOfProjection, glm::dvec3(c, camera.tangentAt(r + 0.5)), from)) {
-        if (std::isinf(seen.distance))
-          background.add(r, 0xff);
-        else
-          add(out, r, seen.distance, seen);
-        if (seen.mirror != 0) add(out.reflections, r, seen.virtualDistance, seen);
-      }
-    background.closeColumn();
-    out.columnStart.push_back(static_cast<std::uint32_t>(out.row.size()));
-    out.reflections.columnStart.push_back(static_cast<std::uint32_t>(out.reflections.row.size()));
-  }
-  out.background = std::move(background).finish(scene.surfaces.sky());
-  if (out.hasReflections()) return out;
-  out.mirror.clear();
-  out.reflections = {};
-  return out;
+  return captureBy(camera, grown, scene.surfaces.sky(),
+                   [&](Capture& out, BackgroundBuilder& background, const PixelRay& ray) {
+                     for (const auto& seen : scene.along(ray.origin, ray.direction, ray.from)) {
+                       if (std::isinf(seen.distance))
+                         background.add(ray.row, 0xff);
+                       else
+                         add(out, ray.row, seen.distance, seen);
+                       if (seen.mirror != 0) add(out.reflections, ray.row, seen.virtualDistance, seen);
+                     }
+                   });
 }
 
 WalkScene walkScene(const MirrorScene& scene, std::shared_ptr<const Layout> layout, int region,
                     double perDegree, bool reflections) {
-  WalkScene walk;
-  walk.captures.resize(layout->cameras.size());
-  const Region& home = layout->regions[static_cast<std::size_t>(region)];
-  std::set<int> cameras;
-  for (const Cover& cover : home.covers)
-    for (const Piece& piece : cover.pieces) cameras.insert(piece.camera);
-  for (int camera : cameras) {
-    Capture made = capture(scene, columnCamera(*layout, camera, perDegree), &home.grown);
-    if (!reflections) made.mirror.clear(), made.reflections = {};
-    walk.captures[static_cast<std::size_t>(camera)] =
-        std::make_shared<const DisplayCapture>(prepareForDisplay(made, 1));
-  }
-  walk.layout = std::move(layout);
-  return walk;
+  return walkWith(std::move(layout), region, perDegree,
+                  [&](const ColumnCamera& camera, const ConvexPolygon& grown) {
+                    Capture made = capture(scene, camera, &grown);
+                    if (!reflections) made.mirror.clear(), made.reflections = {};
+                    return made;
+                  });
 }
 
 }  // namespace acentric::test
