@@ -38,7 +38,7 @@ CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> pr
   all.inverseDistance.reserve(total);
   all.colour.reserve(total);
   all.roles.reserve(total);
-  all.mirror.reserve(samples.mirror.empty() ? 0 : total);
+  all.mirror.reserve(capture.hasReflections() ? total : 0);
   all.columnStart.push_back(0);
   const ColumnCamera& camera = capture.camera;
   for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column) {
@@ -49,7 +49,7 @@ CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> pr
         all.inverseDistance.push_back(samples.inverseDistance[next]);
         all.colour.push_back(samples.colour[next]);
         all.roles.push_back(samples.roles[next]);
-        if (!samples.mirror.empty()) all.mirror.push_back(samples.mirror[next]);
+        if (capture.hasReflections()) all.mirror.push_back(samples.mirror[next]);
       }
     };
     const glm::dvec2 along = camera.directionAt(double(column) + 0.5);
@@ -61,7 +61,7 @@ CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> pr
         all.inverseDistance.push_back(0);
         all.colour.push_back(packColour({back.sky.radiance(direction), 1}));
         all.roles.push_back(back.roles[run]);
-        if (!samples.mirror.empty()) all.mirror.push_back(0);
+        if (capture.hasReflections()) all.mirror.push_back(0);
       }
     copyUpTo(camera.rows);
     all.columnStart.push_back(std::uint32_t(all.row.size()));

@@ -56,8 +56,8 @@ class RowWalk {
   std::vector<std::uint32_t> next_;
 };
 
-/// Size, channels and compression of a list of samples.
-Imf::Header headerFor(const ColumnCamera& camera, const CaptureSamples& samples) {
+/// Size, channels and compression of a list of samples, that of a capture with `mirrors` or without.
+Imf::Header headerFor(const ColumnCamera& camera, const CaptureSamples& samples, bool mirrors) {
   const bool deep = samples.maxLayers() > 1;
   Imf::Header header(camera.columns, camera.rows, 1, Imath::V2f(0, 0), 1, Imf::INCREASING_Y,
                      deep ? Imf::ZIPS_COMPRESSION : Imf::ZIP_COMPRESSION);
@@ -67,7 +67,7 @@ Imf::Header headerFor(const ColumnCamera& camera, const CaptureSamples& samples)
   header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
   header.channels().insert("W", Imf::Channel(Imf::FLOAT));
   header.channels().insert(kRolesChannel, Imf::Channel(Imf::UINT));
-  if (!samples.mirror.empty()) header.channels().insert(kMirrorChannel, Imf::Channel(Imf::UINT));
+  if (mirrors) header.channels().insert(kMirrorChannel, Imf::Channel(Imf::UINT));
   return header;
 }
 
@@ -127,7 +127,7 @@ template <class File>
 void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
                const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
-  const bool mirrors = !samples.mirror.empty();
+  const bool mirrors = file.header().channels().findChannel(kMirrorChannel) != nullptr;
   std::vector<Pixel> line(columns);
   Imf::FrameBuffer buffer;  // one line, used again for every row
   const auto slice = [&](const char* name, Imf::PixelType type, auto& value) {
@@ -162,7 +162,7 @@ template <class File>
 void writeDeep(File&& file, const ColumnCamera& camera, const CaptureSamples& samples,
                const std::stop_token& stop) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
-  const bool mirrors = !samples.mirror.empty();
+  const bool mirrors = file.header().channels().findChannel(kMirrorChannel) != nullptr;
   std::vector<Pixel> line;  // its samples, one behind the other
   std::vector<unsigned int> counts(columns);
   // Pointers to the first sample of each pixel of the line, for every channel.
@@ -218,7 +218,7 @@ void writeWhole(const ColumnCamera& camera, const CaptureSamples& surfaces, cons
 
 void writeParts(const ColumnCamera& camera, const CaptureSamples& surfaces, const CaptureSamples& reflections,
                 const Imf::Header& header, Imf::OStream& stream, const std::stop_token& stop) {
-  std::array headers = {header, headerFor(camera, reflections)};
+  std::array headers = {header, headerFor(camera, reflections, true)};
   headers[0].setName(kSurfacesPart);
   headers[1].setName(kReflectionsPart);
   for (Imf::Header& part : headers)
@@ -244,7 +244,7 @@ Status writeExr(const Capture& capture, const ContentKey& key, const std::filesy
   obey(stop);
   const CaptureSamples surfaces = withBackground(capture, std::move(colours));
   obey(stop);
-  Imf::Header header = headerFor(capture.camera, surfaces);
+  Imf::Header header = headerFor(capture.camera, surfaces, capture.hasReflections());
   addAttributes(header, capture, key, checksum);
   ExrMemoryOutput memory(path.string());
   if (capture.hasReflections())

@@ -61,6 +61,15 @@ Capture emptyCapture() {
   return capture;
 }
 
+/// Every surface lies too near to be stored, what mirrors among them show does not.
+Capture reflectionsAlone(bool background) {
+  Capture capture = syntheticCapture({48, 40, true, true, 11, true});
+  static_cast<CaptureSamples&>(capture) = {};
+  capture.columnStart.assign(capture.reflections.columnStart.size(), 0);
+  if (!background) capture.background = {};
+  return capture;
+}
+
 Capture deepButEmptyColumns() {
   Capture capture = emptyCapture();
   capture.row = {3, 3};
@@ -103,7 +112,9 @@ TEST_P(CaptureFiles, RoundTripsEveryShape) {
                               syntheticCapture({1, 1, false, false, 9, true}),
                               syntheticCapture({300, 260, true, true, 10, true}),
                               emptyCapture(),
-                              deepButEmptyColumns()};
+                              deepButEmptyColumns(),
+                              reflectionsAlone(true),
+                              reflectionsAlone(false)};
   const fs::path path = folder_ / GetParam()->name;
   for (const Capture& capture : captures) {
     ASSERT_TRUE(capture.check());
