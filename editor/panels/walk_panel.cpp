@@ -301,7 +301,8 @@ void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVe
   const Session& session = context.session();
   if (!problem_.empty())
     say(ui::palette::danger, problem_);
-  else if (session.captures() && session.captures()->baked == 0 && !session.baking().running())
+  else if (session.captures() && session.captures()->baked == 0 && !session.baking().running() &&
+           (!session.walk() || session.walk()->coarse == 0))
     say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
   else if (!session.walk())
     say(ui::palette::muted, "Loading captures…");
@@ -324,12 +325,16 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
                         shown_.stats.totalSeconds * 1000);
   }
-  if (session.walk() && session.walk()->coarse > 0) text += "   " + coarseText(*session.walk());
-  if (session.walk() && !session.walk()->walk.surfaceLight)
-    text += "   near geometry unlit until a bake ends";
   ImFont* small = context.window.fonts().small;
-  ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + 12, low.y + size.y - small->FontSize - 11},
-                ui::palette::text, text.c_str());
+  float y = low.y + size.y - 11;  // lines go upwards from here
+  const auto line = [&](const std::string& words) {
+    y -= small->FontSize;
+    ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + 12, y}, ui::palette::text, words.c_str());
+    y -= 8;
+  };
+  line(text);
+  if (session.walk() && !session.walk()->walk.surfaceLight) line("near geometry unlit until a bake ends");
+  if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
 }
 
 void WalkPanel::draw(PanelContext& context) {
