@@ -8,9 +8,9 @@
 
 namespace acentric::cli {
 Result<Report> runBench(const BenchOptions& options, const Common& common) {
-  const auto walk = openAlong(options.project, {}, options.size, 0, options.frames, common);
+  const auto walk = openAlong(options.project, options.path, options.size, 0, options.frames, common);
   if (!walk) return tl::unexpected(walk.error());
-  const auto& views = walk->views;
+  const std::vector<PerspectiveView> views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
 
   std::vector<std::unique_ptr<FrameMaker>> makers;

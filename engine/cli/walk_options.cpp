@@ -86,7 +86,7 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
 }
 
 void addBenchView(CLI::App& bench, Chosen& chosen) {
-  auto [c, o] = add(bench, chosen, "view", "Time the renderers against each other on a tour of the project",
+  auto [c, o] = add(bench, chosen, "view", "Time the renderers against each other along a path",
                     "  acentric bench view kitchen.acentric.json --renderers list,zbuffer --json", runBench);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "where the walk begins");
@@ -95,8 +95,9 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
       ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
       ->capture_default_str();
   addReconstruction(*c, o.reconstruction);
+  c->add_option("--path", o.path, "Path file (default: a tour)");
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames, "Frames of the tour")
+  c->add_option("--frames", o.frames, "Frames of the tour, or of the path, evenly chosen")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   c->add_option("--repeats", o.repeats, "Times each frame is rendered, after one warm-up")

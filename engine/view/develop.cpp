@@ -22,7 +22,7 @@ class Window {
   }
 
  private:
-  using Column = std::array<CanvasPixel, kRows + 10>;
+  using Column = std::array<CanvasPixel, kRows + 18>;
   Column& at(int x) { return columns_[std::size_t(x + 3) % columns_.size()]; }
   void fetch(int x) {
     Column& column = at(x);
@@ -48,7 +48,7 @@ void develop(const Canvas& canvas, const std::vector<PixelSource>& sources, Filt
   runner.parallelFor(blocks, [&](std::size_t block) {
     const int y0 = static_cast<int>(block) * kRows, y1 = std::min(y0 + kRows, canvas.height);
     Window window(canvas, y0, y1);
-    std::array<std::uint32_t, kRows + 8> filtered{};
+    std::array<std::uint32_t, kRows + 16> filtered{};
     for (int x = 0; x < canvas.width; ++x) {
       const CanvasPixel* column = canvas.column(x);
       if (canvas.places) window.filter(x, filter, filtered.data());

@@ -17,7 +17,7 @@ namespace acentric {
 
 /// Three neighbouring columns of canvas pixels, from one above the first to one below the last of `count`;
 /// empty pixels stand for what is beyond the picture. Writes `count` colours (opaque Rgba8 words). All four
-/// have room for 8 more.
+/// have room for 16 more.
 using FilterPixels = void (*)(const std::uint64_t* left, const std::uint64_t* middle,
                               const std::uint64_t* right, int count, std::uint32_t* colour);
 
@@ -25,8 +25,7 @@ void filterPixelsScalar(const std::uint64_t* left, const std::uint64_t* middle, 
                         int count, std::uint32_t* colour);
 void filterPixelsAvx2(const std::uint64_t* left, const std::uint64_t* middle, const std::uint64_t* right,
                       int count, std::uint32_t* colour);
-
-/// The fastest that this processor runs.
-FilterPixels fastestFilterPixels();
+void filterPixelsAvx512(const std::uint64_t* left, const std::uint64_t* middle, const std::uint64_t* right,
+                        int count, std::uint32_t* colour);
 
 }  // namespace acentric

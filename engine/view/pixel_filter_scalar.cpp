@@ -50,11 +50,4 @@ void filterPixelsScalar(const std::uint64_t* left, const std::uint64_t* middle, 
   }
 }
 
-FilterPixels fastestFilterPixels() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return filterPixelsAvx2;
-#endif
-  return filterPixelsScalar;
-}
-
 }  // namespace acentric

@@ -10,6 +10,7 @@
 #include "engine/view/captured_background.h"
 #include "engine/view/develop.h"
 #include "engine/view/hole_fill.h"
+#include "engine/view/kernels.h"
 #include "engine/view/local_raster.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp.h"
@@ -48,8 +49,9 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   }
   for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
   WarpOptions options;
-  const bool scalar = settings.renderer == Renderer::scalar;
-  options.project = scalar ? projectSamplesScalar : fastestProjectSamples();
+  const Kernels& kernels =
+      settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+  options.project = kernels.project;
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.bands = runner.threads();
   Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
@@ -58,7 +60,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     paintBackground(scene, view, limits, backgroundSlot(plan), canvas, runner);
   paintCapturedBackground(scene, view, plan, canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
-  develop(canvas, sourcesOf(plan), scalar ? filterPixelsScalar : fastestFilterPixels(), frame, inverseZDepth,
+  develop(canvas, sourcesOf(plan), kernels.filter, frame, inverseZDepth,
           runner);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;

@@ -53,6 +53,39 @@ bool blendInto(CanvasPixel& pixel, std::uint64_t& stamp, std::uint32_t colour, s
   return true;
 }
 
+/// Most splats are of one or two pixels a side and not cut by the rectangle.
+constexpr int kSmallSide = 2;
+
+bool isSmall(const PixelRect& rect, const Splat& splat) {
+  return splat.width <= kSmallSide && splat.height <= kSmallSide && splat.x >= rect.x0 &&
+         splat.y >= rect.y0 && splat.x + splat.width <= rect.x1 && splat.y + splat.height <= rect.y1;
+}
+
+/// The four corners of a small splat, which are all its pixels, some of them twice: sizes of splats change
+/// from one to the next, and a branch on them would be foretold wrongly as often as not.
+struct Corners {
+  std::size_t first, below, right, across;
+
+  Corners(const Canvas& canvas, const Splat& splat)
+      : first(std::size_t(splat.x) * std::size_t(canvas.height) + std::size_t(splat.y)),
+        below(first + splat.height - 1u),
+        right(first + (splat.width - 1u) * std::size_t(canvas.height)),
+        across(right + splat.height - 1u) {}
+  template <class T>
+  void fill(std::vector<T>& pixels, T value) const {
+    T* const p = pixels.data();
+    p[first] = p[below] = p[right] = p[across] = value;
+  }
+  void fillWithPlaces(std::vector<CanvasPixel>& pixels, CanvasPixel plain, const Splat& splat) const {
+    const int x = splat.placeX, y = splat.placeY, dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
+    CanvasPixel* const p = pixels.data();
+    p[first] = plain | placeBits(x, y, splat.spread);
+    p[below] = plain | placeBits(x, y - dy, splat.spread);
+    p[right] = plain | placeBits(x - dx, y, splat.spread);
+    p[across] = plain | placeBits(x - dx, y - dy, splat.spread);
+  }
+};
+
 /// `kMarks`: the canvas is told which mirrors it shows. `kPlaces`: and where samples lie.
 template <PaintMode mode, bool kMarks, bool kPlaces>
 bool paintSplat(const PaintTarget& target, const Splat& splat) {
@@ -71,6 +104,17 @@ bool paintSplat(const PaintTarget& target, const Splat& splat) {
   const float inverseZDepth = inverseZDepthOf(plain);
   std::uint8_t mirror = 0;
   if constexpr (kMarks) mirror = target.mirror == nullptr ? std::uint8_t(0) : target.mirror[splat.index];
+  if constexpr (mode == PaintMode::over || mode == PaintMode::overBlended)
+    if (isSmall(rect, splat) && (mode == PaintMode::over || opaque)) {
+      const Corners corners(canvas, splat);
+      if constexpr (kPlaces)
+        corners.fillWithPlaces(canvas.pixels, plain, splat);
+      else
+        corners.fill(canvas.pixels, plain);
+      if constexpr (mode == PaintMode::overBlended) corners.fill(canvas.stamps, std::uint64_t(0));
+      if constexpr (kMarks) corners.fill(canvas.mirrors, mirror);
+      return true;
+    }
   for (int x = x0; x < x1; ++x) {
     CanvasPixel* column = canvas.column(x);
     const auto pixelAt = [&](int y) {

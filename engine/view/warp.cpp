@@ -131,7 +131,7 @@ class BandWarp {
     column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
     const std::uint16_t* row = capture.row.data() + begin;
     const float* inverseDistance = capture.inverseDistance.data() + begin;
-    splats_.resize(std::max<std::size_t>(splats_.size(), end - begin + 8));
+    splats_.resize(std::max<std::size_t>(splats_.size(), end - begin + 16));
     const int count = projectVisible(piece, capture, column, k, begin, end);
     if (count == 0) return;
 

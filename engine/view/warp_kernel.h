@@ -1,13 +1,13 @@
 #pragma once
 /// The inner loop of the warp: from samples of one capture column to squares or rectangles on the picture.
 ///
-/// One template (warp_kernel_body.h) is compiled twice: one sample at a time for any processor, and eight at
-/// a time with AVX2. Both do the same operations in the same order without fused multiply-adds, so their
-/// results are the same bits.
+/// One template (warp_kernel_body.h) is compiled three times: one sample at a time for any processor, eight at
+/// a time with AVX2 and sixteen with AVX-512. All do the same operations in the same order without fused
+/// multiply-adds, so their results are the same bits. kernels.h chooses.
 ///
-/// This header and everything the AVX2 source includes must stay free of the standard library and of glm: an
-/// inline function compiled there for AVX2 could otherwise be the one copy that the linker keeps for the
-/// whole program.
+/// This header and everything the AVX sources include must stay free of the standard library and of glm: an
+/// inline function compiled there could otherwise be the one copy that the linker keeps for the whole
+/// program.
 
 #include <cstdint>
 
@@ -57,7 +57,7 @@ struct ProjectColumn {
   float low[2], high[2];  ///< border directions of the part
 };
 
-/// Writes the splats that touch the rectangle to `out` (room for count + 8), in the order of the samples, and
+/// Writes the splats that touch the rectangle to `out` (room for count + 16), in the order of the samples, and
 /// returns how many. `rowTangent` is the capture's table; `slant` is read where the column is slanted.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
                                const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
@@ -69,8 +69,8 @@ int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, c
 int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
                        const float* inverseDistance, const std::uint8_t* roles, const Slant* slant, int count,
                        std::uint32_t firstIndex, Splat* out);
-
-/// The fastest kernel that this processor runs.
-ProjectSamples fastestProjectSamples();
+int projectSamplesAvx512(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
+                         int count, std::uint32_t firstIndex, Splat* out);
 
 }  // namespace acentric

@@ -75,11 +75,4 @@ int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, c
                                              firstIndex, out);
 }
 
-ProjectSamples fastestProjectSamples() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return projectSamplesAvx2;
-#endif
-  return projectSamplesScalar;
-}
-
 }  // namespace acentric

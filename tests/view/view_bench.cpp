@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analytic_scene.h"
+#include "engine/view/kernels.h"
 #include "engine/view/render.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp.h"
@@ -50,16 +51,16 @@ int main() {
       TaskRunner* runner;
       int bands;
     };
-    for (const Case& c : {Case{"scalar", projectSamplesScalar, false, &one, 8},
-                          Case{"fast", fastestProjectSamples(), false, &one, 1},
-                          Case{"fast", fastestProjectSamples(), false, &one, 2},
-                          Case{"fast", fastestProjectSamples(), false, &one, 4},
-                          Case{"fast", fastestProjectSamples(), false, &one, 8},
-                          Case{"fast", fastestProjectSamples(), false, &one, 16},
-                          Case{"fast", fastestProjectSamples(), false, &two, 2},
-                          Case{"fast", fastestProjectSamples(), false, &two, 4},
-                          Case{"fast", fastestProjectSamples(), false, &two, 8},
-                          Case{"zbuffer", fastestProjectSamples(), true, &one, 8}}) {
+    for (const Case& c : {Case{"scalar", supportedKernels().front().project, false, &one, 8},
+                          Case{"fast", supportedKernels().back().project, false, &one, 1},
+                          Case{"fast", supportedKernels().back().project, false, &one, 2},
+                          Case{"fast", supportedKernels().back().project, false, &one, 4},
+                          Case{"fast", supportedKernels().back().project, false, &one, 8},
+                          Case{"fast", supportedKernels().back().project, false, &one, 16},
+                          Case{"fast", supportedKernels().back().project, false, &two, 2},
+                          Case{"fast", supportedKernels().back().project, false, &two, 4},
+                          Case{"fast", supportedKernels().back().project, false, &two, 8},
+                          Case{"zbuffer", supportedKernels().back().project, true, &one, 8}}) {
       WarpOptions options;
       options.project = c.project;
       options.depthTest = c.depthTest;

@@ -1,0 +1,29 @@
+#include "engine/view/kernels.h"
+
+namespace acentric {
+namespace {
+
+constexpr Kernels kKernels[] = {
+    {"scalar", projectSamplesScalar, filterPixelsScalar},
+#if defined(__x86_64__)
+    {"AVX2", projectSamplesAvx2, filterPixelsAvx2},
+    {"AVX-512", projectSamplesAvx512, filterPixelsAvx512},
+#endif
+};
+
+std::size_t supported() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return 3;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return 2;
+#endif
+  return 1;
+}
+
+}  // namespace
+
+std::span<const Kernels> supportedKernels() { return {kKernels, supported()}; }
+
+}  // namespace acentric
