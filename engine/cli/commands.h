@@ -144,7 +144,7 @@ struct ValidateOptions {
 Result<Report> runValidate(const ValidateOptions& options, const Common& common);
 
 struct BenchOptions {
-  std::filesystem::path project, path;  ///< path empty = a tour
+  std::filesystem::path project, path;           ///< path empty = a tour
   std::string size = "960x540", reconstruction;  ///< empty = the project's
   std::vector<std::string> renderers{"list", "scalar", "zbuffer", "gl"};
   int frames = 30, repeats = 3;

@@ -158,7 +158,7 @@ void paintCapturedBackground(const WalkScene& scene, const PerspectiveView& view
     const PictureColumn column(view, static_cast<int>(x), canvas.column(static_cast<int>(x)));
     for (std::size_t i = 0; i < plan.backgrounds.size(); ++i)
       column.paint(plan.backgrounds[i], captureOf(plan.backgrounds[i]), skies[skyOf[i]],
-                   capturedBackgroundSlot(plan, i));
+                   capturedBackgroundSlot(i));
   });
 }
 

@@ -40,21 +40,22 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
 
   display.columnDirection.resize(columns);
   display.columnRange.resize(columns);
-  display.columnBlock.resize(columns);
+  display.columnBlock.resize(columns + 1);
   for (std::size_t k = 0; k < columns; ++k) {
     display.columnDirection[k] = glm::vec2(camera.directionAt(static_cast<double>(k) + 0.5));
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
     display.columnRange[k] = rangeOf(capture, begin, end);
-    display.columnBlock[k] = static_cast<std::uint32_t>(display.blockRange.size());
+    display.columnBlock[k] = static_cast<std::uint32_t>(display.blocks.size());
     for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock) {
       const std::uint32_t last = std::min(i + kSamplesPerBlock, end);
-      display.blockRange.push_back(rangeOf(capture, i, last));
-      display.blockRoles.push_back(std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
-                                                   std::uint8_t(0), std::bit_or<std::uint8_t>()));
+      display.blocks.push_back({rangeOf(capture, i, last), capture.row[i], capture.row[last - 1],
+                                std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
+                                                std::uint8_t(0), std::bit_or<std::uint8_t>())});
     }
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];
   }
+  display.columnBlock[columns] = static_cast<std::uint32_t>(display.blocks.size());
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)

@@ -22,12 +22,14 @@ namespace {
 constexpr int kFillRings = 4096;
 constexpr int kFillRingsWhileLoading = 8;
 
+/// More than one: some strips hold more than others.
+constexpr int kStripsPerThread = 2;
+
 /// By slot of the canvas.
 std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
-  std::vector<PixelSource> sources{kSourceHole};
-  for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
-  sources.push_back(kSourceBackground);
+  std::vector<PixelSource> sources{kSourceHole, kSourceBackground};
   for (const PieceDraw& piece : plan.backgrounds) sources.push_back(sourceOfCamera(piece.camera));
+  for (const PieceDraw& piece : plan.pieces) sources.push_back(sourceOfCamera(piece.camera));
   for (const PieceDraw& piece : plan.reflections) sources.push_back(sourceOfCamera(piece.camera));
   return sources;
 }
@@ -52,16 +54,16 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   const Kernels& kernels =
       settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
   options.project = kernels.project;
+  options.cull = settings.renderer != Renderer::scalar;
   options.depthTest = settings.renderer == Renderer::zbuffer;
-  options.bands = runner.threads();
+  options.strips = kStripsPerThread * runner.threads();
   Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
                              settings.reconstruction == Reconstruction::filtered);
   if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
-    paintBackground(scene, view, limits, backgroundSlot(plan), canvas, runner);
+    paintBackground(scene, view, limits, kBackgroundSlot, canvas, runner);
   paintCapturedBackground(scene, view, plan, canvas, runner);
   const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
-  develop(canvas, sourcesOf(plan), kernels.filter, frame, inverseZDepth,
-          runner);
+  develop(canvas, sourcesOf(plan), kernels.filter, frame, inverseZDepth, runner);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;

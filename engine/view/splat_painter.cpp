@@ -56,167 +56,198 @@ bool blendInto(CanvasPixel& pixel, std::uint64_t& stamp, std::uint32_t colour, s
 /// Most splats are of one or two pixels a side and not cut by the rectangle.
 constexpr int kSmallSide = 2;
 
-bool isSmall(const PixelRect& rect, const Splat& splat) {
-  return splat.width <= kSmallSide && splat.height <= kSmallSide && splat.x >= rect.x0 &&
-         splat.y >= rect.y0 && splat.x + splat.width <= rect.x1 && splat.y + splat.height <= rect.y1;
-}
+/// `kMarks`: the canvas is told which mirrors it shows. `kPlaces`: and where samples lie. `kBehind`: only
+/// open pixels are painted.
+template <PaintMode mode, bool kMarks, bool kPlaces, bool kBehind>
+class Painter {
+ public:
+  explicit Painter(const PaintTarget& target)
+      : target_(target),
+        rect_(target.rect),
+        height_(static_cast<std::size_t>(target.canvas->height)),
+        pixels_(target.canvas->pixels.data()),
+        stamps_(target.canvas->stamps.data()),
+        mirrors_(target.canvas->mirrors.data()) {}
 
-/// The four corners of a small splat, which are all its pixels, some of them twice: sizes of splats change
-/// from one to the next, and a branch on them would be foretold wrongly as often as not.
-struct Corners {
-  std::size_t first, below, right, across;
-
-  Corners(const Canvas& canvas, const Splat& splat)
-      : first(std::size_t(splat.x) * std::size_t(canvas.height) + std::size_t(splat.y)),
-        below(first + splat.height - 1u),
-        right(first + (splat.width - 1u) * std::size_t(canvas.height)),
-        across(right + splat.height - 1u) {}
-  template <class T>
-  void fill(std::vector<T>& pixels, T value) const {
-    T* const p = pixels.data();
-    p[first] = p[below] = p[right] = p[across] = value;
-  }
-  void fillWithPlaces(std::vector<CanvasPixel>& pixels, CanvasPixel plain, const Splat& splat) const {
-    const int x = splat.placeX, y = splat.placeY, dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
-    CanvasPixel* const p = pixels.data();
-    p[first] = plain | placeBits(x, y, splat.spread);
-    p[below] = plain | placeBits(x, y - dy, splat.spread);
-    p[right] = plain | placeBits(x - dx, y, splat.spread);
-    p[across] = plain | placeBits(x - dx, y - dy, splat.spread);
-  }
-};
-
-/// `kMarks`: the canvas is told which mirrors it shows. `kPlaces`: and where samples lie.
-template <PaintMode mode, bool kMarks, bool kPlaces>
-bool paintSplat(const PaintTarget& target, const Splat& splat) {
-  Canvas& canvas = *target.canvas;
-  const PixelRect& rect = target.rect;
-  const int x0 = std::max<int>(splat.x, rect.x0), x1 = std::min<int>(splat.x + splat.width, rect.x1);
-  const int y0 = std::max<int>(splat.y, rect.y0), y1 = std::min<int>(splat.y + splat.height, rect.y1);
-  const std::uint32_t colour = wordOf(target.colour[splat.index]);
-  const bool opaque = colour >= 0xff000000u;
-  const bool wanted = mode == PaintMode::over || mode == PaintMode::overBlended ||
-                      mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
-  if (!wanted) return false;
-  constexpr CanvasPixel kPlace = kPlaces ? kPlaceBits : 0;
-  const CanvasPixel plain =
-      canvasPixel((colour & 0xffffffu) | (target.slot << 24), splat.inverseZDepth) & ~kPlace;
-  const float inverseZDepth = inverseZDepthOf(plain);
-  std::uint8_t mirror = 0;
-  if constexpr (kMarks) mirror = target.mirror == nullptr ? std::uint8_t(0) : target.mirror[splat.index];
-  if constexpr (mode == PaintMode::over || mode == PaintMode::overBlended)
-    if (isSmall(rect, splat) && (mode == PaintMode::over || opaque)) {
-      const Corners corners(canvas, splat);
-      if constexpr (kPlaces)
-        corners.fillWithPlaces(canvas.pixels, plain, splat);
-      else
-        corners.fill(canvas.pixels, plain);
-      if constexpr (mode == PaintMode::overBlended) corners.fill(canvas.stamps, std::uint64_t(0));
-      if constexpr (kMarks) corners.fill(canvas.mirrors, mirror);
-      return true;
+  std::uint64_t paint(const Splat* splats, int count, bool reversed, bool pixelByPixel) const {
+    std::uint64_t painted = 0;
+    const Splat* const end = splats + count;
+    if (!pixelByPixel && reversed) {
+      for (const Splat* s = end; s > splats;) painted += paint(*--s);
+    } else if (!pixelByPixel) {
+      for (const Splat* s = splats; s < end; ++s) painted += paint(*s);
+    } else if (reversed) {
+      for (const Splat *last = end, *first = end; last > splats; last = first) {
+        for (--first; first > splats && rowOf(first[-1]) == rowOf(last[-1]);) --first;
+        painted += paintPixel(first, last);
+      }
+    } else {
+      for (const Splat *first = splats, *last = splats; first < end; first = last) {
+        for (++last; last < end && rowOf(*last) == rowOf(*first);) ++last;
+        painted += paintPixel(first, last);
+      }
     }
-  for (int x = x0; x < x1; ++x) {
-    CanvasPixel* column = canvas.column(x);
-    const auto pixelAt = [&](int y) {
-      if constexpr (!kPlaces) return plain;
-      return plain |
-             placeBits(splat.placeX - 8 * (x - splat.x), splat.placeY - 8 * (y - splat.y), splat.spread);
+    return painted;
+  }
+
+ private:
+  static constexpr bool kOver = mode == PaintMode::over || mode == PaintMode::overBlended;
+  static constexpr CanvasPixel kPlace = kPlaces ? kPlaceBits : 0;
+
+  std::uint16_t rowOf(const Splat& splat) const { return target_.row[splat.index]; }
+
+  /// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
+  /// beyond it recede.
+  std::uint64_t paintPixel(const Splat* first, const Splat* last) const {
+    if (last - first == 1) return paint(*first);
+    const Splat* const foot = std::partition_point(
+        first, last, [&](const Splat& s) { return target_.inverseDistance[s.index] > target_.footInverse; });
+    std::uint64_t painted = 0;
+    for (const Splat* s = first; s < foot; ++s) painted += paint(*s);
+    for (const Splat* s = last; s > foot;) painted += paint(*--s);
+    return painted;
+  }
+
+  bool paint(const Splat& splat) const {
+    const std::uint32_t colour = wordOf(target_.colour[splat.index]);
+    const bool opaque = colour >= 0xff000000u;
+    const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
+    if (!wanted) return false;
+    const CanvasPixel plain =
+        canvasPixel((colour & 0xffffffu) | (target_.slot << 24), splat.inverseZDepth) & ~kPlace;
+    std::uint8_t mirror = 0;
+    if constexpr (kMarks) mirror = target_.mirror == nullptr ? std::uint8_t(0) : target_.mirror[splat.index];
+    if constexpr (kOver && !kBehind) {
+      const bool whole = splat.x >= rect_.x0 && splat.y >= rect_.y0 && splat.x + splat.width <= rect_.x1 &&
+                         splat.y + splat.height <= rect_.y1;
+      if (whole && splat.width <= kSmallSide && splat.height <= kSmallSide &&
+          (mode == PaintMode::over || opaque)) {
+        paintSmall(splat, plain, mirror);
+        return true;
+      }
+    }
+    return paintAny(splat, plain, mirror, colour, opaque);
+  }
+
+  /// Its four corners, which are all its pixels, some of them twice: sizes of splats change from one to the
+  /// next, and a branch on them would be foretold wrongly as often as not.
+  void paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
+    const std::size_t down = splat.height - 1u, right = (splat.width - 1u) * height_,
+                      at = std::size_t(splat.x) * height_ + std::size_t(splat.y);
+    const auto fill = [&]<class T>(T* pixels, T value) {
+      T* const p = pixels + at;
+      p[0] = p[down] = p[right] = p[right + down] = value;
     };
-    std::uint8_t* mirrors = nullptr;
-    if constexpr (kMarks) mirrors = canvas.mirrorColumn(x);
-    if constexpr (mode == PaintMode::over) {
-      for (int y = y0; y < y1; ++y) column[y] = pixelAt(y);
-      if constexpr (kMarks) std::fill(mirrors + y0, mirrors + y1, mirror);
-    } else if constexpr (mode == PaintMode::nearest) {
-      for (int y = y0; y < y1; ++y)
-        if (inverseZDepth > inverseZDepthOf(column[y] & ~kPlace)) {
+    if constexpr (kPlaces) {
+      const int x = splat.placeX, y = splat.placeY, dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
+      CanvasPixel* const p = pixels_ + at;
+      p[0] = plain | placeBits(x, y, splat.spread);
+      p[down] = plain | placeBits(x, y - dy, splat.spread);
+      p[right] = plain | placeBits(x - dx, y, splat.spread);
+      p[right + down] = plain | placeBits(x - dx, y - dy, splat.spread);
+    } else {
+      fill(pixels_, plain);
+    }
+    if constexpr (mode == PaintMode::overBlended) fill(stamps_, std::uint64_t(0));
+    if constexpr (kMarks) fill(mirrors_, mirror);
+  }
+
+  [[gnu::noinline]] bool paintAny(const Splat& splat, CanvasPixel plain, std::uint8_t mirror,
+                                  std::uint32_t colour, bool opaque) const {
+    const int x0 = std::max<int>(splat.x, rect_.x0), x1 = std::min<int>(splat.x + splat.width, rect_.x1);
+    const int y0 = std::max<int>(splat.y, rect_.y0), y1 = std::min<int>(splat.y + splat.height, rect_.y1);
+    const float inverseZDepth = inverseZDepthOf(plain);
+    const auto depthOf = [](CanvasPixel pixel) { return inverseZDepthOf(pixel & ~kPlace); };
+    // Counted where its first pixel is.
+    bool counts = std::max<int>(splat.x, 0) >= rect_.x0;
+    if constexpr (kBehind)
+      counts = counts && slotOf(pixels_[std::size_t(x0) * height_ + std::size_t(y0)]) < target_.openBelow;
+    for (int x = x0; x < x1; ++x) {
+      const std::size_t start = std::size_t(x) * height_;
+      CanvasPixel* const column = pixels_ + start;
+      [[maybe_unused]] std::uint8_t* const mirrors = mirrors_ + start;
+      const auto pixelAt = [&](int y) {
+        if constexpr (!kPlaces) return plain;
+        return plain |
+               placeBits(splat.placeX - 8 * (x - splat.x), splat.placeY - 8 * (y - splat.y), splat.spread);
+      };
+      const auto each = [&](auto&& paintRow) {
+        for (int y = y0; y < y1; ++y)
+          if (!kBehind || slotOf(column[y]) < target_.openBelow) paintRow(y);
+      };
+      if constexpr (mode == PaintMode::over) {
+        each([&](int y) {
           column[y] = pixelAt(y);
           if constexpr (kMarks) mirrors[y] = mirror;
+        });
+      } else if constexpr (mode == PaintMode::nearest) {
+        each([&](int y) {
+          if (!(inverseZDepth > depthOf(column[y]))) return;
+          column[y] = pixelAt(y);
+          if constexpr (kMarks) mirrors[y] = mirror;
+        });
+      } else if constexpr (mode == PaintMode::reflect) {
+        constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff) & ~kPlace;
+        each([&](int y) {
+          if (mirrors[y] == mirror) column[y] = (column[y] & kDepth) | (pixelAt(y) & ~kDepth);
+        });
+      } else {
+        std::uint64_t* const stamps = stamps_ + start;
+        if (mode == PaintMode::overBlended && opaque) {
+          each([&](int y) {
+            column[y] = pixelAt(y);
+            stamps[y] = 0;  // what was blended here is hidden now
+            if constexpr (kMarks) mirrors[y] = mirror;
+          });
+          continue;
         }
-    } else if constexpr (mode == PaintMode::reflect) {
-      constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff) & ~kPlace;
-      for (int y = y0; y < y1; ++y)
-        if (mirrors[y] == mirror) column[y] = (column[y] & kDepth) | (pixelAt(y) & ~kDepth);
-    } else {
-      std::uint64_t* stamps = canvas.stampColumn(x);
-      if (mode == PaintMode::overBlended && opaque) {
-        for (int y = y0; y < y1; ++y) column[y] = pixelAt(y);
-        std::fill(stamps + y0, stamps + y1, 0);  // what was blended here is hidden now
-        if constexpr (kMarks) std::fill(mirrors + y0, mirrors + y1, mirror);
-        continue;
-      }
-      const std::uint64_t stamp = stampOf(target, splat.index);
-      for (int y = y0; y < y1; ++y)
-        if (mode == PaintMode::overBlended || inverseZDepth >= inverseZDepthOf(column[y] & ~kPlace)) {
+        const std::uint64_t stamp = stampOf(target_, splat.index);
+        each([&](int y) {
+          if (mode != PaintMode::overBlended && !(inverseZDepth >= depthOf(column[y]))) return;
+          if (kBehind && (stamps[y] >> 56) >= target_.openBelow) return;  // tinted by what is in front
           const bool changed = blendInto(column[y], stamps[y], colour, stamp);
           // What tints a mirror would be lost under what the mirror shows.
           if constexpr (kMarks) mirrors[y] = changed ? std::uint8_t(0) : mirrors[y];
-        }
+        });
+      }
     }
+    return counts;
   }
-  return std::max<int>(splat.y, 0) >= rect.y0;
-}
 
-/// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
-/// beyond it recede.
-template <PaintMode mode, bool kMarks, bool kPlaces>
-std::uint64_t paintPixel(const PaintTarget& target, const Splat* first, const Splat* last) {
-  const Splat* foot = std::partition_point(
-      first, last, [&](const Splat& s) { return target.inverseDistance[s.index] > target.footInverse; });
-  std::uint64_t painted = 0;
-  for (const Splat* s = first; s < foot; ++s) painted += paintSplat<mode, kMarks, kPlaces>(target, *s);
-  for (const Splat* s = last; s > foot;) painted += paintSplat<mode, kMarks, kPlaces>(target, *--s);
-  return painted;
-}
+  const PaintTarget target_;
+  const PixelRect rect_;
+  const std::size_t height_;
+  CanvasPixel* const pixels_;
+  std::uint64_t* const stamps_;
+  std::uint8_t* const mirrors_;
+};
 
-template <PaintMode mode, bool kMarks, bool kPlaces>
-std::uint64_t paintAll(const PaintTarget& target, const Splat* splats, int count, bool reversed,
-                       bool pixelByPixel) {
-  std::uint64_t painted = 0;
-  const Splat* end = splats + count;
-  if (!pixelByPixel) {
-    if (reversed)
-      while (end > splats) painted += paintSplat<mode, kMarks, kPlaces>(target, *--end);
-    else
-      for (const Splat* s = splats; s < end; ++s) painted += paintSplat<mode, kMarks, kPlaces>(target, *s);
-    return painted;
-  }
-  const auto rowOf = [&](const Splat* s) { return target.row[s->index]; };
-  if (reversed) {
-    while (end > splats) {
-      const Splat* first = end - 1;
-      while (first > splats && rowOf(first - 1) == rowOf(end - 1)) --first;
-      painted += paintPixel<mode, kMarks, kPlaces>(target, first, end);
-      end = first;
-    }
-    return painted;
-  }
-  for (const Splat* first = splats; first < end;) {
-    const Splat* last = first + 1;
-    while (last < end && rowOf(last) == rowOf(first)) ++last;
-    painted += paintPixel<mode, kMarks, kPlaces>(target, first, last);
-    first = last;
-  }
-  return painted;
-}
-
-template <bool kMarks, bool kPlaces>
+template <bool kMarks, bool kPlaces, bool kBehind>
 std::uint64_t paintBy(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
                       bool reversed, bool pixelByPixel) {
   switch (mode) {
     case PaintMode::over:
-      return paintAll<PaintMode::over, kMarks, kPlaces>(target, splats, count, reversed, pixelByPixel);
+      return Painter<PaintMode::over, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
+                                                                              pixelByPixel);
     case PaintMode::overBlended:
-      return paintAll<PaintMode::overBlended, kMarks, kPlaces>(target, splats, count, reversed, pixelByPixel);
+      return Painter<PaintMode::overBlended, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
+                                                                                     pixelByPixel);
     case PaintMode::nearest:
-      return paintAll<PaintMode::nearest, kMarks, kPlaces>(target, splats, count, reversed, false);
+      return Painter<PaintMode::nearest, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
+                                                                                 false);
     case PaintMode::blendOnNearest:
-      return paintAll<PaintMode::blendOnNearest, kMarks, kPlaces>(target, splats, count, reversed,
-                                                                  pixelByPixel);
+      return Painter<PaintMode::blendOnNearest, kMarks, kPlaces, kBehind>(target).paint(
+          splats, count, reversed, pixelByPixel);
     case PaintMode::reflect:
-      return paintAll<PaintMode::reflect, true, kPlaces>(target, splats, count, reversed, pixelByPixel);
+      return Painter<PaintMode::reflect, true, kPlaces, false>(target).paint(splats, count, reversed,
+                                                                             pixelByPixel);
   }
   return 0;
+}
+
+template <bool kMarks, bool kPlaces>
+constexpr auto paintByPlace(bool behind) {
+  return behind ? paintBy<kMarks, kPlaces, true> : paintBy<kMarks, kPlaces, false>;
 }
 
 }  // namespace
@@ -224,9 +255,11 @@ std::uint64_t paintBy(const PaintTarget& target, PaintMode mode, const Splat* sp
 std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
                           bool reversed, bool pixelByPixel) {
   const Canvas& canvas = *target.canvas;
-  const auto paint = canvas.places ? canvas.mirrors.empty() ? paintBy<false, true> : paintBy<true, true>
-                     : canvas.mirrors.empty() ? paintBy<false, false>
-                                              : paintBy<true, false>;
+  const bool behind = target.openBelow > 0, marks = !canvas.mirrors.empty();
+  const auto paint = canvas.places
+                         ? marks ? paintByPlace<true, true>(behind) : paintByPlace<false, true>(behind)
+                     : marks ? paintByPlace<true, false>(behind)
+                             : paintByPlace<false, false>(behind);
   return paint(target, mode, splats, count, reversed, pixelByPixel);
 }
 

@@ -17,6 +17,13 @@ namespace acentric {
 
 inline constexpr std::uint32_t kSamplesPerBlock = 64;
 
+/// What is known of that many successive samples of a column, or of the fewer at its end.
+struct SampleBlock {
+  glm::vec2 range;  ///< smallest and largest inverse distance
+  std::uint16_t firstRow = 0, lastRow = 0;
+  std::uint8_t roles = 0;  ///< that need any of them
+};
+
 /// Where a capture shows the background, and the borders of its columns and rows.
 struct DisplayBackground {
   CaptureBackground runs;
@@ -36,10 +43,8 @@ struct DisplayCapture {
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
-  /// The same per kSamplesPerBlock successive samples of a column: column k's blocks start at columnBlock[k].
-  std::vector<glm::vec2> blockRange;
-  std::vector<std::uint8_t> blockRoles;  ///< that need any of them
-  std::vector<std::uint32_t> columnBlock;
+  std::vector<SampleBlock> blocks;
+  std::vector<std::uint32_t> columnBlock;  ///< columns + 1: where each column's blocks start
   DisplayBackground background;
   bool layered = false;              ///< some pixel has more than one sample
   bool blended = false;              ///< some sample has alpha < 255

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_order.h"
+#include "engine/view/open_tiles.h"
 #include "engine/view/splat_painter.h"
 
 namespace acentric {
@@ -63,48 +65,57 @@ ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view
   return column;
 }
 
-/// One band of the picture: all pieces in order, clipped to its rows.
-class BandWarp {
+/// One strip of the picture: all pieces in order, clipped to its columns.
+class StripWarp {
  public:
-  BandWarp(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-           const WarpOptions& options, Canvas& canvas, const PixelRect& rect)
+  StripWarp(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+            const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, const PixelRect& rect)
       : scene_(scene),
         view_(view),
         settings_(settings),
+        plan_(plan),
         options_(options),
         canvas_(canvas),
         rect_(rect),
         axes_(view),
         planes_(frustumPlanes(view, rect, splatMargin(settings.maxSplatPixels))) {}
 
-  WarpCounts run(const ViewPlan& plan) {
-    counts_ = {};
-    bool blended = false;
-    for (const PieceDraw& piece : plan.pieces)
-      blended = blended || scene_.captures[static_cast<std::size_t>(piece.camera)]->blended;
-    const auto pass = [&](PaintMode plain, PaintMode withBlended, bool blendedOnly) {
-      for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
-        const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(plan.pieces[i].camera)];
-        if (!blendedOnly || capture.blended)
-          drawPiece(plan.pieces[i], capture, capture.blended ? withBlended : plain,
-                    static_cast<std::uint32_t>(i) + 1);
-      }
-    };
-    if (!options_.depthTest) {
-      pass(PaintMode::over, PaintMode::overBlended, false);
-    } else {
-      pass(PaintMode::nearest, PaintMode::nearest, false);
-      if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
+  WarpCounts run() {
+    const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
+    const std::size_t firstInFront = static_cast<std::size_t>(first - plan_.pieces.begin());
+    drawPieces(firstInFront, plan_.pieces.size());
+    if (firstInFront > 0) {
+      openBelow_ = pieceSlot(plan_, firstInFront);
+      if (options_.cull) open_.emplace(canvas_, rect_, openBelow_);
+      if (!open_ || !open_->none()) drawPieces(0, firstInFront);
+      openBelow_ = 0;
+      open_.reset();
     }
-    for (std::size_t i = 0; i < plan.reflections.size(); ++i) {
-      const PieceDraw& piece = plan.reflections[i];
+    for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
+      const PieceDraw& piece = plan_.reflections[i];
       const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
-      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan, i));
+      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan_, i));
     }
     return counts_;
   }
 
  private:
+  /// Pieces [first, last) of the plan.
+  void drawPieces(std::size_t first, std::size_t last) {
+    bool blended = false;
+    const auto pass = [&](PaintMode plain, PaintMode withBlended, bool blendedOnly) {
+      for (std::size_t i = first; i < last; ++i) {
+        const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(plan_.pieces[i].camera)];
+        blended = blended || capture.blended;
+        if (!blendedOnly || capture.blended)
+          drawPiece(plan_.pieces[i], capture, capture.blended ? withBlended : plain, pieceSlot(plan_, i));
+      }
+    };
+    if (!options_.depthTest) return pass(PaintMode::over, PaintMode::overBlended, false);
+    pass(PaintMode::nearest, PaintMode::nearest, false);
+    if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
+  }
+
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
     ProjectColumn column = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
     for (const ColumnRun& run : piece.runs)
@@ -116,35 +127,35 @@ class BandWarp {
                   PaintMode mode, std::uint32_t slot, int index) {
     const std::size_t k = static_cast<std::size_t>(index);
     const glm::dvec2 direction(capture.columnDirection[k]);
-    const glm::vec2 range = drawnRange(capture, piece, k);
-    const auto tangents = visibleTangents(
-        planes_, direction, glm::dvec3(piece.baseline), glm::dvec2(range),
-        {static_cast<double>(capture.rowTangent.back()), static_cast<double>(capture.rowTangent.front())});
+    const glm::dvec2 range(drawnRange(capture, piece, k));
+    const TangentRange all{static_cast<double>(capture.rowTangent.back()),
+                           static_cast<double>(capture.rowTangent.front())};
+    const auto tangents = options_.cull
+                              ? visibleTangents(planes_, direction, glm::dvec3(piece.baseline), range, all)
+                              : std::optional(all);
     if (!tangents) return;
-    const auto [begin, end] = samplesBetween(capture, k, *tangents);
-    if (begin == end) return;
 
     axes_.project(glm::dvec3(direction, 0), column.a);
     axes_.project(double(column.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), column.across);
     column.maxInverseDistance = piece.maxInverseDistance[k];
     column.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
-    const std::uint16_t* row = capture.row.data() + begin;
-    const float* inverseDistance = capture.inverseDistance.data() + begin;
-    splats_.resize(std::max<std::size_t>(splats_.size(), end - begin + 16));
-    const int count = projectVisible(piece, capture, column, k, begin, end);
+    const int count = projectVisible(piece, capture, column, k, *tangents, range);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
+    const std::size_t start = capture.columnStart[k];
+    const std::uint16_t* const row = capture.row.data() + start;
     const PaintTarget target{&canvas_,
                              rect_,
-                             capture.colour.data() + begin,
+                             capture.colour.data() + start,
                              row,
-                             inverseDistance,
-                             capture.mirror.empty() ? nullptr : capture.mirror.data() + begin,
+                             capture.inverseDistance.data() + start,
+                             capture.mirror.empty() ? nullptr : capture.mirror.data() + start,
                              slot,
                              static_cast<std::uint32_t>(index),
-                             order.footInverse};
+                             order.footInverse,
+                             openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const Splat* splats = splats_.data();
     const Splat* pivot = std::partition_point(splats, splats + count, [&](const Splat& s) {
@@ -155,64 +166,60 @@ class BandWarp {
     counts_.samplesDrawn += paintSplats(target, mode, pivot, count - above, order.inwards, capture.layered);
   }
 
-  /// Projects samples [begin, end) of column k block by block, leaving out blocks that cannot be seen.
+  /// Projects the samples of column k block by block, leaving out blocks that cannot be seen. Splats count
+  /// samples from the column's first.
   int projectVisible(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
-                     std::size_t k, std::size_t begin, std::size_t end) {
-    const std::size_t start = capture.columnStart[k];
-    const glm::vec2 drawn = drawnRange(capture, piece, k);
+                     std::size_t k, const TangentRange& tangents, const glm::dvec2& range) {
+    const std::size_t start = capture.columnStart[k], end = capture.columnStart[k + 1];
+    const std::size_t firstBlock = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - firstBlock;
+    splats_.resize(std::max<std::size_t>(splats_.size(), end - start + 16));
     int count = 0;
-    std::size_t from = begin;  // of the run of visible blocks that is being gathered
+    std::size_t from = start;  // of the run of visible blocks that is being gathered
     const auto flush = [&](std::size_t to) {
       if (to <= from) return;
       count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
                                 capture.inverseDistance.data() + from, capture.roles.data() + from,
                                 capture.slant.data() + from, static_cast<int>(to - from),
-                                static_cast<std::uint32_t>(from - begin), splats_.data() + count);
+                                static_cast<std::uint32_t>(from - start), splats_.data() + count);
       counts_.samplesRead += to - from;
     };
-    for (std::size_t block = (begin - start) / kSamplesPerBlock; start + block * kSamplesPerBlock < end;
-         ++block) {
-      const std::size_t first = std::max(begin, start + block * kSamplesPerBlock);
-      const std::size_t last = std::min(end, start + (block + 1) * kSamplesPerBlock);
-      const bool needed = (capture.blockRoles[capture.columnBlock[k] + block] & piece.roles) != 0;
-      const glm::dvec2 range(capture.blockRange[capture.columnBlock[k] + block]);
-      const TangentRange tangents{static_cast<double>(capture.rowTangent[capture.row[last - 1]]),
-                                  static_cast<double>(capture.rowTangent[capture.row[first]])};
-      if (needed &&
-          mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
-                       {std::max(range.x, double(drawn.x)), std::min(range.y, double(drawn.y))}, tangents))
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (!options_.cull ||
+          mayShow(piece, capture, column, k, capture.blocks[firstBlock + b], tangents, range))
         continue;
-      flush(first);
-      from = last;
+      flush(start + b * kSamplesPerBlock);
+      from = start + (b + 1) * kSamplesPerBlock;
     }
     flush(end);
     return count;
   }
 
-  /// Samples of column k whose row tangents lie in the range.
-  static std::pair<std::size_t, std::size_t> samplesBetween(const DisplayCapture& capture, std::size_t k,
-                                                            const TangentRange& tangents) {
-    const std::vector<float>& table = capture.rowTangent;  // falling
-    const auto firstRow = std::partition_point(
-        table.begin(), table.end(), [&](float t) { return static_cast<double>(t) > tangents.high; });
-    const auto endRow = std::partition_point(firstRow, table.end(),
-                                             [&](float t) { return static_cast<double>(t) >= tangents.low; });
-    const auto columnBegin = capture.row.begin() + capture.columnStart[k];
-    const auto columnEnd = capture.row.begin() + capture.columnStart[k + 1];
-    const auto begin = std::lower_bound(columnBegin, columnEnd, firstRow - table.begin());
-    const auto end = std::lower_bound(begin, columnEnd, endRow - table.begin());
-    return {static_cast<std::size_t>(begin - capture.row.begin()),
-            static_cast<std::size_t>(end - capture.row.begin())};
+  bool mayShow(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
+               std::size_t k, const SampleBlock& block, const TangentRange& tangents,
+               const glm::dvec2& range) const {
+    if ((block.roles & piece.roles) == 0) return false;
+    const TangentRange rows{static_cast<double>(capture.rowTangent[block.lastRow]),
+                            static_cast<double>(capture.rowTangent[block.firstRow])};
+    if (rows.high < tangents.low || rows.low > tangents.high) return false;
+    const glm::dvec2 drawn{std::max(double(block.range.x), range.x),
+                           std::min(double(block.range.y), range.y)};
+    if (!mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline), drawn,
+                      rows))
+      return false;
+    return !open_ || open_->mayReach(column, rows, drawn, splatMargin(settings_.maxSplatPixels));
   }
 
   const WalkScene& scene_;
   const PerspectiveView& view_;
   const ViewSettings& settings_;
+  const ViewPlan& plan_;
   const WarpOptions& options_;
   Canvas& canvas_;
   PixelRect rect_;
   ScaledAxes axes_;
   FrustumPlanes planes_;
+  std::uint32_t openBelow_ = 0;    ///< PaintTarget::openBelow
+  std::optional<OpenTiles> open_;  ///< while what lies behind is drawn
   std::vector<Splat> splats_;
   WarpCounts counts_;
 };
@@ -238,14 +245,13 @@ WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const
   require(plan.reflections.empty() || !canvas.mirrors.empty(), "a canvas that can say what mirrors it shows");
   require(canvas.places == (settings.reconstruction == Reconstruction::filtered),
           "a canvas that says where samples lie where they are filtered, and only there");
-  const int bands = std::clamp(options.bands, 1, view.height);
-  std::vector<WarpCounts> counts(static_cast<std::size_t>(bands));
-  runner.parallelFor(counts.size(), [&](std::size_t band) {
-    const auto rowAt = [&](std::size_t b) {
-      return static_cast<int>(b * std::size_t(view.height) / counts.size());
+  std::vector<WarpCounts> counts(static_cast<std::size_t>(std::clamp(options.strips, 1, view.width)));
+  runner.parallelFor(counts.size(), [&](std::size_t strip) {
+    const auto columnAt = [&](std::size_t s) {
+      return static_cast<int>(s * std::size_t(view.width) / counts.size());
     };
-    const PixelRect rect{0, rowAt(band), view.width, rowAt(band + 1)};
-    counts[band] = BandWarp(scene, view, settings, options, canvas, rect).run(plan);
+    const PixelRect rect{columnAt(strip), 0, columnAt(strip + 1), view.height};
+    counts[strip] = StripWarp(scene, view, settings, plan, options, canvas, rect).run();
   });
   WarpCounts total;
   for (const WarpCounts& c : counts) {

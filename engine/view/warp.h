@@ -19,13 +19,14 @@ inline constexpr double kOverlap = 1.1;
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one
-  /// The picture is cut in this many bands of rows, one task each; pixels do not depend on it. A capture's
-  /// rows move little in elevation, so few samples fall on two bands.
-  int bands = 1;
+  bool cull = true;        ///< blocks of samples that cannot be seen are left out: same picture, sooner
+  /// The picture is cut in this many strips of columns, one task each; pixels do not depend on it. A
+  /// capture's columns fall on nearly vertical lines, so few samples fall on two strips.
+  int strips = 1;
 };
 
 struct WarpCounts {
-  std::uint64_t samplesRead = 0;  ///< once per band that a sample may fall on
+  std::uint64_t samplesRead = 0;  ///< once per strip that a sample may fall on
   std::uint64_t samplesDrawn = 0;
 };
 
@@ -33,20 +34,23 @@ struct WarpCounts {
 /// plan has reflections, `withPlaces` if it is to be filtered.
 Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors, bool withPlaces = false);
 
-/// Slots on the canvas: plan.pieces[i] has i + 1, then come the background without a capture, those of
-/// captures and the reflections.
-inline std::uint32_t backgroundSlot(const ViewPlan& plan) {
-  return static_cast<std::uint32_t>(plan.pieces.size()) + 1;
+/// Slots on the canvas, from back to front: holes, the background without a capture, backgrounds of captures,
+/// pieces (those of the second cover, which only fill what the first leaves open, before the others),
+/// reflections.
+inline constexpr std::uint32_t kBackgroundSlot = 1;
+inline std::uint32_t capturedBackgroundSlot(std::size_t i) {
+  return kBackgroundSlot + 1 + static_cast<std::uint32_t>(i);
 }
-inline std::uint32_t capturedBackgroundSlot(const ViewPlan& plan, std::size_t i) {
-  return backgroundSlot(plan) + 1 + static_cast<std::uint32_t>(i);
+inline std::uint32_t pieceSlot(const ViewPlan& plan, std::size_t i) {
+  return capturedBackgroundSlot(plan.backgrounds.size() + i);
 }
 inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
-  return capturedBackgroundSlot(plan, plan.backgrounds.size() + i);
+  return pieceSlot(plan, plan.pieces.size() + i);
 }
 
-/// Paints all pieces, then what mirrors show over those pixels that the same mirror came to cover: they keep
-/// the mirror's depth. At most kMaxSlots slots. The canvas keeps places if the settings filter.
+/// Paints the pieces of the first cover; those of the second where nothing of the first lies; then what
+/// mirrors show over those pixels that the same mirror came to cover: they keep the mirror's depth. At most
+/// kMaxSlots slots. The canvas keeps places if the settings filter.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner);
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The inner loop of the warp: from samples of one capture column to squares or rectangles on the picture.
 ///
-/// One template (warp_kernel_body.h) is compiled three times: one sample at a time for any processor, eight at
-/// a time with AVX2 and sixteen with AVX-512. All do the same operations in the same order without fused
+/// One template (warp_kernel_body.h) is compiled three times: one sample at a time for any processor, eight
+/// at a time with AVX2 and sixteen with AVX-512. All do the same operations in the same order without fused
 /// multiply-adds, so their results are the same bits. kernels.h chooses.
 ///
 /// This header and everything the AVX sources include must stay free of the standard library and of glm: an
@@ -57,8 +57,8 @@ struct ProjectColumn {
   float low[2], high[2];  ///< border directions of the part
 };
 
-/// Writes the splats that touch the rectangle to `out` (room for count + 16), in the order of the samples, and
-/// returns how many. `rowTangent` is the capture's table; `slant` is read where the column is slanted.
+/// Writes the splats that touch the rectangle to `out` (room for count + 16), in the order of the samples,
+/// and returns how many. `rowTangent` is the capture's table; `slant` is read where the column is slanted.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
                                const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
                                int count, std::uint32_t firstIndex, Splat* out);

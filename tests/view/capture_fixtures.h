@@ -56,7 +56,7 @@ struct OneCapture {
 };
 
 inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                    const ViewPlan& plan, bool depthTest = false, int bands = 4) {
+                    const ViewPlan& plan, bool depthTest = false, int strips = 4) {
   bool blended = false;
   for (const auto& capture : scene.captures) blended = blended || (capture && capture->blended);
   Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
@@ -64,7 +64,7 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
   TaskRunner runner(0);
   WarpOptions options;
   options.depthTest = depthTest;
-  options.bands = bands;
+  options.strips = strips;
   paintCapturedBackground(scene, view, plan, canvas, runner);
   warpPieces(scene, view, settings, plan, options, canvas, runner);
   return canvas;

@@ -97,7 +97,7 @@ TEST(CapturedBackground, IsWhatEachPixelsOwnDirectionFindsInTheRuns) {
         int slot = 0;
         for (std::size_t i = 0; i < plan.backgrounds.size() && slot >= 0; ++i)
           if (const int found = shows(plan.backgrounds[i], *scene.captures[i], direction); found != 0)
-            slot = found < 0 ? -1 : int(capturedBackgroundSlot(plan, i));
+            slot = found < 0 ? -1 : int(capturedBackgroundSlot(i));
         if (slot < 0) continue;
         const CanvasPixel pixel = canvas.column(x)[y];
         ASSERT_EQ(int(slotOf(pixel)), slot) << round << ": " << x << ", " << y;

@@ -49,7 +49,7 @@ int main() {
       ProjectSamples project;
       bool depthTest;
       TaskRunner* runner;
-      int bands;
+      int strips;
     };
     for (const Case& c : {Case{"scalar", supportedKernels().front().project, false, &one, 8},
                           Case{"fast", supportedKernels().back().project, false, &one, 1},
@@ -64,15 +64,15 @@ int main() {
       WarpOptions options;
       options.project = c.project;
       options.depthTest = c.depthTest;
-      options.bands = c.bands;
+      options.strips = c.strips;
       Canvas canvas = makeCanvas(view, false, false);
       WarpCounts counts;
       const double seconds =
           best(20, [&] { counts = warpPieces(scene, view, settings, *plan, options, canvas, *c.runner); });
       fmt::print(
-          "{} pieces, {:8} {} thread(s) {:2} bands: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} "
+          "{} pieces, {:8} {} thread(s) {:2} strips: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} "
           "M read/s\n",
-          plan->pieces.size(), c.name, c.runner->threads(), c.bands, seconds * 1e3, counts.samplesRead,
+          plan->pieces.size(), c.name, c.runner->threads(), c.strips, seconds * 1e3, counts.samplesRead,
           counts.samplesDrawn, static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
           static_cast<double>(counts.samplesRead) / seconds * 1e-6);
     }

@@ -238,8 +238,13 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
   EXPECT_EQ(display.columnRange[0], glm::vec2(0, 0.5f));
   EXPECT_GT(display.columnRange[1].x, display.columnRange[1].y);
   EXPECT_EQ(display.columnRange[2], glm::vec2(0.25f, 2));
-  EXPECT_EQ(display.columnBlock, (std::vector<std::uint32_t>{0, 1, 1}));
-  EXPECT_EQ(display.blockRange, (std::vector<glm::vec2>{{0, 0.5f}, {0.25f, 2}}));
+  EXPECT_EQ(display.columnBlock, (std::vector<std::uint32_t>{0, 1, 1, 2}));
+  ASSERT_EQ(display.blocks.size(), 2u);
+  EXPECT_EQ(display.blocks[0].range, glm::vec2(0, 0.5f));
+  EXPECT_EQ(display.blocks[0].lastRow, 1);
+  EXPECT_EQ(display.blocks[0].roles, 1 | 2);
+  EXPECT_EQ(display.blocks[1].range, glm::vec2(0.25f, 2));
+  EXPECT_EQ(display.blocks[1].roles, 4 | 1);
   EXPECT_EQ(display.colour[0], encodeForDisplay({0.5f, 0.25f, 0.125f}, 2));
   EXPECT_EQ(display.colour[2].a, 128);
   EXPECT_NEAR(display.rowTangent[0], std::tan(0.2), 1e-6);

@@ -1,0 +1,61 @@
+#include "engine/view/open_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace acentric {
+
+OpenTiles::OpenTiles(const Canvas& canvas, const PixelRect& rect, std::uint32_t openBelow)
+    : rect_(rect),
+      columns_(std::size_t(rect.width() + kSide - 1) / kSide),
+      rows_(std::size_t(rect.height() + kSide - 1) / kSide),
+      sums_((columns_ + 1) * (rows_ + 1), 0) {
+  std::vector<std::uint8_t> open(rows_);
+  for (std::size_t i = 0; i < columns_; ++i) {
+    std::ranges::fill(open, std::uint8_t(0));
+    const int x0 = rect.x0 + int(i) * kSide, x1 = std::min(x0 + kSide, rect.x1);
+    for (int x = x0; x < x1; ++x) {
+      const CanvasPixel* const column = canvas.column(x);
+      for (std::size_t j = 0; j < rows_; ++j) {
+        const int y0 = rect.y0 + int(j) * kSide, y1 = std::min(y0 + kSide, rect.y1);
+        unsigned found = 0;
+        for (int y = y0; y < y1; ++y) found |= unsigned(slotOf(column[y]) < openBelow);
+        open[j] |= std::uint8_t(found);
+      }
+    }
+    const std::size_t before = i * (rows_ + 1), own = before + rows_ + 1;
+    for (std::size_t j = 0; j < rows_; ++j)
+      sums_[own + j + 1] = sums_[own + j] + sums_[before + j + 1] - sums_[before + j] + open[j];
+  }
+}
+
+bool OpenTiles::any(int x0, int y0, int x1, int y1) const {
+  x0 = std::max(x0, rect_.x0) - rect_.x0, x1 = std::min(x1, rect_.x1) - rect_.x0;
+  y0 = std::max(y0, rect_.y0) - rect_.y0, y1 = std::min(y1, rect_.y1) - rect_.y0;
+  if (x0 >= x1 || y0 >= y1) return false;
+  const auto at = [&](int i, int j) { return sums_[std::size_t(i) * (rows_ + 1) + std::size_t(j)]; };
+  const int i0 = x0 / kSide, j0 = y0 / kSide, i1 = (x1 - 1) / kSide + 1, j1 = (y1 - 1) / kSide + 1;
+  return at(i1, j1) + at(i0, j0) != at(i0, j1) + at(i1, j0);
+}
+
+bool OpenTiles::mayReach(const ProjectColumn& c, const TangentRange& tangents, const glm::vec2& range,
+                         double margin) const {
+  // Image positions are quotients of functions that are linear in tangent and inverse distance each, so the
+  // corners are the extremes.
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (const double t : {tangents.low, tangents.high})
+    for (const double w : {double(range.x), double(range.y)}) {
+      const auto at = [&](int axis) { return c.a[axis] + t * c.z[axis] + w * c.b[axis]; };
+      const double depth = at(2);
+      if (!(depth > 1e-3 * (1 + std::abs(t)))) return true;  // beside or behind the eye
+      for (int axis = 0; axis < 2; ++axis) {
+        const double place = at(axis) / depth;
+        low[axis] = std::min(low[axis], place), high[axis] = std::max(high[axis], place);
+      }
+    }
+  const auto pixel = [](double place) { return int(std::clamp(std::floor(place), -1e6, 1e6)); };
+  return any(pixel(low[0] - margin), pixel(low[1] - margin), pixel(high[0] + margin) + 1,
+             pixel(high[1] + margin) + 1);
+}
+
+}  // namespace acentric
