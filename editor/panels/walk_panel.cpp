@@ -231,6 +231,7 @@ void WalkPanel::takePicture(PanelContext& context) {
               true};
     problem_ = picture->problem;
     if (problem_.empty()) {
+      renderer_.recycle(std::move(lastFrame_));
       lastFrame_ = std::move(picture->frame);
       resolution_.measured(request.scale, lastFrame_.stats.totalSeconds);
       shown_.holeShare =

@@ -32,8 +32,14 @@ bool WalkRenderer::busy() const {
   return rendering_ || waiting_.has_value();
 }
 
+void WalkRenderer::recycle(Frame frame) {
+  const std::lock_guard lock(mutex_);
+  spare_ = std::move(frame);
+}
+
 void WalkRenderer::loop(const std::stop_token& stop) {
   TaskRunner runner(threads_ - 1);
+  FrameMemory memory;
   while (!stop.stop_requested()) {
     WalkPicture picture;
     {
@@ -41,10 +47,12 @@ void WalkRenderer::loop(const std::stop_token& stop) {
       if (!changed_.wait(lock, stop, [this] { return waiting_.has_value(); })) return;
       picture.request = std::move(*waiting_);
       waiting_.reset();
+      if (!spare_.colour.empty()) memory.frame = std::move(spare_);
+      spare_ = {};
       rendering_ = true;
     }
-    auto frame =
-        renderFrame(picture.request.loaded->walk, picture.request.view, picture.request.settings, runner);
+    auto frame = renderFrame(picture.request.loaded->walk, picture.request.view, picture.request.settings,
+                             runner, memory);
     if (frame)
       picture.frame = std::move(*frame);
     else

@@ -39,6 +39,8 @@ class WalkRenderer {
   void request(WalkRequest request);
   /// The newest finished picture, once.
   std::optional<WalkPicture> take();
+  /// A later picture is made in the memory of a frame that is no longer needed.
+  void recycle(Frame frame);
   /// A request is waiting or being rendered.
   bool busy() const;
 
@@ -51,6 +53,7 @@ class WalkRenderer {
   std::condition_variable_any changed_;
   std::optional<WalkRequest> waiting_;
   std::optional<WalkPicture> finished_;
+  Frame spare_;
   bool rendering_ = false;
   std::jthread thread_;
 };

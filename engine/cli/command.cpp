@@ -90,7 +90,7 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
   }
   if (Status loaded = load(view.eye); !loaded) return tl::unexpected(loaded.error());
   const WalkScene& walk = walks_[storeyAt(storeys_, view.eye)]->walk;
-  if (!gl_) return renderFrame(walk, view, settings, runner_);
+  if (!gl_) return renderFrame(walk, view, settings, runner_, memory_);
   auto stats = gl_->renderer->draw(walk, view, settings);
   if (!stats) return tl::unexpected(stats.error());
   Frame frame = gl_->renderer->readBack();

@@ -75,6 +75,8 @@ class FrameMaker {
   /// Loads what frames from an eye need; render() does so too.
   Status load(const glm::dvec3& eye);
   Result<Frame> render(const PerspectiveView& view);
+  /// The next frame is made in the memory of one that is no longer needed.
+  void recycle(Frame frame) { memory_.frame = std::move(frame); }
   std::vector<std::string> warnings() const;
   bool isTruth() const { return truth_; }
   ViewSettings settings;
@@ -87,6 +89,7 @@ class FrameMaker {
   const Common& common_;
   TaskRunner& runner_;
   std::vector<std::optional<LoadedWalk>> walks_;  ///< of storeys_
+  FrameMemory memory_;
   bool truth_ = false;
   std::unique_ptr<Gl> gl_;
 };

@@ -33,12 +33,14 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
         if (common.progress)
           common.progress({double(repeat) * double(views.size()) + double(v),
                            double(options.repeats + 1) * double(views.size()), "timing"});
-        const auto frame = makers[m]->render(views[v]);
+        auto frame = makers[m]->render(views[v]);
         if (!frame) return tl::unexpected(frame.error());
+        const FrameStats stats = frame->stats;
+        makers[m]->recycle(std::move(*frame));
         if (repeat == 0) continue;  // warms caches and uploads
-        totals[m].push_back(frame->stats.totalSeconds * 1e3);
-        warps[m].push_back(frame->stats.warpSeconds * 1e3);
-        samples[m] += frame->stats.samplesRead;
+        totals[m].push_back(stats.totalSeconds * 1e3);
+        warps[m].push_back(stats.warpSeconds * 1e3);
+        samples[m] += stats.samplesRead;
       }
   Report report;
   report.json = {{"version", ACENTRIC_VERSION},

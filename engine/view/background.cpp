@@ -55,18 +55,19 @@ bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view
   return false;
 }
 
-void paintBackground(const WalkScene& scene, const PerspectiveView& view, const BackgroundLimits& limits,
-                     std::uint32_t slot, Canvas& canvas, TaskRunner& runner) {
-  const SkyTable sky(scene.plan.on(Effect::sky) ? scene.scene->sky : Sky{}, scene.exposure);
-  runner.parallelFor(std::size_t(view.width), [&](std::size_t x) {
-    CanvasPixel* column = canvas.column(int(x));
-    const glm::dvec3 first = directionThrough(view, int(x) + 0.5, 0.5);
-    const glm::dvec3 step = directionThrough(view, int(x) + 0.5, 1.5) - first;
+Sky backgroundSky(const WalkScene& scene) { return scene.plan.on(Effect::sky) ? scene.scene->sky : Sky{}; }
+
+void paintBackground(const SkyTable& sky, const PerspectiveView& view, const BackgroundLimits& limits,
+                     std::uint32_t slot, Canvas& canvas) {
+  for (int x = canvas.x0; x < canvas.x0 + canvas.width; ++x) {
+    CanvasPixel* const column = canvas.column(x);
+    const glm::dvec3 first = directionThrough(view, x + 0.5, 0.5);
+    const glm::dvec3 step = directionThrough(view, x + 0.5, 1.5) - first;
     for (int y = 0; y < view.height; ++y) {
       const glm::vec3 direction(first + double(y) * step);
       if (limits.holds(direction)) column[y] = canvasPixel(sky.towards(direction) | slot << 24, 0);
     }
-  });
+  }
 }
 
 }  // namespace acentric

@@ -2,9 +2,9 @@
 /// Directions in which a view shows nothing but the background: steeper than the scene's top and bottom are
 /// seen across the near band. Captures have no rows there (columnCameraFor); local geometry is drawn over it.
 
-#include "engine/base/task_runner.h"
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/canvas.h"
+#include "engine/view/sky_table.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
@@ -25,8 +25,11 @@ glm::dvec3 directionThrough(const PerspectiveView& view, double u, double v);
 /// Does the view show such a direction?
 bool showsBackground(const BackgroundLimits& limits, const PerspectiveView& view);
 
+/// The colours it has.
+Sky backgroundSky(const WalkScene& scene);
+
 /// Paints it, at the distance of the sky, as the piece of slot `slot`.
-void paintBackground(const WalkScene& scene, const PerspectiveView& view, const BackgroundLimits& limits,
-                     std::uint32_t slot, Canvas& canvas, TaskRunner& runner);
+void paintBackground(const SkyTable& sky, const PerspectiveView& view, const BackgroundLimits& limits,
+                     std::uint32_t slot, Canvas& canvas);
 
 }  // namespace acentric

@@ -56,19 +56,21 @@ inline Rgba8 colourOf(std::uint32_t word) {
   return colour;
 }
 
+/// Of a picture, or of some of its columns.
 struct Canvas {
+  int x0 = 0;  ///< its first column's place in the picture
   int width = 0;
   int height = 0;
-  std::vector<CanvasPixel> pixels;  ///< [x * height + y]
+  std::vector<CanvasPixel> pixels;  ///< [(x - x0) * height + y]
   std::vector<std::uint64_t>
       stamps;  ///< the sample last blended into each pixel; empty if nothing is blended
   std::vector<std::uint8_t> mirrors;  ///< the mirror that each pixel shows, 0 = none; empty if none is needed
   bool places = false;                ///< pixels say where their samples lie (kPlaceBits)
 
-  CanvasPixel* column(int x) { return pixels.data() + std::size_t(x) * std::size_t(height); }
-  const CanvasPixel* column(int x) const { return pixels.data() + std::size_t(x) * std::size_t(height); }
-  std::uint64_t* stampColumn(int x) { return stamps.data() + std::size_t(x) * std::size_t(height); }
-  std::uint8_t* mirrorColumn(int x) { return mirrors.data() + std::size_t(x) * std::size_t(height); }
+  PixelRect rect() const { return {x0, 0, x0 + width, height}; }
+  std::size_t indexOf(int x) const { return std::size_t(x - x0) * std::size_t(height); }
+  CanvasPixel* column(int x) { return pixels.data() + indexOf(x); }
+  const CanvasPixel* column(int x) const { return pixels.data() + indexOf(x); }
 };
 
 }  // namespace acentric

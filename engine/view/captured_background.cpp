@@ -5,7 +5,6 @@
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/background.h"
-#include "engine/view/sky_table.h"
 #include "engine/view/warp.h"
 
 namespace acentric {
@@ -140,26 +139,28 @@ class PictureColumn {
 
 }  // namespace
 
-void paintCapturedBackground(const WalkScene& scene, const PerspectiveView& view, const ViewPlan& plan,
-                             Canvas& canvas, TaskRunner& runner) {
-  if (plan.backgrounds.empty()) return;
-  const auto captureOf = [&](const PieceDraw& piece) -> const DisplayCapture& {
-    return *scene.captures[static_cast<std::size_t>(piece.camera)];
-  };
-  std::vector<SkyTable> skies;  // of all captures the same, as a rule
-  std::vector<std::size_t> skyOf;
+CapturedBackground::CapturedBackground(const WalkScene& scene, const ViewPlan& plan)
+    : scene_(scene), plan_(plan) {
   for (const PieceDraw& piece : plan.backgrounds) {
     const Sky& sky = captureOf(piece).background.runs.sky;
-    const auto found = std::ranges::find(skies, sky, &SkyTable::sky);
-    skyOf.push_back(static_cast<std::size_t>(found - skies.begin()));
-    if (found == skies.end()) skies.emplace_back(sky, scene.exposure);
+    const auto found = std::ranges::find(skies_, sky, &SkyTable::sky);
+    skyOf_.push_back(static_cast<std::size_t>(found - skies_.begin()));
+    if (found == skies_.end()) skies_.emplace_back(sky, scene.exposure);
   }
-  runner.parallelFor(static_cast<std::size_t>(view.width), [&](std::size_t x) {
-    const PictureColumn column(view, static_cast<int>(x), canvas.column(static_cast<int>(x)));
-    for (std::size_t i = 0; i < plan.backgrounds.size(); ++i)
-      column.paint(plan.backgrounds[i], captureOf(plan.backgrounds[i]), skies[skyOf[i]],
+}
+
+const DisplayCapture& CapturedBackground::captureOf(const PieceDraw& piece) const {
+  return *scene_.captures[static_cast<std::size_t>(piece.camera)];
+}
+
+void CapturedBackground::paint(const PerspectiveView& view, Canvas& canvas) const {
+  if (plan_.backgrounds.empty()) return;
+  for (int x = canvas.x0; x < canvas.x0 + canvas.width; ++x) {
+    const PictureColumn column(view, x, canvas.column(x));
+    for (std::size_t i = 0; i < plan_.backgrounds.size(); ++i)
+      column.paint(plan_.backgrounds[i], captureOf(plan_.backgrounds[i]), skies_[skyOf_[i]],
                    capturedBackgroundSlot(i));
-  });
+  }
 }
 
 }  // namespace acentric

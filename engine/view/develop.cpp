@@ -6,63 +6,59 @@
 namespace acentric {
 namespace {
 
-constexpr int kRows = 32;  ///< of a block, one task each
+/// Of a block: rows are written, and columns read, by whole cache lines.
+constexpr int kColumns = 16, kRows = 16;
+constexpr int kRoom = 16;  ///< that filters need beyond their last pixel
 
-/// Three columns of a block with the rows above and below it, going from left to right through the picture.
-class Window {
- public:
-  Window(const Canvas& canvas, int y0, int y1) : canvas_(canvas), y0_(y0), y1_(y1) {
-    for (auto& column : columns_) column.fill(kEmptyPixel);
-    fetch(0);
-  }
-  /// Columns x - 1, x, x + 1; called for each x in turn.
-  void filter(int x, FilterPixels filterPixels, std::uint32_t* colour) {
-    fetch(x + 1);
-    filterPixels(at(x - 1).data(), at(x).data(), at(x + 1).data(), y1_ - y0_, colour);
-  }
+/// Pixels [y0 - 1, y0 + kRows + 1) of a column, empty beyond the picture.
+using Window = std::array<CanvasPixel, kRows + 2 + kRoom>;
 
- private:
-  using Column = std::array<CanvasPixel, kRows + 18>;
-  Column& at(int x) { return columns_[std::size_t(x + 3) % columns_.size()]; }
-  void fetch(int x) {
-    Column& column = at(x);
-    if (x >= canvas_.width) {
-      column.fill(kEmptyPixel);
-      return;
-    }
-    const int first = std::max(y0_ - 1, 0), last = std::min(y1_ + 1, canvas_.height);
-    std::copy(canvas_.column(x) + first, canvas_.column(x) + last, column.begin() + (first - (y0_ - 1)));
-  }
+void fetch(const Canvas& canvas, int x, int y0, Window& window) {
+  window.fill(kEmptyPixel);
+  if (x < canvas.x0 || x >= canvas.x0 + canvas.width) return;
+  const int first = std::max(y0 - 1, 0), last = std::min(y0 + kRows + 1, canvas.height);
+  std::copy(canvas.column(x) + first, canvas.column(x) + last, window.begin() + (first - (y0 - 1)));
+}
 
-  const Canvas& canvas_;
-  int y0_, y1_;
-  std::array<Column, 3> columns_;
-};
+/// Colours of at most kColumns x kRows pixels from (x0, y0) on, column by column.
+using Colours = std::array<std::uint32_t, kColumns * kRows + kRoom>;
+
+void filterBlock(const Canvas& canvas, int x0, int columns, int y0, int rows, FilterPixels filter,
+                 Colours& colours) {
+  std::array<Window, kColumns + 2> windows;
+  for (int i = 0; i < columns + 2; ++i) fetch(canvas, x0 + i - 1, y0, windows[std::size_t(i)]);
+  for (int i = 0; i < columns; ++i) {
+    const Window* const w = &windows[std::size_t(i)];
+    filter(w[0].data(), w[1].data(), w[2].data(), rows, colours.data() + i * kRows);
+  }
+}
 
 }  // namespace
 
-void develop(const Canvas& canvas, const std::vector<PixelSource>& sources, FilterPixels filter, Frame& frame,
-             FloatImage& inverseZDepth, TaskRunner& runner) {
+void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources,
+             FilterPixels filter, Frame& frame, FloatImage& inverseZDepth) {
   const CanvasPixel depthBits = ~(canvas.places ? kPlaceBits : CanvasPixel(0));
-  const std::size_t blocks = static_cast<std::size_t>((canvas.height + kRows - 1) / kRows);
-  runner.parallelFor(blocks, [&](std::size_t block) {
-    const int y0 = static_cast<int>(block) * kRows, y1 = std::min(y0 + kRows, canvas.height);
-    Window window(canvas, y0, y1);
-    std::array<std::uint32_t, kRows + 16> filtered{};
-    for (int x = 0; x < canvas.width; ++x) {
-      const CanvasPixel* column = canvas.column(x);
-      if (canvas.places) window.filter(x, filter, filtered.data());
-      for (int y = y0; y < y1; ++y) {
-        const CanvasPixel pixel = column[y];
-        const std::uint32_t slot = slotOf(pixel);
-        if (slot == 0) continue;
-        frame.colour.at(x, y) = colourOf(canvas.places ? filtered[std::size_t(y - y0)]
-                                                       : static_cast<std::uint32_t>(pixel) | 0xff000000u);
-        frame.source.at(x, y) = sources[slot];
-        inverseZDepth.at(x, y) = inverseZDepthOf(pixel & depthBits);
+  Colours filtered{};
+  for (int left = x0; left < x1; left += kColumns)
+    for (int top = 0; top < canvas.height; top += kRows) {
+      const int columns = std::min(kColumns, x1 - left), rows = std::min(kRows, canvas.height - top);
+      if (canvas.places) filterBlock(canvas, left, columns, top, rows, filter, filtered);
+      for (int j = 0; j < rows; ++j) {
+        Rgba8* const colour = &frame.colour.at(left, top + j);
+        PixelSource* const source = &frame.source.at(left, top + j);
+        float* const inverse = &inverseZDepth.at(left, top + j);
+        const CanvasPixel* const row = canvas.column(left) + top + j;
+        for (int i = 0; i < columns; ++i) {
+          const CanvasPixel pixel = row[std::size_t(i) * std::size_t(canvas.height)];
+          const std::uint32_t slot = slotOf(pixel), opaque = slot > 0 ? 0xff000000u : 0;
+          const std::uint32_t own = static_cast<std::uint32_t>(pixel) & 0xffffffu;
+          const std::uint32_t shown = canvas.places && slot > 0 ? filtered[std::size_t(i * kRows + j)] : own;
+          colour[i] = colourOf((shown & 0xffffffu) | opaque);
+          source[i] = sources[slot];
+          inverse[i] = slot > 0 ? inverseZDepthOf(pixel & depthBits) : 0.0f;
+        }
       }
     }
-  });
 }
 
 }  // namespace acentric

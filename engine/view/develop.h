@@ -1,16 +1,16 @@
 #pragma once
 /// Turns a painted canvas into a frame: rows of colours and sources, and depth for the passes that follow.
 
-#include "engine/base/task_runner.h"
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
 #include "engine/view/pixel_filter.h"
 
 namespace acentric {
 
-/// `sources`: by slot. A canvas that keeps places is filtered with `filter`; pixels without a sample stay as
-/// they are. `frame` and `inverseZDepth` (1/m) have the canvas' size.
-void develop(const Canvas& canvas, const std::vector<PixelSource>& sources, FilterPixels filter, Frame& frame,
-             FloatImage& inverseZDepth, TaskRunner& runner);
+/// Writes columns [x0, x1) of the picture, which the canvas holds, and holds with their neighbours if it
+/// keeps places: it is then filtered with `filter`. `sources`: by slot. `frame` and `inverseZDepth` (1/m, 0
+/// in holes) are as large as the picture.
+void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources,
+             FilterPixels filter, Frame& frame, FloatImage& inverseZDepth);
 
 }  // namespace acentric

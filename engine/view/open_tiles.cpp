@@ -38,21 +38,24 @@ bool OpenTiles::any(int x0, int y0, int x1, int y1) const {
   return at(i1, j1) + at(i0, j0) != at(i0, j1) + at(i1, j0);
 }
 
-bool OpenTiles::mayReach(const ProjectColumn& c, const TangentRange& tangents, const glm::vec2& range,
-                         double margin) const {
+bool OpenTiles::mayReach(const ProjectColumn& c, const TangentRange& tangents, const glm::vec2& range) const {
   // Image positions are quotients of functions that are linear in tangent and inverse distance each, so the
-  // corners are the extremes.
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  // corners are the extremes; of the size of squares too, but for a factor that grows away from the middle.
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, side = 1, off = 0;
   for (const double t : {tangents.low, tangents.high})
     for (const double w : {double(range.x), double(range.y)}) {
       const auto at = [&](int axis) { return c.a[axis] + t * c.z[axis] + w * c.b[axis]; };
       const double depth = at(2);
       if (!(depth > 1e-3 * (1 + std::abs(t)))) return true;  // beside or behind the eye
-      for (int axis = 0; axis < 2; ++axis) {
-        const double place = at(axis) / depth;
-        low[axis] = std::min(low[axis], place), high[axis] = std::max(high[axis], place);
-      }
+      const double place[2] = {at(0) / depth, at(1) / depth};
+      for (int axis = 0; axis < 2; ++axis)
+        low[axis] = std::min(low[axis], place[axis]), high[axis] = std::max(high[axis], place[axis]);
+      side = std::max(side, std::sqrt(1 + t * t) / depth * double(c.footprint));
+      off = std::max(off, std::hypot(place[0] - double(c.centreX), place[1] - double(c.centreY)));
     }
+  side *= std::hypot(1.0, off * double(c.inverseFocal));
+  if (c.slanted || side > double(c.maxSide)) side = double(c.maxSide);
+  const double margin = splatMargin(int(std::ceil(side)));
   const auto pixel = [](double place) { return int(std::clamp(std::floor(place), -1e6, 1e6)); };
   return any(pixel(low[0] - margin), pixel(low[1] - margin), pixel(high[0] + margin) + 1,
              pixel(high[1] + margin) + 1);

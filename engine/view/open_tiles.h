@@ -17,12 +17,11 @@ class OpenTiles {
   bool none() const { return sums_.back() == 0; }
 
   /// May a sample of these tangents and inverse distances, which the kernel puts on the picture with
-  /// `column`, reach an open pixel, splats being `margin` pixels large around their centres?
-  bool mayReach(const ProjectColumn& column, const TangentRange& tangents, const glm::vec2& range,
-                double margin) const;
+  /// `column`, reach an open pixel with its splat?
+  bool mayReach(const ProjectColumn& column, const TangentRange& tangents, const glm::vec2& range) const;
 
  private:
-  static constexpr int kSide = 16;
+  static constexpr int kSide = 8;
   bool any(int x0, int y0, int x1, int y1) const;  ///< pixels [x0, x1) x [y0, y1), cut to the strip
 
   PixelRect rect_;

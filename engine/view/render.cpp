@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <set>
 
 #include "engine/base/contract.h"
@@ -22,8 +23,16 @@ namespace {
 constexpr int kFillRings = 4096;
 constexpr int kFillRingsWhileLoading = 8;
 
-/// More than one: some strips hold more than others.
+/// Bytes of canvas pixels that a strip of the picture takes: they stay near the processor while they are
+/// painted and developed. More than one strip a thread in any case: some hold more than others.
+constexpr std::size_t kStripBytes = 768 * 1024;
 constexpr int kStripsPerThread = 2;
+
+int stripsOf(const PerspectiveView& view, int threads) {
+  const std::size_t bytes = sizeof(CanvasPixel) * std::size_t(view.width) * std::size_t(view.height);
+  const int wanted = std::max(static_cast<int>(bytes / kStripBytes) + 1, kStripsPerThread * threads);
+  return std::min(wanted, view.width);
+}
 
 /// By slot of the canvas.
 std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
@@ -34,36 +43,65 @@ std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
   return sources;
 }
 
+template <class T>
+void resize(Image<T>& image, const PerspectiveView& view) {
+  image.width = view.width, image.height = view.height;
+  image.pixels.resize(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+}
+
+/// Everything but local geometry, strip by strip; every pixel of the frame and of the depths is written.
+WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                        const ViewPlan& plan, TaskRunner& runner, FrameMemory& memory, Frame& frame) {
+  const Kernels& kernels =
+      settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+  WarpOptions options;
+  options.project = kernels.project;
+  options.depthTest = settings.renderer == Renderer::zbuffer;
+  options.cull = settings.renderer != Renderer::scalar;
+  const BackgroundLimits limits = backgroundLimits(scene, view.eye);
+  std::optional<SkyTable> sky;
+  if (showsBackground(limits, view)) sky.emplace(backgroundSky(scene), scene.exposure);
+  const CapturedBackground background(scene, plan);
+  const std::vector<PixelSource> sources = sourcesOf(plan);
+
+  const std::size_t strips = static_cast<std::size_t>(stripsOf(view, runner.threads()));
+  const int beside =
+      settings.reconstruction == Reconstruction::filtered ? 1 : 0;  // columns that filters read
+  if (memory.canvases.size() < strips) memory.canvases.resize(strips);
+  std::vector<WarpCounts> counts(strips);
+  runner.parallelFor(strips, [&](std::size_t strip) {
+    const auto columnAt = [&](std::size_t s) {
+      return static_cast<int>(s * static_cast<std::size_t>(view.width) / strips);
+    };
+    const int x0 = columnAt(strip), x1 = columnAt(strip + 1);
+    Canvas& canvas = memory.canvases[strip];
+    clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
+                canvas);
+    if (sky) paintBackground(*sky, view, limits, kBackgroundSlot, canvas);
+    background.paint(view, canvas);
+    counts[strip] = warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
+    develop(canvas, x0, x1, sources, kernels.filter, frame, memory.inverseZDepth);
+  });
+  WarpCounts all;
+  for (const WarpCounts& c : counts) all += c;
+  return all;
+}
+
 Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-           const ViewPlan& plan, TaskRunner& runner) {
-  Frame frame;
-  frame.colour = ColourImage(view.width, view.height, Rgba8(0));
-  frame.source = Image<PixelSource>(view.width, view.height, kSourceHole);
-  FloatImage inverseZDepth(view.width, view.height, 0.0f);
+           const ViewPlan& plan, TaskRunner& runner, FrameMemory& memory) {
+  Frame frame = std::move(memory.frame);
+  resize(frame.colour, view);
+  resize(frame.source, view);
+  resize(memory.inverseZDepth, view);
+  FloatImage& inverseZDepth = memory.inverseZDepth;
+  frame.stats = {};
   FrameStats& stats = frame.stats;
 
   const Stopwatch warpTime;
   std::set<int> images;
-  bool blended = false;
-  for (const PieceDraw& piece : plan.pieces) {
-    images.insert(piece.camera);
-    blended = blended || scene.captures[static_cast<std::size_t>(piece.camera)]->blended;
-  }
-  for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
-  WarpOptions options;
-  const Kernels& kernels =
-      settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
-  options.project = kernels.project;
-  options.cull = settings.renderer != Renderer::scalar;
-  options.depthTest = settings.renderer == Renderer::zbuffer;
-  options.strips = kStripsPerThread * runner.threads();
-  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
-                             settings.reconstruction == Reconstruction::filtered);
-  if (const BackgroundLimits limits = backgroundLimits(scene, view.eye); showsBackground(limits, view))
-    paintBackground(scene, view, limits, kBackgroundSlot, canvas, runner);
-  paintCapturedBackground(scene, view, plan, canvas, runner);
-  const WarpCounts counts = warpPieces(scene, view, settings, plan, options, canvas, runner);
-  develop(canvas, sourcesOf(plan), kernels.filter, frame, inverseZDepth, runner);
+  for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
+    for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
+  const WarpCounts counts = drawCaptures(scene, view, settings, plan, runner, memory, frame);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;
@@ -99,6 +137,12 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
 
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                           TaskRunner& runner) {
+  FrameMemory memory;
+  return renderFrame(scene, view, settings, runner, memory);
+}
+
+Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                          TaskRunner& runner, FrameMemory& memory) {
   const Stopwatch total;
   if (settings.renderer == Renderer::gl)
     return fail(ErrorKind::unsupported,
@@ -106,7 +150,7 @@ Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, c
   try {
     const auto plan = planView(scene, view, settings);
     if (!plan) return tl::unexpected(plan.error());
-    Frame frame = draw(scene, view, settings, *plan, runner);
+    Frame frame = draw(scene, view, settings, *plan, runner, memory);
     frame.stats.totalSeconds = total.seconds();
     return frame;
   } catch (const std::bad_alloc&) {

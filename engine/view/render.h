@@ -4,15 +4,25 @@
 
 #include "engine/base/task_runner.h"
 #include "engine/geometry/perspective_view.h"
+#include "engine/view/canvas.h"
 #include "engine/view/frame.h"
 #include "engine/view/view_settings.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
 
+/// What frames are made in, kept from one to the next: fresh memory costs as much as what is drawn on it.
+struct FrameMemory {
+  std::vector<Canvas> canvases;  ///< one per strip of the picture
+  FloatImage inverseZDepth;
+  Frame frame;  ///< a frame that is no longer needed, or an empty one
+};
+
 /// Fails when the view is out of range, or the eye stands outside every region (the message gives the nearest
 /// point). `settings.renderer` must not be `gl`. The result does not depend on the number of threads.
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                           TaskRunner& runner);
+Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                          TaskRunner& runner, FrameMemory& memory);
 
 }  // namespace acentric

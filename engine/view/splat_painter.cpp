@@ -64,7 +64,7 @@ class Painter {
   explicit Painter(const PaintTarget& target)
       : target_(target),
         rect_(target.rect),
-        height_(static_cast<std::size_t>(target.canvas->height)),
+        height_(target.canvas->height),
         pixels_(target.canvas->pixels.data()),
         stamps_(target.canvas->stamps.data()),
         mirrors_(target.canvas->mirrors.data()) {}
@@ -98,7 +98,7 @@ class Painter {
 
   /// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
   /// beyond it recede.
-  std::uint64_t paintPixel(const Splat* first, const Splat* last) const {
+  [[gnu::always_inline]] std::uint64_t paintPixel(const Splat* first, const Splat* last) const {
     if (last - first == 1) return paint(*first);
     const Splat* const foot = std::partition_point(
         first, last, [&](const Splat& s) { return target_.inverseDistance[s.index] > target_.footInverse; });
@@ -108,7 +108,13 @@ class Painter {
     return painted;
   }
 
-  bool paint(const Splat& splat) const {
+  /// Once, where its first pixel is.
+  [[gnu::always_inline]] bool counts(const Splat& splat) const {
+    const int first = std::max<int>(splat.x, 0);
+    return first >= target_.countedFrom && first < target_.countedTo;
+  }
+
+  [[gnu::always_inline]] bool paint(const Splat& splat) const {
     const std::uint32_t colour = wordOf(target_.colour[splat.index]);
     const bool opaque = colour >= 0xff000000u;
     const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
@@ -123,7 +129,7 @@ class Painter {
       if (whole && splat.width <= kSmallSide && splat.height <= kSmallSide &&
           (mode == PaintMode::over || opaque)) {
         paintSmall(splat, plain, mirror);
-        return true;
+        return counts(splat);
       }
     }
     return paintAny(splat, plain, mirror, colour, opaque);
@@ -131,9 +137,9 @@ class Painter {
 
   /// Its four corners, which are all its pixels, some of them twice: sizes of splats change from one to the
   /// next, and a branch on them would be foretold wrongly as often as not.
-  void paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
-    const std::size_t down = splat.height - 1u, right = (splat.width - 1u) * height_,
-                      at = std::size_t(splat.x) * height_ + std::size_t(splat.y);
+  [[gnu::always_inline]] void paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
+    const std::ptrdiff_t down = splat.height - 1, right = (splat.width - 1) * height_,
+                         at = (splat.x - rect_.x0) * height_ + splat.y;
     const auto fill = [&]<class T>(T* pixels, T value) {
       T* const p = pixels + at;
       p[0] = p[down] = p[right] = p[right + down] = value;
@@ -158,12 +164,11 @@ class Painter {
     const int y0 = std::max<int>(splat.y, rect_.y0), y1 = std::min<int>(splat.y + splat.height, rect_.y1);
     const float inverseZDepth = inverseZDepthOf(plain);
     const auto depthOf = [](CanvasPixel pixel) { return inverseZDepthOf(pixel & ~kPlace); };
-    // Counted where its first pixel is.
-    bool counts = std::max<int>(splat.x, 0) >= rect_.x0;
+    bool counted = counts(splat);
     if constexpr (kBehind)
-      counts = counts && slotOf(pixels_[std::size_t(x0) * height_ + std::size_t(y0)]) < target_.openBelow;
+      counted = counted && slotOf(pixels_[(x0 - rect_.x0) * height_ + y0]) < target_.openBelow;
     for (int x = x0; x < x1; ++x) {
-      const std::size_t start = std::size_t(x) * height_;
+      const std::ptrdiff_t start = (x - rect_.x0) * height_;
       CanvasPixel* const column = pixels_ + start;
       [[maybe_unused]] std::uint8_t* const mirrors = mirrors_ + start;
       const auto pixelAt = [&](int y) {
@@ -211,12 +216,12 @@ class Painter {
         });
       }
     }
-    return counts;
+    return counted;
   }
 
   const PaintTarget target_;
   const PixelRect rect_;
-  const std::size_t height_;
+  const std::ptrdiff_t height_;
   CanvasPixel* const pixels_;
   std::uint64_t* const stamps_;
   std::uint8_t* const mirrors_;

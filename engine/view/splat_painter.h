@@ -27,14 +27,15 @@ struct PaintTarget {
   std::uint32_t slot = 0;                ///< 1..kMaxSlots
   std::uint32_t column = 0;              ///< of the capture
   float footInverse = 0;                 ///< RowOrder::footInverse
+  int countedFrom = 0, countedTo = 0;    ///< columns of the picture whose splats are counted
   /// If not 0, only pixels with lesser slots are painted: those that nothing in front has covered.
   std::uint32_t openBelow = 0;
 };
 
 /// One splat after the other, first to last, or last to first. `pixelByPixel` (layered captures): rows in
 /// that order too, but the samples of each pixel by their distance from the eye (column_order.h). Returns how
-/// many were painted whose first visible pixel lies in the rectangle's columns and may be painted, so that
-/// rectangles beside each other add up. A canvas that has room for them is told the mirrors that its pixels
+/// many were painted whose first visible pixel lies in the columns that count and may be painted, so that
+/// canvases beside each other add up. A canvas that has room for them is told the mirrors that its pixels
 /// show.
 std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
                           bool reversed, bool pixelByPixel);

@@ -10,6 +10,7 @@
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_culling.h"
 #include "engine/view/column_order.h"
+#include "engine/view/picture_axes.h"
 
 namespace acentric {
 namespace {
@@ -43,14 +44,46 @@ std::vector<float> leastInverseDistances(const DisplayCapture& capture, const Cl
   return limits;
 }
 
-std::vector<char> visibleColumns(const DisplayCapture& capture, const PieceDraw& piece,
-                                 const FrustumPlanes& planes) {
+/// What a view can show of captures.
+struct Sight {
+  FrustumPlanes planes;
+  PictureAxes axes;
+  double margin;  ///< of splats
+  int width;      ///< of the picture
+
+  /// On which columns of the picture something in this direction may lie, at these tangents and inverse
+  /// distances.
+  void reach(const glm::dvec2& direction, const glm::dvec3& baseline, const glm::dvec2& range,
+             ColumnSight& sight) const {
+    const glm::dvec3 a = axes.project(glm::dvec3(direction, 0)), b = axes.project(baseline),
+                     up = axes.project(glm::dvec3(0, 0, 1));
+    sight.x0 = 0, sight.x1 = width;
+    double low = width, high = 0;
+    // A quotient of functions that are linear in tangent and inverse distance each: corners are extremes.
+    for (const double t : {sight.tangents.low, sight.tangents.high})
+      for (const double w : {range.x, range.y}) {
+        const glm::dvec3 q = a + t * up + w * b;
+        if (!(q.z > 1e-3 * (1 + std::abs(t)))) return;  // beside the eye, or behind it
+        low = std::min(low, q.x / q.z), high = std::max(high, q.x / q.z);
+      }
+    sight.x0 = static_cast<int>(std::clamp(std::floor(low - margin), 0.0, double(width)));
+    sight.x1 = static_cast<int>(std::clamp(std::ceil(high + margin), 0.0, double(width)));
+  }
+};
+
+/// Fills piece.sight; says of each column whether something of it may be seen.
+std::vector<char> visibleColumns(const DisplayCapture& capture, const Sight& sight, PieceDraw& piece) {
   const TangentRange rows{capture.camera.tangentAt(capture.camera.rows - 0.5), capture.camera.tangentAt(0.5)};
-  std::vector<char> visible(static_cast<std::size_t>(capture.camera.columns), 0);
-  for (std::size_t k = 0; k < visible.size(); ++k) {
-    visible[k] = visibleTangents(planes, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline),
-                                 glm::dvec2(drawnRange(capture, piece, k)), rows)
-                     .has_value();
+  const std::size_t columns = static_cast<std::size_t>(capture.camera.columns);
+  std::vector<char> visible(columns, 0);
+  piece.sight.assign(columns, {});
+  for (std::size_t k = 0; k < columns; ++k) {
+    const glm::dvec2 direction(capture.columnDirection[k]), range(drawnRange(capture, piece, k));
+    const auto tangents = visibleTangents(sight.planes, direction, glm::dvec3(piece.baseline), range, rows);
+    if (!tangents) continue;
+    piece.sight[k].tangents = *tangents;
+    sight.reach(direction, glm::dvec3(piece.baseline), range, piece.sight[k]);
+    visible[k] = piece.sight[k].x0 < piece.sight[k].x1;
   }
   return visible;
 }
@@ -120,8 +153,9 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
   plan.region = *regionIndex;
   const Region& region = layout.regions[static_cast<std::size_t>(plan.region)];
   const ViewSector sector = sectorOf(view);
-  const FrustumPlanes planes =
-      frustumPlanes(view, {0, 0, view.width, view.height}, splatMargin(settings.maxSplatPixels));
+  const double margin = splatMargin(settings.maxSplatPixels);
+  const Sight sight{frustumPlanes(view, {0, 0, view.width, view.height}, margin), PictureAxes(view), margin,
+                    view.width};
   std::set<int> missing;
 
   const auto addCover = [&](const Cover& cover, bool secondary) {
@@ -146,13 +180,13 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
           columnOrder(capture.camera, eye - glm::dvec2(capture.camera.centreOfProjection));
       piece.epipoleColumn = order.epipoleColumn;
       const auto add = [&](const DisplayCapture& samples, std::vector<PieceDraw>& draws) {
-        piece.runs = keepColumns(order.runs, visibleColumns(samples, piece, planes));
+        piece.runs = keepColumns(order.runs, visibleColumns(samples, sight, piece));
         if (piece.runs.empty()) return;
         piece.nearestFirst = samples.layered && mostlyBeforeFoot(samples, piece);
         draws.push_back(piece);
       };
       if (capture.background.runs.runCount() > 0) {
-        piece.runs = keepColumns(order.runs, visibleBackground(capture, piece, planes));
+        piece.runs = keepColumns(order.runs, visibleBackground(capture, piece, sight.planes));
         if (!piece.runs.empty()) plan.backgrounds.push_back(piece);
       }
       if (capture.reflections) add(*capture.reflections, plan.reflections);

@@ -8,6 +8,7 @@
 
 #include "engine/geometry/perspective_view.h"
 #include "engine/layout/drawing_order.h"
+#include "engine/view/column_culling.h"
 #include "engine/view/view_settings.h"
 #include "engine/view/walk_scene.h"
 
@@ -21,6 +22,12 @@ struct ColumnRun {
   bool ascending = true;
 };
 
+/// What a picture may show of a capture's column.
+struct ColumnSight {
+  TangentRange tangents;  ///< of its rows
+  int x0 = 0, x1 = 0;     ///< columns [x0, x1) of the picture that its splats may fall on
+};
+
 struct PieceDraw {
   int camera = 0;   ///< Layout camera
   ViewSector part;  ///< samples outside this azimuth range (from the eye) are not drawn, if `clipToPart`
@@ -28,6 +35,7 @@ struct PieceDraw {
   bool secondary = false;                 ///< the other hand, painted behind
   std::uint8_t roles = 0xff;              ///< samples that none of these needs are not drawn
   std::vector<ColumnRun> runs;            ///< after culling columns that cannot fall on the picture
+  std::vector<ColumnSight> sight;         ///< per column of the capture; empty = all of all
   std::vector<float> maxInverseDistance;  ///< per column of the capture; infinity = all
   std::vector<float> minInverseDistance;  ///< the same for a piece that is clipped; else empty
   glm::vec3 baseline{0};                  ///< b = P - E, metres

@@ -9,31 +9,14 @@
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_order.h"
 #include "engine/view/open_tiles.h"
+#include "engine/view/picture_axes.h"
 #include "engine/view/splat_painter.h"
 
 namespace acentric {
 namespace {
 
-/// View axes with the focal length and the picture's centre multiplied in (ProjectColumn).
-struct ScaledAxes {
-  glm::dvec3 u, v, z;
-
-  explicit ScaledAxes(const PerspectiveView& view) {
-    const glm::dmat3 worldFromView = glm::transpose(view.viewFromWorld());
-    const double focal = view.focalPixels();
-    z = worldFromView[2];
-    u = focal * worldFromView[0] + 0.5 * view.width * z;
-    v = focal * worldFromView[1] + 0.5 * view.height * z;
-  }
-  void project(const glm::dvec3& direction, float* out) const {
-    out[0] = static_cast<float>(glm::dot(u, direction));
-    out[1] = static_cast<float>(glm::dot(v, direction));
-    out[2] = static_cast<float>(glm::dot(z, direction));
-  }
-};
-
 /// What is constant over a piece.
-ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view,
+ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
                              const ViewSettings& settings, const PieceDraw& piece,
                              const DisplayCapture& capture, const PixelRect& rect) {
   ProjectColumn column{};
@@ -65,20 +48,22 @@ ProjectColumn columnTemplate(const ScaledAxes& axes, const PerspectiveView& view
   return column;
 }
 
-/// One strip of the picture: all pieces in order, clipped to its columns.
-class StripWarp {
+/// One canvas: all pieces in order, clipped to its columns.
+class CanvasWarp {
  public:
-  StripWarp(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-            const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, const PixelRect& rect)
+  CanvasWarp(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+             const ViewPlan& plan, const WarpOptions& options, int x0, int x1, Canvas& canvas)
       : scene_(scene),
         view_(view),
         settings_(settings),
         plan_(plan),
         options_(options),
         canvas_(canvas),
-        rect_(rect),
+        rect_(canvas.rect()),
+        countedFrom_(x0),
+        countedTo_(x1),
         axes_(view),
-        planes_(frustumPlanes(view, rect, splatMargin(settings.maxSplatPixels))) {}
+        planes_(frustumPlanes(view, rect_, splatMargin(settings.maxSplatPixels))) {}
 
   WarpCounts run() {
     const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
@@ -127,20 +112,19 @@ class StripWarp {
                   PaintMode mode, std::uint32_t slot, int index) {
     const std::size_t k = static_cast<std::size_t>(index);
     const glm::dvec2 direction(capture.columnDirection[k]);
-    const glm::dvec2 range(drawnRange(capture, piece, k));
-    const TangentRange all{static_cast<double>(capture.rowTangent.back()),
-                           static_cast<double>(capture.rowTangent.front())};
-    const auto tangents = options_.cull
-                              ? visibleTangents(planes_, direction, glm::dvec3(piece.baseline), range, all)
-                              : std::optional(all);
-    if (!tangents) return;
+    ColumnSight sight{
+        {static_cast<double>(capture.rowTangent.back()), static_cast<double>(capture.rowTangent.front())},
+        rect_.x0,
+        rect_.x1};
+    if (options_.cull && !piece.sight.empty()) sight = piece.sight[k];
+    if (sight.x1 <= rect_.x0 || sight.x0 >= rect_.x1) return;
 
     axes_.project(glm::dvec3(direction, 0), column.a);
     axes_.project(double(column.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), column.across);
     column.maxInverseDistance = piece.maxInverseDistance[k];
     column.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
-    const int count = projectVisible(piece, capture, column, k, *tangents, range);
+    const int count = projectVisible(piece, capture, column, k, sight.tangents);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
@@ -155,6 +139,8 @@ class StripWarp {
                              slot,
                              static_cast<std::uint32_t>(index),
                              order.footInverse,
+                             countedFrom_,
+                             countedTo_,
                              openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const Splat* splats = splats_.data();
@@ -169,7 +155,8 @@ class StripWarp {
   /// Projects the samples of column k block by block, leaving out blocks that cannot be seen. Splats count
   /// samples from the column's first.
   int projectVisible(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
-                     std::size_t k, const TangentRange& tangents, const glm::dvec2& range) {
+                     std::size_t k, const TangentRange& tangents) {
+    const glm::dvec2 range(drawnRange(capture, piece, k));
     const std::size_t start = capture.columnStart[k], end = capture.columnStart[k + 1];
     const std::size_t firstBlock = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - firstBlock;
     splats_.resize(std::max<std::size_t>(splats_.size(), end - start + 16));
@@ -206,7 +193,7 @@ class StripWarp {
     if (!mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline), drawn,
                       rows))
       return false;
-    return !open_ || open_->mayReach(column, rows, drawn, splatMargin(settings_.maxSplatPixels));
+    return !open_ || open_->mayReach(column, rows, glm::vec2(drawn));
   }
 
   const WalkScene& scene_;
@@ -216,7 +203,8 @@ class StripWarp {
   const WarpOptions& options_;
   Canvas& canvas_;
   PixelRect rect_;
-  ScaledAxes axes_;
+  int countedFrom_, countedTo_;
+  PictureAxes axes_;
   FrustumPlanes planes_;
   std::uint32_t openBelow_ = 0;    ///< PaintTarget::openBelow
   std::optional<OpenTiles> open_;  ///< while what lies behind is drawn
@@ -226,39 +214,26 @@ class StripWarp {
 
 }  // namespace
 
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors, bool withPlaces) {
-  Canvas canvas;
-  canvas.width = view.width;
+void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                 const ViewPlan& plan, int x0, int x1, Canvas& canvas) {
+  const bool blended = std::ranges::any_of(plan.pieces, [&](const PieceDraw& piece) {
+    return scene.captures[static_cast<std::size_t>(piece.camera)]->blended;
+  });
+  canvas.x0 = x0;
+  canvas.width = x1 - x0;
   canvas.height = view.height;
-  canvas.places = withPlaces;
-  const std::size_t size = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+  canvas.places = settings.reconstruction == Reconstruction::filtered;
+  const std::size_t size = static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   canvas.pixels.assign(size, kEmptyPixel);
-  if (withStamps) canvas.stamps.assign(size, 0);
-  if (withMirrors) canvas.mirrors.assign(size, 0);
-  return canvas;
+  canvas.stamps.assign(blended ? size : 0, 0);
+  canvas.mirrors.assign(plan.reflections.empty() ? 0 : size, 0);
 }
 
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                      const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner) {
+                      const ViewPlan& plan, const WarpOptions& options, int x0, int x1, Canvas& canvas) {
   require(reflectionSlot(plan, plan.reflections.size()) <= static_cast<std::uint32_t>(kMaxSlots) + 1,
           "more pieces than a canvas pixel can name");
-  require(plan.reflections.empty() || !canvas.mirrors.empty(), "a canvas that can say what mirrors it shows");
-  require(canvas.places == (settings.reconstruction == Reconstruction::filtered),
-          "a canvas that says where samples lie where they are filtered, and only there");
-  std::vector<WarpCounts> counts(static_cast<std::size_t>(std::clamp(options.strips, 1, view.width)));
-  runner.parallelFor(counts.size(), [&](std::size_t strip) {
-    const auto columnAt = [&](std::size_t s) {
-      return static_cast<int>(s * std::size_t(view.width) / counts.size());
-    };
-    const PixelRect rect{columnAt(strip), 0, columnAt(strip + 1), view.height};
-    counts[strip] = StripWarp(scene, view, settings, plan, options, canvas, rect).run();
-  });
-  WarpCounts total;
-  for (const WarpCounts& c : counts) {
-    total.samplesRead += c.samplesRead;
-    total.samplesDrawn += c.samplesDrawn;
-  }
-  return total;
+  return CanvasWarp(scene, view, settings, plan, options, x0, x1, canvas).run();
 }
 
 }  // namespace acentric

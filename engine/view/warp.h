@@ -1,7 +1,6 @@
 #pragma once
 /// Paints a plan's pieces on a canvas: the background of a frame.
 
-#include "engine/base/task_runner.h"
 #include "engine/view/canvas.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp_kernel.h"
@@ -19,20 +18,25 @@ inline constexpr double kOverlap = 1.1;
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one
-  bool cull = true;        ///< blocks of samples that cannot be seen are left out: same picture, sooner
-  /// The picture is cut in this many strips of columns, one task each; pixels do not depend on it. A
-  /// capture's columns fall on nearly vertical lines, so few samples fall on two strips.
-  int strips = 1;
+  bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
 };
 
+/// Of one canvas.
 struct WarpCounts {
-  std::uint64_t samplesRead = 0;  ///< once per strip that a sample may fall on
-  std::uint64_t samplesDrawn = 0;
+  std::uint64_t samplesRead = 0;   ///< that may fall on it
+  std::uint64_t samplesDrawn = 0;  ///< whose first pixel lies in the columns asked for
+
+  WarpCounts& operator+=(const WarpCounts& other) {
+    samplesRead += other.samplesRead, samplesDrawn += other.samplesDrawn;
+    return *this;
+  }
 };
 
-/// A cleared canvas for this view; `withStamps` if some piece holds blended samples, `withMirrors` if the
-/// plan has reflections, `withPlaces` if it is to be filtered.
-Canvas makeCanvas(const PerspectiveView& view, bool withStamps, bool withMirrors, bool withPlaces = false);
+/// Makes it an empty canvas of columns [x0, x1) of the picture, with what the plan and the settings need:
+/// stamps if some piece holds blended samples, mirrors if there are reflections, places if it is to be
+/// filtered.
+void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                 const ViewPlan& plan, int x0, int x1, Canvas& canvas);
 
 /// Slots on the canvas, from back to front: holes, the background without a capture, backgrounds of captures,
 /// pieces (those of the second cover, which only fill what the first leaves open, before the others),
@@ -50,8 +54,10 @@ inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
 
 /// Paints the pieces of the first cover; those of the second where nothing of the first lies; then what
 /// mirrors show over those pixels that the same mirror came to cover: they keep the mirror's depth. At most
-/// kMaxSlots slots. The canvas keeps places if the settings filter.
+/// kMaxSlots slots. Columns [x0, x1) of the canvas are those that are counted. Pixels do not depend on how
+/// the picture is cut into canvases: a capture's columns fall on nearly vertical lines, so few samples fall
+/// on two.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                      const ViewPlan& plan, const WarpOptions& options, Canvas& canvas, TaskRunner& runner);
+                      const ViewPlan& plan, const WarpOptions& options, int x0, int x1, Canvas& canvas);
 
 }  // namespace acentric

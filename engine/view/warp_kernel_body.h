@@ -71,9 +71,10 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
 
 /// Lanes beyond `count` must hold an inverse distance of NaN.
 template <class B>
-inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const std::uint16_t* row,
-                        const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                        std::uint32_t firstIndex, Splat* out) {
+[[gnu::always_inline]] inline int projectBatch(const ProjectColumn& c, const float* rowTangent,
+                                               const std::uint16_t* row, const float* inverseDistance,
+                                               const std::uint8_t* roles, const Slant* slant,
+                                               std::uint32_t firstIndex, Splat* out) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
@@ -111,9 +112,10 @@ inline int projectBatch(const ProjectColumn& c, const float* rowTangent, const s
 }
 
 template <class B>
-inline int projectColumn(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
+inline int projectColumn(const ProjectColumn& constants, const float* rowTangent, const std::uint16_t* row,
                          const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
                          int count, std::uint32_t firstIndex, Splat* out) {
+  const ProjectColumn column = constants;  // a copy that no splat is written over: it stays in registers
   int written = 0, i = 0;
   for (; i + B::kWidth <= count; i += B::kWidth)
     written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i, roles + i,

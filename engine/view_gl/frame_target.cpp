@@ -117,12 +117,15 @@ Status FrameTarget::beginMirrors() {
   return checkGl("making the layer of mirrors");
 }
 
-void FrameTarget::beginPainting(bool keepDepth) const {
+void FrameTarget::beginPainting(bool keepDepth, Cover cover) const {
   bindForDrawing();
   keepDepth ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_ALWAYS, 1, 0xff);
+  if (cover == Cover::behind)
+    glStencilFunc(GL_EQUAL, kCovered, kInFront);
+  else
+    glStencilFunc(GL_ALWAYS, cover == Cover::inFront ? kCovered | kInFront : kCovered, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_BLEND);

@@ -10,6 +10,10 @@
 
 namespace acentric {
 
+/// The stencil: 0 in holes; kCovered, and for pixels that the first cover shows kInFront too (what the second
+/// shows lies behind it); kTinted where the first cover's clear samples lie over an open pixel.
+enum StencilBits : GLint { kCovered = 1, kInFront = 2, kTinted = 4 };
+
 class FrameTarget {
  public:
   /// Keeps what it has when the size is the same.
@@ -19,7 +23,9 @@ class FrameTarget {
   void bindForDrawing() const;
   /// Binds for drawing that covers what is there, whatever lies nearer: colours go in as the codes they are,
   /// the stencil marks what is drawn, and the depth is kept if asked for. Then back to the state before.
-  void beginPainting(bool keepDepth) const;
+  /// `behind`: nothing is drawn where the first cover shows something.
+  enum class Cover { inFront, behind, background };
+  void beginPainting(bool keepDepth, Cover cover) const;
   void endPainting() const;
   /// Also for drawing which mirror each pixel shows. `beginMirrors` clears that.
   Status beginMirrors();

@@ -136,7 +136,12 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
     if (Status ready = target.beginMirrors(); !ready) return ready;
   std::set<int> images;
   for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
-  for (const PieceDraw& planned : plan.pieces) {
+  std::vector<const PieceDraw*> pieces;
+  for (const bool behind : {false, true})
+    for (const PieceDraw& piece : plan.pieces)
+      if (piece.secondary == behind) pieces.push_back(&piece);
+  for (const PieceDraw* next : pieces) {
+    const PieceDraw& planned = *next;
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
     if (!capture || capture->row.empty() || planned.runs.empty()) continue;
     const std::string name = fmt::format("capture of camera {}", planned.camera);
@@ -144,7 +149,8 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
     if (!buffers) return tl::unexpected(buffers.error());
     // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
     // holes.
-    target.beginPainting(anyClear || settings.fillHoles);
+    target.beginPainting(anyClear || settings.fillHoles,
+                         planned.secondary ? FrameTarget::Cover::behind : FrameTarget::Cover::inFront);
     if (anyMirror) target.bindForMirrors();
     Piece piece{planned, *capture, **buffers,
                 view,    settings, anyMirror ? Piece::Mirrors::mark : Piece::Mirrors::none};
@@ -259,7 +265,10 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_FALSE);
     glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_NOTEQUAL, 0, 0xff);  // over a hole there is nothing to tint
+    if (piece.plan.secondary)
+      glStencilFunc(GL_EQUAL, kCovered, kCovered | kInFront | kTinted);
+    else
+      glStencilFunc(GL_NOTEQUAL, 0, kCovered);  // over a hole there is nothing to tint
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     const Result<GlProgram*> clear = program(piece, "CLEAR");
     if (!clear) return tl::unexpected(clear.error());
@@ -268,7 +277,9 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     drawColumns(piece, rank, stats);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, kTinted, 0xff);
+    glStencilMask(piece.plan.secondary ? 0 : kTinted);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
 
     marks ? target.bindForMirrors() : target.bindForDrawing();
     glEnable(GL_FRAMEBUFFER_SRGB);
@@ -277,6 +288,8 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // the source stays that of what shows through
     drawWholePicture(**lay, noAttributes_, {{"layer", target.clearLayer()}});
     glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glStencilMask(0xff);
+    glDisable(GL_STENCIL_TEST);
   }
   return {};
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/view/captured_background.h"
 #include "engine/view/column_order.h"
 #include "engine/view/render.h"
@@ -57,16 +59,20 @@ struct OneCapture {
 
 inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                     const ViewPlan& plan, bool depthTest = false, int strips = 4) {
-  bool blended = false;
-  for (const auto& capture : scene.captures) blended = blended || (capture && capture->blended);
-  Canvas canvas = makeCanvas(view, blended, !plan.reflections.empty(),
-                             settings.reconstruction == Reconstruction::filtered);
-  TaskRunner runner(0);
   WarpOptions options;
   options.depthTest = depthTest;
-  options.strips = strips;
-  paintCapturedBackground(scene, view, plan, canvas, runner);
-  warpPieces(scene, view, settings, plan, options, canvas, runner);
+  const CapturedBackground background(scene, plan);
+  Canvas canvas, part;
+  clearCanvas(scene, view, settings, plan, 0, view.width, canvas);
+  for (int strip = 0; strip < strips; ++strip) {
+    const int x0 = strip * view.width / strips, x1 = (strip + 1) * view.width / strips;
+    clearCanvas(scene, view, settings, plan, x0, x1, part);
+    background.paint(view, part);
+    warpPieces(scene, view, settings, plan, options, x0, x1, part);
+    std::ranges::copy(part.pixels, canvas.column(x0));
+    std::ranges::copy(part.stamps, canvas.stamps.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
+    std::ranges::copy(part.mirrors, canvas.mirrors.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
+  }
   return canvas;
 }
 

@@ -65,7 +65,6 @@ int codesApart(const Rgba8& a, const Rgba8& b) {
 TEST(CapturedBackground, IsWhatEachPixelsOwnDirectionFindsInTheRuns) {
   test::RandomViews views(41);
   const ColumnCamera cameras[] = {test::cameraAt({3, 1, 1.6}, 20, 90, 150), test::cameraAt({-2, 4, 1.6}, 50)};
-  TaskRunner runner(1);
   std::size_t compared = 0, shown = 0;
   for (int round = 0; round < 60; ++round) {
     WalkScene scene;
@@ -89,8 +88,9 @@ TEST(CapturedBackground, IsWhatEachPixelsOwnDirectionFindsInTheRuns) {
     view.pitchRadians = round % 5 == 0 ? 0 : round % 5 == 1 ? kPi / 2 : views.between(-kPi / 2, kPi / 2);
     view.fovRadians = radians(views.between(20, 110));
     view.width = 61 + round % 2, view.height = 47;
-    Canvas canvas = makeCanvas(view, false, false);
-    paintCapturedBackground(scene, view, plan, canvas, runner);
+    Canvas canvas;
+    clearCanvas(scene, view, {}, plan, 0, view.width, canvas);
+    CapturedBackground(scene, plan).paint(view, canvas);
     for (int x = 0; x < view.width; ++x)
       for (int y = 0; y < view.height; ++y) {
         const glm::dvec3 direction = view.rayThrough(x + 0.5, y + 0.5);

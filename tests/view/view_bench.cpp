@@ -43,39 +43,31 @@ int main() {
     settings.secondaryCover = secondary;
     const auto plan = planView(scene, view, settings);
     if (!plan) return 1;
-    TaskRunner one(0), two(1);
     struct Case {
-      const char* name;
+      std::string name;
       ProjectSamples project;
       bool depthTest;
-      TaskRunner* runner;
-      int strips;
     };
-    for (const Case& c : {Case{"scalar", supportedKernels().front().project, false, &one, 8},
-                          Case{"fast", supportedKernels().back().project, false, &one, 1},
-                          Case{"fast", supportedKernels().back().project, false, &one, 2},
-                          Case{"fast", supportedKernels().back().project, false, &one, 4},
-                          Case{"fast", supportedKernels().back().project, false, &one, 8},
-                          Case{"fast", supportedKernels().back().project, false, &one, 16},
-                          Case{"fast", supportedKernels().back().project, false, &two, 2},
-                          Case{"fast", supportedKernels().back().project, false, &two, 4},
-                          Case{"fast", supportedKernels().back().project, false, &two, 8},
-                          Case{"zbuffer", supportedKernels().back().project, true, &one, 8}}) {
+    std::vector<Case> cases;
+    for (const Kernels& kernels : supportedKernels()) cases.push_back({kernels.name, kernels.project, false});
+    cases.push_back({"depth buffer", supportedKernels().back().project, true});
+    for (const Case& c : cases) {
       WarpOptions options;
       options.project = c.project;
       options.depthTest = c.depthTest;
-      options.strips = c.strips;
-      Canvas canvas = makeCanvas(view, false, false);
+      Canvas canvas;
+      clearCanvas(scene, view, settings, *plan, 0, view.width, canvas);
       WarpCounts counts;
-      const double seconds =
-          best(20, [&] { counts = warpPieces(scene, view, settings, *plan, options, canvas, *c.runner); });
+      const double seconds = best(
+          20, [&] { counts = warpPieces(scene, view, settings, *plan, options, 0, view.width, canvas); });
       fmt::print(
-          "{} pieces, {:8} {} thread(s) {:2} strips: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} "
-          "M read/s\n",
-          plan->pieces.size(), c.name, c.runner->threads(), c.strips, seconds * 1e3, counts.samplesRead,
-          counts.samplesDrawn, static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
+          "{} pieces, {:12} one thread: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} M read/s\n",
+          plan->pieces.size(), c.name, seconds * 1e3, counts.samplesRead, counts.samplesDrawn,
+          static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
           static_cast<double>(counts.samplesRead) / seconds * 1e-6);
     }
+    TaskRunner two(1);
+    FrameMemory memory;
     for (const auto& [renderer, reconstruction] : {std::pair(Renderer::scalar, Reconstruction::splat),
                                                    std::pair(Renderer::list, Reconstruction::splat),
                                                    std::pair(Renderer::zbuffer, Reconstruction::splat),
@@ -88,9 +80,10 @@ int main() {
       FrameStats stats;
       std::size_t holes = 0;
       const double seconds = best(10, [&] {
-        const auto frame = renderFrame(scene, view, settings, two);
+        auto frame = renderFrame(scene, view, settings, two, memory);
         stats = frame->stats;
         holes = frame->holeCount();
+        memory.frame = std::move(*frame);
       });
       fmt::print("frame {} {} 2 threads {:.2f} ms (warp {:.2f}, fill {:.2f}), {} holes\n", nameOf(renderer),
                  nameOf(reconstruction), seconds * 1e3, stats.warpSeconds * 1e3, stats.fillSeconds * 1e3,

@@ -42,7 +42,7 @@ class GlPoints : public test::WithGl {
     EXPECT_LE(differingSources(cpu, gl), tolerance) << degrees(view.fovRadians);
     EXPECT_EQ(gl.stats.images, cpu.stats.images);
     EXPECT_EQ(gl.stats.missingImages, cpu.stats.missingImages);
-    EXPECT_EQ(gl.stats.samplesRead > 0, cpu.stats.samplesRead > 0);
+    EXPECT_TRUE(gl.stats.samplesRead > 0 || cpu.stats.samplesDrawn == 0);
   }
 };
 
