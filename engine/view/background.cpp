@@ -8,7 +8,7 @@
 namespace acentric {
 
 bool BackgroundLimits::holds(const glm::vec3& direction) const {
-  const float flat = std::hypot(direction.x, direction.y);
+  const float flat = std::sqrt(direction.x * direction.x + direction.y * direction.y);
   return direction.z > above * flat || direction.z < below * flat;
 }
 

@@ -43,6 +43,17 @@ void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource
     for (int top = 0; top < canvas.height; top += kRows) {
       const int columns = std::min(kColumns, x1 - left), rows = std::min(kRows, canvas.height - top);
       if (canvas.places) filterBlock(canvas, left, columns, top, rows, filter, filtered);
+      if (top + 2 * kRows <= canvas.height) {  // the next block, whose lines are far from each other
+        for (int i = 0; i < columns; ++i) {
+          __builtin_prefetch(canvas.column(left + i) + top + kRows);
+          __builtin_prefetch(canvas.column(left + i) + top + kRows + kRows / 2);
+        }
+        for (int j = kRows; j < 2 * kRows; ++j) {
+          __builtin_prefetch(&frame.colour.at(left, top + j), 1);
+          __builtin_prefetch(&frame.source.at(left, top + j), 1);
+          __builtin_prefetch(&inverseZDepth.at(left, top + j), 1);
+        }
+      }
       for (int j = 0; j < rows; ++j) {
         Rgba8* const colour = &frame.colour.at(left, top + j);
         PixelSource* const source = &frame.source.at(left, top + j);

@@ -51,9 +51,10 @@ bool OpenTiles::mayReach(const ProjectColumn& c, const TangentRange& tangents, c
       for (int axis = 0; axis < 2; ++axis)
         low[axis] = std::min(low[axis], place[axis]), high[axis] = std::max(high[axis], place[axis]);
       side = std::max(side, std::sqrt(1 + t * t) / depth * double(c.footprint));
-      off = std::max(off, std::hypot(place[0] - double(c.centreX), place[1] - double(c.centreY)));
+      const double offX = place[0] - double(c.centreX), offY = place[1] - double(c.centreY);
+      off = std::max(off, offX * offX + offY * offY);
     }
-  side *= std::hypot(1.0, off * double(c.inverseFocal));
+  side *= std::sqrt(1 + off * double(c.inverseFocal) * double(c.inverseFocal));
   if (c.slanted || side > double(c.maxSide)) side = double(c.maxSide);
   const double margin = splatMargin(int(std::ceil(side)));
   const auto pixel = [](double place) { return int(std::clamp(std::floor(place), -1e6, 1e6)); };

@@ -23,16 +23,8 @@ namespace {
 constexpr int kFillRings = 4096;
 constexpr int kFillRingsWhileLoading = 8;
 
-/// Bytes of canvas pixels that a strip of the picture takes: they stay near the processor while they are
-/// painted and developed. More than one strip a thread in any case: some hold more than others.
-constexpr std::size_t kStripBytes = 768 * 1024;
+/// More than one: some strips hold more than others. Not many more: samples near the borders are read twice.
 constexpr int kStripsPerThread = 2;
-
-int stripsOf(const PerspectiveView& view, int threads) {
-  const std::size_t bytes = sizeof(CanvasPixel) * std::size_t(view.width) * std::size_t(view.height);
-  const int wanted = std::max(static_cast<int>(bytes / kStripBytes) + 1, kStripsPerThread * threads);
-  return std::min(wanted, view.width);
-}
 
 /// By slot of the canvas.
 std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
@@ -64,7 +56,8 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   const CapturedBackground background(scene, plan);
   const std::vector<PixelSource> sources = sourcesOf(plan);
 
-  const std::size_t strips = static_cast<std::size_t>(stripsOf(view, runner.threads()));
+  const std::size_t strips =
+      static_cast<std::size_t>(std::min(kStripsPerThread * runner.threads(), view.width));
   const int beside =
       settings.reconstruction == Reconstruction::filtered ? 1 : 0;  // columns that filters read
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);

@@ -164,6 +164,7 @@ class CanvasWarp {
     std::size_t from = start;  // of the run of visible blocks that is being gathered
     const auto flush = [&](std::size_t to) {
       if (to <= from) return;
+      for (std::size_t i = from; i < to; i += 64 / sizeof(Rgba8)) __builtin_prefetch(&capture.colour[i]);
       count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
                                 capture.inverseDistance.data() + from, capture.roles.data() + from,
                                 capture.slant.data() + from, static_cast<int>(to - from),

@@ -58,7 +58,8 @@ struct ProjectColumn {
 };
 
 /// Writes the splats that touch the rectangle to `out` (room for count + 16), in the order of the samples,
-/// and returns how many. `rowTangent` is the capture's table; `slant` is read where the column is slanted.
+/// and returns how many. `rowTangent` is the capture's table; rows do not fall; `slant` is read where the
+/// column is slanted.
 using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
                                const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
                                int count, std::uint32_t firstIndex, Splat* out);

@@ -34,9 +34,14 @@ struct EightLanes {
   static F set(float value) { return {_mm256_set1_ps(value)}; }
   static I seti(std::int32_t value) { return {_mm256_set1_epi32(value)}; }
   static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
-  static F gather(const float* table, const std::uint16_t* index) {
-    const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(index));
-    return {_mm256_i32gather_ps(table, _mm256_cvtepu16_epi32(narrow), 4)};
+  static F gather(const float* table, const std::uint16_t* rising) {
+    const __m256i index = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(rising)));
+    const int first = rising[0], span = rising[kWidth - 1] - first;
+    if (span >= kWidth) return {_mm256_i32gather_ps(table, index, 4)};
+    const __m256i within =
+        _mm256_cmpgt_epi32(_mm256_set1_epi32(span + 1), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    const __m256 near = _mm256_maskload_ps(table + first, within);
+    return {_mm256_permutevar8x32_ps(near, _mm256_sub_epi32(index, _mm256_set1_epi32(first)))};
   }
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
     const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(roles));

@@ -34,9 +34,12 @@ struct SixteenLanes {
   static F set(float value) { return {_mm512_set1_ps(value)}; }
   static I seti(std::int32_t value) { return {_mm512_set1_epi32(value)}; }
   static F load(const float* p) { return {_mm512_loadu_ps(p)}; }
-  static F gather(const float* table, const std::uint16_t* index) {
-    const __m256i narrow = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
-    return {_mm512_i32gather_ps(_mm512_cvtepu16_epi32(narrow), table, 4)};
+  static F gather(const float* table, const std::uint16_t* rising) {
+    const __m512i index = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rising)));
+    const unsigned first = rising[0], span = rising[kWidth - 1] - first;
+    if (span >= kWidth) return {_mm512_i32gather_ps(index, table, 4)};
+    const __m512 near = _mm512_maskz_loadu_ps(static_cast<__mmask16>((2u << span) - 1), table + first);
+    return {_mm512_permutexvar_ps(_mm512_sub_epi32(index, _mm512_set1_epi32(static_cast<int>(first))), near)};
   }
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
     const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(roles));

@@ -127,7 +127,7 @@ inline int projectColumn(const ProjectColumn& constants, const float* rowTangent
     std::uint8_t lastRoles[B::kWidth];
     Slant lastSlant[B::kWidth];
     for (int lane = 0; lane < B::kWidth; ++lane) {
-      lastRow[lane] = i + lane < count ? row[i + lane] : row[i];
+      lastRow[lane] = row[i + lane < count ? i + lane : count - 1];
       lastInverse[lane] = i + lane < count ? inverseDistance[i + lane] : __builtin_nanf("");
       lastRoles[lane] = i + lane < count ? roles[i + lane] : std::uint8_t(0);
       lastSlant[lane] = column.slanted && i + lane < count ? slant[i + lane] : Slant{};

@@ -13,7 +13,7 @@ struct OneLane {
   static F set(float value) { return value; }
   static I seti(std::int32_t value) { return value; }
   static F load(const float* p) { return *p; }
-  static F gather(const float* table, const std::uint16_t* index) { return table[*index]; }
+  static F gather(const float* table, const std::uint16_t* rising) { return table[*rising]; }
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
   static M less(F a, F b) { return a < b; }
   static M notLess(F a, F b) { return a >= b; }

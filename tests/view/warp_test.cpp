@@ -103,11 +103,13 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     std::vector<std::uint16_t> rows;
     std::vector<float> inverse;
     std::vector<std::uint8_t> roles;
+    const std::size_t rowStep = 1 + random() % 6;
     std::vector<Slant> slants;
     for (int i = 0; i < count; ++i) {
       slants.push_back({static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125),
                         static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125)});
-      rows.push_back(static_cast<std::uint16_t>(random() % tangents.size()));
+      const std::size_t next = rows.empty() ? random() % 50 : rows.back() + random() % rowStep;
+      rows.push_back(static_cast<std::uint16_t>(std::min(next, tangents.size() - 1)));
       roles.push_back(static_cast<std::uint8_t>(random()));
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
       inverse.push_back(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1));
