@@ -29,7 +29,7 @@ struct FrameMaker::Gl {
 };
 
 FrameMaker::FrameMaker(std::span<const OpenProject> storeys, const Common& common, TaskRunner& runner)
-    : storeys_(storeys), common_(common), runner_(runner), walks_(storeys.size()) {}
+    : storeys_(storeys), common_(common), runner_(runner), walks_(std::make_shared<Walks>(storeys.size())) {}
 FrameMaker::~FrameMaker() = default;
 
 Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProject> storeys,
@@ -62,7 +62,7 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
 
 Status FrameMaker::load(const glm::dvec3& eye) {
   const std::size_t storey = storeyAt(storeys_, eye);
-  if (truth_ || walks_[storey]) return {};
+  if (truth_ || (*walks_)[storey]) return {};
   const OpenProject& open = storeys_[storey];
   auto loaded = loadWalk(open, nullptr, runner_, common_.progress, common_.stop);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -73,7 +73,7 @@ Status FrameMaker::load(const glm::dvec3& eye) {
                     : fmt::format("nothing is baked yet of {}; run `acentric bake` on it first",
                                   open.project.storeys[storey].name),
                 open.file.string());
-  walks_[storey] = std::move(*loaded);
+  (*walks_)[storey] = std::move(*loaded);
   return {};
 }
 
@@ -89,7 +89,7 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
     return frame;
   }
   if (Status loaded = load(view.eye); !loaded) return tl::unexpected(loaded.error());
-  const WalkScene& walk = walks_[storeyAt(storeys_, view.eye)]->walk;
+  const WalkScene& walk = (*walks_)[storeyAt(storeys_, view.eye)]->walk;
   if (!gl_) return renderFrame(walk, view, settings, runner_, memory_);
   auto stats = gl_->renderer->draw(walk, view, settings);
   if (!stats) return tl::unexpected(stats.error());
@@ -102,7 +102,7 @@ std::vector<std::string> FrameMaker::warnings() const {
   std::vector<std::string> all;
   if (gl_ && settings.reconstruction == Reconstruction::filtered)
     all.push_back("the OpenGL renderer draws splats where filtered samples are asked for");
-  for (const auto& walk : walks_)
+  for (const auto& walk : *walks_)
     if (walk) {
       all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());
       if (walk->coarse > 0) all.push_back(coarseText(*walk));

@@ -71,6 +71,8 @@ class FrameMaker {
                                                     const std::string& rendererName, const Common& common,
                                                     TaskRunner& runner,
                                                     const std::string& reconstruction = {});
+  /// What has been loaded, and is from now on, serves this one too: captures are in memory once.
+  void shareWalksOf(const FrameMaker& other) { walks_ = other.walks_; }
   ~FrameMaker();
   /// Loads what frames from an eye need; render() does so too.
   Status load(const glm::dvec3& eye);
@@ -88,7 +90,8 @@ class FrameMaker {
   std::span<const OpenProject> storeys_;
   const Common& common_;
   TaskRunner& runner_;
-  std::vector<std::optional<LoadedWalk>> walks_;  ///< of storeys_
+  using Walks = std::vector<std::optional<LoadedWalk>>;
+  std::shared_ptr<Walks> walks_;  ///< of storeys_
   FrameMemory memory_;
   bool truth_ = false;
   std::unique_ptr<Gl> gl_;

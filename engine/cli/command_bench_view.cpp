@@ -19,6 +19,7 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
     const Stopwatch watch;
     auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.reconstruction);
     if (!maker) return tl::unexpected(maker.error());
+    if (!makers.empty()) (*maker)->shareWalksOf(*makers.front());
     if (Status loaded = (*maker)->load(views.front().eye); !loaded) return tl::unexpected(loaded.error());
     if (makers.empty()) loadSeconds = watch.seconds();
     makers.push_back(std::move(*maker));

@@ -130,7 +130,7 @@ killNode() {
 }
 parentOf() { sed -n 's/^PPid:[[:space:]]*//p' "/proc/$1/status"; }
 
-fieldOf() { scontrol --oneliner show job "$1" | tr ' ' '\n' | sed -n "s/^$2=//p" | head -1; }
+fieldOf() { scontrol --oneliner show job "$1" | tr ' ' '\n' | sed -n "s/^$2=//p" | sed -n 1p; }
 stateOf() { fieldOf "$1" JobState; }
 jobsEnded() { [[ -z $(squeue --noheader 2> /dev/null) ]] && squeue --noheader > /dev/null 2>&1; }
 

@@ -75,10 +75,10 @@ diff -r "$work/expected" "$captures" || fail "the store differs from a local bak
 note "the store is a local bake's, byte for byte: $(ls "$captures" | wc -l) files"
 
 # --- Nothing is left to submit
-"$acentric" farm slurm "$project" --submit | grep -q 'nothing to submit' || fail "a finished bake was submitted"
+"$acentric" farm slurm "$project" --submit | grep 'nothing to submit' > /dev/null || fail "a finished bake was submitted"
 
 # --- The step after a bake bakes again what is damaged, and names it
-pack=$(find "$captures" -name '*.pack' | sort | head -1)
+pack=$(find "$captures" -name '*.pack' | sort | sed -n 1p)
 touch -r "$pack" "$work/written"
 printf 'XXXX' | dd of="$pack" bs=1 seek=2000 conv=notrunc status=none
 touch -r "$work/written" "$pack" # so that reading it to its end alone can tell

@@ -34,7 +34,7 @@ start_editor() {
   "$EDITOR" "$1" --log-ui "$WORK/ui.log" --exit-after 390 >"$WORK/editor.out" 2>&1 &
   EDITOR_PID=$!
   wait_for '^event READY' 60
-  WINDOW=$(xdotool search --sync --name 'Acentric' | head -1)
+  WINDOW=$(xdotool search --sync --name 'Acentric' | sed -n 1p)
 }
 
 # wait_for PATTERN SECONDS: a line of the log matches

@@ -44,7 +44,7 @@ REGIONS=$(field regions)
 # Add: click the free ring nearest to the middle of the plan.
 FREE=$(grep -oE '^rect free\.-?[0-9]+\.-?[0-9]+\.0 ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
   echo "$(place "$name") $name $(place plan)"
-done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | head -1 | awk '{ print $2 }')
+done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | sed -n 1p | awk '{ print $2 }')
 [ -n "$FREE" ] || fail "no free cell is shown"
 CELL=cell.${FREE#free.}
 click "$FREE"
@@ -53,7 +53,7 @@ wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 1" 30
 # Drag it to another free ring: one history entry, as many regions as before.
 TARGET=$(grep -oE '^rect free\.-?[0-9]+\.-?[0-9]+\.0 ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
   [ "$name" != "$FREE" ] && echo "$(place "$name") $name $(place "$CELL")"
-done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | head -1 | awk '{ print $2 }')
+done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | sed -n 1p | awk '{ print $2 }')
 [ -n "$TARGET" ] || fail "no second free cell is shown"
 # shellcheck disable=SC2046
 drag_to $(place "$CELL") $(place "$TARGET")
