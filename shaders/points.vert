@@ -1,5 +1,7 @@
-// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
-// OPAQUE (draws the others) and CLEAR (draws these, one rank at a time); MIRRORS passes on each sample's mirror.
+// One sample of a capture -> one square point. Defines: SPLAT, RECTANGLE (the rectangle that filtered samples cover, of which
+// the fragment shader keeps the pixels), CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
+// OPAQUE (draws the others) and CLEAR (draws these, one rank at a time); MIRRORS passes on each sample's mirror; UNORDERED
+// leaves samples in the order in which they are stored, for a depth test.
 //
 // A sample of column direction c, row tangent t and inverse horizontal distance w lies, seen from the eye, along
 // q = K M (c + t z + w b), where M turns the world into view axes and K multiplies focal length and picture centre in:
@@ -33,9 +35,9 @@ uniform vec3 baselineInPicture;  // K M b
 uniform vec2 pictureSize;        // pixels
 uniform uint roles;              // of the region that the picture is drawn for: samples for others are left out
 uniform float clipMargin;        // pixels that the viewport reaches beyond the picture on each side
+uniform float maxSide;           // pixels
 #ifdef SPLAT
 uniform float footprint;     // pixels: side of the splat at q.z = 1, straight ahead, row tangent 0
-uniform float maxSide;       // pixels
 uniform float inverseFocal;  // 1/pixels
 #endif
 #ifdef CLIP_TO_PART
@@ -43,6 +45,16 @@ uniform vec2 baselineInPlan;  // b, horizontal
 uniform vec2 partLow;         // unit directions of the part's borders, half-open [low, high)
 uniform vec2 partHigh;
 uniform bool partIsWide;      // more than half a turn
+#endif
+
+#ifdef RECTANGLE
+layout(std430, binding = 4) readonly buffer Slants { uint slantsOfTwo[]; };  // engine/view/slant_code.h
+uniform vec3 eastInPicture;   // K M x
+uniform vec3 northInPicture;  // K M y
+uniform vec2 steps;           // half a rectangle's size along a row and along a column, radians
+uniform float perSpread;      // eight times half a rectangle's size where samples lie a pixel apart
+flat out ivec4 rectangle;     // first pixel from the left and the top, width, height
+flat out ivec3 sampleInside;  // eighths of a pixel from its left and upper border, and how far it spreads (canvas.h)
 #endif
 
 flat out vec4 pointColour;
@@ -58,6 +70,13 @@ const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
 const float kBackgroundDepthScale = 1e-20;
 const float kSkyDepth = 1e-30;
 
+#ifndef UNORDERED
+#ifdef LAYERED
+// How many samples of the same pixel are stored before a sample (low byte) and behind it; kManyLayers: so many or more.
+layout(std430, binding = 5) readonly buffer Layers { uint layersOfTwo[]; };
+const uint kManyLayers = 255u;
+#endif
+
 // The sample that this vertex stands for.
 uint orderedSample(uint vertex, Column column) {
   bool above = vertex < column.parts.y;
@@ -66,11 +85,13 @@ uint orderedSample(uint vertex, Column column) {
   uint last = above ? column.parts.y : column.parts.z;
   uint index = descending ? first + last - 1u - vertex : vertex;
 #ifdef LAYERED
-  uint row = samples[index].rowAndColumn;
-  uint begin = index, end = index + 1u;
-  while (begin > first && samples[begin - 1u].rowAndColumn == row) --begin;
-  while (end < last && samples[end].rowAndColumn == row) ++end;
-  if (end - begin > 1u) {
+  uint layers = bitfieldExtract(layersOfTwo[index >> 1], int(index & 1u) * 16, 16);
+  if (layers != 0u) {
+    uint before = layers & 0xffu, behind = layers >> 8;
+    uint begin = index - before, end = index + 1u + behind;
+    uint row = samples[index].rowAndColumn;
+    while (before == kManyLayers && begin > first && samples[begin - 1u].rowAndColumn == row) --begin;
+    while (behind == kManyLayers && end < last && samples[end].rowAndColumn == row) ++end;
     uint beforeFoot = begin;  // these as stored, the others reversed
     while (beforeFoot < end && inverseDistanceOf(samples[beforeFoot]) > column.footInverse) ++beforeFoot;
     uint position = begin + (descending ? end - 1u - index : index - begin);
@@ -79,6 +100,7 @@ uint orderedSample(uint vertex, Column column) {
 #endif
   return index;
 }
+#endif
 
 #ifdef CLEAR
 uniform uint rank;
@@ -93,10 +115,40 @@ uint rankAmongClear(uint index, uint first) {
 }
 #endif
 
+#ifdef RECTANGLE
+// Tangents of the angles by which the sample's surface leans, along a row and along a column.
+vec2 slantOf(uint index) {
+  int word = int(slantsOfTwo[index >> 1]), first = int(index & 1u) * 16;
+  vec2 codes = vec2(bitfieldExtract(word, first, 8), bitfieldExtract(word, first + 8, 8));
+  return codes / (127.0 - abs(codes));
+}
+
+// Around the picture of the piece of surface that a sample stands for: a parallelogram, whose sides are the derivatives of
+// the position along a row and a column of the capture, the slant included (engine/view/warp_kernel_body.h). Its longer side.
+float spanRectangle(vec2 c, float t, float w, vec2 slant, float z, vec2 position) {
+  vec2 lean = w * slant * steps;
+  vec3 across = steps.x * (c.x * northInPicture - c.y * eastInPicture) + lean.x * baselineInPicture;
+  vec3 down = lean.y * baselineInPicture - (1.0 + t * t) * steps.y * upInPicture;
+  vec2 halfSize = (abs(across.xy - position * across.z) + abs(down.xy - position * down.z)) / z;
+  halfSize = clamp(halfSize, 0.5, 0.5 * maxSide);
+  vec2 first = ceil(position - 0.5 - halfSize);
+  vec2 size = max(ceil(position - 0.5 + halfSize) - first, 1.0);
+  rectangle = ivec4(first, size);
+  vec2 inside = clamp(floor((position - first) * 8.0 + 0.5), 0.0, 255.0);
+  float spread = clamp(floor(8.5 - perSpread / min(halfSize.x, halfSize.y)), 0.0, 7.0);
+  sampleInside = ivec3(inside, spread);
+  return max(size.x, size.y);
+}
+#endif
+
 void main() {
   uint own = samples[gl_VertexID].rowAndColumn >> 16;
   Column column = columns[own];
+#ifdef UNORDERED
+  uint index = uint(gl_VertexID);
+#else
   uint index = orderedSample(uint(gl_VertexID), column);
+#endif
   Sample s = samples[index];
   float w = inverseDistanceOf(s);
   float t = rowTangent[s.rowAndColumn & 0xffffu];
@@ -105,6 +157,10 @@ void main() {
   pointColour = colour;
 #ifdef MIRRORS
   pointMirror = bitfieldExtract(mirrorsOfFour[index >> 2], int(index & 3u) * 8, 8);
+#endif
+#ifdef RECTANGLE
+  rectangle = ivec4(0);
+  sampleInside = ivec3(0);
 #endif
   gl_PointSize = 1.0;
   gl_Position = kOutside;
@@ -134,9 +190,15 @@ void main() {
   side = ceil(clamp(stretch / q.z * footprint, 1.0, maxSide));
   gl_PointSize = side;
 #endif
+#ifdef RECTANGLE
+  side = spanRectangle(column.inPlan, t, w, slantOf(index), q.z, position);
+  gl_PointSize = side;
+  vec2 centre = vec2(rectangle.xy) + 0.5 * side;
+#else
   // The square of whole pixels whose centres lie within side/2 of the position: said exactly, so that the rasteriser's
   // sub-pixel rounding has no say.
   vec2 centre = floor(position + 0.5 - 0.5 * side) + 0.5 * side;
+#endif
   vec2 clip = 2.0 * (centre + clipMargin) / (pictureSize + 2.0 * clipMargin) - 1.0;
   gl_Position = vec4(clip.x, -clip.y, max(kBackgroundDepthScale * w / q.z, kSkyDepth), 1.0);
 }

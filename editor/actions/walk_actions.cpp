@@ -77,16 +77,24 @@ void addWalkActions(std::vector<Action>& table) {
                      c.session.apply(setSpawn(c.session.project(), {glm::dvec2(pose.eye), pose.yawRadians}));
                    },
                    {}});
-  table.push_back({"view.holes",
-                   "Walk",
-                   "Mark holes",
-                   {key::h, 0},
-                   {},
-                   "Pixels without a real sample in magenta, those filled in by guesswork too",
-                   true,
-                   withProject,
-                   [](ActionContext& c) { c.state.showHoles = !c.state.showHoles; },
-                   [](const ActionContext& c) { return c.state.showHoles; }});
+  const auto look = [&table](const char* id, const char* name, int code, const char* help, WalkLook shown) {
+    table.push_back({id,
+                     "Walk",
+                     name,
+                     {code, 0},
+                     {},
+                     help,
+                     true,
+                     withProject,
+                     [shown](ActionContext& c) {
+                       c.state.walkLook = c.state.walkLook == shown ? WalkLook::picture : shown;
+                     },
+                     [shown](const ActionContext& c) { return c.state.walkLook == shown; }});
+  };
+  look("view.holes", "Mark holes", key::h,
+       "Pixels without a real sample in magenta, those filled in by guesswork too", WalkLook::holes);
+  look("view.sources", "Cameras by colour", key::r,
+       "Which camera painted each pixel; point at one for its name", WalkLook::sources);
 }
 
 }  // namespace acentric::editor

@@ -155,6 +155,7 @@ void Dialogs::drawShortcuts(PanelContext& context) {
     ImGui::TableSetupColumn("", 0, 0.36F);
     ImGui::TableSetupColumn("", 0, 0.64F);
     row("W A S D, arrows", "walk; Shift: faster");
+    row("Page Up, Page Down", "raise and lower the eye within the range that is baked");
     row("Q E, or drag in the walk", "look around");
     row("Wheel, right or middle drag", "zoom and pan the plan");
     row("Ctrl+click, Shift+click a cell", "remove it; add it to the selection");

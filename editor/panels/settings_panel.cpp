@@ -263,15 +263,30 @@ void drawView(PanelContext& context) {
       {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
       double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
 
+  Preferences& preferences = context.session().preferences();
+  const ui::FieldEdit speed = ui::numberField(
+      {"Walking speed", "%.1f m/s", 0.02, Walker::kLeastMetresPerSecond, Walker::kMostMetresPerSecond,
+       "Shift walks three times as fast. Remembered for all projects."},
+      preferences.walkMetresPerSecond, kLabelWidth);
+  const ui::FieldEdit memory = ui::numberField(
+      {"Memory", "%.0f MB", 32, 0, 1'000'000,
+       "For captures of the walk; what has no room is shown coarsely until the eye comes near. 0: "
+       "half of the machine's. Remembered for all projects."},
+      preferences.walkMegabytes, kLabelWidth);
+  if (speed.finished || memory.finished) context.session().savePreferencesNow();
+  if (memory.finished) context.session().walkMemoryChanged();
   ViewSettings view = project.view;
-  const std::array<ui::Choice, 3> kChoices = {
+  const std::array<ui::Choice, std::size(kReconstructions)> kChoices = {
       ui::Choice{"Points", "One pixel a sample: shows the sampling.", true, ""},
       ui::Choice{"Splats", "Squares as large as a sample's footprint.", true, ""},
+      ui::Choice{"Surface",
+                 "Rectangles that follow the surface: neighbours are joined however it is turned, and edges "
+                 "do not grow.",
+                 true, ""},
       ui::Choice{
           "Filtered",
-          "Smooth edges and surfaces, fewest cracks: rectangles that follow the surface, then a mean "
-          "of the samples around each pixel. Takes one more pass over the picture. The OpenGL renderer draws "
-          "splats instead.",
+          "The same rectangles, then each pixel the mean of the samples around it: smooth edges. Takes "
+          "one more pass over the picture.",
           true, ""}};
   int reconstruction = int(view.reconstruction);
   if (const ui::FieldEdit edit = ui::choiceField("Reconstruction", kChoices, reconstruction, kLabelWidth)) {

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "editor/commands/setting_edits.h"
 #include "engine/geometry/conventions.h"
-#include "engine/pipeline/camera_path.h"
+#include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
 #include "ui/image_view.h"
 #include "ui/keys.h"
@@ -18,7 +17,6 @@ namespace {
 
 constexpr double kRadiansPerPixel = 0.0035;
 constexpr Rgba8 kHoleColour{13, 14, 16, 255};
-constexpr Rgba8 kMarkedHole{255, 0, 200, 255};
 
 const char* labelOf(Renderer renderer) {
   switch (renderer) {
@@ -30,6 +28,24 @@ const char* labelOf(Renderer renderer) {
       return "Depth buffer";
     case Renderer::gl:
       return "OpenGL";
+    case Renderer::glZbuffer:
+      return "OpenGL, depth test";
+  }
+  return "";
+}
+
+const char* helpFor(Renderer renderer) {
+  switch (renderer) {
+    case Renderer::list:
+      return "List priority without a depth buffer: the fast one on the processor.";
+    case Renderer::scalar:
+      return "List priority, one sample at a time: the reference.";
+    case Renderer::zbuffer:
+      return "The same splats with a depth buffer, for comparison.";
+    case Renderer::gl:
+      return "List priority on the graphics card.";
+    case Renderer::glZbuffer:
+      return "The same splats on the graphics card with a depth test, for comparison.";
   }
   return "";
 }
@@ -56,8 +72,16 @@ WalkKeys keysHeld(const PanelContext& context) {
   keys.right = held(key::d) || held(key::right);
   keys.turnLeft = held(key::q);
   keys.turnRight = held(key::e);
+  keys.up = held(key::pageUp);
+  keys.down = held(key::pageDown);
   keys.fast = held(key::leftShift) || held(key::rightShift);
   return keys;
+}
+
+/// Those that captures are baked for.
+EyeHeights eyeHeights(const OpenProject& open) {
+  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
+  return {z - range, z + range};
 }
 
 }  // namespace
@@ -71,7 +95,8 @@ void WalkPanel::followProject(PanelContext& context) {
   const bool fresh = generation_ != session.generation();
   if (fresh || state.restart) {
     const Spawn& spawn = session.project().spawn();
-    state.walker.setPose({glm::dvec3(spawn.position, layout.eyeZ()), spawn.yawRadians, 0});
+    state.walker.setPose(
+        {glm::dvec3(nearestStanding(layout, spawn.position), layout.eyeZ()), spawn.yawRadians, 0});
     state.restart = false;
   }
   if (fresh) {
@@ -83,7 +108,9 @@ void WalkPanel::followProject(PanelContext& context) {
   }
   // Cells may have gone from under the eye, or the eye height changed.
   WalkPose pose = state.walker.pose();
-  pose.eye = glm::dvec3(clampToPlan(layout, glm::dvec2(pose.eye)), layout.eyeZ());
+  const EyeHeights heights = eyeHeights(*session.built());
+  pose.eye = glm::dvec3(nearestStanding(layout, glm::dvec2(pose.eye)),
+                        std::clamp(pose.eye.z, heights.low, heights.high));
   if (pose != state.walker.pose()) state.walker.setPose(pose);
 }
 
@@ -97,8 +124,10 @@ void WalkPanel::walk(PanelContext& context) {
   const double seconds = lastStep_ < 0 ? 1.0 / 60 : context.now - lastStep_;
   lastStep_ = -1;
   if (keys.any() || walker.moving()) {
-    const Layout& layout = *context.session().built()->layout;
-    walker.step(seconds, keys, [&layout](const glm::dvec2& place) { return clampToPlan(layout, place); });
+    const OpenProject& open = *context.session().built();
+    walker.setSpeed(context.session().preferences().walkMetresPerSecond);
+    walker.step(seconds, keys, eyeHeights(open),
+                [&](const glm::dvec2& from, const glm::dvec2& to) { return walkTo(*open.layout, from, to); });
     lastStep_ = context.now;
     context.window.pacer().request(1);
   } else if (context.log.on() && walker.pose() != loggedPose_) {
@@ -107,30 +136,25 @@ void WalkPanel::walk(PanelContext& context) {
                       fmt::format("{:.3f} {:.3f} {:.3f} {:.4f} {:.4f}", loggedPose_.eye.x, loggedPose_.eye.y,
                                   loggedPose_.eye.z, loggedPose_.yawRadians, loggedPose_.pitchRadians));
   }
+  context.session().walkAt({glm::dvec2(walker.pose().eye), walker.pose().yawRadians, walker.velocity()});
 }
 
 void WalkPanel::drawToolbar(PanelContext& context) {
   const Project& project = context.session().project();
-  const std::array<Renderer, 4> kRenderers = {Renderer::list, Renderer::scalar, Renderer::zbuffer,
-                                              Renderer::gl};
-  const std::array<const char*, 4> kHelp = {
-      "List priority without a depth buffer: the fast one on the processor.",
-      "List priority, one sample at a time: the reference.",
-      "The same splats with a depth buffer, for comparison.", "List priority on the graphics card."};
   ImGui::SetNextItemWidth(150);
   const bool open = ImGui::BeginCombo("##renderer", labelOf(project.view.renderer));
   context.log.item("walk.renderer");
   if (open) {
-    for (std::size_t i = 0; i < kRenderers.size(); ++i) {
-      const bool broken = kRenderers[i] == Renderer::gl && !glProblem_.empty();
+    for (const Renderer renderer : kRenderers) {
+      const bool broken = onOpenGl(renderer) && !glProblem_.empty();
       const auto flags = broken ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
-      if (ImGui::Selectable(labelOf(kRenderers[i]), kRenderers[i] == project.view.renderer, flags)) {
+      if (ImGui::Selectable(labelOf(renderer), renderer == project.view.renderer, flags)) {
         ViewSettings view = project.view;
-        view.renderer = kRenderers[i];
+        view.renderer = renderer;
         context.session().apply(setViewSettings(project, view, "renderer"));
       }
-      context.log.item(std::string("walk.renderer.") + nameOf(kRenderers[i]));
-      ui::tooltip(broken ? glProblem_ : kHelp[i]);
+      context.log.item(std::string("walk.renderer.") + nameOf(renderer));
+      ui::tooltip(broken ? glProblem_ : helpFor(renderer));
     }
     ImGui::EndCombo();
   } else {
@@ -138,6 +162,8 @@ void WalkPanel::drawToolbar(PanelContext& context) {
   }
   ImGui::SameLine();
   actionButton(context, "view.holes", ButtonLook::toggle);
+  ImGui::SameLine(0, 3);
+  actionButton(context, "view.sources", ButtonLook::toggle);
   ImGui::SameLine(0, 16);
   actionButton(context, "walk.restart");
   ImGui::SameLine(0, 3);
@@ -186,7 +212,7 @@ bool WalkPanel::stale(const PanelContext& context, const PerspectiveView& full) 
 void WalkPanel::requestFrame(PanelContext& context) {
   Session& session = context.session();
   if (!session.walk() || area_.x < 16 || area_.y < 16) return;
-  if (session.project().view.renderer == Renderer::gl) return drawWithGl(context);
+  if (onOpenGl(session.project().view.renderer)) return drawWithGl(context);
   const PerspectiveView full = viewAt(context, 1);
   if (requested_ || !stale(context, full)) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
@@ -195,25 +221,44 @@ void WalkPanel::requestFrame(PanelContext& context) {
   requested_ = true;
 }
 
-void WalkPanel::show(const Frame& frame, bool markHoles) {
-  const ColourImage& colour = frame.colour;
-  pixels_.resize(colour.pixels.size() * 4);
-  for (std::size_t i = 0; i < colour.pixels.size(); ++i) {
+const SourceColours& WalkPanel::coloursOf(const std::shared_ptr<const Layout>& layout) {
+  if (!colours_ || colouredLayout_ != layout) colours_.emplace(*layout);
+  colouredLayout_ = layout;
+  return *colours_;
+}
+
+void WalkPanel::show(const Frame& frame) {
+  const auto& layout = shown_.loaded->walk.layout;
+  const ColourImage colour = shown_.look == WalkLook::sources
+                                 ? sourcePicture(frame, coloursOf(layout), SourceRoles(*layout, shown_.view))
+                                 : ColourImage();
+  const ColourImage& from = shown_.look == WalkLook::sources ? colour : frame.colour;
+  pixels_.resize(from.pixels.size() * 4);
+  for (std::size_t i = 0; i < from.pixels.size(); ++i) {
     const PixelSource source = frame.source.pixels[i];
-    Rgba8 pixel = colour.pixels[i];
-    if (source == kSourceHole || source == kSourceInvented) {
-      if (markHoles)
-        pixel = kMarkedHole;
-      else if (source == kSourceHole)
-        pixel = kHoleColour;
-    }
+    Rgba8 pixel = from.pixels[i];
+    if (shown_.look == WalkLook::holes && (source == kSourceHole || source == kSourceInvented))
+      pixel = kInventedColour;
+    else if (source == kSourceHole)
+      pixel = kHoleColour;
     pixels_[4 * i] = pixel.r;
     pixels_[4 * i + 1] = pixel.g;
     pixels_[4 * i + 2] = pixel.b;
     pixels_[4 * i + 3] = 255;
   }
-  texture_.upload(colour.width, colour.height, pixels_);
+  texture_.upload(from.width, from.height, pixels_);
   showingGl_ = false;
+}
+
+void WalkPanel::nameSource(const glm::dvec2& pointer) const {
+  const Image<PixelSource>& source = lastFrame_.source;
+  if (shown_.look != WalkLook::sources || showingGl_ || source.empty() || looking_) return;
+  const glm::dvec2 at = (pointer - place_.min) / place_.size * glm::dvec2(source.width, source.height);
+  if (at.x < 0 || at.y < 0 || at.x >= source.width || at.y >= source.height) return;
+  const PixelSource here = source.at(int(at.x), int(at.y));
+  const Layout& layout = *shown_.loaded->walk.layout;
+  const SourceRole role = SourceRoles(layout, shown_.view).of(here);
+  ui::tooltip(sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : ""));
 }
 
 void WalkPanel::takePicture(PanelContext& context) {
@@ -225,7 +270,7 @@ void WalkPanel::takePicture(PanelContext& context) {
     shown_ = {request.loaded,
               request.view,
               request.settings,
-              context.state().showHoles,
+              context.state().walkLook,
               picture->frame.stats,
               -1,
               true};
@@ -236,15 +281,15 @@ void WalkPanel::takePicture(PanelContext& context) {
       resolution_.measured(request.scale, lastFrame_.stats.totalSeconds);
       shown_.holeShare =
           double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
-      show(lastFrame_, shown_.holesMarked);
+      show(lastFrame_);
       if (context.log.on() && request.scale >= 1)
         context.log.event("frame", fmt::format("{}x{} images {} holes {:.4f}", request.view.width,
                                                request.view.height, shown_.stats.images, shown_.holeShare));
     }
-  } else if (shown_.valid && shown_.holesMarked != context.state().showHoles && !showingGl_ &&
+  } else if (shown_.valid && shown_.look != context.state().walkLook && !showingGl_ &&
              !lastFrame_.colour.empty()) {
-    shown_.holesMarked = context.state().showHoles;
-    show(lastFrame_, shown_.holesMarked);
+    shown_.look = context.state().walkLook;
+    show(lastFrame_);
   }
 }
 
@@ -262,23 +307,24 @@ void WalkPanel::drawWithGl(PanelContext& context) {
     return;
   }
   const PerspectiveView full = viewAt(context, 1);
-  const bool marked = context.state().showHoles;
-  if (!stale(context, full) && shown_.holesMarked == marked && (showingGl_ || marked)) return;
+  const WalkLook look = context.state().walkLook;
+  const bool plain = look == WalkLook::picture;
+  if (!stale(context, full) && shown_.look == look && showingGl_ == plain) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
   const PerspectiveView view = viewAt(context, scale);
   const auto stats = gl_->draw(session.walk()->walk, view, session.project().view);
-  shown_ = {session.walk(), view, session.project().view, marked, stats ? *stats : FrameStats{}, -1, true};
+  shown_ = {session.walk(), view, session.project().view, look, stats ? *stats : FrameStats{}, -1, true};
   if (stats) resolution_.measured(scale, stats->totalSeconds);
   if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
   problem_ = stats ? "" : stats.error().describe();
   if (!stats) return;
   showingGl_ = true;
-  if (!marked) return;
+  if (plain) return;
   lastFrame_ = gl_->readBack();
   shown_.holeShare =
       double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
-  show(lastFrame_, true);
+  show(lastFrame_);
 }
 
 void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size) {
@@ -295,8 +341,8 @@ void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVe
   const bool picture = showingGl_ ? gl_ != nullptr : !texture_.empty();
   if (shown_.valid && picture) {
     const double aspect = double(shown_.view.width) / shown_.view.height;
-    const ui::FittedImage place = ui::fitImage(ui::fromIm(low), ui::fromIm(size), aspect);
-    ui::drawImage(showingGl_ ? ui::Texture::imguiTexture(gl_->colourTexture()) : texture_.imguiId(), place,
+    place_ = ui::fitImage(ui::fromIm(low), ui::fromIm(size), aspect);
+    ui::drawImage(showingGl_ ? ui::Texture::imguiTexture(gl_->colourTexture()) : texture_.imguiId(), place_,
                   showingGl_);
   }
   const Session& session = context.session();
@@ -335,6 +381,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   };
   line(text);
   if (session.walk() && !session.walk()->walk.surfaceLight) line("near geometry unlit until a bake ends");
+  if (session.streaming()) line("captures are being read");
   if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
 }
 
@@ -361,6 +408,7 @@ void WalkPanel::draw(PanelContext& context) {
   takePicture(context);
   requestFrame(context);
   drawPicture(context, low, size);
+  nameSource(ui::fromIm(ImGui::GetMousePos()));
   drawStatistics(context, low, size);
 }
 

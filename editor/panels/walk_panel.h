@@ -2,11 +2,14 @@
 /// The live walk: the picture at the eye, by the chosen renderer, and what it cost.
 
 #include <memory>
+#include <optional>
 
 #include "editor/panels/panel_context.h"
 #include "editor/session/adaptive_resolution.h"
 #include "editor/session/walk_renderer.h"
+#include "engine/measure/source_colours.h"
 #include "engine/view_gl/gl_renderer.h"
+#include "ui/image_view.h"
 #include "ui/texture.h"
 
 namespace acentric::editor {
@@ -25,7 +28,7 @@ class WalkPanel {
     std::shared_ptr<const LoadedWalk> loaded;
     PerspectiveView view;
     ViewSettings settings;
-    bool holesMarked = false;
+    WalkLook look = WalkLook::picture;
     FrameStats stats;
     double holeShare = -1;  ///< < 0: not measured
     bool valid = false;
@@ -38,7 +41,11 @@ class WalkPanel {
   void requestFrame(PanelContext& context);
   void takePicture(PanelContext& context);
   void drawWithGl(PanelContext& context);
-  void show(const Frame& frame, bool markHoles);
+  /// The frame as `shown_.look` says.
+  void show(const Frame& frame);
+  const SourceColours& coloursOf(const std::shared_ptr<const Layout>& layout);
+  /// The name of the camera that painted what the pointer is at.
+  void nameSource(const glm::dvec2& pointer) const;
   void drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size);
   void drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const;
 
@@ -51,6 +58,9 @@ class WalkPanel {
   ui::Texture texture_;
   std::vector<std::uint8_t> pixels_;
   Frame lastFrame_;
+  std::shared_ptr<const Layout> colouredLayout_;
+  std::optional<SourceColours> colours_;  ///< of colouredLayout_
+  ui::FittedImage place_;                 ///< of the picture, last drawn
   Shown shown_;
   std::string problem_;
   glm::ivec2 area_{0};

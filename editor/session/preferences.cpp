@@ -55,6 +55,10 @@ Preferences loadPreferences(const fs::path& file) {
     preferences.bakeThreads = std::clamp(threads->get<int>(), 0, 256);
   if (const auto memory = json.find("bakeMegabytes"); memory != json.end() && memory->is_number_integer())
     preferences.bakeMegabytes = std::clamp(memory->get<int>(), 16, 1'000'000);
+  if (const auto memory = json.find("walkMegabytes"); memory != json.end() && memory->is_number_integer())
+    preferences.walkMegabytes = std::clamp(memory->get<int>(), 0, 1'000'000);
+  if (const auto speed = json.find("walkMetresPerSecond"); speed != json.end() && speed->is_number())
+    preferences.walkMetresPerSecond = std::clamp(speed->get<double>(), 0.1, 20.0);
   preferences.settingsWidth = readLength(json, "settingsWidth", preferences.settingsWidth);
   preferences.walkWidth = readLength(json, "walkWidth", preferences.walkWidth);
   preferences.bottomHeight = readLength(json, "bottomHeight", preferences.bottomHeight);
@@ -69,6 +73,8 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"lastFolder", preferences.lastFolder.string()},
                      {"bakeThreads", preferences.bakeThreads},
                      {"bakeMegabytes", preferences.bakeMegabytes},
+                     {"walkMegabytes", preferences.walkMegabytes},
+                     {"walkMetresPerSecond", preferences.walkMetresPerSecond},
                      {"settingsWidth", preferences.settingsWidth},
                      {"walkWidth", preferences.walkWidth},
                      {"bottomHeight", preferences.bottomHeight}};

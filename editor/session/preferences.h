@@ -14,8 +14,10 @@ struct Preferences {
 
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
   std::filesystem::path lastFolder;
-  int bakeThreads = 0;        ///< 0 = all but one
-  int bakeMegabytes = 1536;   ///< that what is baked may take until it is written
+  int bakeThreads = 0;       ///< 0 = all but one
+  int bakeMegabytes = 1536;  ///< that what is baked may take until it is written
+  int walkMegabytes = 0;     ///< for captures of the walk in memory; 0 = half of the machine's
+  double walkMetresPerSecond = 1.4;
   float settingsWidth = 324;  ///< pixels
   float walkWidth = 600;
   float bottomHeight = 214;

@@ -25,6 +25,7 @@ bool onlyViewDiffers(const Project& a, const Project& b) {
 bool Session::poll(double now) {
   now_ = now;
   const bool delivered = inbox_.deliver();
+  followStream();
   if (const int baked = bakeQueue_.finished() + bakeQueue_.previewed(); baked != bakedSeen_) {
     bakedSeen_ = baked;
     loadWanted_ = loadWanted_ || baking_.running();
@@ -41,7 +42,7 @@ bool Session::poll(double now) {
 
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
-         drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
+         streaming() || drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
          searching_.running() || estimating_.running();
 }
 
@@ -141,27 +142,65 @@ void Session::loadCaptures() {
     return;
   }
   loadWanted_ = false;
-  loading_.restart("Loading captures", [this, open = built_, former = walk_,
-                                        threads = bakeThreads()](const Job::Context& context) {
-    TaskRunner runner(threads - 1);
+  dropStream();
+  WalkStreamOptions streaming;
+  if (preferences_.walkMegabytes > 0)
+    streaming.memoryBytes = std::size_t(preferences_.walkMegabytes) * 1'000'000;
+  streaming.panoramas = project().view.secondaryCover;
+  streaming.where = where_;
+  streaming.wake = options_.wake;
+  loading_.restart("Looking for captures", [this, open = built_, former = walk_,
+                                            streaming](const Job::Context& context) {
     CaptureStatus status = captureStatus(*open->layout, bakedCameras(*open));
     context.post([this, open, status] {
       if (built_->layout == open->layout) captures_ = std::make_shared<const CaptureStatus>(status);
     });
-    auto walk = loadWalk(*open, former.get(), runner, context.progress(), context.stop());
-    context.post([this, open, status, walk = std::make_shared<Result<LoadedWalk>>(std::move(walk))] {
-      if (*walk) return loaded(std::move(**walk), status, *open);
-      messages_.addFailure("Loading the captures", walk->error());
-    });
+    auto start = startWalk(*open, former.get());
+    if (!start) {
+      context.post([this, error = start.error()] { messages_.addFailure("Loading the captures", error); });
+      return;
+    }
+    const auto stream = std::make_shared<WalkStream>(std::move(*start), streaming);
+    context.post([this, open, status, stream] { loaded(stream, status, *open); });
   });
 }
 
-void Session::loaded(LoadedWalk walk, CaptureStatus status, const OpenProject& from) {
-  for (const std::string& warning : walk.warnings) messages_.add(MessageLevel::warning, warning);
-  walk.warnings.clear();
-  walk_ = std::make_shared<const LoadedWalk>(std::move(walk));
+void Session::loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, const OpenProject& from) {
+  stream_ = std::move(stream);
+  walk_ = stream_->walk();
+  for (const std::string& warning : walk_->warnings) messages_.add(MessageLevel::warning, warning);
+  stream_->go(where_);
   if (built_->layout == from.layout) captures_ = std::make_shared<const CaptureStatus>(std::move(status));
   if (built_->layout != from.layout || built_->keys != from.keys) loadWanted_ = true;
+}
+
+void Session::followStream() {
+  if (!stream_) return;
+  if (auto newest = stream_->walk(); newest != walk_) {
+    walk_ = std::move(newest);
+    for (const std::string& warning : stream_->takeWarnings()) messages_.add(MessageLevel::warning, warning);
+  }
+  if (walk_->simplified.empty() || stream_->busy()) return;
+  if (std::string text = simplifiedText(*walk_); text != simplifiedTold_) {
+    messages_.add(MessageLevel::warning, text);
+    simplifiedTold_ = std::move(text);
+  }
+}
+
+void Session::dropStream() {
+  if (stream_)
+    dropping_.restart("Closing the walk",
+                      [old = std::move(stream_)](const Job::Context&) mutable { old.reset(); });
+  stream_.reset();
+}
+
+void Session::walkAt(const Whereabouts& where) {
+  where_ = where;
+  if (stream_) stream_->go(where);
+}
+
+void Session::walkMemoryChanged() {
+  if (built_) loadCaptures();
 }
 
 void Session::drawBackdropIfStale() {

@@ -25,6 +25,7 @@
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/walk_stream.h"
 
 namespace acentric::editor {
 
@@ -80,7 +81,14 @@ class Session {
   // ----------------------------------------------------------------------------------------
   /// Null before the first open is done. May lag behind project() for a moment.
   const std::shared_ptr<const OpenProject>& built() const { return built_; }
+  /// As much of it as is in memory now; grows while it is being read.
   const std::shared_ptr<const LoadedWalk>& walk() const { return walk_; }
+  /// Where the eye is: what it needs next is read first. Called each frame.
+  void walkAt(const Whereabouts& where);
+  /// Are captures being read that the eye may need?
+  bool streaming() const { return stream_ && stream_->busy(); }
+  /// The preference for the walk's memory was changed.
+  void walkMemoryChanged();
   const std::shared_ptr<const CaptureStatus>& captures() const { return captures_; }
   const std::shared_ptr<const Backdrop>& backdrop() const { return backdrop_; }
   /// Of the layout that is built; null while it is being made, or if the plan does not ask for it.
@@ -155,7 +163,10 @@ class Session {
   void rebuilt(OpenProject open);
   void show(OpenProject open);
   void loadCaptures();
-  void loaded(LoadedWalk walk, CaptureStatus status, const OpenProject& from);
+  void loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, const OpenProject& from);
+  void followStream();
+  /// Waits for what it is reading, elsewhere.
+  void dropStream();
   void drawBackdropIfStale();
   void inspectIfStale();
   void bakeEnded(const Result<ProjectBakeReport>& report);
@@ -183,6 +194,9 @@ class Session {
 
   std::shared_ptr<const OpenProject> built_;
   std::shared_ptr<const LoadedWalk> walk_;
+  std::shared_ptr<WalkStream> stream_;  // makes walk_
+  Whereabouts where_;
+  std::string simplifiedTold_;
   std::shared_ptr<const CaptureStatus> captures_;
   std::shared_ptr<const Backdrop> backdrop_;
   struct BackdropKey {
@@ -235,6 +249,7 @@ class Session {
   Job rebuilding_{inbox_};
   Job baking_{inbox_};
   Job loading_{inbox_};
+  Job dropping_{inbox_};
   Job drawingBackdrop_{inbox_};
   Job inspecting_{inbox_};
   Job measuringCoverage_{inbox_};

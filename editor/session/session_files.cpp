@@ -80,7 +80,9 @@ void Session::close() {
   if (hasProject() && !untitled_ && !recovery_) removeAutosave(file_);
   history_.reset();
   built_.reset();
+  dropStream();
   walk_.reset();
+  simplifiedTold_.clear();
   captures_.reset();
   backdrop_.reset();
   backdropKey_ = {};

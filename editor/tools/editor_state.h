@@ -13,6 +13,13 @@ namespace acentric::editor {
 
 enum class Dialog { none, openFile, saveAs, unsavedChanges, shortcuts, about };
 
+/// What the walk shows of its frames.
+enum class WalkLook {
+  picture,
+  holes,    ///< pixels without a real sample in magenta
+  sources,  ///< which camera painted what
+};
+
 /// What the user wanted when a question came in between.
 struct Continuation {
   enum class Kind { none, quit, close, open, openDialog, bake };
@@ -33,9 +40,9 @@ struct EditorState {
   bool showCoverage = false;   ///< instead of what is baked: how well places are sampled
   CoverageKind coverageKind = CoverageKind::surfaces;
   bool showBakeCameras = false;  ///< in the bake panel, instead of the overview
-  bool showHoles = false;        ///< pixels without a real sample in magenta
-  bool fitPlan = true;           ///< asked for; the plan clears it
-  bool restart = false;          ///< the eye goes back to the start of the walk; the walk clears it
+  WalkLook walkLook = WalkLook::picture;
+  bool fitPlan = true;   ///< asked for; the plan clears it
+  bool restart = false;  ///< the eye goes back to the start of the walk; the walk clears it
 
   Dialog dialog = Dialog::none;
   Continuation continuation;

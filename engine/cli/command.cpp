@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "engine/base/contract.h"
+#include "engine/base/stopwatch.h"
 #include "engine/pipeline/scene_storeys.h"
+#include "engine/pipeline/walk_stream.h"
+#include "engine/view/view_cameras.h"
 #include "engine/view_gl/gl_renderer.h"
 
 namespace acentric::cli {
@@ -18,18 +22,26 @@ int Common::threadCount() const {
 
 std::unique_ptr<TaskRunner> Common::runner() const { return std::make_unique<TaskRunner>(threadCount() - 1); }
 
+std::size_t Common::walkBytes() const {
+  return walkMegabytes ? std::size_t(*walkMegabytes * 1e6) : usualWalkMemory();
+}
+
 namespace {
 constexpr double kNearStorey = 0.5;  // metres
 }
 
-struct FrameMaker::Gl {
+struct FrameMaker::Shared {
+  std::vector<std::unique_ptr<WalkStream>> walks;  // of storeys_
+  std::optional<WalkScene> polygons;  // of the first: no captures, the whole scene as local geometry
+  std::vector<std::string> told;      // what was wrong
   std::unique_ptr<HeadlessContext> context;
-  std::unique_ptr<GlRenderer> renderer;  // destroyed before its context
-  ~Gl() { renderer.reset(); }
+  std::unique_ptr<GlRenderer> gl;  // destroyed before its context
 };
 
 FrameMaker::FrameMaker(std::span<const OpenProject> storeys, const Common& common, TaskRunner& runner)
-    : storeys_(storeys), common_(common), runner_(runner), walks_(std::make_shared<Walks>(storeys.size())) {}
+    : storeys_(storeys), common_(common), runner_(runner), shared_(std::make_shared<Shared>()) {
+  shared_->walks.resize(storeys.size());
+}
 FrameMaker::~FrameMaker() = default;
 
 Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProject> storeys,
@@ -38,8 +50,18 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
                                                        const std::string& reconstruction) {
   std::unique_ptr<FrameMaker> maker(new FrameMaker(storeys, common, runner));
   maker->settings = storeys.front().project.view;
-  maker->truth_ = rendererName == "truth";
-  if (maker->truth_) return maker;
+  if (rendererName == "truth") {
+    maker->shows_ = Shows::truth;
+    return maker;
+  }
+  const bool onCpu = rendererName == "polygons";
+  if (onCpu || rendererName == "gl-polygons") {
+    maker->shows_ = Shows::polygons;
+    maker->settings.renderer = onCpu ? Renderer::list : Renderer::gl;
+    maker->settings.localGeometry = true;
+    maker->settings.fillHoles = false;
+    return maker;
+  }
   const auto renderer = parseRenderer(rendererName);
   if (!renderer) return tl::unexpected(renderer.error());
   maker->settings.renderer = *renderer;
@@ -48,65 +70,113 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
     if (!parsed) return tl::unexpected(parsed.error());
     maker->settings.reconstruction = *parsed;
   }
-  if (*renderer == Renderer::gl) {
-    maker->gl_ = std::make_unique<Gl>();
-    auto context = HeadlessContext::create();
-    if (!context) return tl::unexpected(context.error());
-    maker->gl_->context = std::move(*context);
-    auto gl = GlRenderer::create();
-    if (!gl) return tl::unexpected(gl.error());
-    maker->gl_->renderer = std::move(*gl);
-  }
   return maker;
 }
 
-Status FrameMaker::load(const glm::dvec3& eye) {
-  const std::size_t storey = storeyAt(storeys_, eye);
-  if (truth_ || (*walks_)[storey]) return {};
+Status FrameMaker::openGl() {
+  if (shared_->gl) return {};
+  auto context = HeadlessContext::create();
+  if (!context) return tl::unexpected(context.error());
+  auto gl = GlRenderer::create();
+  if (!gl) return tl::unexpected(gl.error());
+  shared_->context = std::move(*context);
+  shared_->gl = std::move(*gl);
+  return {};
+}
+
+/// A walk that shows every triangle, wherever the eye is, and nothing else.
+WalkScene polygonsOf(const OpenProject& open) {
+  glm::dvec2 low(open.scene->bounds.min), high(open.scene->bounds.max);
+  const glm::dvec2 room = 0.01 * (high - low) + 1e-3;
+  low -= room, high += room;
+  const auto all = std::make_shared<const LocalGeometry>(
+      clipToPolygon(*open.scene, {{low, {high.x, low.y}, high, {low.x, high.y}}}));
+  WalkScene walk;
+  walk.scene = open.scene, walk.layout = open.layout, walk.plan = open.plan;
+  walk.exposure = open.project.exposure;
+  walk.captures.resize(open.layout->cameras.size());
+  walk.local.assign(open.layout->regions.size(), all);
+  return walk;
+}
+
+/// What walks of all storeys hold together keeps to the limit: where it does not, others are closed.
+Status FrameMaker::openWalk(std::size_t storey) {
+  auto& walks = shared_->walks;
+  std::size_t bytes = 0;
+  for (const auto& walk : walks) bytes += walk ? walk->stats().bytes : 0;
+  if (bytes > common_.walkBytes())
+    for (std::size_t s = 0; s < walks.size(); ++s)
+      if (s != storey) walks[s].reset();
+  if (walks[storey]) return {};
   const OpenProject& open = storeys_[storey];
-  auto loaded = loadWalk(open, nullptr, runner_, common_.progress, common_.stop);
-  if (!loaded) return tl::unexpected(loaded.error());
-  if (loaded->missing == int(loaded->keys.size()))
+  auto start = startWalk(open, nullptr);
+  if (!start) return tl::unexpected(start.error());
+  if (start->walk.missing == int(start->walk.keys.size()))
     return fail(ErrorKind::notFound,
                 storeys_.size() == 1
                     ? "nothing is baked yet; run `acentric bake` on it first"
                     : fmt::format("nothing is baked yet of {}; run `acentric bake` on it first",
                                   open.project.storeys[storey].name),
                 open.file.string());
-  (*walks_)[storey] = std::move(*loaded);
+  std::ranges::copy(start->walk.warnings, std::back_inserter(shared_->told));
+  if (start->walk.coarse > 0) shared_->told.push_back(coarseText(start->walk));
+  WalkStreamOptions options;
+  options.memoryBytes = common_.walkBytes();
+  options.threads = 0;
+  walks[storey] = std::make_unique<WalkStream>(std::move(*start), options);
   return {};
+}
+
+Status FrameMaker::load(const PerspectiveView& view) {
+  if (isTruth()) return {};
+  if (onOpenGl(settings.renderer))
+    if (Status opened = openGl(); !opened) return opened;
+  if (shows_ == Shows::polygons) {
+    if (!shared_->polygons) shared_->polygons = polygonsOf(storeys_.front());
+    return {};
+  }
+  const std::size_t storey = storeyAt(storeys_, view.eye);
+  if (Status opened = openWalk(storey); !opened) return opened;
+  const ViewCameras needed = camerasOf(*storeys_[storey].layout, view, settings);
+  if (needed.region < 0) return {};  // the renderer says so
+  WalkStream& walk = *shared_->walks[storey];
+  const Status loaded =
+      walk.complete(needed.cameras, std::span(&needed.region, 1), runner_, common_.progress, common_.stop);
+  std::ranges::move(walk.takeWarnings(), std::back_inserter(shared_->told));
+  return loaded;
 }
 
 Result<Frame> FrameMaker::render(const PerspectiveView& view) {
   if (Status sound = view.check(); !sound) return tl::unexpected(sound.error());
   const OpenProject& open = storeys_.front();
-  if (truth_) {
+  if (isTruth()) {
+    const Stopwatch watch;
     TruthFrame truth =
         renderTruth(*open.rays, view, open.project.bake, open.project.exposure, truthSamples, runner_);
     Frame frame;
     frame.colour = std::move(truth.colour);
     frame.source = Image<PixelSource>(view.width, view.height, kSourceLocal);
+    frame.stats.totalSeconds = watch.seconds();
     return frame;
   }
-  if (Status loaded = load(view.eye); !loaded) return tl::unexpected(loaded.error());
-  const WalkScene& walk = (*walks_)[storeyAt(storeys_, view.eye)]->walk;
-  if (!gl_) return renderFrame(walk, view, settings, runner_, memory_);
-  auto stats = gl_->renderer->draw(walk, view, settings);
+  if (Status there = load(view); !there) return tl::unexpected(there.error());
+  const auto loaded =
+      shows_ == Shows::polygons ? nullptr : shared_->walks[storeyAt(storeys_, view.eye)]->walk();
+  const WalkScene& walk = loaded ? loaded->walk : *shared_->polygons;
+  if (!onOpenGl(settings.renderer)) return renderFrame(walk, view, settings, runner_, memory_);
+  auto stats = shared_->gl->draw(walk, view, settings);
   if (!stats) return tl::unexpected(stats.error());
-  Frame frame = gl_->renderer->readBack();
+  Frame frame = shared_->gl->readBack();
   frame.stats = *stats;
   return frame;
 }
 
 std::vector<std::string> FrameMaker::warnings() const {
-  std::vector<std::string> all;
-  if (gl_ && settings.reconstruction == Reconstruction::filtered)
-    all.push_back("the OpenGL renderer draws splats where filtered samples are asked for");
-  for (const auto& walk : *walks_)
-    if (walk) {
-      all.insert(all.end(), walk->warnings.begin(), walk->warnings.end());
-      if (walk->coarse > 0) all.push_back(coarseText(*walk));
-    }
+  std::vector<std::string> all = shared_->told;
+  for (const auto& walk : shared_->walks)
+    if (walk)
+      if (const std::string simplified = simplifiedText(*walk->walk()); !simplified.empty())
+        all.push_back(simplified);
   return all;
 }
 

@@ -30,14 +30,16 @@ struct Report {
 };
 
 struct Common {
-  std::string storey;    ///< of the project, as --storey says; empty = the one where its walk begins
-  int threads = 0;       ///< 0 = all processors
-  Progress progress;     ///< empty when not on a terminal or with --json
-  std::stop_token stop;  ///< Ctrl-C
+  std::string storey;  ///< of the project, as --storey says; empty = the one where its walk begins
+  int threads = 0;     ///< 0 = all processors
+  std::optional<double> walkMegabytes;  ///< for captures in memory; none = a share of the machine's
+  Progress progress;                    ///< empty when not on a terminal or with --json
+  std::stop_token stop;                 ///< Ctrl-C
   ImportHost host;
 
   int threadCount() const;
   std::unique_ptr<TaskRunner> runner() const;
+  std::size_t walkBytes() const;
 };
 
 /// A project's storey by its name, its height with the unit (the nearest floor within half a metre), or its
@@ -62,8 +64,9 @@ Report byStorey(const std::vector<std::string>& names, std::vector<Report> repor
 /// "85.0 s", "2.3 min", "1.2 h".
 std::string timeText(double seconds);
 
-/// Renders frames of a project by any renderer name, including "gl" (headless) and "truth". What is baked of
-/// a storey is loaded with the first frame there.
+/// Renders frames of a project by any renderer name, including those of OpenGL (headless), and for comparison
+/// "truth" (ray-traced), "polygons" and "gl-polygons" (every triangle of the scene, unlit). What is baked is
+/// loaded as frames need it, and kept as long as there is room (Common::walkMegabytes).
 class FrameMaker {
  public:
   /// `storeys`, at least one, must outlive it. `reconstruction` empty: the project's.
@@ -71,30 +74,32 @@ class FrameMaker {
                                                     const std::string& rendererName, const Common& common,
                                                     TaskRunner& runner,
                                                     const std::string& reconstruction = {});
-  /// What has been loaded, and is from now on, serves this one too: captures are in memory once.
-  void shareWalksOf(const FrameMaker& other) { walks_ = other.walks_; }
+  /// What has been loaded, and is from now on, serves this one too: captures are in memory once, and on the
+  /// graphics card.
+  void shareWalksOf(const FrameMaker& other) { shared_ = other.shared_; }
   ~FrameMaker();
-  /// Loads what frames from an eye need; render() does so too.
-  Status load(const glm::dvec3& eye);
+  /// Loads what a frame needs and opens OpenGL if it is to be used; render() does so too.
+  Status load(const PerspectiveView& view);
   Result<Frame> render(const PerspectiveView& view);
   /// The next frame is made in the memory of one that is no longer needed.
   void recycle(Frame frame) { memory_.frame = std::move(frame); }
   std::vector<std::string> warnings() const;
-  bool isTruth() const { return truth_; }
+  bool isTruth() const { return shows_ == Shows::truth; }
   ViewSettings settings;
   int truthSamples = 1;  ///< per pixel
 
  private:
   FrameMaker(std::span<const OpenProject> storeys, const Common& common, TaskRunner& runner);
-  struct Gl;
+  struct Shared;
+  Status openGl();
+  Status openWalk(std::size_t storey);
   std::span<const OpenProject> storeys_;
   const Common& common_;
   TaskRunner& runner_;
-  using Walks = std::vector<std::optional<LoadedWalk>>;
-  std::shared_ptr<Walks> walks_;  ///< of storeys_
+  std::shared_ptr<Shared> shared_;
   FrameMemory memory_;
-  bool truth_ = false;
-  std::unique_ptr<Gl> gl_;
+  enum class Shows { captures, truth, polygons };
+  Shows shows_ = Shows::captures;
 };
 
 /// As --up and --metres-per-unit say.

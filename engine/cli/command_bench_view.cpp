@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine.h"
@@ -7,10 +9,55 @@
 #include "engine/measure/statistics.h"
 
 namespace acentric::cli {
+namespace {
+
+/// Milliseconds of frames, by part.
+struct Timings {
+  std::vector<double> total, plan, warp, local, fill;
+  double samplesRead = 0, samplesDrawn = 0, localTriangles = 0;
+
+  void add(const FrameStats& stats) {
+    total.push_back(stats.totalSeconds * 1e3), plan.push_back(stats.planSeconds * 1e3);
+    warp.push_back(stats.warpSeconds * 1e3), local.push_back(stats.localSeconds * 1e3);
+    fill.push_back(stats.fillSeconds * 1e3);
+    samplesRead += double(stats.samplesRead), samplesDrawn += double(stats.samplesDrawn);
+    localTriangles += double(stats.localTriangles);
+  }
+};
+
+/// Bytes of a sample that projecting it reads: row, inverse distance, roles; colour; slant.
+constexpr double kBytesPerSample = 2 + 4 + 1 + 4 + 2;
+
+/// Bytes per second that all threads together read from memory, one after the other: no warp can be faster.
+double streamingReadRate(TaskRunner& runner) {
+  constexpr std::size_t kWords = std::size_t(32) << 20, kParts = 64;
+  const std::vector<std::uint64_t> memory(kWords, 1);
+  std::vector<std::uint64_t> sums(kParts);
+  double best = 0;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const Stopwatch watch;
+    runner.parallelFor(kParts, [&](std::size_t part) {
+      const auto from = memory.begin() + std::ptrdiff_t(part * (kWords / kParts));
+      sums[part] = std::accumulate(from, from + std::ptrdiff_t(kWords / kParts), std::uint64_t(0));
+    });
+    if (std::accumulate(sums.begin(), sums.end(), std::uint64_t(0)) == kWords)
+      best = std::max(best, double(kWords * sizeof(std::uint64_t)) / watch.seconds());
+  }
+  return best;
+}
+
+Json spreadJson(const std::vector<double>& values) {
+  const Spread spread = spreadOf(values);
+  return {{"median", spread.median}, {"p99", spread.p99}, {"max", spread.max}};
+}
+
+}  // namespace
+
 Result<Report> runBench(const BenchOptions& options, const Common& common) {
+  if (options.stream) return runBenchStream(options, common);
   const auto walk = openAlong(options.project, options.path, options.size, 0, options.frames, common);
   if (!walk) return tl::unexpected(walk.error());
-  const std::vector<PerspectiveView> views = evenly(walk->views, options.frames);
+  const std::vector<PerspectiveView> views = spreadAlong(*walk, options.frames);
   const auto runner = common.runner();
 
   std::vector<std::unique_ptr<FrameMaker>> makers;
@@ -20,13 +67,12 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
     auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.reconstruction);
     if (!maker) return tl::unexpected(maker.error());
     if (!makers.empty()) (*maker)->shareWalksOf(*makers.front());
-    if (Status loaded = (*maker)->load(views.front().eye); !loaded) return tl::unexpected(loaded.error());
+    if (Status loaded = (*maker)->load(views.front()); !loaded) return tl::unexpected(loaded.error());
     if (makers.empty()) loadSeconds = watch.seconds();
     makers.push_back(std::move(*maker));
   }
   // Renderers take turns frame by frame, so that a change of the machine's speed meets them all.
-  std::vector<std::vector<double>> totals(makers.size()), warps(makers.size());
-  std::vector<std::uint64_t> samples(makers.size(), 0);
+  std::vector<Timings> timings(makers.size());
   for (int repeat = 0; repeat < options.repeats + 1; ++repeat)
     for (std::size_t v = 0; v < views.size(); ++v)
       for (std::size_t m = 0; m < makers.size(); ++m) {
@@ -39,38 +85,52 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
         const FrameStats stats = frame->stats;
         makers[m]->recycle(std::move(*frame));
         if (repeat == 0) continue;  // warms caches and uploads
-        totals[m].push_back(stats.totalSeconds * 1e3);
-        warps[m].push_back(stats.warpSeconds * 1e3);
-        samples[m] += stats.samplesRead;
+        timings[m].add(stats);
       }
+  const double readRate = streamingReadRate(*runner);
   Report report;
   report.json = {{"version", ACENTRIC_VERSION},
                  {"processor", processorName()},
                  {"threads", runner->threads()},
                  {"project", options.project.string()},
+                 {"triangles", walk->storeys.front().scene->triangleCount()},
                  {"width", walk->size.width},
                  {"height", walk->size.height},
                  {"frames", views.size()},
                  {"repeats", options.repeats},
                  {"reconstruction", nameOf(makers.front()->settings.reconstruction)},
                  {"loadSeconds", loadSeconds},
+                 {"readGigabytesPerSecond", readRate / 1e9},
                  {"renderers", Json::array()}};
-  report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; captures loaded in {:.2f} s\n",
+  report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; the first captures loaded in {:.2f} s\n",
                             processorName(), runner->threads(), walk->size.width, walk->size.height,
                             views.size(), options.repeats, loadSeconds);
+  report.text += fmt::format("  memory is read at {:.1f} GB/s\n", readRate / 1e9);
   for (std::size_t m = 0; m < makers.size(); ++m) {
-    const Spread total = spreadOf(totals[m]), warp = spreadOf(warps[m]);
-    double warpMs = 0;
-    for (double value : warps[m]) warpMs += value;
-    const double rate = warpMs > 0 ? double(samples[m]) / warpMs / 1e3 : 0;
+    const Timings& t = timings[m];
+    const double frames = double(t.total.size());
+    const double warpSeconds = std::accumulate(t.warp.begin(), t.warp.end(), 0.0) / 1e3;
+    const double rate = warpSeconds > 0 ? t.samplesRead / warpSeconds : 0;
+    const Spread total = spreadOf(t.total), warp = spreadOf(t.warp);
     report.json["renderers"].push_back({{"renderer", options.renderers[m]},
-                                        {"frameMsMedian", total.median},
-                                        {"frameMsP99", total.p99},
-                                        {"warpMsMedian", warp.median},
-                                        {"megasamplesPerSecond", rate}});
-    report.text +=
-        fmt::format("  {:<8} frame {:7.2f} ms median, {:7.2f} ms p99; warp {:7.2f} ms; {:6.0f} M samples/s\n",
-                    options.renderers[m], total.median, total.p99, warp.median, rate);
+                                        {"frameMs", spreadJson(t.total)},
+                                        {"planMs", spreadJson(t.plan)},
+                                        {"warpMs", spreadJson(t.warp)},
+                                        {"localMs", spreadJson(t.local)},
+                                        {"fillMs", spreadJson(t.fill)},
+                                        {"samplesReadPerFrame", t.samplesRead / frames},
+                                        {"samplesDrawnPerFrame", t.samplesDrawn / frames},
+                                        {"localTrianglesPerFrame", t.localTriangles / frames},
+                                        {"megasamplesPerSecond", rate / 1e6},
+                                        {"shareOfReadRate", rate * kBytesPerSample / readRate}});
+    report.text += fmt::format("  {:<11} frame {:8.2f} ms median, {:8.2f} p99", options.renderers[m],
+                               total.median, total.p99);
+    if (rate > 0)
+      report.text += fmt::format(
+          "; plan {:.2f}, warp {:.2f} (p99 {:.2f}), local {:.2f}, fill {:.2f}; {:.0f} M samples/s",
+          spreadOf(t.plan).median, warp.median, warp.p99, spreadOf(t.local).median, spreadOf(t.fill).median,
+          rate / 1e6);
+    report.text += "\n";
   }
   return report;
 }

@@ -15,6 +15,7 @@ namespace acentric::cli {
 struct Chosen {
   std::function<Result<Report>(const Common&)> run;
   std::string storey;
+  std::optional<double> walkMegabytes;
 };
 
 /// Adds a subcommand that does `run`; returns it with the options that it will be run with.
@@ -40,5 +41,7 @@ void addProjectCommands(CLI::App& app, Chosen& chosen);
 void addInspectionCommands(CLI::App& app, Chosen& chosen);
 /// Pictures of what is baked, and how good and fast they are.
 void addWalkCommands(CLI::App& app, Chosen& chosen);
+/// One of those of `acentric bench`.
+void addPackCommand(CLI::App& bench, Chosen& chosen);
 
 }  // namespace acentric::cli

@@ -4,6 +4,7 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/path_frames.h"
+#include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
 #include "engine/measure/statistics.h"
 
@@ -36,6 +37,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<double> psnr, ssim, holes, milliseconds;
+  SeamSums seams;
   Json frames = Json::array();
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
@@ -46,6 +48,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
                                          options.truthSamples, *runner);
     const auto comparison = compare(*frame, truth.colour, truth.rayDistance);
     if (!comparison) return tl::unexpected(comparison.error());
+    if (options.seams) seams += measureSeam(*frame, truth.colour, truth.rayDistance);
     if (!options.images.empty())
       if (Status written = writeTriple(options.images, i, *frame, truth); !written)
         return tl::unexpected(written.error());
@@ -81,6 +84,15 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
       "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
       views.size(), walk->size.width, walk->size.height, options.renderer, runner->threads(), p.median, p.min,
       s.median, s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
+  if (options.seams) {
+    const auto pops =
+        measurePopping(*walk, options.crossings, **maker, options.truthSamples, *runner, common);
+    if (!pops) return tl::unexpected(pops.error());
+    const SeamReport seam = reportSeam(seams), popping = reportPopping(*pops);
+    report.json["seams"] = seam.json;
+    report.json["popping"] = popping.json;
+    report.text += seam.text + popping.text;
+  }
   return report;
 }
 

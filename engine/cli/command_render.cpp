@@ -5,6 +5,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
+#include "engine/cli/frame_pictures.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {
@@ -51,6 +52,10 @@ Result<PictureSize> parseSize(const std::string& text) {
 Result<Report> runRender(const RenderOptions& options, const Common& common) {
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
+  const PictureMode mode = pictureModes({{options.mode}}).front();
+  if (options.renderer == "truth" && mode != PictureMode::picture)
+    return fail(ErrorKind::invalidArgument,
+                "--renderer truth has no cameras and nothing to compare with: leave --mode away");
   auto current = openChosen(options.project, common);
   if (!current) return tl::unexpected(current.error());
 
@@ -77,14 +82,22 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   }
   auto maker = FrameMaker::create(storeys, options.renderer, common, *runner, options.reconstruction);
   if (!maker) return tl::unexpected(maker.error());
-  if (Status loaded = (*maker)->load(view.eye); !loaded) return tl::unexpected(loaded.error());
+  if (Status loaded = (*maker)->load(view); !loaded) return tl::unexpected(loaded.error());
   (*maker)->truthSamples = options.truthSamples;
   const Stopwatch watch;
   const auto frame = (*maker)->render(view);
   if (!frame) return tl::unexpected(frame.error());
   const double seconds = watch.seconds();
 
-  if (Status written = writeColourImage(frame->colour, options.output); !written)
+  const FramePictures pictures(storeys, options.gain);
+  const OpenProject& open = storeys.front();
+  std::optional<TruthFrame> truth;
+  if (needsTruth(mode))
+    truth = renderTruth(*open.rays, view, open.project.bake, open.project.exposure, options.truthSamples,
+                        *runner);
+  const auto picture = pictures.makeWithLegend(mode, *frame, view, truth ? &*truth : nullptr);
+  if (!picture) return tl::unexpected(picture.error());
+  if (Status written = writeColourImage(*picture, options.output); !written)
     return tl::unexpected(written.error());
   if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
   if (!options.holes.empty())
@@ -94,6 +107,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   const double holeShare = double(frame->holeCount()) / (double(view.width) * view.height);
   Report report;
   report.json = {{"picture", options.output.string()},
+                 {"mode", options.mode},
                  {"renderer", options.renderer},
                  {"eye", toJson(view.eye)},
                  {"width", view.width},
@@ -102,6 +116,8 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
                  {"renderMs", seconds * 1e3},
                  {"stats", toJson(frame->stats)},
                  {"warnings", (*maker)->warnings()}};
+  if (mode == PictureMode::sources) report.json["sources"] = pictures.sourcesJson(*frame, view);
+  if (mode == PictureMode::difference) report.json["gain"] = options.gain;
   report.text = fmt::format("{}\n", options.output.string());
   for (const std::string& warning : (*maker)->warnings()) report.text += "warning: " + warning + "\n";
   if (options.stats && (*maker)->isTruth())

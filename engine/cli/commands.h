@@ -1,6 +1,7 @@
 #pragma once
 /// The commands: options in, report out.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -107,11 +108,24 @@ struct PictureSize {
 };
 Result<PictureSize> parseSize(const std::string& text);
 
+/// By which differences from the truth are amplified.
+inline constexpr int kDifferenceGain = 4;
+
+struct BenchPackOptions {
+  std::filesystem::path project, path, output;  ///< no path: once round in the region where the walk begins
+  std::string size = "1920x1080";
+  int frames = 120;           ///< of the way round
+  double mostMegabytes = 52;  ///< of the folder
+};
+Result<Report> runBenchPack(const BenchPackOptions& options, const Common& common);
+
 struct RenderOptions {
   std::filesystem::path project, output, holes;
   std::string eye, size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
+  std::string mode = "picture";                                          ///< frame_pictures.h
   double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
   int truthSamples = 4;
+  int gain = kDifferenceGain;
   bool stats = false;
 };
 Result<Report> runRender(const RenderOptions& options, const Common& common);
@@ -120,6 +134,9 @@ struct WalkOptions {
   std::filesystem::path project, path, output;
   std::string size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
   double fovDegrees = 0;                                            ///< 0 = the project's
+  std::vector<std::string> modes{"picture"};                        ///< frame_pictures.h
+  int truthSamples = 4;
+  int gain = kDifferenceGain;
 };
 Result<Report> runWalk(const WalkOptions& options, const Common& common);
 
@@ -135,6 +152,8 @@ struct MeasureOptions {
   double fovDegrees = 0;
   int frames = 0;  ///< 0 = all; else so many, evenly chosen
   int truthSamples = 1;
+  bool seams = false;  ///< also where local geometry and captures meet, and changes of region
+  int crossings = 20;  ///< 0 = all along the path; else so many, evenly chosen
 };
 Result<Report> runMeasure(const MeasureOptions& options, const Common& common);
 
@@ -146,16 +165,38 @@ Result<Report> runValidate(const ValidateOptions& options, const Common& common)
 struct BenchOptions {
   std::filesystem::path project, path;           ///< path empty = a tour
   std::string size = "960x540", reconstruction;  ///< empty = the project's
-  std::vector<std::string> renderers{"list", "scalar", "zbuffer", "gl"};
+  std::vector<std::string> renderers = rendererNames();
   int frames = 30, repeats = 3;
+  bool stream = false;  ///< walk in real time, while captures come and go
+  double metresPerSecond = 1.4;
 };
+/// As it is being walked: frames with captures missing or coarse, the longest frame, memory, loads.
+Result<Report> runBenchStream(const BenchOptions& options, const Common& common);
 Result<Report> runBench(const BenchOptions& options, const Common& common);
+
+/// Several projects after each other: how times grow with a scene.
+struct BenchGrowthOptions {
+  std::vector<std::filesystem::path> projects;
+  BenchOptions view{{}, {}, "1280x720", {}, {"list", "polygons", "gl-polygons", "truth"}, 8, 1};
+  std::filesystem::path chart;
+};
+Result<Report> runBenchGrowth(const BenchGrowthOptions& options, const Common& common);
 
 struct BenchBakeOptions {
   std::filesystem::path project;
   BakeBenchOptions bench;
 };
 Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& common);
+
+struct BenchHolesOptions {
+  std::filesystem::path project, output;  ///< output: a folder; empty = nothing is written
+  std::string size = "640x360";
+  std::string place;  ///< "x,y"; empty = where the walk begins
+  double fovDegrees = 0;
+  std::optional<double> yawDegrees;
+  int frames = 5, truthSamples = 1;
+};
+Result<Report> runBenchHoles(const BenchHolesOptions& options, const Common& common);
 
 struct EstimateCommandOptions {
   std::filesystem::path project, output;

@@ -92,8 +92,8 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
   c->add_option("--frames", o.frames, "Frames of the path that are compared, evenly chosen (0 = all)")
       ->capture_default_str();
   c->add_option("--size", o.size, "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360)");
-  c->add_option("--renderer", o.renderer, "Renderer of compared frames: list, scalar, zbuffer or gl")
-      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+  c->add_option("--renderer", o.renderer, "Renderer of compared frames")
+      ->check(CLI::IsMember(rendererNames()))
       ->capture_default_str();
   c->add_option("--csv", o.csv, "File for every point's (or cell's, or frame's) figures");
   c->add_option("-o,--output", o.output, "Picture to write (.svg or .png)");

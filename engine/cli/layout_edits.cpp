@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/geometry/conventions.h"
+#include "engine/layout/panoramas.h"
 
 namespace acentric::cli {
 namespace {
@@ -72,6 +73,19 @@ Status applyFreeApvs(LayoutSpec& spec, const LayoutEdits& edits) {
   return {};
 }
 
+Status applyPanoramas(EditedLayout& edited, const std::string& places) {
+  if (places.empty()) return {};
+  if (places == "none") {
+    edited.notes.push_back(fmt::format("{} free panoramas taken away", removePanoramas(edited.spec)));
+    return {};
+  }
+  const auto added =
+      addPanoramas(edited.spec, places == "rings" ? PanoramaPlaces::rings : PanoramaPlaces::regions);
+  if (!added) return tl::unexpected(added.error());
+  edited.notes.push_back(fmt::format("{} free panoramas placed", *added));
+  return {};
+}
+
 }  // namespace
 
 Result<glm::dvec2> parsePoint(std::string_view text) {
@@ -132,6 +146,7 @@ Result<EditedLayout> applyEdits(const LayoutSpec& spec, const LayoutEdits& edits
   }
   if (Status done = applyCells(s, edits); !done) return tl::unexpected(done.error());
   if (Status done = applyFreeApvs(s, edits); !done) return tl::unexpected(done.error());
+  if (Status done = applyPanoramas(edited, edits.panoramas); !done) return tl::unexpected(done.error());
   if (Status sound = s.check(); !sound) return tl::unexpected(sound.error());
   return edited;
 }

@@ -18,6 +18,7 @@ struct LayoutEdits {
   std::vector<std::string> split, join;  ///< likewise
   std::vector<std::string> free;         ///< "x,y,dx,dy,fov,hand"
   std::vector<int> removeFree;           ///< numbers
+  std::string panoramas;                 ///< empty = as they are; "rings", "regions" or "none"
 };
 
 /// "x,y" in metres.

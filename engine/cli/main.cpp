@@ -56,12 +56,14 @@ int main(int argc, char** argv) {
   addProjectCommands(app, chosen);
   addInspectionCommands(app, chosen);
   addWalkCommands(app, chosen);
+  addPackCommand(*app.get_subcommand("bench"), chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : kUsage;
   }
   common.storey = chosen.storey;
+  common.walkMegabytes = chosen.walkMegabytes;
   common.stop = stopOnInterrupt();
   if (!json) common.progress = terminalProgress();
   return finish(chosen.run(common), json);

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "engine/geometry/conventions.h"
+
 namespace acentric::cli {
 namespace {
 
@@ -11,13 +15,8 @@ Result<std::vector<PerspectiveView>> viewsAlong(const CameraPath& path, std::spa
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const PathPose& pose = path.poses[i];
     const OpenProject& open = storeys[storeyAt(storeys, pose.eye)];
-    PerspectiveView view;
-    view.eye = pose.eye;
-    view.yawRadians = pose.yawRadians;
-    view.pitchRadians = pose.pitchRadians;
-    view.fovRadians = radians(fovDegrees > 0 ? fovDegrees : open.project.fovDegrees);
-    view.width = size.width;
-    view.height = size.height;
+    const PerspectiveView view =
+        viewAt(pose, fovDegrees > 0 ? fovDegrees : open.project.fovDegrees, {size.width, size.height});
     if (Status sound = view.check(); !sound)
       return fail(sound.error().kind, sound.error().message, fmt::format("/frames/{}", i));
     if (!open.layout->regionAt(glm::dvec2(pose.eye))) {
@@ -59,6 +58,29 @@ Result<PathWalk> openAlong(const std::filesystem::path& project, const std::file
   if (!views) return tl::unexpected(views.error());
   walk.views = std::move(*views);
   return walk;
+}
+
+PerspectiveView between(const PerspectiveView& from, const PerspectiveView& to, double share) {
+  PerspectiveView view = from;
+  view.eye = glm::mix(from.eye, to.eye, share);
+  view.yawRadians += share * std::remainder(to.yawRadians - from.yawRadians, kTwoPi);
+  view.pitchRadians = glm::mix(from.pitchRadians, to.pitchRadians, share);
+  return view;
+}
+
+std::vector<PerspectiveView> spreadAlong(const PathWalk& walk, int count) {
+  if (std::size_t(count) <= walk.views.size()) return evenly(walk.views, count);
+  std::vector<PerspectiveView> views;
+  for (int i = 0; i < count; ++i) {
+    const double at = double(i) * double(walk.views.size() - 1) / double(count - 1);
+    const std::size_t from = std::min(std::size_t(at), walk.views.size() - 1);
+    PerspectiveView view =
+        between(walk.views[from], walk.views[std::min(from + 1, walk.views.size() - 1)], at - double(from));
+    const Layout& layout = *walk.storeys[storeyAt(walk.storeys, view.eye)].layout;
+    view.eye = clampToLayout(layout, view.eye);  // a path may cut corners
+    views.push_back(view);
+  }
+  return views;
 }
 
 }  // namespace acentric::cli

@@ -26,6 +26,12 @@ Result<PathWalk> openAlong(const std::filesystem::path& project, const std::file
                            const std::string& size, double fovDegrees, int tourFrames, const Common& common,
                            Along along = Along::anyStorey);
 
+/// A share of the way from one view to another, turning the shorter way round.
+PerspectiveView between(const PerspectiveView& from, const PerspectiveView& to, double share);
+
+/// `count` views along the walk, evenly chosen; in between by interpolation where the path has fewer.
+std::vector<PerspectiveView> spreadAlong(const PathWalk& walk, int count);
+
 /// `count` entries, evenly chosen, first and last included.
 template <class T>
 std::vector<T> evenly(const std::vector<T>& all, int count) {

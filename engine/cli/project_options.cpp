@@ -103,6 +103,11 @@ void addLayout(CLI::App& app, Chosen& chosen) {
                 "Place an APV beside the lattice: x,y,dx,dy,fov,ccw|cw (may be repeated); dx = dy = 0 is a "
                 "panorama");
   c->add_option("--remove-free", o.edits.removeFree, "Take a free APV away, by its number");
+  c->add_option(
+       "--panoramas", o.edits.panoramas,
+       "Place a panorama in the middle of each ring, or of each region, to fill holes; or none: take all "
+       "free panoramas away")
+      ->check(CLI::IsMember({"rings", "regions", "none"}));
   c->add_flag("--apply", o.apply, "Write the changes to the project");
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }

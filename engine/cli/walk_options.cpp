@@ -1,37 +1,75 @@
 /// Pictures of what is baked, and how good and fast they are.
 
+#include <fmt/format.h>
+
 #include "engine/cli/command_line.h"
+#include "engine/cli/frame_pictures.h"
 
 namespace acentric::cli {
 namespace {
 
+std::vector<std::string> renderers(bool truthToo) {
+  std::vector<std::string> names = rendererNames();
+  if (truthToo) names.emplace_back("truth");
+  return names;
+}
+std::string rendererChoice(bool truthToo) { return fmt::format("{}", fmt::join(renderers(truthToo), ", ")); }
+
 void addReconstruction(CLI::App& command, std::string& reconstruction) {
   command
       .add_option("--reconstruction", reconstruction,
-                  "point, splat or filtered (default: the project's); gl draws splats for filtered")
-      ->check(CLI::IsMember({"point", "splat", "filtered"}));
+                  "point, splat, surface or filtered (default: the project's)")
+      ->check(CLI::IsMember({"point", "splat", "surface", "filtered"}));
+}
+
+void addTruthSamples(CLI::App& command, int& samples) {
+  command.add_option("--truth-samples", samples, "Rays per pixel of the truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+}
+
+void addGain(CLI::App& command, int& gain) {
+  command.add_option("--gain", gain, "Factor by which differences are amplified")
+      ->check(CLI::Range(1, 255))
+      ->capture_default_str();
+}
+
+void addMemory(CLI::App& command, Chosen& chosen) {
+  command
+      .add_option(
+          "--memory", chosen.walkMegabytes,
+          "Megabytes for captures in memory; a frame that needs more takes more (default: half of the "
+          "machine's)")
+      ->check(CLI::Range(1.0, 1e9));
 }
 
 void addRender(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(
       app, chosen, "render", "Render one picture",
       "  acentric render kitchen.acentric.json --eye 1,2,1.6 --yaw 90 -o view.png --holes holes.png --stats\n"
+      "  acentric render kitchen.acentric.json --mode sources -o cameras.png\n"
       "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
       runRender);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "the one at the eye");
+  addMemory(*c, chosen);
   c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
   c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
   c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
-      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
+  c->add_option("--renderer", o.renderer, rendererChoice(true))
+      ->check(CLI::IsMember(renderers(true)))
       ->capture_default_str();
   addReconstruction(*c, o.reconstruction);
-  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of --renderer truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
+  c->add_option(
+       "--mode", o.mode,
+       "What is shown: the picture, the ray-traced truth, their difference, both side by side, which "
+       "camera painted what, or the holes")
+      ->check(CLI::IsMember(pictureModeNames()))
       ->capture_default_str();
+  addTruthSamples(*c, o.truthSamples);
+  addGain(*c, o.gain);
   c->add_option("-o,--output", o.output, "PNG to write")->required();
   c->add_option("--holes", o.holes, "PNG to write: white where no sample fell");
   c->add_flag("--stats", o.stats, "Print times and counts");
@@ -49,60 +87,113 @@ void addTour(CLI::App& app, Chosen& chosen) {
 }
 
 void addWalk(CLI::App& app, Chosen& chosen) {
-  auto [c, o] = add(app, chosen, "walk", "Render a camera path to PNG frames and a contact sheet",
-                    "  acentric walk kitchen.acentric.json --path tour.json -o frames", runWalk);
+  auto [c, o] =
+      add(app, chosen, "walk", "Render a camera path to PNG frames and a contact sheet",
+          "  acentric walk kitchen.acentric.json --path tour.json -o frames\n"
+          "  acentric walk kitchen.acentric.json --modes picture,truth,difference,sources -o frames",
+          runWalk);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "those along the path");
+  addMemory(*c, chosen);
   c->add_option("--path", o.path,
                 "Camera path (JSON), such as `acentric tour` writes (default: a tour of 60 frames)");
   c->add_option("-o,--output", o.output, "Folder for the frames")->required();
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
-  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer, gl or truth")
-      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl", "truth"}))
+  c->add_option("--renderer", o.renderer, rendererChoice(true))
+      ->check(CLI::IsMember(renderers(true)))
       ->capture_default_str();
   addReconstruction(*c, o.reconstruction);
+  c->add_option(
+       "--modes", o.modes,
+       "What is written of each frame, separated by commas: the picture, the ray-traced truth, their "
+       "difference, both beside each other, which camera painted what (sources), or the holes")
+      ->delimiter(',')
+      ->check(CLI::IsMember(pictureModeNames()))
+      ->capture_default_str();
+  addTruthSamples(*c, o.truthSamples);
+  addGain(*c, o.gain);
 }
 
 void addMeasure(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "measure",
                     "Compare frames along a path with ray-traced truth: PSNR, SSIM, hole share, time",
-                    "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare",
+                    "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare\n"
+                    "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --seams --json",
                     runMeasure);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "those along the path");
+  addMemory(*c, chosen);
   c->add_option("--path", o.path, "Camera path (JSON; default: a tour of 60 frames)");
-  c->add_option("--renderer", o.renderer, "list, scalar, zbuffer or gl")
-      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+  c->add_option("--renderer", o.renderer, rendererChoice(false))
+      ->check(CLI::IsMember(renderers(false)))
       ->capture_default_str();
   addReconstruction(*c, o.reconstruction);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
   c->add_option("--frames", o.frames, "Only so many frames, evenly chosen (0 = all)")->capture_default_str();
-  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
+  addTruthSamples(*c, o.truthSamples);
+  c->add_flag(
+      "--seams", o.seams,
+      "Also how visible the border of local geometry is, and how much the picture changes where the path "
+      "goes from region to region");
+  c->add_option("--crossings", o.crossings,
+                "With --seams: only so many changes of region, evenly chosen (0 = all)")
+      ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   c->add_option("--images", o.images, "Folder for pictures: frame, truth, difference, holes");
 }
 
-void addBenchView(CLI::App& bench, Chosen& chosen) {
-  auto [c, o] = add(bench, chosen, "view", "Time the renderers against each other along a path",
-                    "  acentric bench view kitchen.acentric.json --renderers list,zbuffer --json", runBench);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
-  c->add_option("--renderers", o.renderers, "Which, separated by commas")
+/// Also what the walk is there to replace.
+std::vector<std::string> benchRenderers() {
+  std::vector<std::string> names = renderers(true);
+  names.insert(names.end(), {"polygons", "gl-polygons"});
+  return names;
+}
+
+/// What is timed, and along which frames.
+void addFrameTiming(CLI::App& command, BenchOptions& options) {
+  command.add_option("--renderers", options.renderers, "Which, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember({"list", "scalar", "zbuffer", "gl"}))
+      ->check(CLI::IsMember(benchRenderers()))
       ->capture_default_str();
-  addReconstruction(*c, o.reconstruction);
-  c->add_option("--path", o.path, "Path file (default: a tour)");
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames, "Frames of the tour, or of the path, evenly chosen")
+  addReconstruction(command, options.reconstruction);
+  command.add_option("--path", options.path, "Path file (default: a tour)");
+  command.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  command.add_option("--frames", options.frames, "Frames along the tour or the path")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "Times each frame is rendered, after one warm-up")
+  command.add_option("--repeats", options.repeats, "Times each frame is rendered, after one warm-up")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+}
+
+void addBenchView(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] = add(bench, chosen, "view", "Time the renderers against each other along a path",
+                    "  acentric bench view kitchen.acentric.json --renderers list,zbuffer --json\n"
+                    "  acentric bench view kitchen.acentric.json --renderers list,truth,polygons,gl-polygons",
+                    runBench);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  addMemory(*c, chosen);
+  addFrameTiming(*c, o);
+  c->add_flag("--stream", o.stream,
+              "Walk the path in real time with the first renderer while captures come and go");
+  c->add_option("--speed", o.metresPerSecond, "Of --stream, metres per second")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+}
+
+void addBenchGrowth(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] =
+      add(bench, chosen, "growth",
+          "Time frames of several projects, and draw how they grow with the number of triangles",
+          "  acentric bench growth small.acentric.json large.acentric.json --chart growth.svg\n"
+          "  tools/city-growth FOLDER     # makes cities of 0.1, 1 and 10 million triangles, and bakes them",
+          runBenchGrowth);
+  c->add_option("projects", o.projects, "Project files, baked")->required();
+  addFrameTiming(*c, o.view);
+  c->add_option("--chart", o.chart, "Chart to draw: .svg or .png");
 }
 
 void addBenchBake(CLI::App& bench, Chosen& chosen) {
@@ -121,12 +212,35 @@ void addBenchBake(CLI::App& bench, Chosen& chosen) {
       ->capture_default_str();
 }
 
+void addBenchHoles(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] =
+      add(bench, chosen, "holes",
+          "Compare what one panorama, a ring, both, and layered captures leave open on a short walk",
+          "  acentric bench holes kitchen.acentric.json -o holes\n"
+          "  acentric bench holes kitchen.acentric.json --at 1,2 --yaw 90 --frames 9 --json",
+          runBenchHoles);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--at", o.place, "x,y of a ring, or near one, in metres (default: where the walk begins)");
+  c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x (default: as the walk begins)");
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
+  c->add_option("--frames", o.frames, "Frames from the ring's centre to its left")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  addTruthSamples(*c, o.truthSamples);
+  c->add_option("-o,--output", o.output,
+                "Folder for the table (holes.txt, holes.json) and the picture (holes.png)");
+}
+
 void addBench(CLI::App& app, Chosen& chosen) {
   CLI::App* bench = app.add_subcommand("bench", "Time what the program does on this machine");
   bench->require_subcommand(1);
   bench->fallthrough();
   addBenchView(*bench, chosen);
   addBenchBake(*bench, chosen);
+  addBenchGrowth(*bench, chosen);
+  addBenchHoles(*bench, chosen);
 }
 
 }  // namespace

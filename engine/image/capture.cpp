@@ -119,11 +119,6 @@ HalfColour packColour(const glm::vec4& linearRgba) {
                     linearRgba.a >= 1 ? kHalfOne : packRadiance(linearRgba.a));
 }
 
-glm::vec4 unpackColour(const HalfColour& colour) {
-  return glm::vec4(glm::unpackHalf1x16(colour.r), glm::unpackHalf1x16(colour.g),
-                   glm::unpackHalf1x16(colour.b), glm::unpackHalf1x16(colour.a));
-}
-
 int CaptureSamples::maxLayers() const {
   int most = 0;
   for (std::size_t column = 0; column + 1 < columnStart.size(); ++column) {

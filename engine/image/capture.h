@@ -31,7 +31,19 @@ namespace acentric {
 /// [0,1].
 using HalfColour = glm::u16vec4;
 HalfColour packColour(const glm::vec4& linearRgba);
-glm::vec4 unpackColour(const HalfColour& colour);
+
+/// Exact, and without denormal floats on the way: they may be switched off.
+inline float floatFromHalf(std::uint16_t half) {
+  const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16, size = std::uint32_t(half & 0x7fffu) << 13;
+  constexpr std::uint32_t kRebias = (127u - 15u) << 23;
+  float value = std::bit_cast<float>(size + kRebias);
+  if (size < 0x400u << 13) value = std::bit_cast<float>(size + kRebias + (1u << 23)) - 0x1p-14f;
+  if (size >= 0x7c00u << 13) value = std::bit_cast<float>(size | 0x7f800000u);
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) | sign);
+}
+inline glm::vec4 unpackColour(const HalfColour& colour) {
+  return {floatFromHalf(colour.r), floatFromHalf(colour.g), floatFromHalf(colour.b), floatFromHalf(colour.a)};
+}
 
 /// An inverse distance as captures store it: the nearest of those `step` apart, and of the floats with 16
 /// significant bits, so that its last 8 bits are zero. Off by at most half a step, or by 2^-17 of itself;

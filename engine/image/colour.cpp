@@ -39,6 +39,13 @@ struct CodeTable {
       firstCode[static_cast<std::size_t>(bucket)] = static_cast<std::uint8_t>(code);
     }
   }
+
+  std::uint8_t codeOf(float linear) const {
+    if (!(linear > 0)) return 0;  // NaN too
+    if (linear >= 1) return 255;
+    const std::size_t code = firstCode[static_cast<std::size_t>(static_cast<int>(linear * kBuckets))];
+    return static_cast<std::uint8_t>(code + (linear >= threshold[code + 1] ? 1 : 0));
+  }
 };
 
 const CodeTable& codeTable() {
@@ -69,13 +76,7 @@ const std::array<float, 256>& linearFromSrgbTable() {
   return table;
 }
 
-std::uint8_t srgbCodeFromLinear(float linear) {
-  if (!(linear > 0)) return 0;  // NaN too
-  if (linear >= 1) return 255;
-  const CodeTable& table = codeTable();
-  const std::size_t code = table.firstCode[static_cast<std::size_t>(linear * CodeTable::kBuckets)];
-  return static_cast<std::uint8_t>(linear >= table.threshold[code + 1] ? code + 1 : code);
-}
+std::uint8_t srgbCodeFromLinear(float linear) { return codeTable().codeOf(linear); }
 
 glm::vec3 toneMap(const glm::vec3& radiance, float exposure) {
   const glm::vec3 colour(usable(radiance.x * exposure), usable(radiance.y * exposure),
@@ -95,8 +96,9 @@ glm::vec3 toneMap(const glm::vec3& radiance, float exposure) {
 
 Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha) {
   const glm::vec3 display = toneMap(radiance, exposure);
-  return Rgba8(srgbCodeFromLinear(display.x), srgbCodeFromLinear(display.y), srgbCodeFromLinear(display.z),
-               roundToByte(alpha));
+  const CodeTable& table = codeTable();
+  return Rgba8(table.codeOf(display.x), table.codeOf(display.y), table.codeOf(display.z),
+               alpha == 1 ? std::uint8_t(255) : roundToByte(alpha));
 }
 
 Rgba8 blendOver(const Rgba8& source, const Rgba8& destination) {

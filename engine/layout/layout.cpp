@@ -7,6 +7,7 @@
 #include "engine/base/contract.h"
 #include "engine/geometry/predicates/orientation.h"
 #include "engine/layout/lattice.h"
+#include "engine/layout/panoramas.h"
 #include "engine/layout/placement.h"
 #include "engine/layout/point_inside.h"
 #include "engine/layout/region_index.h"
@@ -252,10 +253,19 @@ std::vector<Cover> Layout::panoramasFor(int region) const {
       if (auto cover = cornerPanorama(*this, lattice, id)) covers.push_back(std::move(*cover));
     }
   }
+  struct Free {
+    double distance;
+    int number;
+  };
+  std::vector<Free> near;
   for (const auto& [number, apv] : spec.freeApvs)
     if (apv.traditional() &&
         glm::distance(home.polygon.nearestPoint(apv.centre), apv.centre) <= panoramaReach(spec))
-      covers.push_back(freeCover(number, apv, home.id, cameras));
+      near.push_back({glm::distance(home.polygon.centroid(), apv.centre), number});
+  std::ranges::stable_sort(near, std::ranges::greater{}, &Free::distance);
+  if (near.size() > kMostPanoramas) near.erase(near.begin(), near.end() - std::ptrdiff_t(kMostPanoramas));
+  for (const Free& free : near)
+    covers.push_back(freeCover(free.number, spec.freeApvs.at(free.number), home.id, cameras));
   return covers;
 }
 

@@ -16,6 +16,19 @@ std::uint32_t premultiplied(const Rgba8& c) {
 
 }  // namespace
 
+ColourImage pixelsOf(cairo_surface_t* surface) {
+  cairo_surface_flush(surface);
+  ColourImage image(cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+  const unsigned char* const bytes = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  for (int y = 0; y < image.height; ++y) {
+    const auto* const row = reinterpret_cast<const std::uint32_t*>(bytes + std::ptrdiff_t(y) * stride);
+    for (int x = 0; x < image.width; ++x)
+      image.at(x, y) = {std::uint8_t(row[x] >> 16), std::uint8_t(row[x] >> 8), std::uint8_t(row[x]), 255};
+  }
+  return image;
+}
+
 CairoCanvas::CairoCanvas(cairo_surface_t* surface, double scale)
     : context_(cairo_create(surface), &cairo_destroy) {
   cairo_scale(context_.get(), scale, scale);

@@ -16,6 +16,9 @@ namespace acentric {
 
 using SurfacePtr = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
+/// What was drawn on an image surface, opaque.
+ColourImage pixelsOf(cairo_surface_t* surface);
+
 enum class Align { left, middle, right };
 
 class CairoCanvas {

@@ -1,15 +1,13 @@
 #include "engine/picture/plan_picture.h"
 
-#include <cairo-svg.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
-#include "engine/base/file.h"
 #include "engine/picture/cairo_canvas.h"
+#include "engine/picture/drawing.h"
 #include "engine/picture/legend.h"
 
 namespace acentric {
@@ -231,79 +229,28 @@ Page pageFor(const PlanPicture& picture) {
   return layOut(picture, ruler);
 }
 
-cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) noexcept try {
-  const auto part = std::as_bytes(std::span(data, length));
-  auto* const all = static_cast<std::vector<std::byte>*>(bytes);
-  all->insert(all->end(), part.begin(), part.end());
-  return CAIRO_STATUS_SUCCESS;
-} catch (const std::bad_alloc&) {
-  return CAIRO_STATUS_NO_MEMORY;
-}
-
-SurfacePtr pixelSurface(const PlanPicture& picture, const Page& page) {
-  const int height = static_cast<int>(std::ceil(page.height * picture.width / kPage));
-  return {cairo_image_surface_create(CAIRO_FORMAT_RGB24, picture.width, height), &cairo_surface_destroy};
-}
-
-Status drawOn(cairo_surface_t* surface, const PlanPicture& picture, const Page& page) {
-  CairoCanvas canvas(surface, picture.width / kPage);
-  drawPage(canvas, picture, page);
-  return canvas.status();
-}
-
-Result<std::vector<std::byte>> encodeSvg(const PlanPicture& picture) {
+/// Refers to `picture`.
+Drawing drawingOf(const PlanPicture& picture) {
   const Page page = pageFor(picture);
-  std::vector<std::byte> bytes;
-  const SurfacePtr surface(cairo_svg_surface_create_for_stream(&append, &bytes, picture.width,
-                                                               page.height * picture.width / kPage),
-                           &cairo_surface_destroy);
-  cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
-  if (auto drawn = drawOn(surface.get(), picture, page); !drawn) return tl::unexpected(drawn.error());
-  cairo_surface_finish(surface.get());
-  if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
-    return fail(ErrorKind::outOfSpace, "there is not enough memory for the picture");
-  return bytes;
-}
-
-Result<std::vector<std::byte>> encodePng(const PlanPicture& picture) {
-  const Page page = pageFor(picture);
-  const SurfacePtr surface = pixelSurface(picture, page);
-  if (auto drawn = drawOn(surface.get(), picture, page); !drawn) return tl::unexpected(drawn.error());
-  std::vector<std::byte> bytes;
-  if (cairo_surface_write_to_png_stream(surface.get(), &append, &bytes) != CAIRO_STATUS_SUCCESS)
-    return fail(ErrorKind::outOfSpace, "there is not enough memory for the picture");
-  return bytes;
+  return {double(picture.width), page.height * picture.width / kPage,
+          [&picture, page](cairo_surface_t* surface) {
+            CairoCanvas canvas(surface, picture.width / kPage);
+            drawPage(canvas, picture, page);
+            return canvas.status();
+          }};
 }
 
 }  // namespace
 
 Status writePlanPicture(const PlanPicture& picture, const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  if (ending != ".svg" && ending != ".png")
-    return fail(ErrorKind::invalidArgument,
-                "pictures of the plan are .svg or .png: choose one of these endings", path.string());
+  if (auto possible = checkDrawingPath(path); !possible) return possible;
   if (auto sound = check(picture); !sound) return sound;
-  const auto bytes = ending == ".svg" ? encodeSvg(picture) : encodePng(picture);
-  if (!bytes) return fail(bytes.error().kind, bytes.error().message, path.string());
-  return writeFileAtomically(path, *bytes);
+  return writeDrawing(drawingOf(picture), path);
 }
 
 Result<ColourImage> drawPlanPicture(const PlanPicture& picture) {
   if (auto sound = check(picture); !sound) return tl::unexpected(sound.error());
-  const Page page = pageFor(picture);
-  const SurfacePtr surface = pixelSurface(picture, page);
-  if (auto drawn = drawOn(surface.get(), picture, page); !drawn) return tl::unexpected(drawn.error());
-  cairo_surface_flush(surface.get());
-  ColourImage image(cairo_image_surface_get_width(surface.get()),
-                    cairo_image_surface_get_height(surface.get()));
-  const unsigned char* const bytes = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  for (int y = 0; y < image.height; ++y) {
-    const auto* const row = reinterpret_cast<const std::uint32_t*>(bytes + std::ptrdiff_t(y) * stride);
-    for (int x = 0; x < image.width; ++x)
-      image.at(x, y) = {std::uint8_t(row[x] >> 16), std::uint8_t(row[x] >> 8), std::uint8_t(row[x]), 255};
-  }
-  return image;
+  return pixelsOf(drawingOf(picture));
 }
 
 }  // namespace acentric

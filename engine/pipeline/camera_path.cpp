@@ -71,6 +71,17 @@ double turnTowards(double from, double to, double most) {
 
 }  // namespace
 
+PerspectiveView viewAt(const PathPose& pose, double fovDegrees, glm::ivec2 pixels) {
+  PerspectiveView view;
+  view.eye = pose.eye;
+  view.yawRadians = pose.yawRadians;
+  view.pitchRadians = pose.pitchRadians;
+  view.fovRadians = radians(fovDegrees);
+  view.width = pixels.x;
+  view.height = pixels.y;
+  return view;
+}
+
 Result<CameraPath> loadPath(const std::filesystem::path& path) {
   const auto text = readText(path);
   if (!text) return tl::unexpected(text.error());

@@ -17,6 +17,9 @@ struct PathPose {
   double pitchRadians = 0;
 };
 
+/// `fovDegrees` is horizontal.
+PerspectiveView viewAt(const PathPose& pose, double fovDegrees, glm::ivec2 pixels);
+
 struct CameraPath {
   std::vector<PathPose> poses;
 };

@@ -96,9 +96,9 @@ ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings) {
   ViewHoleOptions options;
   options.everyCover = settings.secondaryCover;
   options.localGeometry = settings.localGeometry;
-  options.splatFactor = settings.reconstruction == Reconstruction::point      ? 0
-                        : settings.reconstruction == Reconstruction::filtered ? kOverlap
-                                                                              : kSlantAllowance;
+  options.splatFactor = settings.reconstruction == Reconstruction::point ? 0
+                        : followsSlant(settings.reconstruction)          ? kOverlap
+                                                                         : kSlantAllowance;
   options.maxSplatPixels = settings.maxSplatPixels;
   return options;
 }

@@ -136,11 +136,12 @@ std::vector<int> bakingOrder(const OpenProject& open);
 /// The same, nearest to a place on the plan first.
 std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from);
 
-/// Everything that is baked, loaded for the walk. `former` gives parts that did not change. Damaged files are
-/// reported in `warnings`.
+/// What is baked, loaded for the walk: as a whole, or as much as was there at some moment (walk_stream.h).
+/// Damaged files are reported in `warnings`.
 struct LoadedWalk {
   WalkScene walk;
   std::vector<ContentKey> keys;  ///< of walk.captures
+  std::vector<bool> standsIn;    ///< by camera: a coarser rendition is shown for the capture of its key
   ContentKey surfaceLightKey;
   std::vector<std::string> warnings;
   int missing = 0;  ///< cameras not on disk
@@ -153,10 +154,16 @@ struct LoadedWalk {
   };
   std::vector<Simplified> simplified;
   TriangleBudget budget;  ///< that walk.local keeps to
+  /// Counts walk.captures while anybody uses them, also those that a later walk takes over.
+  std::shared_ptr<MemoryBudget> captureMemory = std::make_shared<MemoryBudget>();
 };
 /// "12 of 126 cameras are previews or drafts so far"; nothing if none is.
 std::string coarseText(const LoadedWalk& loaded);
+/// What was simplified, by how much; nothing if nothing is. Never a walk through simplified geometry without
+/// a word.
+std::string simplifiedText(const LoadedWalk& loaded);
 
+/// All of it. `former` gives parts that did not change.
 Result<LoadedWalk> loadWalk(const OpenProject& open, const LoadedWalk* former, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});
 

@@ -48,20 +48,6 @@ Result<SceneFile> parseUnguarded(const std::filesystem::path& path, const Import
 
 }  // namespace
 
-Status ImportOptions::check() const {
-  if (!(metresPerUnit >= 0) || metresPerUnit > 1e6 || (metresPerUnit > 0 && metresPerUnit < 1e-9))
-    return fail(ErrorKind::invalidArgument,
-                fmt::format("metres per unit is {}; it must be between 1e-9 and 1e6, or 0 to guess it",
-                            metresPerUnit));
-  if (up != UpAxis::guess && up != UpAxis::y && up != UpAxis::z)
-    return fail(ErrorKind::invalidArgument, "the up axis must be guess, y or z");
-  return {};
-}
-
-void ImportOptions::addTo(Hasher& hasher) const {
-  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight));
-}
-
 Result<SceneFile> parseModel(const std::filesystem::path& path, const ImportOptions& options,
                              const Progress& progress) {
   Result<SceneFile> result = [&]() -> Result<SceneFile> {

@@ -25,19 +25,25 @@ glm::vec2 surfaceSamplePlace(std::uint32_t resolution, std::uint32_t i, std::uin
   return glm::mix(exact, glm::vec2(1.0f / 3), kNudge / float(resolution));
 }
 
+const HalfColour* SurfaceLight::samplesOf(std::uint32_t sceneTriangle, bool back) const {
+  const HalfColour* const front = light.data() + firstSample[sceneTriangle];
+  if (!back) return front;
+  return hasBack[sceneTriangle] ? front + surfaceSampleCount(resolution[sceneTriangle]) : nullptr;
+}
+
 glm::vec3 SurfaceLight::at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const {
   const std::uint32_t r = resolution[sceneTriangle];
-  if (r == 0) return glm::vec3(0);
-  std::uint32_t first = firstSample[sceneTriangle];
-  if (back) {
-    if (!hasBack[sceneTriangle]) return glm::vec3(0);
-    first += surfaceSampleCount(r);
-  }
-  const SurfaceCell cell = surfaceCellAt(r, barycentric);
+  const HalfColour* const samples = r > 0 ? samplesOf(sceneTriangle, back) : nullptr;
+  return samples != nullptr ? interpolatedLight(samples, r, barycentric) : glm::vec3(0);
+}
+
+glm::vec3 interpolatedLight(const HalfColour* samples, std::uint32_t resolution, glm::vec2 barycentric) {
+  const SurfaceCell cell = surfaceCellAt(resolution, barycentric);
   glm::vec3 sum(0);
-  for (int c = 0; c < 3; ++c)
-    sum += cell.weight[c] *
-           glm::vec3(unpackColour(light[first + surfaceSampleIndex(r, cell.sample[c].x, cell.sample[c].y)]));
+  for (int c = 0; c < 3; ++c) {
+    const HalfColour& at = samples[surfaceSampleIndex(resolution, cell.sample[c].x, cell.sample[c].y)];
+    sum += cell.weight[c] * glm::vec3(floatFromHalf(at.r), floatFromHalf(at.g), floatFromHalf(at.b));
+  }
   return sum;
 }
 

@@ -24,6 +24,8 @@ struct SurfaceLight {
   std::vector<HalfColour> light;
 
   bool empty() const { return light.empty(); }
+  /// The samples of one side of a triangle of resolution R >= 1; null for a back that has none of its own.
+  const HalfColour* samplesOf(std::uint32_t sceneTriangle, bool back) const;
   /// Interpolated light at barycentric weights (b1, b2) of corner 2 and 3.
   glm::vec3 at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const;
 };
@@ -39,6 +41,9 @@ SurfaceCell surfaceCellAt(std::uint32_t resolution, glm::vec2 barycentric);
 /// Where the light of sample (i, j) is taken: moved a tenth of the spacing towards the triangle's middle, so
 /// that a sample on an edge that touches a wall does not lie in the wall.
 glm::vec2 surfaceSamplePlace(std::uint32_t resolution, std::uint32_t i, std::uint32_t j);
+
+/// Light at a place of a triangle of resolution R >= 1, from its samples of one side.
+glm::vec3 interpolatedLight(const HalfColour* samples, std::uint32_t resolution, glm::vec2 barycentric);
 
 inline std::uint32_t surfaceSampleCount(std::uint32_t resolution) {
   return (resolution + 1) * (resolution + 2) / 2;

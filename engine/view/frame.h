@@ -28,7 +28,8 @@ struct FrameStats {
   std::uint64_t samplesRead = 0;
   std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
   std::uint64_t localTriangles = 0;
-  double warpSeconds = 0;
+  double planSeconds = 0;  ///< choosing pieces and columns
+  double warpSeconds = 0;  ///< the background, from captures to pixels
   double localSeconds = 0;
   double fillSeconds = 0;
   double totalSeconds = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/image/colour.h"
 
@@ -15,7 +16,6 @@ namespace {
 constexpr double kNearest = 1e-7;
 constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr int kBandRows = 32;
-constexpr std::uint32_t kNothing = 0xffffffff;
 
 /// Pixels whose centres the triangle can cover: the box of its part in front of the near plane.
 PixelRect boundsOf(const std::array<glm::dvec3, 3>& corners, const PerspectiveView& view) {
@@ -51,14 +51,6 @@ bool ownsBorder(const glm::dvec3& edge) {
 
 bool covers(double value, const glm::dvec3& edge) { return value > 0 || (value == 0 && ownsBorder(edge)); }
 
-void forBands(int height, TaskRunner& runner, const std::function<void(int, int)>& body) {
-  const std::size_t bands = static_cast<std::size_t>((height + kBandRows - 1) / kBandRows);
-  runner.parallelFor(bands, [&](std::size_t band) {
-    const int y0 = static_cast<int>(band) * kBandRows;
-    body(y0, std::min(y0 + kBandRows, height));
-  });
-}
-
 }  // namespace
 
 LocalRaster::LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
@@ -82,6 +74,10 @@ LocalRaster::LocalRaster(const LocalGeometry& local, const LocalShading& shading
     for (const Triangle& triangle : part)
       (shading_.materialOf(local_.triangles[triangle.index].mesh).clear() ? clear_ : opaque_)
           .push_back(triangle);
+  opaqueOfBand_.resize(static_cast<std::size_t>((view.height + kBandRows - 1) / kBandRows));
+  for (std::size_t t = 0; t < opaque_.size(); ++t)
+    for (int band = opaque_[t].box.y0 / kBandRows; band <= (opaque_[t].box.y1 - 1) / kBandRows; ++band)
+      opaqueOfBand_[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(t));
   std::stable_sort(clear_.begin(), clear_.end(),
                    [](const Triangle& a, const Triangle& b) { return a.farthest > b.farthest; });
 }
@@ -137,58 +133,85 @@ void LocalRaster::forEachPixel(const Triangle& triangle, const PixelRect& rect, 
   }
 }
 
-LocalPoint LocalRaster::pointAt(const Triangle& triangle, const glm::dvec3& weights) const {
+std::array<LocalPoint, 3> LocalRaster::cornersOf(const Triangle& triangle) const {
   const LocalTriangle& source = local_.triangles[triangle.index];
+  std::array<LocalPoint, 3> corners;
+  for (int i = 0; i < 3; ++i)
+    corners[static_cast<std::size_t>(i)] = {source.mesh, source.triangle,
+                                            glm::vec2(local_.vertices[source.vertices[i]].barycentric),
+                                            triangle.back};
+  return corners;
+}
+
+LocalPoint LocalRaster::pointAt(const Triangle& triangle, const glm::dvec3& weights) const {
+  const std::array<LocalPoint, 3> corners = cornersOf(triangle);
   const glm::dvec3 b = weights / (weights.x + weights.y + weights.z);
-  const auto corner = [&](std::uint32_t v) { return glm::dvec2(local_.vertices[v].barycentric); };
-  LocalPoint point;
-  point.mesh = source.mesh;
-  point.triangle = source.triangle;
-  point.barycentric = glm::vec2(b.x * corner(source.vertices.x) + b.y * corner(source.vertices.y) +
-                                b.z * corner(source.vertices.z));
-  point.back = triangle.back;
+  LocalPoint point = corners[0];
+  point.barycentric =
+      glm::vec2(b.x * glm::dvec2(corners[0].barycentric) + b.y * glm::dvec2(corners[1].barycentric) +
+                b.z * glm::dvec2(corners[2].barycentric));
   return point;
 }
 
-void LocalRaster::drawOpaque(Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner) const {
-  const glm::vec3 eye(view_.eye);
-  forBands(view_.height, runner, [&](int y0, int y1) {
-    const PixelRect band{0, y0, view_.width, y1};
-    const std::size_t width = static_cast<std::size_t>(view_.width);
-    std::vector<std::uint32_t> visible(width * static_cast<std::size_t>(y1 - y0), kNothing);
-    std::vector<float> nearest(visible.size(), 0.0f);
-    const auto pixelOf = [&](int x, int y) {
-      return static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
-    };
-    for (std::size_t t = 0; t < opaque_.size(); ++t) {
+/// body(band, first row, end row).
+template <class Body>
+void LocalRaster::forBands(TaskRunner& runner, const Body& body) const {
+  runner.parallelFor(opaqueOfBand_.size(), [&](std::size_t band) {
+    const int y0 = static_cast<int>(band) * kBandRows;
+    body(band, y0, std::min(y0 + kBandRows, view_.height));
+  });
+}
+
+void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
+  const std::size_t width = static_cast<std::size_t>(view_.width);
+  cover.width = view_.width, cover.height = view_.height;
+  cover.pixels.resize(width * static_cast<std::size_t>(view_.height));
+  forBands(runner, [&](std::size_t band, int y0, int y1) {
+    std::uint32_t* const visible = &cover.at(0, y0);
+    std::vector<float> nearest(width * static_cast<std::size_t>(y1 - y0), 0.0f);
+    std::fill_n(visible, nearest.size(), kUncovered);
+    const PixelRect rect{0, y0, view_.width, y1};
+    for (const std::uint32_t t : opaqueOfBand_[band]) {
       const Triangle& triangle = opaque_[t];
-      if (triangle.box.y0 >= y1 || triangle.box.y1 <= y0) continue;
-      forEachPixel(triangle, band, [&](int x, int y, const glm::dvec3& values, float depth) {
-        const std::size_t pixel = pixelOf(x, y);
+      forEachPixel(triangle, rect, [&](int x, int y, const glm::dvec3& values, float depth) {
+        const std::size_t pixel = static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
         if (depth <= nearest[pixel]) return;
         if (triangle.masked && !shading_.survivesMask(pointAt(triangle, values))) return;
         nearest[pixel] = depth;
-        visible[pixel] = static_cast<std::uint32_t>(t);
+        visible[pixel] = t;
       });
     }
+  });
+}
+
+void LocalRaster::drawOpaque(const CoverImage& cover, Frame& frame, FloatImage& inverseZDepth,
+                             TaskRunner& runner) const {
+  const glm::vec3 eye(view_.eye);
+  forBands(runner, [&](std::size_t, int y0, int y1) {
+    std::uint32_t shaded = kUncovered;  // the triangle that `shading` is of
+    std::optional<TriangleShading> shading;
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < view_.width; ++x) {
-        const std::uint32_t t = visible[pixelOf(x, y)];
-        if (t == kNothing) continue;
-        const auto& edge = opaque_[t].edge;
+        const std::uint32_t t = cover.at(x, y);
+        if (t == kUncovered) continue;
+        const Triangle& triangle = opaque_[t];
+        if (t != shaded) shading = shading_.triangle(cornersOf(triangle)), shaded = t;
+        const auto& edge = triangle.edge;
         const glm::dvec3 values(edge[0].x * x + (edge[0].y * y + edge[0].z),
                                 edge[1].x * x + (edge[1].y * y + edge[1].z),
                                 edge[2].x * x + (edge[2].y * y + edge[2].z));
-        frame.colour.at(x, y) = shading_.colourAt(pointAt(opaque_[t], values), eye);
+        const double sum = values.x + values.y + values.z;
+        frame.colour.at(x, y) = shading ? shading->colourAt(glm::vec3(values / sum))
+                                        : shading_.colourAt(pointAt(triangle, values), eye);
         frame.source.at(x, y) = kSourceLocal;
-        inverseZDepth.at(x, y) = nearest[pixelOf(x, y)];
+        inverseZDepth.at(x, y) = static_cast<float>(sum * triangle.perDepth);
       }
   });
 }
 
 void LocalRaster::drawClear(Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const {
   const glm::vec3 eye(view_.eye);
-  forBands(view_.height, runner, [&](int y0, int y1) {
+  forBands(runner, [&](std::size_t, int y0, int y1) {
     const PixelRect band{0, y0, view_.width, y1};
     for (const Triangle& triangle : clear_) {
       if (triangle.box.y0 >= y1 || triangle.box.y1 <= y0) continue;

@@ -14,6 +14,7 @@
 #include "engine/view/column_culling.h"
 #include "engine/view/frame.h"
 #include "engine/view/local_shading.h"
+#include "engine/view/open_tiles.h"
 
 namespace acentric {
 
@@ -23,9 +24,12 @@ class LocalRaster {
   LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
               TaskRunner& runner);
 
-  /// Draws the opaque and alpha-tested triangles: `frame` gets colours and kSourceLocal where they are
-  /// visible, `inverseZDepth` (1/m, row by row) their depth.
-  void drawOpaque(Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner) const;
+  /// Finds which of the opaque and alpha-tested triangles each pixel of the picture shows: its number, or
+  /// kUncovered.
+  void findOpaque(CoverImage& cover, TaskRunner& runner) const;
+  /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
+  /// their depth.
+  void drawOpaque(const CoverImage& cover, Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner) const;
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
   /// Pixels keep their source, except that a pixel of an opaque one stays local; over a hole nothing is
   /// drawn.
@@ -48,6 +52,9 @@ class LocalRaster {
   bool setUp(std::uint32_t index, Triangle& out) const;
   template <class Visit>
   void forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
+  template <class Body>
+  void forBands(TaskRunner& runner, const Body& body) const;
+  std::array<LocalPoint, 3> cornersOf(const Triangle& triangle) const;
   LocalPoint pointAt(const Triangle& triangle, const glm::dvec3& weights) const;
 
   const LocalGeometry& local_;
@@ -55,7 +62,8 @@ class LocalRaster {
   PerspectiveView view_;
   std::vector<glm::dvec3> inView_;  ///< by local vertex
   std::vector<Triangle> opaque_;
-  std::vector<Triangle> clear_;  ///< farthest first
+  std::vector<std::vector<std::uint32_t>> opaqueOfBand_;  ///< that reach into each band of rows, rising
+  std::vector<Triangle> clear_;                           ///< farthest first
 };
 
 }  // namespace acentric

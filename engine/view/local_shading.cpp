@@ -70,6 +70,10 @@ LocalShading::LocalShading(const WalkScene& scene, const LocalGeometry& local) :
   firstTriangles_ = firstTrianglesOf(*meshes_);
 }
 
+bool LocalShading::hasLightOnBack(std::uint32_t triangle) const {
+  return triangle < light_->hasBack.size() && light_->hasBack[triangle] != 0;
+}
+
 glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& mesh,
                                      const LocalPoint& point) const {
   glm::vec4 colour = material.material->baseColour;
@@ -98,9 +102,9 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
   glm::vec3 light(1);
   const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
   if (light_ != nullptr && !material.unlit) {
-    const bool back = point.back && triangle < light_->hasBack.size() && light_->hasBack[triangle] != 0;
-    light =
-        triangle < light_->resolution.size() ? light_->at(triangle, point.barycentric, back) : glm::vec3(0);
+    light = triangle < light_->resolution.size()
+                ? light_->at(triangle, point.barycentric, point.back && hasLightOnBack(triangle))
+                : glm::vec3(0);
   }
   glm::vec3 radiance = glm::vec3(base) * light;
   if (material.emits) {
@@ -121,6 +125,48 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
     alpha *= glassAlpha(material.material->transmission, glm::vec3(base), cosine).alpha();
   }
   return encodeForDisplay(radiance, exposure_, alpha);
+}
+
+std::optional<TriangleShading> LocalShading::triangle(const std::array<LocalPoint, 3>& corners) const {
+  const LocalPoint& point = corners[0];
+  const Mesh& mesh = (*meshes_)[point.mesh];
+  const LocalMaterial& material = materialOf(point.mesh);
+  const Material& m = *material.material;
+  if (material.clear() || material.emissionTextured || (material.vertexColours && !mesh.colours.empty()))
+    return {};
+  TriangleShading shading;
+  shading.colour_ = glm::vec3(m.baseColour);
+  if (material.emits) shading.emission_ = m.emissive;
+  shading.exposure_ = exposure_;
+  shading.linearFromSrgb_ = &linearFromSrgbTable();
+  const TextureUse& use = m.baseColourTexture;
+  if (material.textured && hasCoordinates(mesh, use)) {
+    shading.texture_ = TextureSampler(*scene_, use);
+    for (std::size_t i = 0; i < 3; ++i)
+      shading.uv_[i] =
+          use.transform * glm::vec3(interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0],
+                                                mesh.triangles[point.triangle], corners[i].barycentric),
+                                    1);
+  }
+  if (light_ == nullptr || material.unlit) return shading;
+  for (std::size_t i = 0; i < 3; ++i) shading.barycentric_[i] = corners[i].barycentric;
+  const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
+  shading.light_ = light_->light.data();
+  if (triangle >= light_->resolution.size()) return shading;
+  shading.resolution_ = light_->resolution[triangle];
+  shading.light_ = light_->samplesOf(triangle, point.back && hasLightOnBack(triangle));
+  return shading;
+}
+
+Rgba8 TriangleShading::colourAt(const glm::vec3& weights) const {
+  const auto mean = [&](const glm::vec2* at) {
+    return at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
+  };
+  glm::vec3 radiance = colour_;
+  if (texture_.used()) radiance *= glm::vec3(texture_.colour(mean(uv_), *linearFromSrgb_));
+  if (light_ != nullptr)
+    radiance *= resolution_ > 0 ? interpolatedLight(light_, resolution_, mean(barycentric_)) : glm::vec3(0);
+  return encodeForDisplay(radiance + emission_, exposure_);
 }
 
 }  // namespace acentric

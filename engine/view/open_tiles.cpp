@@ -5,28 +5,54 @@
 
 namespace acentric {
 
-OpenTiles::OpenTiles(const Canvas& canvas, const PixelRect& rect, std::uint32_t openBelow)
-    : rect_(rect),
-      columns_(std::size_t(rect.width() + kSide - 1) / kSide),
-      rows_(std::size_t(rect.height() + kSide - 1) / kSide),
-      sums_((columns_ + 1) * (rows_ + 1), 0) {
-  std::vector<std::uint8_t> open(rows_);
+template <class Open>
+void OpenTiles::sum(const Open& open) {
+  std::vector<std::uint32_t> sums((columns_ + 1) * (rows_ + 1), 0);
   for (std::size_t i = 0; i < columns_; ++i) {
-    std::ranges::fill(open, std::uint8_t(0));
-    const int x0 = rect.x0 + int(i) * kSide, x1 = std::min(x0 + kSide, rect.x1);
-    for (int x = x0; x < x1; ++x) {
-      const CanvasPixel* const column = canvas.column(x);
-      for (std::size_t j = 0; j < rows_; ++j) {
-        const int y0 = rect.y0 + int(j) * kSide, y1 = std::min(y0 + kSide, rect.y1);
-        unsigned found = 0;
-        for (int y = y0; y < y1; ++y) found |= unsigned(slotOf(column[y]) < openBelow);
-        open[j] |= std::uint8_t(found);
-      }
-    }
     const std::size_t before = i * (rows_ + 1), own = before + rows_ + 1;
     for (std::size_t j = 0; j < rows_; ++j)
-      sums_[own + j + 1] = sums_[own + j] + sums_[before + j + 1] - sums_[before + j] + open[j];
+      sums[own + j + 1] = sums[own + j] + sums[before + j + 1] - sums[before + j] + (open(i, j) ? 1u : 0u);
   }
+  sums_ = std::move(sums);
+}
+
+PixelRect OpenTiles::tile(std::size_t i, std::size_t j) const {
+  const int x0 = rect_.x0 + int(i) * kSide, y0 = rect_.y0 + int(j) * kSide;
+  return {x0, y0, std::min(x0 + kSide, rect_.x1), std::min(y0 + kSide, rect_.y1)};
+}
+
+bool OpenTiles::isOpen(std::size_t i, std::size_t j) const {
+  const std::size_t left = i * (rows_ + 1) + j, right = left + rows_ + 1;
+  return sums_[right + 1] + sums_[left] != sums_[left + 1] + sums_[right];
+}
+
+OpenTiles::OpenTiles(const PixelRect& strip, const CoverImage* cover, int beside)
+    : rect_(strip),
+      columns_(std::size_t(strip.width() + kSide - 1) / kSide),
+      rows_(std::size_t(strip.height() + kSide - 1) / kSide) {
+  sum([&](std::size_t i, std::size_t j) {
+    if (cover == nullptr) return true;
+    const PixelRect t = tile(i, j);
+    for (int y = std::max(t.y0 - beside, 0); y < std::min(t.y1 + beside, cover->height); ++y)
+      for (int x = std::max(t.x0 - beside, 0); x < std::min(t.x1 + beside, cover->width); ++x)
+        if (cover->at(x, y) == kUncovered) return true;
+    return false;
+  });
+}
+
+OpenTiles::OpenTiles(const OpenTiles& before, const Canvas& canvas, std::uint32_t openBelow)
+    : rect_(before.rect_), columns_(before.columns_), rows_(before.rows_) {
+  sum([&](std::size_t i, std::size_t j) {
+    if (!before.isOpen(i, j)) return false;
+    const PixelRect t = tile(i, j);
+    for (int x = t.x0; x < t.x1; ++x) {
+      const CanvasPixel* const column = canvas.column(x);
+      unsigned found = 0;
+      for (int y = t.y0; y < t.y1; ++y) found |= unsigned(slotOf(column[y]) < openBelow);
+      if (found != 0) return true;
+    }
+    return false;
+  });
 }
 
 bool OpenTiles::any(int x0, int y0, int x1, int y1) const {

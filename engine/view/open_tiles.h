@@ -1,5 +1,5 @@
 #pragma once
-/// Where a strip of the canvas is still open: what lies behind need not be projected elsewhere.
+/// Where a strip of the canvas is still open: what cannot reach it need not be projected.
 
 #include <cstdint>
 #include <vector>
@@ -9,12 +9,20 @@
 
 namespace acentric {
 
+/// By pixel of the picture, row by row: what covers it once all captures are drawn.
+using CoverImage = Image<std::uint32_t>;
+inline constexpr std::uint32_t kUncovered = 0xffffffff;
+
 class OpenTiles {
  public:
-  /// Pixels with slots below `openBelow` are open.
-  OpenTiles(const Canvas& canvas, const PixelRect& rect, std::uint32_t openBelow);
+  /// Open is what nothing covers; pixels that lie so many columns and rows beside an open one are read too
+  /// and count as open. `cover` may be null: all is open.
+  OpenTiles(const PixelRect& strip, const CoverImage* cover, int beside);
+  /// Of what was open, that which holds pixels with slots below `openBelow`.
+  OpenTiles(const OpenTiles& before, const Canvas& canvas, std::uint32_t openBelow);
 
   bool none() const { return sums_.back() == 0; }
+  bool all() const { return sums_.back() == columns_ * rows_; }
 
   /// May a sample of these tangents and inverse distances, which the kernel puts on the picture with
   /// `column`, reach an open pixel with its splat?
@@ -23,6 +31,11 @@ class OpenTiles {
  private:
   static constexpr int kSide = 8;
   bool any(int x0, int y0, int x1, int y1) const;  ///< pixels [x0, x1) x [y0, y1), cut to the strip
+  bool isOpen(std::size_t i, std::size_t j) const;
+  PixelRect tile(std::size_t i, std::size_t j) const;
+  /// `open(i, j)` of every tile; the tiles of one column follow each other.
+  template <class Open>
+  void sum(const Open& open);
 
   PixelRect rect_;
   std::size_t columns_, rows_;

@@ -43,13 +43,15 @@ void resize(Image<T>& image, const PerspectiveView& view) {
 
 /// Everything but local geometry, strip by strip; every pixel of the frame and of the depths is written.
 WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                        const ViewPlan& plan, TaskRunner& runner, FrameMemory& memory, Frame& frame) {
+                        const ViewPlan& plan, const CoverImage* cover, TaskRunner& runner,
+                        FrameMemory& memory, Frame& frame) {
   const Kernels& kernels =
       settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
   WarpOptions options;
   options.project = kernels.project;
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.cull = settings.renderer != Renderer::scalar;
+  options.cover = cover;
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
   std::optional<SkyTable> sky;
   if (showsBackground(limits, view)) sky.emplace(backgroundSky(scene), scene.exposure);
@@ -90,39 +92,45 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   frame.stats = {};
   FrameStats& stats = frame.stats;
 
+  // What local geometry covers need not be drawn from captures.
+  const std::size_t region = static_cast<std::size_t>(plan.region);
+  const LocalGeometry* local = region < scene.local.size() ? scene.local[region].get() : nullptr;
+  const bool drawLocal = settings.localGeometry && local != nullptr && scene.scene != nullptr;
+  const Stopwatch localTime;
+  std::optional<LocalShading> shading;
+  std::optional<LocalRaster> raster;
+  if (drawLocal) {
+    shading.emplace(scene, *local);
+    raster.emplace(*local, *shading, view, runner);
+    raster->findOpaque(memory.cover, runner);
+    stats.localSeconds = localTime.seconds();
+  }
+
   const Stopwatch warpTime;
   std::set<int> images;
   for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
     for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
-  const WarpCounts counts = drawCaptures(scene, view, settings, plan, runner, memory, frame);
+  const WarpCounts counts =
+      drawCaptures(scene, view, settings, plan, drawLocal ? &memory.cover : nullptr, runner, memory, frame);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;
   stats.samplesDrawn = counts.samplesDrawn;
   stats.warpSeconds = warpTime.seconds();
 
-  const std::size_t region = static_cast<std::size_t>(plan.region);
-  const LocalGeometry* local = region < scene.local.size() ? scene.local[region].get() : nullptr;
-  const bool drawLocal = settings.localGeometry && local != nullptr && scene.scene != nullptr;
-  const auto fill = [&] {
-    if (!settings.fillHoles) return;
+  const Stopwatch drawTime;
+  if (raster) raster->drawOpaque(memory.cover, frame, inverseZDepth, runner);
+  if (settings.fillHoles) {  // after the opaque geometry, which closes most holes, and before glass, which
+                             // needs something behind it
     const Stopwatch fillTime;
-    fillHoles(frame, inverseZDepth, plan.missingImages > 0 ? kFillRingsWhileLoading : kFillRings);
+    fillHoles(frame, inverseZDepth, plan.missingImages > 0 ? kFillRingsWhileLoading : kFillRings, runner);
     stats.fillSeconds = fillTime.seconds();
-  };
-  if (!drawLocal) {
-    fill();
-    return frame;
   }
-  const Stopwatch localTime;
-  const LocalShading shading(scene, *local);
-  const LocalRaster raster(*local, shading, view, runner);
-  raster.drawOpaque(frame, inverseZDepth, runner);
-  fill();  // after the opaque geometry, which closes most holes, and before glass, which needs something
-           // behind it
-  if (raster.hasClear()) raster.drawClear(frame, inverseZDepth, runner);
-  stats.localTriangles = raster.triangleCount();
-  stats.localSeconds = localTime.seconds() - stats.fillSeconds;
+  if (raster) {
+    if (raster->hasClear()) raster->drawClear(frame, inverseZDepth, runner);
+    stats.localTriangles = raster->triangleCount();
+    stats.localSeconds += drawTime.seconds() - stats.fillSeconds;
+  }
   return frame;
 }
 
@@ -137,13 +145,15 @@ Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, c
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                           TaskRunner& runner, FrameMemory& memory) {
   const Stopwatch total;
-  if (settings.renderer == Renderer::gl)
+  if (onOpenGl(settings.renderer))
     return fail(ErrorKind::unsupported,
                 "the OpenGL renderer needs a window or a headless context: use GlRenderer", "view settings");
   try {
     const auto plan = planView(scene, view, settings);
     if (!plan) return tl::unexpected(plan.error());
+    const double planSeconds = total.seconds();
     Frame frame = draw(scene, view, settings, *plan, runner, memory);
+    frame.stats.planSeconds = planSeconds;
     frame.stats.totalSeconds = total.seconds();
     return frame;
   } catch (const std::bad_alloc&) {

@@ -6,6 +6,7 @@
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
+#include "engine/view/open_tiles.h"
 #include "engine/view/view_settings.h"
 #include "engine/view/walk_scene.h"
 
@@ -15,7 +16,8 @@ namespace acentric {
 struct FrameMemory {
   std::vector<Canvas> canvases;  ///< one per strip of the picture
   FloatImage inverseZDepth;
-  Frame frame;  ///< a frame that is no longer needed, or an empty one
+  CoverImage cover;  ///< by local geometry
+  Frame frame;       ///< a frame that is no longer needed, or an empty one
 };
 
 /// Fails when the view is out of range, or the eye stands outside every region (the message gives the nearest

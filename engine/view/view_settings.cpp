@@ -14,15 +14,25 @@ const char* nameOf(Renderer renderer) {
       return "zbuffer";
     case Renderer::gl:
       return "gl";
+    case Renderer::glZbuffer:
+      return "gl-zbuffer";
   }
   return "list";
 }
 
 Result<Renderer> parseRenderer(std::string_view name) {
-  for (Renderer renderer : {Renderer::list, Renderer::scalar, Renderer::zbuffer, Renderer::gl})
+  for (Renderer renderer : kRenderers)
     if (name == nameOf(renderer)) return renderer;
-  return fail(ErrorKind::invalidArgument,
-              fmt::format("no renderer is called '{}': use list, scalar, zbuffer or gl", name), "renderer");
+  return fail(
+      ErrorKind::invalidArgument,
+      fmt::format("no renderer is called '{}': use one of {}", name, fmt::join(rendererNames(), ", ")),
+      "renderer");
+}
+
+std::vector<std::string> rendererNames() {
+  std::vector<std::string> names;
+  for (Renderer renderer : kRenderers) names.emplace_back(nameOf(renderer));
+  return names;
 }
 
 const char* nameOf(Reconstruction reconstruction) {
@@ -31,6 +41,8 @@ const char* nameOf(Reconstruction reconstruction) {
       return "point";
     case Reconstruction::splat:
       return "splat";
+    case Reconstruction::surface:
+      return "surface";
     case Reconstruction::filtered:
       return "filtered";
   }
@@ -41,7 +53,7 @@ Result<Reconstruction> parseReconstruction(std::string_view name) {
   for (Reconstruction reconstruction : kReconstructions)
     if (name == nameOf(reconstruction)) return reconstruction;
   return fail(ErrorKind::invalidArgument,
-              fmt::format("no reconstruction is called '{}': use point, splat or filtered", name),
+              fmt::format("no reconstruction is called '{}': use point, splat, surface or filtered", name),
               "reconstruction");
 }
 

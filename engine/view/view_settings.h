@@ -2,31 +2,48 @@
 /// How frames are made. Every field trades accuracy for time.
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/result.h"
 
 namespace acentric {
 
 enum class Renderer : std::uint8_t {
-  list,     ///< list priority, no depth buffer (SIMD where the processor has it)
-  scalar,   ///< list priority, one sample at a time in plain C++: the reference of the fast ones
-  zbuffer,  ///< the same splats with a depth buffer, for comparison
-  gl,       ///< list priority on OpenGL
+  list,       ///< list priority, no depth buffer (SIMD where the processor has it)
+  scalar,     ///< list priority, one sample at a time in plain C++: the reference of the fast ones
+  zbuffer,    ///< the same splats with a depth buffer, for comparison
+  gl,         ///< list priority on OpenGL
+  glZbuffer,  ///< the same splats on OpenGL with a depth test, for comparison
 };
+inline constexpr Renderer kRenderers[] = {Renderer::list, Renderer::scalar, Renderer::zbuffer, Renderer::gl,
+                                          Renderer::glZbuffer};
+/// Is it drawn by view_gl instead of view?
+constexpr bool onOpenGl(Renderer renderer) {
+  return renderer == Renderer::gl || renderer == Renderer::glZbuffer;
+}
 const char* nameOf(Renderer renderer);
 Result<Renderer> parseRenderer(std::string_view name);
+/// All their names, as options list them.
+std::vector<std::string> rendererNames();
 
 enum class Reconstruction : std::uint8_t {
   point,  ///< one pixel per sample
   splat,  ///< squares as large as the sample's footprint
-  /// Rectangles as large as the footprint of the surface there, and each pixel the mean, in linear light, of
-  /// the samples in it and around it, by where in their pixels they lie. Smooth edges and surfaces, fewest
-  /// cracks; one more pass over the picture and two more bytes read per sample. On OpenGL: splat.
+  /// Rectangles as large as the footprint of the surface there: neighbouring samples of one surface are
+  /// joined, however it is turned, and edges do not grow. Two more bytes read per sample.
+  surface,
+  /// The same rectangles, and each pixel the mean, in linear light, of the samples in it and around it, by
+  /// where in their pixels they lie: smooth edges. One more pass over the picture.
   filtered,
 };
 inline constexpr Reconstruction kReconstructions[] = {Reconstruction::point, Reconstruction::splat,
-                                                      Reconstruction::filtered};
+                                                      Reconstruction::surface, Reconstruction::filtered};
+/// Are splats rectangles after the slant of their surface?
+constexpr bool followsSlant(Reconstruction reconstruction) {
+  return reconstruction == Reconstruction::surface || reconstruction == Reconstruction::filtered;
+}
 const char* nameOf(Reconstruction reconstruction);
 Result<Reconstruction> parseReconstruction(std::string_view name);
 

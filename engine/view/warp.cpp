@@ -8,7 +8,6 @@
 #include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_order.h"
-#include "engine/view/open_tiles.h"
 #include "engine/view/picture_axes.h"
 #include "engine/view/splat_painter.h"
 
@@ -28,7 +27,7 @@ ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& vie
                          ? static_cast<float>(focal * pitch * kSlantAllowance)
                          : 0.0f;
   column.maxSide = static_cast<float>(settings.maxSplatPixels);
-  column.slanted = settings.reconstruction == Reconstruction::filtered;
+  column.slanted = followsSlant(settings.reconstruction);
   column.acrossStep = static_cast<float>(0.5 * kOverlap * capture.camera.columnPitch());
   column.perSpread = static_cast<float>(8 * 0.5 * kOverlap);
   column.downStep = static_cast<float>(0.5 * kOverlap * capture.camera.rowPitch());
@@ -66,16 +65,20 @@ class CanvasWarp {
         planes_(frustumPlanes(view, rect_, splatMargin(settings.maxSplatPixels))) {}
 
   WarpCounts run() {
+    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
+    if (uncovered.none()) return counts_;
+    if (!uncovered.all()) open_ = uncovered;
     const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
     const std::size_t firstInFront = static_cast<std::size_t>(first - plan_.pieces.begin());
     drawPieces(firstInFront, plan_.pieces.size());
     if (firstInFront > 0) {
       openBelow_ = pieceSlot(plan_, firstInFront);
-      if (options_.cull) open_.emplace(canvas_, rect_, openBelow_);
+      if (options_.cull) open_.emplace(uncovered, canvas_, openBelow_);
       if (!open_ || !open_->none()) drawPieces(0, firstInFront);
       openBelow_ = 0;
       open_.reset();
     }
+    if (!uncovered.all()) open_ = uncovered;
     for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
       const PieceDraw& piece = plan_.reflections[i];
       const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
@@ -207,8 +210,9 @@ class CanvasWarp {
   int countedFrom_, countedTo_;
   PictureAxes axes_;
   FrustumPlanes planes_;
-  std::uint32_t openBelow_ = 0;    ///< PaintTarget::openBelow
-  std::optional<OpenTiles> open_;  ///< while what lies behind is drawn
+  std::uint32_t openBelow_ = 0;  ///< PaintTarget::openBelow
+  std::optional<OpenTiles>
+      open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
   std::vector<Splat> splats_;
   WarpCounts counts_;
 };

@@ -2,6 +2,7 @@
 /// Paints a plan's pieces on a canvas: the background of a frame.
 
 #include "engine/view/canvas.h"
+#include "engine/view/open_tiles.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp_kernel.h"
 
@@ -19,6 +20,7 @@ struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   bool depthTest = false;  ///< nearest sample wins instead of the last one
   bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
+  const CoverImage* cover = nullptr;  ///< what hides the captures in the end: nothing is drawn there
 };
 
 /// Of one canvas.

@@ -42,7 +42,7 @@ Status BackgroundPass::draw(const WalkScene& scene, const ViewPlan& plan, const 
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
   const bool beyondRows = showsBackground(limits, view);
   if (!beyondRows && plan.backgrounds.empty()) return {};
-  target.beginPainting(true, FrameTarget::Cover::background);
+  target.beginPainting(FrameTarget::Depth::keep, FrameTarget::Cover::background);
   if (beyondRows) {
     const Sky sky = scene.plan.on(Effect::sky) ? scene.scene->sky : Sky{};
     const Result<GlProgram*> found = program({}, view, sky, scene.exposure, kSourceBackground);

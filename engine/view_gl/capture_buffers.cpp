@@ -78,6 +78,31 @@ std::vector<std::uint8_t> packMirrors(const DisplayCapture& capture, int firstCo
   return packed;
 }
 
+/// Whole words too.
+std::vector<LayerPlace> packLayers(const DisplayCapture& capture, int firstColumn, int lastColumn) {
+  std::vector<LayerPlace> packed;
+  for (int column = firstColumn; column < lastColumn; ++column) {
+    const std::size_t end = capture.columnStart[std::size_t(column) + 1];
+    for (std::size_t first = capture.columnStart[std::size_t(column)], last = first; first < end;
+         first = last) {
+      while (last < end && capture.row[last] == capture.row[first]) ++last;
+      for (std::size_t s = first; s < last; ++s)
+        packed.push_back({std::uint8_t(std::min(s - first, kManyLayers)),
+                          std::uint8_t(std::min(last - 1 - s, kManyLayers))});
+    }
+  }
+  packed.resize((packed.size() + 1) / 2 * 2);
+  return packed;
+}
+
+/// Whole words too.
+std::vector<Slant> packSlants(const DisplayCapture& capture, int firstColumn, int lastColumn) {
+  std::vector<Slant> packed(capture.slant.begin() + capture.columnStart[std::size_t(firstColumn)],
+                            capture.slant.begin() + capture.columnStart[std::size_t(lastColumn)]);
+  packed.resize((packed.size() + 1) / 2 * 2);
+  return packed;
+}
+
 std::vector<std::uint8_t> clearSamplesOf(const DisplayCapture& capture) {
   std::vector<std::uint8_t> most(std::size_t(capture.camera.columns), 0);
   if (!capture.blended) return most;
@@ -100,6 +125,14 @@ GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
                GL_STATIC_DRAW);
   bytes += values.size() * sizeof(Value);
   return buffer;
+}
+
+Status addSlants(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name) {
+  if (capture.slant.size() != capture.row.size())
+    return fail(ErrorKind::malformed, "the capture does not tell the slant of each sample", name);
+  for (CaptureChunk& chunk : buffers.chunks)
+    chunk.slants = makeBuffer(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
+  return checkGl(fmt::format("uploading the slants of {}", name).c_str());
 }
 
 }  // namespace
@@ -129,8 +162,9 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
               first, start(first + 1) - start(first), mostSamples),
           name);
     if (start(last) > start(first)) {
-      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}, {}};
+      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}, {}, {}, {}};
       chunk.samples = makeBuffer(pack(*capture, first, last), buffers.bytes);
+      if (capture->layered) chunk.layers = makeBuffer(packLayers(*capture, first, last), buffers.bytes);
       if (!capture->mirror.empty())
         chunk.mirrors = makeBuffer(packMirrors(*capture, first, last), buffers.bytes);
       buffers.chunks.push_back(std::move(chunk));
@@ -147,7 +181,7 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
 }
 
 Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
-                                                    const char* name) {
+                                                    const char* name, bool slants) {
   auto found = resident_.find(capture.get());
   // Another capture may have been made at the address of one that died.
   if (found != resident_.end() && found->second.owner.lock() != capture) {
@@ -161,7 +195,14 @@ Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const 
     bytes_ += buffers->bytes;
     found = resident_.emplace(capture.get(), std::move(*buffers)).first;
   }
-  found->second.lastUse = frame_;
+  CaptureBuffers& buffers = found->second;
+  if (slants && !buffers.chunks.empty() && !buffers.chunks.back().slants) {
+    const std::size_t before = buffers.bytes;
+    const Status added = addSlants(buffers, *capture, name);
+    bytes_ += buffers.bytes - before;
+    if (!added) return tl::unexpected(added.error());
+  }
+  buffers.lastUse = frame_;
   return &found->second;
 }
 

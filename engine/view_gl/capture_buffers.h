@@ -17,12 +17,20 @@ namespace acentric {
 /// last.
 inline constexpr int kMostClearRanks = 8;
 
+/// How many samples of the same pixel are stored before and behind a sample; kManyLayers: so many or more.
+struct LayerPlace {
+  std::uint8_t before = 0, behind = 0;
+};
+inline constexpr std::size_t kManyLayers = 255;
+
 struct CaptureChunk {
   int firstColumn = 0;
   int lastColumn = 0;             ///< one behind
   std::uint32_t firstSample = 0;  ///< in the capture
   GlBuffer samples;               ///< 12 bytes each: inverse distance | roles, row | column << 16, colour
   GlBuffer mirrors;               ///< a byte each; none without mirrors
+  GlBuffer layers;                ///< a LayerPlace each; none where no pixel has more than one sample
+  GlBuffer slants;                ///< two bytes each (Slant); none until asked for
 };
 
 struct CaptureBuffers {
@@ -46,8 +54,10 @@ class CaptureResidency {
  public:
   explicit CaptureResidency(std::size_t largestBuffer = 0) : largestBuffer_(largestBuffer) {}
 
-  /// The buffers of `capture`, uploaded now if need be. Valid until the next call of dropGone or trim.
-  Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name);
+  /// The buffers of `capture`, with slants if asked for, uploaded now if need be. Valid until the next call
+  /// of dropGone or trim.
+  Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+                                    bool slants = false);
   /// Drops the captures that are no longer anywhere in memory or no longer in `scene`.
   void dropGone(const WalkScene& scene);
   /// Drops those unused for longest until at most `bytes` remain; keeps what was used since the last trim.

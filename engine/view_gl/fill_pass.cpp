@@ -25,18 +25,6 @@ GlFramebuffer into(const GlTexture& texture) {
   return framebuffer;
 }
 
-class Query {
- public:
-  Query() { glGenQueries(1, &name_); }
-  ~Query() { glDeleteQueries(1, &name_); }
-  Query(const Query&) = delete;
-  Query& operator=(const Query&) = delete;
-  GLuint name() const { return name_; }
-
- private:
-  GLuint name_ = 0;
-};
-
 }  // namespace
 
 FillPass::FillPass(ProgramCache& programs) : programs_(programs), noAttributes_(GlVertexArray::make()) {}
@@ -65,7 +53,7 @@ bool FillPass::anyHole(const FrameTarget& target, GlProgram& counter) const {
   glEnable(GL_STENCIL_TEST);
   glStencilFunc(GL_EQUAL, 0, 0xff);
   glStencilMask(0);
-  const Query query;
+  const GlQuery query = GlQuery::make();
   glBeginQuery(GL_ANY_SAMPLES_PASSED, query.name());
   drawWholePicture(counter, noAttributes_, {});
   glEndQuery(GL_ANY_SAMPLES_PASSED);

@@ -55,8 +55,10 @@ Status FrameTarget::resize(int width, int height) {
   width_ = height_ = 0;  // nothing usable until all is made
   clear_.reset();
   clearLayer_.reset();
-  drawMirrors_.reset();
+  pieces_.reset();
+  reflections_.reset();
   mirrors_.reset();
+  places_.reset();
   glActiveTexture(GL_TEXTURE0);
   colour_ = storage(GL_RGBA8, width, height);
   colourSrgb_ = GlTexture::make();
@@ -94,33 +96,51 @@ void FrameTarget::bindForDrawing() const {
   glViewport(0, 0, width_, height_);
 }
 
-void FrameTarget::bindForMirrors() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, drawMirrors_.name());
+void FrameTarget::bindForPieces() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, pieces_.name());
   glViewport(0, 0, width_, height_);
 }
 
-Status FrameTarget::beginMirrors() {
-  if (!drawMirrors_) {
-    glActiveTexture(GL_TEXTURE0);
-    mirrors_ = storage(GL_R8UI, width_, height_);
-    drawMirrors_ = GlFramebuffer::make();
-    attachPicture(drawMirrors_);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT2, GL_TEXTURE_2D, mirrors_.name(), 0);
-    constexpr std::array<GLenum, 3> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                                GL_COLOR_ATTACHMENT2};
-    glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
-    if (Status drawable = complete(); !drawable) return drawable;
-  }
-  bindForMirrors();
-  constexpr std::array<GLuint, 4> kNoMirror = {0, 0, 0, 0};
-  glClearBufferuiv(GL_COLOR, 2, kNoMirror.data());
-  return checkGl("making the layer of mirrors");
+void FrameTarget::bindForReflections() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, reflections_.name());
+  glViewport(0, 0, width_, height_);
 }
 
-void FrameTarget::beginPainting(bool keepDepth, Cover cover) const {
+Status FrameTarget::makePieces(bool mirrors, bool places, GlFramebuffer& framebuffer) const {
+  framebuffer = GlFramebuffer::make();
+  attachPicture(framebuffer);
+  std::array<GLenum, 4> targets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_NONE, GL_NONE};
+  const auto attach = [&](std::size_t at, const GlTexture& texture) {
+    targets[at] = GL_COLOR_ATTACHMENT0 + GLenum(at);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, targets[at], GL_TEXTURE_2D, texture.name(), 0);
+  };
+  if (mirrors) attach(2, mirrors_);
+  if (places) attach(3, places_);
+  glDrawBuffers(GLsizei(targets.size()), targets.data());
+  return complete();
+}
+
+Status FrameTarget::beginPieces(bool mirrors, bool places) {
+  glActiveTexture(GL_TEXTURE0);
+  if (mirrors && !mirrors_) mirrors_ = storage(GL_R8UI, width_, height_);
+  if (places && !places_) places_ = storage(GL_R16UI, width_, height_);
+  if (!pieces_ || withMirrors_ != mirrors || withPlaces_ != places) {
+    if (Status made = makePieces(mirrors, places, pieces_); !made) return made;
+    if (Status made = makePieces(false, places, reflections_); !made) return made;
+    withMirrors_ = mirrors;
+    withPlaces_ = places;
+  }
+  bindForPieces();
+  constexpr std::array<GLuint, 4> kNothing = {0, 0, 0, 0};  // no mirror; a sample in the pixel's middle
+  if (mirrors) glClearBufferuiv(GL_COLOR, 2, kNothing.data());
+  if (places) glClearBufferuiv(GL_COLOR, 3, kNothing.data());
+  return checkGl("making what pieces are drawn into");
+}
+
+void FrameTarget::beginPainting(Depth depth, Cover cover) const {
   bindForDrawing();
-  keepDepth ? glEnable(GL_DEPTH_TEST) : glDisable(GL_DEPTH_TEST);
-  glDepthFunc(GL_ALWAYS);
+  depth == Depth::ignore ? glDisable(GL_DEPTH_TEST) : glEnable(GL_DEPTH_TEST);
+  glDepthFunc(depth == Depth::test ? GL_GREATER : GL_ALWAYS);
   glEnable(GL_STENCIL_TEST);
   if (cover == Cover::behind)
     glStencilFunc(GL_EQUAL, kCovered, kInFront);

@@ -21,15 +21,18 @@ class FrameTarget {
   /// Binds for drawing into colour and source, and clears both (holes) and the depth.
   void begin() const;
   void bindForDrawing() const;
-  /// Binds for drawing that covers what is there, whatever lies nearer: colours go in as the codes they are,
-  /// the stencil marks what is drawn, and the depth is kept if asked for. Then back to the state before.
-  /// `behind`: nothing is drawn where the first cover shows something.
+  /// Binds for drawing that covers what is there: colours go in as the codes they are, the stencil marks what
+  /// is drawn. Then back to the state before. `behind`: nothing is drawn where the first cover shows
+  /// something. `ignore` and `keep`: whatever lies nearer, `test`: only what is nearest.
   enum class Cover { inFront, behind, background };
-  void beginPainting(bool keepDepth, Cover cover) const;
+  enum class Depth { ignore, keep, test };
+  void beginPainting(Depth depth, Cover cover) const;
   void endPainting() const;
-  /// Also for drawing which mirror each pixel shows. `beginMirrors` clears that.
-  Status beginMirrors();
-  void bindForMirrors() const;
+  /// Pieces may write two more things: which mirror each pixel shows, and where in it its sample lies (the
+  /// bits of canvas.h). `beginPieces` clears what is asked for.
+  Status beginPieces(bool mirrors, bool places);
+  void bindForPieces() const;
+  void bindForReflections() const;  ///< without the mirrors, which these read
   /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
   Status beginClearLayer();
   /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.
@@ -40,10 +43,13 @@ class FrameTarget {
   GLuint colourCodes() const { return colour_.name(); }  ///< RGBA8 view
   GLuint depths() const { return depth_.name(); }        ///< DEPTH32F_STENCIL8
   GLuint clearLayer() const { return clearLayer_.name(); }
+  GLuint sources() const { return source_.name(); }   ///< R16UI
   GLuint mirrors() const { return mirrors_.name(); }  ///< R8UI, 0 = no mirror
+  GLuint places() const { return places_.name(); }    ///< R16UI
 
  private:
   void attachPicture(const GlFramebuffer& framebuffer) const;
+  Status makePieces(bool mirrors, bool places, GlFramebuffer& framebuffer) const;
 
   int width_ = 0;
   int height_ = 0;
@@ -55,8 +61,11 @@ class FrameTarget {
   GlFramebuffer read_;
   GlTexture clearLayer_;  ///< made when first used
   GlFramebuffer clear_;
-  GlTexture mirrors_;  ///< made when first used
-  GlFramebuffer drawMirrors_;
+  GlTexture mirrors_;  ///< made when first used, as places are
+  GlTexture places_;
+  bool withMirrors_ = false, withPlaces_ = false;  ///< what pieces_ draws into
+  GlFramebuffer pieces_;
+  GlFramebuffer reflections_;
 };
 
 }  // namespace acentric

@@ -76,6 +76,14 @@ struct GlFramebufferKind {
   }
   static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 };
+struct GlQueryKind {
+  static GLuint make() {
+    GLuint name = 0;
+    glGenQueries(1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
 struct GlVertexArrayKind {
   static GLuint make() {
     GLuint name = 0;
@@ -97,6 +105,7 @@ using GlBuffer = GlObject<GlBufferKind>;
 using GlTexture = GlObject<GlTextureKind>;
 using GlSampler = GlObject<GlSamplerKind>;
 using GlFramebuffer = GlObject<GlFramebufferKind>;
+using GlQuery = GlObject<GlQueryKind>;
 using GlVertexArray = GlObject<GlVertexArrayKind>;
 using GlProgramName = GlObject<GlProgramKind>;
 using GlShader = GlObject<GlShaderKind>;

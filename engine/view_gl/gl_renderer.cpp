@@ -12,6 +12,7 @@
 #include "engine/view_gl/background_pass.h"
 #include "engine/view_gl/capture_buffers.h"
 #include "engine/view_gl/fill_pass.h"
+#include "engine/view_gl/filter_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_program.h"
@@ -42,6 +43,14 @@ double secondsOfDrawing(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// By the card's clock; waits for the second.
+double secondsBetween(const GlQuery& first, const GlQuery& second) {
+  GLuint64 begin = 0, end = 0;
+  glGetQueryObjectui64v(first.name(), GL_QUERY_RESULT, &begin);
+  glGetQueryObjectui64v(second.name(), GL_QUERY_RESULT, &end);
+  return end > begin ? 1e-9 * double(end - begin) : 0;
+}
+
 }  // namespace
 
 struct GlRenderer::Impl {
@@ -52,11 +61,16 @@ struct GlRenderer::Impl {
   TextureCache textures;
   BackgroundPass background{programs, captures};
   PointPass points{programs, captures};
+  FilterPass filter{programs};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
   FrameStats stats;
+  GlQuery begun = GlQuery::make(), done = GlQuery::make();  // the card's clock
+  double cardSeconds = 0;
 
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                 const ViewSettings& settings);
   Status drawAfterBackground(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                              const ViewSettings& settings);
 };
@@ -75,18 +89,25 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   locals.dropGone(scene);
   textures.dropGone();
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
-  target.begin();
-  const Clock::time_point warpStart = Clock::now();
-  if (Status drawn = background.draw(scene, *plan, view, target); !drawn)
-    return tl::unexpected(drawn.error());
-  if (Status drawn = points.draw(scene, *plan, view, settings, target, stats); !drawn)
-    return tl::unexpected(drawn.error());
-  stats.warpSeconds = secondsOfDrawing(warpStart);
-  if (Status drawn = drawAfterBackground(scene, *plan, view, settings); !drawn)
-    return tl::unexpected(drawn.error());
+  glQueryCounter(begun.name(), GL_TIMESTAMP);
+  if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return tl::unexpected(drawn.error());
+  glQueryCounter(done.name(), GL_TIMESTAMP);
   captures.trim(kCaptureBudgetBytes);
   stats.totalSeconds = secondsOfDrawing(start);
+  cardSeconds = secondsBetween(begun, done);
   return stats;
+}
+
+Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                                 const ViewSettings& settings) {
+  target.begin();
+  const Clock::time_point start = Clock::now();
+  if (Status drawn = background.draw(scene, plan, view, target); !drawn) return drawn;
+  if (Status drawn = points.draw(scene, plan, view, settings, target, stats); !drawn) return drawn;
+  if (settings.reconstruction == Reconstruction::filtered)
+    if (Status filtered = filter.draw(target); !filtered) return filtered;
+  stats.warpSeconds = secondsOfDrawing(start);
+  return drawAfterBackground(scene, plan, view, settings);
 }
 
 Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewPlan& plan,
@@ -162,6 +183,8 @@ Result<FrameStats> GlRenderer::draw(const WalkScene& scene, const PerspectiveVie
                 "view");
   }
 }
+
+double GlRenderer::cardSeconds() const { return impl_->cardSeconds; }
 
 unsigned GlRenderer::colourTexture() const { return impl_->target.colourCodes(); }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
-/// as buffers. Draws the pieces of the same ViewPlan back to front without depth test, then local geometry
-/// with one.
+/// as buffers. Draws the pieces of the same ViewPlan back to front without depth test (or, for comparison,
+/// with one), then local geometry with one.
 
 #include <memory>
 #include <string>
@@ -29,6 +29,9 @@ class GlRenderer {
   /// whatever it was. Waits until all is drawn, so that the times in the statistics are true; samplesDrawn
   /// counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  /// Seconds from the first to the last command of the last draw by the graphics card's own clock; 0 before
+  /// it.
+  double cardSeconds() const;
   /// Colour texture of the last draw, row 0 at the bottom (OpenGL), for showing in a window.
   unsigned colourTexture() const;
   /// Reads the last draw back, with sources; slow.
@@ -42,7 +45,8 @@ class GlRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A surfaceless EGL context made current on this thread while it lives, for programs without a window.
+/// A surfaceless EGL context made current on this thread while it lives, for programs without a window: on a
+/// graphics card where there is one, else on a software driver.
 class HeadlessContext {
  public:
   static Result<std::unique_ptr<HeadlessContext>> create();

@@ -17,7 +17,7 @@ class GlStateGuard {
   GlStateGuard& operator=(const GlStateGuard&) = delete;
 
   static constexpr int kTextureUnits = 4;     ///< units 0..3 may be bound by our passes
-  static constexpr int kStorageBindings = 5;  ///< shader storage bindings 0..4 too
+  static constexpr int kStorageBindings = 6;  ///< shader storage bindings 0..5 too
 
  private:
   struct TextureUnit {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "engine/view_gl/gl_renderer.h"
 
@@ -54,36 +55,37 @@ bool lists(const char* extensions, std::string_view name) {
   return false;
 }
 
-/// A display that needs no window system: Mesa's surfaceless platform, else the first EGL device.
-EGLDisplay openDisplay() {
+/// Displays that need no window system, best first: graphics cards, Mesa's surfaceless platform (which may
+/// be a card's too), software devices.
+std::vector<EGLDisplay> displays() {
+  std::vector<EGLDisplay> cards, others;
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  if (!lists(client, "EGL_EXT_platform_base")) return EGL_NO_DISPLAY;
-  const auto opened = [](EGLDisplay display) {
-    return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+  if (!lists(client, "EGL_EXT_platform_base")) return {};
+  const auto add = [](std::vector<EGLDisplay>& to, EGLDisplay display) {
+    if (display != EGL_NO_DISPLAY) to.push_back(display);
   };
-  if (lists(client, "EGL_MESA_platform_surfaceless")) {
-    const EGLDisplay display =
-        eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (opened(display)) return display;
-  }
+  if (lists(client, "EGL_MESA_platform_surfaceless"))
+    add(others, eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   if (lists(client, "EGL_EXT_platform_device") && lists(client, "EGL_EXT_device_enumeration")) {
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
     if (eglQueryDevicesEXT(EGLint(devices.size()), devices.data(), &count) == EGL_TRUE)
       for (EGLint i = 0; i < count; ++i) {
-        const EGLDisplay display =
-            eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[std::size_t(i)], nullptr);
-        if (opened(display)) return display;
+        const EGLDeviceEXT device = devices[std::size_t(i)];
+        const bool software =
+            lists(client, "EGL_EXT_device_query") &&
+            lists(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+        add(software ? others : cards, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
       }
   }
-  return EGL_NO_DISPLAY;
+  cards.insert(cards.end(), others.begin(), others.end());
+  return cards;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create() {
-  const EGLDisplay display = openDisplay();
-  if (display == EGL_NO_DISPLAY) return noContext("EGL offers no display without a window system");
+/// An OpenGL 4.3 core context of the display, made current.
+Result<EGLContext> currentContext(EGLDisplay display) {
+  if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
+    return noContext("EGL offers no display without a window system");
   if (!lists(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context") &&
       epoxy_egl_version(display) < 15)
     return noContext("this EGL cannot make a context current without a surface");
@@ -118,10 +120,22 @@ Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create() {
     eglDestroyContext(display, context);
     return noContext(fmt::format("the OpenGL context could not be made current ({})", nameOfEglError(error)));
   }
-  std::unique_ptr<HeadlessContext> headless(new HeadlessContext);
-  headless->display_ = display;
-  headless->context_ = context;
-  return headless;
+  return context;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HeadlessContext>> HeadlessContext::create() {
+  Result<EGLContext> context = noContext("EGL offers no display without a window system");
+  for (const EGLDisplay display : displays()) {
+    context = currentContext(display);
+    if (!context) continue;
+    std::unique_ptr<HeadlessContext> headless(new HeadlessContext);
+    headless->display_ = display;
+    headless->context_ = *context;
+    return headless;
+  }
+  return tl::unexpected(context.error());
 }
 
 HeadlessContext::~HeadlessContext() {

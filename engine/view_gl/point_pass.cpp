@@ -46,26 +46,23 @@ glm::dmat3 pictureMatrix(const PerspectiveView& view) {
 
 class ColumnPlanner {
  public:
-  ColumnPlanner(const DisplayCapture& capture, const PieceDraw& piece, const PerspectiveView& view,
-                int maxSide)
-      : capture_(capture),
-        piece_(piece),
-        pictureFromWorld_(pictureMatrix(view)),
-        planes_(frustumPlanes(view, {0, 0, view.width, view.height}, splatMargin(maxSide))),
-        all_{capture.rowTangent.back(), capture.rowTangent.front()} {}
+  ColumnPlanner(const DisplayCapture& capture, const PieceDraw& piece, const PerspectiveView& view)
+      : capture_(capture), piece_(piece), pictureFromWorld_(pictureMatrix(view)) {}
 
   /// Nothing when no sample of the column can fall on the picture.
   bool plan(int column, const CaptureChunk& chunk, ColumnPlan& out) const {
     const std::size_t k = std::size_t(column);
     const glm::vec2 direction = capture_.columnDirection[k];
     const float most = std::min(piece_.maxInverseDistance[k], std::numeric_limits<float>::max());
-    const glm::dvec2 range(drawnRange(capture_, piece_, k));
-    const auto tangents =
-        visibleTangents(planes_, glm::dvec2(direction), glm::dvec3(piece_.baseline), range, all_);
-    if (!tangents) return false;
+    TangentRange tangents{capture_.rowTangent.back(), capture_.rowTangent.front()};
+    if (!piece_.sight.empty()) {
+      const ColumnSight& sight = piece_.sight[k];
+      if (sight.x0 >= sight.x1) return false;
+      tangents = sight.tangents;
+    }
     const std::uint32_t begin = capture_.columnStart[k], end = capture_.columnStart[k + 1];
-    const std::uint32_t first = firstAtRow(capture_, begin, end, rowAtTangent(capture_, tangents->high));
-    const std::uint32_t last = firstAtRow(capture_, first, end, rowBelowTangent(capture_, tangents->low));
+    const std::uint32_t first = firstAtRow(capture_, begin, end, rowAtTangent(capture_, tangents.high));
+    const std::uint32_t last = firstAtRow(capture_, first, end, rowBelowTangent(capture_, tangents.low));
     if (first == last) return false;
 
     const RowOrder order = rowOrder(glm::dvec2(direction), -glm::dvec3(piece_.baseline));
@@ -84,8 +81,6 @@ class ColumnPlanner {
   const DisplayCapture& capture_;
   const PieceDraw& piece_;
   glm::dmat3 pictureFromWorld_;
-  FrustumPlanes planes_;
-  TangentRange all_;
 };
 
 const CaptureChunk* chunkOf(const CaptureBuffers& buffers, int column) {
@@ -112,11 +107,13 @@ struct PointPass::Piece {
   enum class Mirrors { none, mark, reflect } mirrors = Mirrors::none;
   std::vector<std::pair<const CaptureChunk*, int>> columns = {};  ///< visible ones, in drawing order
 
-  /// Filtered samples are drawn as splats too (view_settings.h).
-  bool splat() const { return settings.reconstruction != Reconstruction::point; }
+  /// What mirrors show is laid over their pixels in order, whatever the rest is drawn by.
+  bool depthTest() const { return settings.renderer == Renderer::glZbuffer && mirrors != Mirrors::reflect; }
+  bool splat() const { return settings.reconstruction == Reconstruction::splat; }
+  bool rectangles() const { return followsSlant(settings.reconstruction); }
   /// A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
   /// the largest splat, and the framebuffer's border cuts.
-  int margin() const { return splat() ? settings.maxSplatPixels / 2 + 1 : 0; }
+  int margin() const { return splat() || rectangles() ? settings.maxSplatPixels / 2 + 1 : 0; }
 };
 
 PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
@@ -132,30 +129,44 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
     return sharedOf(piece) && sharedOf(piece)->blended;
   });
   const bool anyMirror = !plan.reflections.empty();
-  if (anyMirror)
-    if (Status ready = target.beginMirrors(); !ready) return ready;
+  const bool filtered = settings.reconstruction == Reconstruction::filtered;
+  if (Status ready = target.beginPieces(anyMirror, filtered); !ready) return ready;
   std::set<int> images;
   for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
-  std::vector<const PieceDraw*> pieces;
-  for (const bool behind : {false, true})
-    for (const PieceDraw& piece : plan.pieces)
-      if (piece.secondary == behind) pieces.push_back(&piece);
-  for (const PieceDraw* next : pieces) {
-    const PieceDraw& planned = *next;
+  const bool depthTest = settings.renderer == Renderer::glZbuffer;
+  struct Step {
+    const PieceDraw& piece;
+    Samples samples;
+  };
+  std::vector<Step> steps;
+  for (const bool behind : {false, true}) {
+    const auto add = [&](Samples samples) {
+      for (const PieceDraw& piece : plan.pieces)
+        if (piece.secondary == behind &&
+            (samples != Samples::clear || (sharedOf(piece) && sharedOf(piece)->blended)))
+          steps.push_back({piece, samples});
+    };
+    add(depthTest ? Samples::opaque : Samples::all);
+    if (depthTest) add(Samples::clear);  // in front of the nearest of what is opaque, as in view/warp.cpp
+  }
+  for (const auto& [planned, samples] : steps) {
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
     if (!capture || capture->row.empty() || planned.runs.empty()) continue;
     const std::string name = fmt::format("capture of camera {}", planned.camera);
-    const Result<const CaptureBuffers*> buffers = captures_.get(capture, name.c_str());
+    const Result<const CaptureBuffers*> buffers =
+        captures_.get(capture, name.c_str(), followsSlant(settings.reconstruction));
     if (!buffers) return tl::unexpected(buffers.error());
     // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
     // holes.
-    target.beginPainting(anyClear || settings.fillHoles,
+    target.beginPainting(depthTest                        ? FrameTarget::Depth::test
+                         : anyClear || settings.fillHoles ? FrameTarget::Depth::keep
+                                                          : FrameTarget::Depth::ignore,
                          planned.secondary ? FrameTarget::Cover::behind : FrameTarget::Cover::inFront);
-    if (anyMirror) target.bindForMirrors();
+    target.bindForPieces();
     Piece piece{planned, *capture, **buffers,
                 view,    settings, anyMirror ? Piece::Mirrors::mark : Piece::Mirrors::none};
     images.insert(planned.camera);
-    if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
+    if (Status drawn = drawPiece(piece, samples, target, stats); !drawn) return drawn;
   }
   stats.images = int(images.size());
   target.endPainting();
@@ -166,7 +177,7 @@ Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, 
                                   const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_BLEND);
-  target.bindForDrawing();  // without the depth test, which leaves the pixels the mirror's depth
+  target.bindForReflections();  // without the depth test, which leaves the pixels the mirror's depth
   glActiveTexture(GL_TEXTURE0);
   glBindSampler(0, 0);
   glBindTexture(GL_TEXTURE_2D, target.mirrors());
@@ -174,21 +185,26 @@ Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, 
     const std::shared_ptr<const DisplayCapture>& shown =
         scene.captures[std::size_t(planned.camera)]->reflections;
     const std::string name = fmt::format("reflections of camera {}", planned.camera);
-    const Result<const CaptureBuffers*> buffers = captures_.get(shown, name.c_str());
+    const Result<const CaptureBuffers*> buffers =
+        captures_.get(shown, name.c_str(), followsSlant(settings.reconstruction));
     if (!buffers) return tl::unexpected(buffers.error());
     Piece piece{planned, *shown, **buffers, view, settings, Piece::Mirrors::reflect};
-    if (Status drawn = drawPiece(piece, target, stats); !drawn) return drawn;
+    if (Status drawn = drawPiece(piece, Samples::all, target, stats); !drawn) return drawn;
   }
   return {};
 }
 
-Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
+Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
   Defines defines;
   if (piece.splat()) defines.push_back("SPLAT");
+  if (piece.rectangles()) defines.push_back("RECTANGLE");
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
   if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
-  if (piece.capture.layered) defines.push_back("LAYERED");
-  if (piece.capture.blended) defines.push_back(samples);
+  if (samples == Samples::opaque && piece.depthTest())
+    defines.push_back("UNORDERED");
+  else if (piece.capture.layered)
+    defines.push_back("LAYERED");
+  if (piece.capture.blended) defines.push_back(samples == Samples::clear ? "CLEAR" : "OPAQUE");
   if (!piece.capture.mirror.empty() && piece.mirrors != Piece::Mirrors::none) defines.push_back("MIRRORS");
   if (piece.mirrors == Piece::Mirrors::mark) defines.push_back("MARK_MIRRORS");
   if (piece.mirrors == Piece::Mirrors::reflect) defines.push_back("REFLECT");
@@ -204,12 +220,20 @@ Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   glUniform1f(program.location("clipMargin"), float(piece.margin()));
   glUniform1ui(program.location("roles"), piece.plan.roles);
   glUniform1ui(program.location("sourceOfPiece"), GLuint(sourceOfCamera(piece.plan.camera)));
+  glUniform1f(program.location("maxSide"), float(piece.settings.maxSplatPixels));
   if (piece.splat()) {
     const double focal = view.focalPixels();
     const double pitch = std::max(piece.capture.camera.columnPitch(), piece.capture.camera.rowPitch());
     glUniform1f(program.location("footprint"), float(focal * pitch * kSlantAllowance));
     glUniform1f(program.location("inverseFocal"), float(1 / focal));
-    glUniform1f(program.location("maxSide"), float(piece.settings.maxSplatPixels));
+  }
+  if (piece.rectangles()) {  // as in view/warp.cpp
+    const double half = 0.5 * kOverlap;
+    setUniform(program, "eastInPicture", glm::vec3(pictureFromWorld[0]));
+    setUniform(program, "northInPicture", glm::vec3(pictureFromWorld[1]));
+    setUniform(program, "steps",
+               glm::vec2(half * piece.capture.camera.columnPitch(), half * piece.capture.camera.rowPitch()));
+    glUniform1f(program.location("perSpread"), float(8 * half));
   }
   if (piece.plan.clipToPart) {
     const AzimuthRange& part = piece.plan.part.azimuths;
@@ -226,9 +250,9 @@ Result<GlProgram*> PointPass::program(const Piece& piece, const char* samples) {
   return found;
 }
 
-Status PointPass::drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats) {
+Status PointPass::drawPiece(Piece& piece, Samples samples, FrameTarget& target, FrameStats& stats) {
   plans_.assign(std::size_t(piece.capture.camera.columns), ColumnPlan{});
-  const ColumnPlanner planner(piece.capture, piece.plan, piece.view, piece.settings.maxSplatPixels);
+  const ColumnPlanner planner(piece.capture, piece.plan, piece.view);
   for (const ColumnRun& run : piece.plan.runs)
     for (int n = 0; n < run.last - run.first; ++n) {
       const int column = run.ascending ? run.first + n : run.last - 1 - n;
@@ -241,10 +265,12 @@ Status PointPass::drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats
   glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(plans_.size() * sizeof(ColumnPlan)), plans_.data(),
                GL_STREAM_DRAW);
 
-  const Result<GlProgram*> opaque = program(piece, "OPAQUE");
-  if (!opaque) return tl::unexpected(opaque.error());
-  drawColumns(piece, -1, stats);
-  if (piece.capture.blended)
+  if (samples != Samples::clear) {
+    const Result<GlProgram*> opaque = program(piece, Samples::opaque);
+    if (!opaque) return tl::unexpected(opaque.error());
+    drawColumns(piece, -1, stats);
+  }
+  if (samples != Samples::opaque && piece.capture.blended)
     if (Status drawn = drawClearRanks(piece, target, stats); !drawn) return drawn;
   return checkGl("drawing captures");
 }
@@ -270,7 +296,7 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     else
       glStencilFunc(GL_NOTEQUAL, 0, kCovered);  // over a hole there is nothing to tint
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-    const Result<GlProgram*> clear = program(piece, "CLEAR");
+    const Result<GlProgram*> clear = program(piece, Samples::clear);
     if (!clear) return tl::unexpected(clear.error());
     glUniform1ui((*clear)->location("rank"), GLuint(rank));
     glUniform1ui((*clear)->location("lastRank"), GLuint(kMostClearRanks - 1));
@@ -281,13 +307,14 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     glStencilMask(piece.plan.secondary ? 0 : kTinted);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
 
-    marks ? target.bindForMirrors() : target.bindForDrawing();
+    marks ? target.bindForPieces() : target.bindForDrawing();
     glEnable(GL_FRAMEBUFFER_SRGB);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // the source stays that of what shows through
+    // Source and place stay those of what shows through.
+    for (const GLuint kept : {1u, 3u}) glColorMaski(kept, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     drawWholePicture(**lay, noAttributes_, {{"layer", target.clearLayer()}});
-    glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glStencilMask(0xff);
     glDisable(GL_STENCIL_TEST);
   }
@@ -308,6 +335,8 @@ void PointPass::drawColumns(const Piece& piece, int clearRank, FrameStats& stats
       if (clearRank < 0) stats.samplesRead += parts.z - parts.x;
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk->samples.name());
+    if (piece.rectangles()) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, chunk->slants.name());
+    if (chunk->layers) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, chunk->layers.name());
     if (chunk->mirrors) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, chunk->mirrors.name());
     glMultiDrawArrays(GL_POINTS, firsts_.data(), counts_.data(), GLsizei(firsts_.size()));
   }

@@ -1,6 +1,6 @@
 #pragma once
 /// Draws the pieces of a view plan as points, back to front by submission, without a depth test (list
-/// priority).
+/// priority); or, for comparison, the same points with one.
 
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/frame.h"
@@ -33,15 +33,16 @@ class PointPass {
  private:
   /// One piece on its way: what all its draw calls share.
   struct Piece;
+  enum class Samples { opaque, clear, all };
   /// What mirrors show, onto the pixels that `target` says belong to them.
   Status drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                          const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
-  Status drawPiece(Piece& piece, FrameTarget& target, FrameStats& stats);
+  Status drawPiece(Piece& piece, Samples samples, FrameTarget& target, FrameStats& stats);
   /// Blended samples behind one another in a pixel cannot be drawn at once: the splats of one pane overlap,
   /// and where they do the pane must still tint once. So rank by rank, each into a layer of its own, laid
   /// over the picture.
   Status drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& stats);
-  Result<GlProgram*> program(const Piece& piece, const char* samples);
+  Result<GlProgram*> program(const Piece& piece, Samples samples);
   /// Columns with more than `clearRank` clear samples in a pixel; all of them for a negative rank.
   void drawColumns(const Piece& piece, int clearRank, FrameStats& stats);
 

@@ -134,12 +134,16 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
   const fs::path file = folder_ / "config" / "editor.json";
   Preferences preferences;
   preferences.bakeThreads = 3;
+  preferences.walkMegabytes = 700;
+  preferences.walkMetresPerSecond = 2.5;
   preferences.walkWidth = 512;
   for (int i = 0; i < 15; ++i) preferences.addRecent("/p/" + std::to_string(i));
   preferences.addRecent("/p/9");
   ASSERT_TRUE(savePreferences(preferences, file));
   const Preferences read = loadPreferences(file);
   EXPECT_EQ(read.bakeThreads, 3);
+  EXPECT_EQ(read.walkMegabytes, 700);
+  EXPECT_EQ(read.walkMetresPerSecond, 2.5);
   EXPECT_EQ(read.walkWidth, 512);
   EXPECT_EQ(read.recent, preferences.recent);
   EXPECT_EQ(read.recent.size(), Preferences::kMostRecent);

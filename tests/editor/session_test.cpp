@@ -93,6 +93,11 @@ TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
     session.startBake();
     waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
     EXPECT_EQ(session.walk()->missing, 0);
+    EXPECT_FALSE(session.streaming());
+    for (std::size_t c = 0; c < session.walk()->keys.size(); ++c) {
+      EXPECT_NE(session.walk()->walk.captures[c], nullptr) << "all of them fit";
+      EXPECT_FALSE(session.walk()->standsIn[c]);
+    }
     EXPECT_EQ(session.lastBake()->captures.baked, int(session.built()->layout->cameras.size()));
     EXPECT_EQ(session.bakeQueue().count(CameraStage::done), session.lastBake()->captures.baked);
     EXPECT_EQ(session.bakeQueue().share(), 1);

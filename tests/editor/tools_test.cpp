@@ -111,16 +111,18 @@ TEST_F(PlanToolTest, AnOutlineIsClosedAtItsFirstCornerAndNeedsThree) {
   EXPECT_TRUE(tool_.outlineTool().corners().empty());
 }
 
-Walker::Clamp anywhere() {
-  return [](const glm::dvec2& place) { return place; };
+Walker::Ground anywhere() {
+  return [](const glm::dvec2&, const glm::dvec2& to) { return to; };
 }
+
+constexpr EyeHeights kHeights{1.4, 1.8};
 
 TEST(Walker, WalksAtTheStatedSpeedWhereItLooks) {
   Walker walker;
   walker.setPose({{0, 0, 1.6}, kPi / 2, 0});
   WalkKeys keys;
   keys.forward = true;
-  for (int i = 0; i < 120; ++i) walker.step(1.0 / 60, keys, anywhere());
+  for (int i = 0; i < 120; ++i) walker.step(1.0 / 60, keys, kHeights, anywhere());
   // Two seconds less the time it takes to get going.
   EXPECT_NEAR(walker.pose().eye.y, Walker::kMetresPerSecond * (2 - Walker::kSettleSeconds), 0.03);
   EXPECT_NEAR(walker.pose().eye.x, 0, 1e-9);
@@ -134,10 +136,10 @@ TEST(Walker, DiagonalsAreNoFasterAndLetsGoComesToRest) {
   glm::dvec2 before(0);
   for (int i = 0; i < 120; ++i) {
     before = glm::dvec2(walker.pose().eye);
-    walker.step(1.0 / 60, keys, anywhere());
+    walker.step(1.0 / 60, keys, kHeights, anywhere());
   }
   EXPECT_NEAR(glm::distance(before, glm::dvec2(walker.pose().eye)) * 60, Walker::kMetresPerSecond, 0.01);
-  for (int i = 0; i < 60; ++i) walker.step(1.0 / 60, {}, anywhere());
+  for (int i = 0; i < 60; ++i) walker.step(1.0 / 60, {}, kHeights, anywhere());
   EXPECT_FALSE(walker.moving());
 }
 
@@ -146,10 +148,10 @@ TEST(Walker, SlidesAlongTheWallThatTheClampMakes) {
   walker.setPose({{0, 0, 1.6}, kPi / 4, 0});
   WalkKeys keys;
   keys.forward = true;
-  const Walker::Clamp wall = [](const glm::dvec2& place) {
-    return glm::dvec2(std::min(place.x, 0.5), place.y);
+  const Walker::Ground wall = [](const glm::dvec2&, const glm::dvec2& to) {
+    return glm::dvec2(std::min(to.x, 0.5), to.y);
   };
-  for (int i = 0; i < 120; ++i) walker.step(1.0 / 60, keys, wall);
+  for (int i = 0; i < 120; ++i) walker.step(1.0 / 60, keys, kHeights, wall);
   EXPECT_DOUBLE_EQ(walker.pose().eye.x, 0.5);
   EXPECT_GT(walker.pose().eye.y, 1.5);
 }
@@ -163,11 +165,51 @@ TEST(Walker, LookingToTheRightTurnsClockwiseAndPitchHasAnEnd) {
   EXPECT_DOUBLE_EQ(walker.pose().pitchRadians, Walker::kMaxPitchRadians);
 }
 
+TEST(Walker, TheEyeRisesAndFallsWithinItsRange) {
+  Walker walker;
+  walker.setPose({{0, 0, 1.6}, 0, 0});
+  WalkKeys keys;
+  keys.up = true;
+  EXPECT_TRUE(walker.step(0.1, keys, kHeights, anywhere()));
+  EXPECT_NEAR(walker.pose().eye.z, 1.6 + 0.1 * Walker::kRiseMetresPerSecond, 1e-12);
+  for (int i = 0; i < 60; ++i) walker.step(0.1, keys, kHeights, anywhere());
+  EXPECT_DOUBLE_EQ(walker.pose().eye.z, kHeights.high);
+  keys = {};
+  keys.down = true;
+  for (int i = 0; i < 60; ++i) walker.step(0.1, keys, kHeights, anywhere());
+  EXPECT_DOUBLE_EQ(walker.pose().eye.z, kHeights.low);
+  EXPECT_FALSE(walker.step(0.1, {}, kHeights, anywhere()));
+}
+
+TEST(Walker, ItsSpeedIsASettingWithLimits) {
+  Walker walker;
+  walker.setSpeed(4);
+  WalkKeys keys;
+  keys.forward = true;
+  for (int i = 0; i < 120; ++i) walker.step(1.0 / 60, keys, kHeights, anywhere());
+  EXPECT_NEAR(walker.velocity().x, 4, 1e-6);
+  walker.setSpeed(1e9);
+  EXPECT_EQ(walker.speed(), Walker::kMostMetresPerSecond);
+}
+
+TEST(Walker, WhoeverTurnsAwayFromAWallIsNotHeldByIt) {
+  Walker walker;
+  WalkKeys keys;
+  keys.forward = true;
+  const Walker::Ground stuck = [](const glm::dvec2& from, const glm::dvec2&) { return from; };
+  for (int i = 0; i < 60; ++i) walker.step(1.0 / 60, keys, kHeights, stuck);
+  EXPECT_EQ(walker.velocity(), glm::dvec2(0)) << "nothing has built up";
+  keys = {};
+  keys.back = true;
+  walker.step(1.0 / 60, keys, kHeights, anywhere());
+  EXPECT_LT(walker.pose().eye.x, 0);
+}
+
 TEST(Walker, AStalledWindowDoesNotThrowTheEye) {
   Walker walker;
   WalkKeys keys;
   keys.forward = true;
-  walker.step(30, keys, anywhere());
+  walker.step(30, keys, kHeights, anywhere());
   EXPECT_LE(walker.pose().eye.x, Walker::kMetresPerSecond * 0.1 + 1e-9);
 }
 

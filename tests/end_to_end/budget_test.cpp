@@ -91,7 +91,11 @@ TEST_F(BudgetCommandTest, SimplifiesWhatNoCellsCanFitOnceAndSaysSoInEveryWalk) {
 
   // A walk takes it from the store, and says so.
   ASSERT_EQ(acentric({"bake", project.file(), "--only", "0", "--prune"}).exitCode, 0);
-  const Json rendered = report({"render", project.file(), "--size", "160x90", "-o", path("view.png")});
+  const Json& within = first["simplified"][0]["centre"];
+  const Json rendered =
+      report({"render", project.file(), "--size", "160x90", "--eye",
+              std::to_string(within[0].get<double>()) + "," + std::to_string(within[1].get<double>()), "-o",
+              path("view.png")});
   ASSERT_EQ(rendered["warnings"].size(), 1u);
   EXPECT_NE(rendered["warnings"][0].get<std::string>().find("simplified"), std::string::npos);
   for (const Json& region : report(fit)["simplified"])

@@ -2,10 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 #include "tests/end_to_end/sample_project.h"
 
 namespace acentric::test {
 namespace {
+
+std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 class WalkTest : public testing::Test {
  protected:
@@ -37,10 +47,40 @@ TEST_F(WalkTest, BakesEveryCameraOnce) {
   EXPECT_EQ(Json::parse(again.output)["reused"], first["baked"]);
 }
 
+TEST_F(WalkTest, ALimitOfMemoryChangesNoPicture) {
+  std::vector<std::string> pictures;
+  for (const char* megabytes : {"1", "1000"}) {
+    const auto folder = path((std::string("memory") + megabytes).c_str());
+    const auto walked =
+        acentric({"walk", project->file(), "--size", "160x90", "-o", folder, "--memory", megabytes});
+    ASSERT_EQ(walked.exitCode, 0) << walked.errors;
+    pictures.push_back(folder);
+  }
+  for (const char* frame : {"frame_00000.png", "frame_00031.png", "frame_00059.png"})
+    EXPECT_EQ(bytesOf(std::filesystem::path(pictures[0]) / frame),
+              bytesOf(std::filesystem::path(pictures[1]) / frame))
+        << frame;
+}
+
+TEST_F(WalkTest, AWalkInRealTimeTellsWhatCameAndWent) {
+  const auto ran = acentric({"bench", "view", project->file(), "--stream", "--renderers", "list", "--size",
+                             "160x90", "--frames", "4", "--speed", "20", "--memory", "1", "--json"});
+  ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+  const Json report = Json::parse(ran.output);
+  EXPECT_GT(report["frames"].get<int>(), 0);
+  EXPECT_LE(report["incompleteFrames"].get<int>() + report["coarseFrames"].get<int>(),
+            report["frames"].get<int>());
+  EXPECT_GT(report["loads"].get<int>(), 0);
+  EXPECT_EQ(report["limitBytes"].get<std::uint64_t>(), 1'000'000U);
+  EXPECT_GE(report["frameMsMax"].get<double>(), report["frameMsMedian"].get<double>());
+  EXPECT_TRUE(report["warnings"].empty());
+  EXPECT_NE(acentric({"bench", "view", project->file(), "--stream", "--renderers", "gl"}).exitCode, 0);
+}
+
 TEST_F(WalkTest, RendersWithEveryRendererAndTheyAgree) {
   ASSERT_EQ(acentric({"tour", project->file(), "-o", path("tour.json"), "--frames", "6"}).exitCode, 0);
   std::map<std::string, double> psnr;
-  for (const std::string renderer : {"list", "scalar", "zbuffer", "gl"}) {
+  for (const std::string renderer : {"list", "scalar", "zbuffer", "gl", "gl-zbuffer"}) {
     const auto picture = path((renderer + ".png").c_str());
     const auto rendered = acentric(
         {"render", project->file(), "--size", "320x180", "--renderer", renderer, "-o", picture, "--json"});
@@ -60,6 +100,7 @@ TEST_F(WalkTest, RendersWithEveryRendererAndTheyAgree) {
   // Splats of what is kept behind an edge lap over it by a pixel where no depth is compared.
   EXPECT_NEAR(psnr["list"], psnr["zbuffer"], 0.8);
   EXPECT_NEAR(psnr["list"], psnr["gl"], 0.7);
+  EXPECT_NEAR(psnr["zbuffer"], psnr["gl-zbuffer"], 0.7);
 }
 
 TEST_F(WalkTest, TruthIsRenderedWithoutCaptures) {
@@ -75,6 +116,91 @@ TEST_F(WalkTest, WritesFramesAndAContactSheet) {
   ASSERT_EQ(walked.exitCode, 0) << walked.errors;
   for (const char* name : {"frames/frame_00000.png", "frames/frame_00002.png", "frames/contact_sheet.png"})
     EXPECT_TRUE(std::filesystem::exists(project->folder() / name)) << name;
+}
+
+TEST_F(WalkTest, WritesEveryModeOfFramesWithATableOfHowTrueTheyAre) {
+  ASSERT_EQ(acentric({"tour", project->file(), "-o", path("short.json"), "--frames", "3"}).exitCode, 0);
+  const auto walked = acentric(
+      {"walk", project->file(), "--path", path("short.json"), "-o", path("modes"), "--size", "160x90",
+       "--modes", "picture,truth,difference,beside,sources,holes", "--truth-samples", "1", "--json"});
+  ASSERT_EQ(walked.exitCode, 0) << walked.errors;
+  for (const char* mode : {"frame", "truth", "difference", "beside", "sources", "holes"})
+    for (const char* number : {"00000", "00001", "00002"})
+      EXPECT_TRUE(
+          std::filesystem::exists(project->folder() / "modes" / (mode + std::string("_") + number + ".png")));
+  const Json report = Json::parse(walked.output);
+  EXPECT_EQ(report["videoCommands"].size(), 6u);
+  EXPECT_NE(report["videoCommands"][1].get<std::string>().find("truth_%05d.png"), std::string::npos);
+
+  // What the walk says of its frames is what measure says of them.
+  const auto measured =
+      acentric({"measure", project->file(), "--path", path("short.json"), "--size", "160x90", "--json"});
+  ASSERT_EQ(measured.exitCode, 0) << measured.errors;
+  const Json truth = Json::parse(measured.output)["frames"];
+  ASSERT_EQ(report["measured"].size(), truth.size());
+  std::ifstream table(project->folder() / "modes" / "frames.csv");
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "frame,x,y,z,yaw,pitch,ms,open_share,psnr,ssim,hole_share");
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (const char* value : {"psnr", "ssim", "holeShare"})
+      EXPECT_EQ(report["measured"][i][value], truth[i][value]);
+    ASSERT_TRUE(std::getline(table, line));
+    EXPECT_EQ(line.substr(0, 2), std::to_string(i) + ",");
+    EXPECT_EQ(std::ranges::count(line, ','), 10);
+  }
+}
+
+TEST_F(WalkTest, MeasuresSeamsAndPoppingAlongAPath) {
+  ASSERT_EQ(acentric({"tour", project->file(), "-o", path("long.json"), "--frames", "12"}).exitCode, 0);
+  const auto measured = acentric({"measure", project->file(), "--path", path("long.json"), "--size", "160x90",
+                                  "--frames", "4", "--seams", "--crossings", "3", "--json"});
+  ASSERT_EQ(measured.exitCode, 0) << measured.errors;
+  const Json report = Json::parse(measured.output);
+  EXPECT_GT(report["seams"]["pairs"].get<int>(), 0);
+  EXPECT_GT(report["seams"]["within"]["pairs"].get<int>(), 1000);
+  ASSERT_EQ(report["popping"]["list"].size(), 3u);
+  for (const Json& crossing : report["popping"]["list"]) {
+    EXPECT_NE(crossing["fromRegion"], crossing["toRegion"]);
+    EXPECT_GT(crossing["pop"]["psnr"].get<double>(), 12);
+    EXPECT_GT(crossing["step"]["psnr"].get<double>(), 12);
+  }
+}
+
+TEST_F(WalkTest, ComparesWaysOfTakingPanoramas) {
+  const auto benched = acentric({"bench", "holes", project->file(), "--size", "160x90", "--frames", "2", "-o",
+                                 path("holes"), "--json"});
+  ASSERT_EQ(benched.exitCode, 0) << benched.errors;
+  const Json report = Json::parse(benched.output);
+  ASSERT_EQ(report["methods"].size(), 6u);
+  EXPECT_EQ(report["methods"][0]["frames"].size(), 2u);
+  for (const char* name : {"holes/holes.png", "holes/holes.json", "holes/holes.txt"})
+    EXPECT_TRUE(std::filesystem::exists(project->folder() / name)) << name;
+
+  // A panorama in the middle of each ring is placed, and the bake knows of it.
+  const auto dry = acentric({"layout", project->file(), "--panoramas", "rings", "--json"});
+  ASSERT_EQ(dry.exitCode, 0) << dry.errors;
+  EXPECT_GT(Json::parse(dry.output)["freeApvs"].get<int>(), 0);
+  EXPECT_FALSE(Json::parse(dry.output)["applied"].get<bool>());
+}
+
+TEST_F(WalkTest, TellsWhichCameraPaintedWhat) {
+  const auto rendered = acentric({"render", project->file(), "--size", "320x180", "--mode", "sources", "-o",
+                                  path("sources.png"), "--json"});
+  ASSERT_EQ(rendered.exitCode, 0) << rendered.errors;
+  const Json report = Json::parse(rendered.output);
+  double sum = 0, cameras = 0;
+  for (const Json& source : report["sources"]) {
+    sum += source["share"].get<double>();
+    if (source.contains("camera")) cameras += source["share"].get<double>();
+    EXPECT_EQ(source["colour"].get<std::string>().size(), 7u);
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_GT(cameras, 0.2);
+  const auto truth =
+      acentric({"render", project->file(), "--renderer", "truth", "--mode", "holes", "-o", path("none.png")});
+  EXPECT_EQ(truth.exitCode, 1);
+  EXPECT_NE(truth.errors.find("--mode"), std::string::npos);
 }
 
 TEST_F(WalkTest, ValidatesAndFindsADamagedCapture) {

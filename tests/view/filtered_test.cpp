@@ -49,6 +49,7 @@ OneCapture oneSample(const ColumnCamera& camera, float w, Slant slant, const Per
 TEST(Filtered, PaintsWhatTheSampleStandsForAndKeepsWhereItLies) {
   std::mt19937 random(41);
   std::uniform_real_distribution<double> unit(-1, 1);
+  const auto colourAndSlot = [](CanvasPixel pixel) { return static_cast<std::uint32_t>(pixel); };
   int seen = 0, large = 0;
   for (int round = 0; round < 1500; ++round) {
     ColumnCamera camera =
@@ -65,6 +66,9 @@ TEST(Filtered, PaintsWhatTheSampleStandsForAndKeepsWhereItLies) {
     view.width = 320, view.height = 240;
     const OneCapture one = oneSample(camera, w, slant, view);
     const Canvas canvas = paint(one.scene, view, settingsOf(Reconstruction::filtered), one.plan);
+
+    const Canvas plain = paint(one.scene, view, settingsOf(Reconstruction::surface), one.plan);
+    ASSERT_TRUE(std::ranges::equal(plain.pixels, canvas.pixels, {}, colourAndSlot, colourAndSlot)) << round;
 
     // The surface's points at the ends of the sample's share along a row and along a column.
     const auto at = [&](double column, double row) {

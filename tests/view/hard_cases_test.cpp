@@ -359,7 +359,8 @@ TEST(HardCases, HolesContinueTheFartherSideInAnyUnitAndNotByAnAbsoluteStepOfDept
         frame.source.at(x, y) = PixelSource(x < 8 ? 1 : 2);
         inverseZDepth.at(x, y) = (x < 8 ? 1.0f : 0.1f) * perMetre;
       }
-    fillHoles(frame, inverseZDepth, 100);
+    TaskRunner runner(2);
+    fillHoles(frame, inverseZDepth, 100, runner);
     for (int y = 0; y < 5; ++y) {
       EXPECT_EQ(frame.colour.at(8, y), Rgba8(0, 0, 255, 255)) << perMetre;
       EXPECT_EQ(frame.source.at(8, y), kSourceInvented);

@@ -63,7 +63,9 @@ inline LocalPicture drawLocal(const WalkScene& walk, const PerspectiveView& view
   TaskRunner runner(workers);
   const LocalShading shading(walk, *walk.local[0]);
   const LocalRaster raster(*walk.local[0], shading, view, runner);
-  raster.drawOpaque(picture.frame, picture.inverseZDepth, runner);
+  CoverImage cover;
+  raster.findOpaque(cover, runner);
+  raster.drawOpaque(cover, picture.frame, picture.inverseZDepth, runner);
   raster.drawClear(picture.frame, picture.inverseZDepth, runner);
   return picture;
 }

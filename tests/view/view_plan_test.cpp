@@ -184,14 +184,37 @@ TEST(HoleFill, ContinuesTheFartherSideAndMarksWhatItMadeUp) {
       frame.source.at(x, y) = PixelSource(x < 8 ? 1 : 2);
       inverseZDepth.at(x, y) = x < 8 ? 1.0f : 0.1f;
     }
-  fillHoles(frame, inverseZDepth, 100);
+  TaskRunner runner(2);
+  fillHoles(frame, inverseZDepth, 100, runner);
   EXPECT_EQ(frame.holeCount(), 15u);
   for (int y = 0; y < 5; ++y) {
-    EXPECT_EQ(frame.colour.at(10, y), Rgba8(0, 0, 255, 255));
-    EXPECT_EQ(frame.source.at(9, y), kSourceInvented);
+    for (int x = 8; x < 11; ++x) {
+      EXPECT_EQ(frame.colour.at(x, y), Rgba8(0, 0, 255, 255)) << "up to the edge that the hole lies behind";
+      EXPECT_EQ(frame.source.at(x, y), kSourceInvented);
+    }
     EXPECT_EQ(frame.source.at(7, y), 1);
   }
-  EXPECT_EQ(frame.colour.at(9, 2), Rgba8(0, 0, 255, 255));
+}
+
+TEST(HoleFill, ReachesAcrossHolesWiderThanItsLines) {
+  Frame frame;
+  frame.colour = ColourImage(300, 200, Rgba8(0));
+  frame.source = Image<PixelSource>(300, 200, kSourceHole);
+  FloatImage inverseZDepth(300, 200, 0.0f);
+  for (int y = 0; y < 200; ++y)
+    for (const int x : {0, 299}) {
+      frame.colour.at(x, y) = Rgba8(x == 0 ? 50 : 100, 0, 0, 255);
+      frame.source.at(x, y) = 1;
+      inverseZDepth.at(x, y) = 0.1f;
+    }
+  TaskRunner runner(2);
+  fillHoles(frame, inverseZDepth, 4096, runner);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 1; x < 299; ++x) {
+      ASSERT_EQ(frame.source.at(x, y), kSourceInvented);
+      ASSERT_GE(frame.colour.at(x, y).r, 50);
+      ASSERT_LE(frame.colour.at(x, y).r, 100);
+    }
 }
 
 TEST(HoleFill, TakesLocalGeometryOnlyWhereNothingElseIsNear) {
@@ -208,7 +231,8 @@ TEST(HoleFill, TakesLocalGeometryOnlyWhereNothingElseIsNear) {
       frame.source.at(8, 0) = 3;
       inverseZDepth.at(8, 0) = 0.5f;
     }
-    fillHoles(frame, inverseZDepth, 100);
+    TaskRunner runner(2);
+    fillHoles(frame, inverseZDepth, 100, runner);
     EXPECT_EQ(frame.colour.at(1, 0), background ? Rgba8(200, 100, 50, 255) : Rgba8(10, 20, 30, 255));
     EXPECT_EQ(frame.source.at(1, 0), kSourceInvented);
   }
@@ -252,8 +276,7 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
 }
 
 TEST(ViewSettings, NamesEveryRendererBothWays) {
-  for (Renderer renderer : {Renderer::list, Renderer::scalar, Renderer::zbuffer, Renderer::gl})
-    EXPECT_EQ(*parseRenderer(nameOf(renderer)), renderer);
+  for (Renderer renderer : kRenderers) EXPECT_EQ(*parseRenderer(nameOf(renderer)), renderer);
   EXPECT_FALSE(parseRenderer("fast"));
 }
 

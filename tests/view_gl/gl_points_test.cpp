@@ -59,7 +59,8 @@ TEST_F(GlPoints, PaintsWhatTheCpuPaintsFromAnyEyeInARing) {
     const int region = *layout->regionAt({0.1, 0.05});
     const WalkScene scene = test::walkScene(test::randomBoxes(3, 60, 3.4), layout, region, 2.5);
     for (bool secondary : {false, true})
-      for (Reconstruction reconstruction : {Reconstruction::splat, Reconstruction::point})
+      for (Reconstruction reconstruction :
+           {Reconstruction::splat, Reconstruction::point, Reconstruction::surface})
         for (int i = 0; i < 4; ++i) {
           ViewSettings settings = withoutFill();
           settings.secondaryCover = secondary;
@@ -89,6 +90,89 @@ TEST_F(GlPoints, DrawsTheLayersOfAPixelInTheCpusOrder) {
   const int region = *layout->regionAt({0.1, 0.05});
   const WalkScene scene = test::walkScene(test::randomBoxes(6, 90, 3.2), layout, region, 2, 4);
   for (int i = 0; i < 5; ++i) expectLikeCpu(scene, nextView(*layout, region, 60), withoutFill());
+}
+
+TEST_F(GlPoints, FiltersAsTheCpuDoes) {
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const int region = *layout->regionAt({0.1, 0.05});
+  const WalkScene scene = test::walkScene(test::randomBoxes(3, 60, 3.4), layout, region, 3, 2);
+  ViewSettings settings = withoutFill(), plain = withoutFill();
+  settings.reconstruction = Reconstruction::filtered;
+  double unlikeSplats = 0;
+  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer})
+    for (const int side : {2, 16}) {
+      settings.renderer = plain.renderer = renderer;
+      settings.maxSplatPixels = plain.maxSplatPixels = side;
+      for (const double fov : {60, 60, 120}) {
+        const PerspectiveView view = nextView(*layout, region, fov);
+        expectLikeCpu(scene, view, settings);
+        unlikeSplats +=
+            differingShare(onGl(scene, view, plain).colour, onGl(scene, view, settings).colour, 8);
+      }
+    }
+  EXPECT_GT(unlikeSplats, 0.05) << "nothing is filtered";
+}
+
+TEST_F(GlPoints, FiltersMirrorsAndWhatPanesTintAsTheCpuDoes) {
+  test::MirrorScene mirrors{test::randomBoxes(12, 50, 3.4), {}};
+  mirrors.mirrors.push_back({0, 4, {-2, 0.4}, {2.5, 2.8}, {0.9f, 0.8f, 0.7f}, 1});
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const int region = *layout->regionAt({0.1, 0.05});
+  ViewSettings settings = withoutFill();
+  settings.reconstruction = Reconstruction::filtered;
+  for (const bool glass : {false, true}) {
+    if (glass) mirrors.surfaces.boxes.push_back({{3.5, -1, 0.8}, {3.51, 1, 1.9}, {0.1f, 0.2f, 0.6f, 0.4f}});
+    const WalkScene scene = test::walkScene(mirrors, layout, region, 3);
+    PerspectiveView view = nextView(*layout, region, 70);
+    view.yawRadians = view.pitchRadians = 0;
+    const Frame cpu = onCpu(scene, view, settings), gl = onGl(scene, view, settings);
+    // The edges of panes differ by which splat tints them.
+    EXPECT_LE(differingShare(cpu.colour, gl.colour, glass ? 2 : 0), glass ? 0.01 : kMostDifferingShare);
+    EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare);
+  }
+}
+
+TEST_F(GlPoints, ShowsTheNearestWithADepthTest) {
+  // How far list priority may be from it: splats of what is kept behind an edge lap over it by a pixel.
+  constexpr double kMostByOrder = 0.02, kMeanByOrder = 0.005;
+  for (Configuration configuration : {Configuration::b, Configuration::e}) {
+    const auto layout = test::layoutAroundOrigin(configuration);
+    const int region = *layout->regionAt({0.1, 0.05});
+    const WalkScene scene = test::walkScene(test::randomBoxes(3, 60, 3.4), layout, region, 4);
+    ViewSettings settings = withoutFill();
+    double sum = 0;
+    constexpr int kViews = 8;
+    for (int i = 0; i < kViews; ++i) {
+      settings.secondaryCover = i % 2 == 0;
+      const PerspectiveView view = nextView(*layout, region, 60);
+      settings.renderer = Renderer::glZbuffer;
+      expectLikeCpu(scene, view, settings);
+      const Frame nearest = onGl(scene, view, settings);
+      settings.renderer = Renderer::gl;
+      const double share = differingShare(onGl(scene, view, settings).colour, nearest.colour);
+      EXPECT_LE(share, kMostByOrder);
+      sum += share;
+    }
+    EXPECT_LE(sum / kViews, kMeanByOrder);
+    EXPECT_GT(sum, 0) << "no depth test is made";
+  }
+}
+
+TEST_F(GlPoints, LaysPanesOverTheNearestWithADepthTest) {
+  AnalyticScene analytic = test::randomBoxes(8, 50, 5);
+  analytic.boxes.push_back({{3.4, -3, 0.5}, {3.41, 3, 2.6}, {0.7f, 0.2f, 0.1f, 0.5f}});
+  const auto layout = test::layoutAroundOrigin(Configuration::b);
+  const int region = *layout->regionAt({0, 0});
+  const WalkScene scene = test::walkScene(analytic, layout, region, 3, 3);
+  PerspectiveView view;
+  view.width = 321, view.height = 199;
+  view.eye = {0.5, -0.4, layout->eyeZ()};
+  ViewSettings settings = withoutFill();
+  settings.renderer = Renderer::glZbuffer;
+  const Frame cpu = onCpu(scene, view, settings), gl = onGl(scene, view, settings);
+  EXPECT_LE(differingShare(cpu.colour, gl.colour, 2), 0.03);
+  EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare);
+  ASSERT_EQ(cpu.holeCount(), gl.holeCount());
 }
 
 TEST_F(GlPoints, DrawsNoSplatLargerThanAllowedAndCutsThemAtTheBorder) {
@@ -231,6 +315,12 @@ TEST_F(GlPoints, RefusesWhatTheCpuRefuses) {
   ViewSettings settings;
   settings.maxSplatPixels = 65;
   EXPECT_EQ(renderer_->draw(scene, view, settings).error().kind, ErrorKind::invalidArgument);
+  TaskRunner runner(0);
+  settings = {};
+  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer}) {
+    settings.renderer = renderer;
+    EXPECT_FALSE(renderFrame(scene, view, settings, runner)) << "what is drawn here is not drawn there";
+  }
 }
 
 TEST_F(GlPoints, PaintsTheBackgroundWhereTheCpuDoes) {

@@ -1,0 +1,92 @@
+#include "engine/cli/bench_gl/gl_timing.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/stopwatch.h"
+#include "engine/measure/statistics.h"
+#include "engine/view_gl/gl_renderer.h"
+
+namespace acentric::cli {
+namespace {
+
+constexpr const char* kMeasured =
+    "frame: wall time from planning the view until the card has finished drawing (glFinish), the picture not "
+    "read back; card: the same by the card's clock (GL_TIMESTAMP), without planning; readBack: reading "
+    "colours and sources back afterwards";
+
+struct Times {
+  std::vector<double> frame, card, readBack;  // milliseconds
+  std::uint64_t samples = 0;
+  FrameStats last;
+};
+
+std::vector<PerspectiveView> viewsOf(const PackedWalk& packed, const GlTimingOptions& options) {
+  const std::size_t all = packed.path.poses.size();
+  const std::size_t count = options.frames > 0 ? std::min(all, std::size_t(options.frames)) : all;
+  std::vector<PerspectiveView> views;
+  for (std::size_t i = 0; i < count; ++i)
+    views.push_back(viewAt(packed.path.poses[i * all / count], packed.project.fovDegrees, options.pixels));
+  return views;
+}
+
+}  // namespace
+
+Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options) {
+  auto context = HeadlessContext::create();
+  if (!context) return tl::unexpected(context.error());
+  const auto renderer = GlRenderer::create();
+  if (!renderer) return tl::unexpected(renderer.error());
+  const std::vector<PerspectiveView> views = viewsOf(packed, options);
+  std::vector<Times> times(options.modes.size());
+  for (int repeat = 0; repeat < options.repeats + 1; ++repeat)
+    for (const PerspectiveView& view : views)
+      for (std::size_t m = 0; m < times.size(); ++m) {
+        ViewSettings settings = packed.project.view;
+        settings.renderer = options.modes[m].renderer;
+        settings.reconstruction = options.modes[m].reconstruction;
+        const auto stats = (*renderer)->draw(packed.walk, view, settings);
+        if (!stats) return tl::unexpected(stats.error());
+        const Stopwatch reading;
+        if ((*renderer)->readBack().source.empty()) return fail(ErrorKind::internal, "no picture was drawn");
+        if (repeat == 0) continue;  // sends captures to the card, compiles shaders
+        times[m].frame.push_back(stats->totalSeconds * 1e3);
+        times[m].card.push_back((*renderer)->cardSeconds() * 1e3);
+        times[m].readBack.push_back(reading.seconds() * 1e3);
+        times[m].samples += stats->samplesRead;
+        times[m].last = *stats;
+      }
+
+  GlTiming out;
+  out.json = {{"version", ACENTRIC_VERSION}, {"glRenderer", (*context)->description()},
+              {"width", options.pixels.x},   {"height", options.pixels.y},
+              {"frames", views.size()},      {"repeats", options.repeats},
+              {"measured", kMeasured},       {"renderers", nlohmann::ordered_json::array()}};
+  out.text = fmt::format("{}\n{}x{}, {} frames x {}\n", (*context)->description(), options.pixels.x,
+                         options.pixels.y, views.size(), options.repeats);
+  for (std::size_t m = 0; m < times.size(); ++m) {
+    const Spread frame = spreadOf(times[m].frame), card = spreadOf(times[m].card),
+                 readBack = spreadOf(times[m].readBack);
+    const std::string name = nameOf(options.modes[m].renderer),
+                      reconstruction = nameOf(options.modes[m].reconstruction);
+    const double samples = double(times[m].samples) / double(std::max<std::size_t>(times[m].frame.size(), 1));
+    out.json["renderers"].push_back({{"renderer", name},
+                                     {"reconstruction", reconstruction},
+                                     {"frameMsMedian", frame.median},
+                                     {"frameMsP99", frame.p99},
+                                     {"cardMsMedian", card.median},
+                                     {"cardMsP99", card.p99},
+                                     {"readBackMsMedian", readBack.median},
+                                     {"framesPerSecond", frame.median > 0 ? 1e3 / frame.median : 0},
+                                     {"samplesPerFrame", samples},
+                                     {"localTriangles", times[m].last.localTriangles}});
+    out.text += fmt::format(
+        "  {:<10} {:<8} frame {:8.3f} ms median, {:8.3f} ms p99; card {:8.3f} ms; read back {:7.3f} ms; "
+        "{:.2f} M "
+        "samples\n",
+        name, reconstruction, frame.median, frame.p99, card.median, readBack.median, 1e-6 * samples);
+  }
+  out.text += fmt::format("{}\n", kMeasured);
+  return out;
+}
+
+}  // namespace acentric::cli

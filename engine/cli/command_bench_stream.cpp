@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "engine/base/stopwatch.h"
+#include "engine/cli/commands.h"
+#include "engine/cli/machine.h"
+#include "engine/cli/path_frames.h"
+#include "engine/measure/statistics.h"
+#include "engine/pipeline/walk_stream.h"
+#include "engine/view/view_cameras.h"
+
+namespace acentric::cli {
+namespace {
+
+constexpr double kFrameSeconds = 1.0 / 60;
+constexpr double kTurnRadiansPerSecond = 1.6;
+
+/// Views along a path by the time at which a walker reaches them.
+class TimedPath {
+ public:
+  TimedPath(const std::vector<PerspectiveView>& views, double metresPerSecond) : views_(views) {
+    at_.push_back(0);
+    for (std::size_t i = 1; i < views.size(); ++i) {
+      const double metres = glm::distance(views[i - 1].eye, views[i].eye);
+      const double turned = std::abs(std::remainder(views[i].yawRadians - views[i - 1].yawRadians, kTwoPi));
+      at_.push_back(at_.back() + std::max(metres / metresPerSecond, turned / kTurnRadiansPerSecond));
+    }
+  }
+  double seconds() const { return at_.back(); }
+
+  struct Pose {
+    PerspectiveView view;
+    glm::dvec2 velocity{0};
+  };
+  Pose at(double seconds) const {
+    const auto after = std::upper_bound(at_.begin(), at_.end(), seconds);
+    const auto i =
+        std::size_t(std::clamp<std::ptrdiff_t>(after - at_.begin(), 1, std::ptrdiff_t(at_.size()) - 1));
+    if (views_.size() < 2) return {views_.front()};
+    const PerspectiveView &from = views_[i - 1], &to = views_[i];
+    const double length = at_[i] - at_[i - 1];
+    const double share = length > 0 ? std::clamp((seconds - at_[i - 1]) / length, 0.0, 1.0) : 1;
+    Pose pose{between(from, to, share)};
+    if (length > 0) pose.velocity = glm::dvec2(to.eye - from.eye) / length;
+    return pose;
+  }
+
+ private:
+  const std::vector<PerspectiveView>& views_;
+  std::vector<double> at_;
+};
+
+/// What the frames of a walk were like.
+struct WalkTally {
+  std::vector<double> frameMs, takeMs;
+  int incomplete = 0;  ///< frames with a camera of which nothing was there
+  int coarse = 0;      ///< frames with a coarse stand-in
+  double firstFullSeconds = -1;
+
+  void count(const LoadedWalk& walk, const ViewCameras& needed, double seconds) {
+    bool missing = false, standIn = false;
+    for (const int camera : needed.cameras) {
+      missing = missing || !walk.walk.captures[std::size_t(camera)];
+      standIn = standIn || walk.standsIn[std::size_t(camera)];
+    }
+    incomplete += missing;
+    coarse += standIn && !missing;
+    if (!missing && !standIn && firstFullSeconds < 0) firstFullSeconds = seconds;
+  }
+};
+
+std::uint64_t peakResidentBytes() {
+  rusage usage{};
+  (void)::getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+Result<Report> runBenchStream(const BenchOptions& options, const Common& common) {
+  const auto walk =
+      openAlong(options.project, options.path, options.size, 0, options.frames, common, Along::oneStorey);
+  if (!walk) return tl::unexpected(walk.error());
+  const OpenProject& open = walk->storeys.front();
+  ViewSettings settings = open.project.view;
+  const auto renderer = parseRenderer(options.renderers.front());
+  if (!renderer) return tl::unexpected(renderer.error());
+  settings.renderer = *renderer;
+  if (onOpenGl(*renderer))
+    return fail(ErrorKind::unsupported,
+                "--stream walks with renderers of the processor: give --renderers list", "--renderers");
+  if (!options.reconstruction.empty()) {
+    const auto parsed = parseReconstruction(options.reconstruction);
+    if (!parsed) return tl::unexpected(parsed.error());
+    settings.reconstruction = *parsed;
+  }
+  const auto runner = common.runner();
+  const std::uint64_t residentBefore = peakResidentBytes();
+
+  const Stopwatch clock;
+  auto start = startWalk(open, nullptr);
+  if (!start) return tl::unexpected(start.error());
+  const TimedPath path(walk->views, options.metresPerSecond);
+  WalkStreamOptions streaming;
+  streaming.memoryBytes = common.walkBytes();
+  streaming.panoramas = settings.secondaryCover;
+  const auto first = path.at(0);
+  streaming.where = {glm::dvec2(first.view.eye), first.view.yawRadians, first.velocity};
+  WalkStream stream(std::move(*start), streaming);
+  const double openSeconds = clock.seconds();
+
+  WalkTally tally;
+  FrameMemory memory;
+  const Stopwatch walking;
+  for (bool last = false; !last;) {
+    if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
+    const Stopwatch frameTime;
+    const double now = walking.seconds();
+    last = now >= path.seconds();
+    auto [view, velocity] = path.at(now);
+    view.eye = clampToLayout(*open.layout, view.eye);
+    if (common.progress) common.progress({std::min(now, path.seconds()), path.seconds(), "walking"});
+    const Stopwatch taking;
+    stream.go({glm::dvec2(view.eye), view.yawRadians, velocity});
+    const auto snapshot = stream.walk();
+    tally.takeMs.push_back(taking.seconds() * 1e3);
+    auto frame = renderFrame(snapshot->walk, view, settings, *runner, memory);
+    if (!frame) return tl::unexpected(frame.error());
+    memory.frame = std::move(*frame);
+    tally.frameMs.push_back(frameTime.seconds() * 1e3);
+    tally.count(*snapshot, camerasOf(*open.layout, view, settings), now);
+    const double rest = kFrameSeconds - frameTime.seconds();
+    if (rest > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest));
+  }
+
+  const Spread frames = spreadOf(tally.frameMs), takes = spreadOf(tally.takeMs);
+  const WalkStreamStats stats = stream.stats();
+  const auto count = tally.frameMs.size();
+  Report report;
+  report.json = {{"version", ACENTRIC_VERSION},
+                 {"processor", processorName()},
+                 {"threads", runner->threads()},
+                 {"project", options.project.string()},
+                 {"renderer", options.renderers.front()},
+                 {"width", walk->size.width},
+                 {"height", walk->size.height},
+                 {"metresPerSecond", options.metresPerSecond},
+                 {"walkSeconds", path.seconds()},
+                 {"openSeconds", openSeconds},
+                 {"firstFullSeconds", tally.firstFullSeconds},
+                 {"frames", count},
+                 {"incompleteFrames", tally.incomplete},
+                 {"coarseFrames", tally.coarse},
+                 {"frameMsMedian", frames.median},
+                 {"frameMsP99", frames.p99},
+                 {"frameMsMax", frames.max},
+                 {"snapshotMsMax", takes.max},
+                 {"limitBytes", stats.limitBytes},
+                 {"peakBytes", stats.peakBytes},
+                 {"beyondLimitBytes", stats.beyondLimit},
+                 {"residentBytesBefore", residentBefore},
+                 {"residentBytesPeak", peakResidentBytes()},
+                 {"loads", stats.loads},
+                 {"coarseLoads", stats.coarseLoads},
+                 {"evictions", stats.evictions},
+                 {"warnings", stream.takeWarnings()}};
+  report.text = fmt::format(
+      "{}, {} threads, {}x{}, {:.1f} s walked at {:.2f} m/s; ready in {:.2f} s, all of a view there after "
+      "{:.2f} s\n"
+      "  {} frames: {} with coarse captures, {} with captures missing\n"
+      "  frame {:.2f} ms median, {:.2f} ms p99, {:.2f} ms max; taking the captures {:.3f} ms max\n"
+      "  captures {} of {} at most; {} loads, {} coarse, {} evictions; {} resident at most ({} before)\n",
+      processorName(), runner->threads(), walk->size.width, walk->size.height, path.seconds(),
+      options.metresPerSecond, openSeconds, tally.firstFullSeconds, count, tally.coarse, tally.incomplete,
+      frames.median, frames.p99, frames.max, takes.max, bytesText(stats.peakBytes),
+      bytesText(stats.limitBytes), stats.loads, stats.coarseLoads, stats.evictions,
+      bytesText(peakResidentBytes()), bytesText(residentBefore));
+  return report;
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,12 @@
+#pragma once
+/// A capture at a fraction of its resolution, to be shown where the whole one is not in memory.
+
+#include "engine/image/capture.h"
+
+namespace acentric {
+
+/// Of every `factor` x `factor` pixels the one in their middle with all its layers, of the whole camera's
+/// view; at least one column and row. `factor` >= 1; 1 gives the capture itself.
+Capture coarsened(const Capture& capture, int factor);
+
+}  // namespace acentric

@@ -1,0 +1,511 @@
+#include "engine/pipeline/walk_stream.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+#include "engine/base/contract.h"
+#include "engine/base/physical_memory.h"
+#include "engine/base/priority.h"
+#include "engine/geometry/conventions.h"
+#include "engine/image/coarse_capture.h"
+
+namespace acentric {
+namespace {
+
+/// Coarse renditions have so much of the memory at most.
+constexpr std::size_t kCoarseShare = 4;
+/// As in previews: a quarter of the columns and rows.
+constexpr int kCoarseFactor = 4;
+/// What a coarse rendition takes, with a margin for what does not shrink with the pixels.
+constexpr std::size_t coarseBytesOf(std::size_t full) {
+  return 3 * full / (2 * kCoarseFactor * kCoarseFactor);
+}
+/// A frame in the making gives back what was evicted meanwhile; a loader waits for it no longer than this.
+constexpr auto kLongestFrame = std::chrono::milliseconds(100);
+/// How often snapshots that frames no longer use are looked for.
+constexpr auto kSweep = std::chrono::milliseconds(30);
+
+template <class T>
+std::size_t bytesOf(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+std::size_t bytesOf(const DisplayCapture& c) {
+  const DisplayBackground& b = c.background;
+  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.row) + bytesOf(c.inverseDistance) + bytesOf(c.colour) +
+         bytesOf(c.roles) + bytesOf(c.slant) + bytesOf(c.columnDirection) + bytesOf(c.rowTangent) +
+         bytesOf(c.columnRange) + bytesOf(c.blocks) + bytesOf(c.columnBlock) + bytesOf(c.mirror) +
+         b.runs.bytes() + bytesOf(b.columnBorder) + bytesOf(b.rowBorder) +
+         (c.reflections ? bytesOf(*c.reflections) : 0);
+}
+
+/// A capture that is counted for as long as anybody uses it.
+struct Counted {
+  std::shared_ptr<MemoryBudget> budget;
+  MemoryBudget::Share share;
+  std::shared_ptr<const DisplayCapture> capture;
+};
+
+/// Is it far enough from where the loaders last looked to look again?
+bool moved(const Whereabouts& from, const Whereabouts& to, double cellSize) {
+  const double turned = std::abs(std::remainder(to.yawRadians - from.yawRadians, kTwoPi));
+  const auto heading = [](const glm::dvec2& v) { return v == glm::dvec2(0) ? v : glm::normalize(v); };
+  return glm::distance(from.eye, to.eye) > 0.02 * cellSize || turned > radians(10.0) ||
+         glm::distance(heading(from.velocity), heading(to.velocity)) > 0.3;
+}
+
+}  // namespace
+
+std::size_t usualWalkMemory() { return physicalMemory() / 2; }
+
+WalkStream::WalkStream(WalkStart start, WalkStreamOptions options)
+    : source_(std::move(start.source)),
+      options_(std::move(options)),
+      needs_(regionNeeds(*start.walk.walk.layout, options_.panoramas)),
+      held_(start.walk.captureMemory),
+      now_(std::move(start.walk)),
+      where_(options_.where) {
+  const std::size_t cameras = now_.walk.captures.size();
+  for (Tier& t : tiers_) {
+    t.bytes.assign(cameras, 0);
+    t.residence.assign(cameras, Residence::absent);
+    t.lastUse.assign(cameras, 0);
+    t.captures.resize(cameras);
+    t.measured.assign(cameras, 0);
+    t.made.assign(cameras, 0);
+  }
+  guessBytes();
+  for (std::size_t c = 0; c < cameras; ++c)
+    if (now_.walk.captures[c]) insert(Detail::full, int(c), now_.walk.captures[c], false);
+  locals_.assign(now_.walk.local.size(), Residence::absent);
+  for (std::size_t r = 0; r < locals_.size(); ++r)
+    if (now_.walk.local[r]) locals_[r] = Residence::resident;
+  snapshot_ = std::make_shared<const LoadedWalk>(now_);
+  follow();
+  const std::size_t loaders = options_.threads > 0 ? std::size_t(options_.threads) + 1 : 0;
+  idleAt_.assign(loaders, 0);
+  for (std::size_t i = 0; i < loaders; ++i)
+    loaders_.emplace_back([this, i, loaders](const std::stop_token& stop) {
+      loaderLoop(i + 1 < loaders ? Duty::needed : Duty::ahead, idleAt_[i], stop);
+    });
+}
+
+WalkStream::~WalkStream() {
+  for (auto& loader : loaders_) loader.request_stop();
+  loaders_.clear();
+}
+
+void WalkStream::go(const Whereabouts& where) {
+  {
+    const std::lock_guard lock(wake_);
+    if (!moved(where_, where, now_.walk.layout->spec.cellSize)) return;
+    where_ = where;
+    ++calls_;
+  }
+  woken_.notify_all();
+}
+
+std::shared_ptr<const LoadedWalk> WalkStream::walk() const {
+  const std::lock_guard lock(published_);
+  return snapshot_;
+}
+
+std::vector<std::string> WalkStream::takeWarnings() {
+  const std::lock_guard lock(state_);
+  return std::exchange(warnings_, {});
+}
+
+bool WalkStream::busy() const {
+  const std::lock_guard lock(wake_);
+  return std::ranges::any_of(idleAt_, [this](std::uint64_t call) { return call != calls_; });
+}
+
+WalkStreamStats WalkStream::stats() const {
+  const std::lock_guard lock(state_);
+  WalkStreamStats stats = counts_;
+  stats.limitBytes = options_.memoryBytes;
+  stats.bytes = held_->held();
+  stats.peakBytes = held_->peak();
+  for (std::size_t c = 0; c < now_.walk.captures.size(); ++c)
+    if (now_.walk.captures[c]) ++(now_.standsIn[c] ? stats.coarse : stats.full);
+  return stats;
+}
+
+// The loaders
+// ------------------------------------------------------------------------------------------------------------
+
+void WalkStream::loaderLoop(Duty duty, std::uint64_t& idleAt, const std::stop_token& stop) {
+  if (duty == Duty::ahead) lowerThreadPriority();  // frames come first
+  while (!stop.stop_requested()) {
+    std::uint64_t seen = 0;
+    {
+      const std::lock_guard lock(wake_);
+      seen = calls_;
+    }
+    clearUnused();
+    bool retired = false;
+    std::optional<Task> task;
+    {
+      const std::lock_guard lock(state_);
+      task = next(duty);
+      retired = !retired_.empty();
+    }
+    if (task) {
+      waitForRoom(*task, stop);
+      Read result = read(*task, stop);
+      if (stop.stop_requested()) return;
+      finish(*task, std::move(result));
+      continue;
+    }
+    std::unique_lock lock(wake_);
+    idleAt = seen;
+    const auto called = [&] { return calls_ != seen; };
+    while (!stop.stop_requested() && !called()) {
+      if (!retired) {
+        (void)woken_.wait(lock, stop, called);
+      } else if (!woken_.wait_for(lock, stop, kSweep, called)) {
+        lock.unlock();
+        retired = clearUnused();
+        lock.lock();
+      }
+    }
+  }
+}
+
+/// Looks again at where the eye is.
+void WalkStream::follow() {
+  Whereabouts where;
+  {
+    const std::lock_guard lock(wake_);
+    where = where_;
+  }
+  distances_ = walkDistances(*now_.walk.layout, needs_, where);
+  for (Tier& t : tiers_)
+    for (std::size_t c = 0; c < t.captures.size(); ++c)
+      if (t.captures[c] && distances_.camera[c] <= 0) t.lastUse[c] = ++uses_;
+}
+
+std::optional<WalkStream::Task> WalkStream::next(Duty duty) {
+  follow();
+  const auto step = [&](Detail detail) {
+    const ResidencyPlan planned = plan(detail, distances_.camera, 1);
+    evict(detail, planned.evict);
+    if (detail == Detail::full) counts_.beyondLimit = planned.beyondLimit;
+    return planned.steps.empty() ? std::optional<ResidencyPlan::Step>() : planned.steps.front();
+  };
+  const std::size_t evictions = std::size_t(counts_.evictions);
+  const auto coarse = step(Detail::coarse), full = step(Detail::full);
+  const auto isNeeded = [&](const auto& s) { return s && distances_.camera[std::size_t(s->load)] <= 0; };
+  const auto take = [&](Detail detail, const ResidencyPlan::Step& chosen) {
+    evict(detail, chosen.evict);
+    return Task{detail == Detail::full ? Task::What::full : Task::What::coarse, chosen.load};
+  };
+  const auto here = nextLocal(0);
+  const auto choose = [&]() -> std::optional<Task> {
+    if (isNeeded(coarse)) return take(Detail::coarse, *coarse);
+    if (here) return Task{Task::What::local, *here};
+    if (isNeeded(full)) return take(Detail::full, *full);
+    if (coarse) return take(Detail::coarse, *coarse);
+    if (const auto region = nextLocal(std::numeric_limits<double>::infinity()))
+      return Task{Task::What::local, *region};
+    if (full) return take(Detail::full, *full);
+    return nextSketch();
+  };
+  const bool needed = isNeeded(coarse) || here || isNeeded(full);
+  std::optional<Task> task;
+  if (needed == (duty == Duty::needed)) task = choose();
+  if (task) begin(*task);
+  if (task && task->what == Task::What::full)
+    task->standIn = !allFit_ && source_->storedBytes(task->index, Detail::coarse) == 0;
+  if (std::size_t(counts_.evictions) != evictions) publish();
+  return task;
+}
+
+std::optional<int> WalkStream::nextLocal(double within) const {
+  int nearest = -1;
+  for (std::size_t r = 0; r < locals_.size(); ++r)
+    if (locals_[r] == Residence::absent && distances_.region[r] <= within &&
+        (nearest < 0 || distances_.region[r] < distances_.region[std::size_t(nearest)]))
+      nearest = int(r);
+  return nearest < 0 ? std::nullopt : std::optional(nearest);
+}
+
+/// A camera that memory does not hold and that nothing stands in for yet.
+std::optional<WalkStream::Task> WalkStream::nextSketch() const {
+  if (allFit_) return std::nullopt;
+  const Tier &full = tier(Detail::full), &coarse = tier(Detail::coarse);
+  int nearest = -1;
+  for (std::size_t c = 0; c < full.bytes.size(); ++c)
+    if (full.bytes[c] > 0 && full.residence[c] == Residence::absent &&
+        coarse.residence[c] == Residence::absent &&
+        distances_.camera[c] < std::numeric_limits<double>::infinity() &&
+        (nearest < 0 || distances_.camera[c] < distances_.camera[std::size_t(nearest)]))
+      nearest = int(c);
+  if (nearest < 0) return std::nullopt;
+  if (taken(Detail::coarse) + coarseBytesOf(full.bytes[std::size_t(nearest)]) > limitOf(Detail::coarse))
+    return std::nullopt;
+  return Task{Task::What::sketch, nearest, true};
+}
+
+std::size_t WalkStream::taken(Detail detail) const {
+  const Tier& t = tier(detail);
+  std::size_t bytes = 0;
+  for (std::size_t c = 0; c < t.bytes.size(); ++c)
+    if (t.residence[c] != Residence::absent) bytes += t.bytes[c];
+  return bytes;
+}
+
+std::size_t WalkStream::limitOf(Detail detail) const {
+  if (detail == Detail::coarse) return options_.memoryBytes / kCoarseShare;
+  return options_.memoryBytes -
+         std::min(options_.memoryBytes, std::max(taken(Detail::coarse), allFit_ ? 0 : coarseBytes_));
+}
+
+ResidencyPlan WalkStream::plan(Detail detail, std::span<const double> distance, std::size_t mostSteps) const {
+  const Tier& t = tier(detail);
+  std::vector<std::size_t> bytes = t.bytes;
+  if (detail == Detail::coarse)  // nothing stands in for what is there
+    for (std::size_t c = 0; c < bytes.size(); ++c)
+      if (t.residence[c] == Residence::absent && tier(Detail::full).captures[c]) bytes[c] = 0;
+  return planResidency({distance, bytes, t.residence, t.lastUse, limitOf(detail), mostSteps});
+}
+
+void WalkStream::evict(Detail detail, std::span<const int> cameras) {
+  for (const int camera : cameras) drop(detail, camera);
+  counts_.evictions += int(cameras.size());
+}
+
+void WalkStream::drop(Detail detail, int camera) {
+  Tier& t = tier(detail);
+  const auto c = std::size_t(camera);
+  t.captures[c].reset();
+  t.residence[c] = Residence::absent;
+  if (t.made[c]) t.bytes[c] = 0;
+  show(camera);
+}
+
+void WalkStream::begin(const Task& task) {
+  const auto i = std::size_t(task.index);
+  if (task.what == Task::What::local)
+    locals_[i] = Residence::loading;
+  else
+    tier(task.what == Task::What::full ? Detail::full : Detail::coarse).residence[i] = Residence::loading;
+}
+
+/// Evicted captures are gone when the frames that use them are done.
+void WalkStream::waitForRoom(const Task& task, const std::stop_token& stop) {
+  if (task.what != Task::What::full) return;
+  const auto until = std::chrono::steady_clock::now() + kLongestFrame;
+  while (!stop.stop_requested() && std::chrono::steady_clock::now() < until) {
+    clearUnused();
+    {
+      const std::lock_guard lock(state_);
+      const std::size_t held = held_->held();
+      if (held + tier(Detail::full).bytes[std::size_t(task.index)] <= options_.memoryBytes) return;
+      std::size_t known = 0;
+      for (const Tier& t : tiers_)
+        for (std::size_t c = 0; c < t.bytes.size(); ++c)
+          if (t.captures[c]) known += t.bytes[c];
+      if (held <= known) return;  // nothing is on its way out
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+WalkStream::Read WalkStream::read(const Task& task, const std::stop_token& stop) const {
+  Read result;
+  if (task.what == Task::What::local) {
+    result.local = source_->local(task.index, stop);
+    return result;
+  }
+  const Detail detail = task.what == Task::What::coarse ? Detail::coarse : Detail::full;
+  const auto capture = source_->capture(task.index, detail);
+  if (!capture) {
+    result.error = capture.error();
+    return result;
+  }
+  try {
+    const auto prepared = [&](const Capture& from) {
+      return counted(std::make_shared<const DisplayCapture>(prepareForDisplay(from, now_.walk.exposure)));
+    };
+    if (task.what == Task::What::coarse) result.coarse = prepared(*capture);
+    if (task.what == Task::What::full) result.full = prepared(*capture);
+    if (task.standIn) result.coarse = prepared(coarsened(*capture, kCoarseFactor));
+  } catch (const std::bad_alloc&) {
+    result = {};
+    result.error = Error{ErrorKind::outOfSpace,
+                         "not enough memory for a capture: give the walk a lower limit of memory", "walk"};
+  }
+  return result;
+}
+
+void WalkStream::finish(const Task& task, Read result) {
+  {
+    const std::lock_guard lock(state_);
+    const auto i = std::size_t(task.index);
+    if (task.what == Task::What::local) {
+      locals_[i] = result.local.geometry ? Residence::resident : Residence::absent;
+      now_.walk.local[i] = std::move(result.local.geometry);
+      if (result.local.simplified) {
+        now_.simplified.push_back(*result.local.simplified);
+        std::ranges::sort(now_.simplified, {}, &LoadedWalk::Simplified::region);
+      }
+      std::ranges::move(result.local.warnings, std::back_inserter(warnings_));
+    } else if (result.error) {
+      // It is not asked for again.
+      warnings_.push_back(result.error->describe());
+      const bool coarse = task.what == Task::What::coarse;
+      Tier& asked = tier(coarse ? Detail::coarse : Detail::full);
+      asked.bytes[i] = 0;
+      asked.measured[i] = 1;
+      asked.residence[i] = Residence::absent;
+      if (task.what == Task::What::sketch) tier(Detail::coarse).residence[i] = Residence::absent;
+      if (!coarse) ++now_.missing;
+    } else {
+      if (result.coarse)
+        insert(Detail::coarse, task.index, std::move(result.coarse), task.what != Task::What::coarse);
+      if (result.full) {
+        insert(Detail::full, task.index, std::move(result.full), false);
+        if (allFit_ && tier(Detail::coarse).captures[i])
+          drop(Detail::coarse, task.index);  // not needed again
+      }
+      ++(task.what == Task::What::full ? counts_.loads : counts_.coarseLoads);
+      guessBytes();
+    }
+    if (options_.threads > 0) publish();
+  }
+  {
+    const std::lock_guard lock(wake_);
+    ++calls_;
+  }
+  woken_.notify_all();
+}
+
+void WalkStream::insert(Detail detail, int camera, CapturePtr capture, bool made) {
+  Tier& t = tier(detail);
+  const auto c = std::size_t(camera);
+  t.bytes[c] = bytesOf(*capture);
+  t.measured[c] = 1;
+  t.made[c] = made;
+  t.residence[c] = Residence::resident;
+  t.lastUse[c] = ++uses_;
+  t.captures[c] = std::move(capture);
+  if (detail == Detail::full) {
+    readStored_ += source_->storedBytes(camera, detail);
+    readBytes_ += t.bytes[c];
+  }
+  show(camera);
+}
+
+WalkStream::CapturePtr WalkStream::counted(CapturePtr capture) const {
+  auto counted = std::make_shared<Counted>();
+  counted->budget = held_;
+  counted->share = MemoryBudget::Share(*held_);
+  counted->share.set(bytesOf(*capture));
+  counted->capture = std::move(capture);
+  return {counted, counted->capture.get()};
+}
+
+/// What each capture that was not read yet will take, from those that were.
+void WalkStream::guessBytes() {
+  if (readStored_ > 0) bytesPerStored_ = double(readBytes_) / double(readStored_);
+  std::size_t all = 0;
+  coarseBytes_ = 0;
+  for (const Detail detail : {Detail::coarse, Detail::full}) {
+    Tier& t = tier(detail);
+    for (std::size_t c = 0; c < t.bytes.size(); ++c) {
+      if (!t.measured[c])
+        t.bytes[c] = std::size_t(bytesPerStored_ * double(source_->storedBytes(int(c), detail)));
+      if (detail == Detail::full) all += t.bytes[c];
+      if (detail == Detail::full && tier(Detail::coarse).bytes[c] == 0)
+        coarseBytes_ += coarseBytesOf(t.bytes[c]);
+      if (detail == Detail::coarse) coarseBytes_ += t.bytes[c];
+    }
+  }
+  allFit_ = all <= options_.memoryBytes;
+  coarseBytes_ = options_.threads > 0 ? std::min(coarseBytes_, limitOf(Detail::coarse)) : 0;
+}
+
+void WalkStream::show(int camera) {
+  const auto c = std::size_t(camera);
+  const CapturePtr& full = tier(Detail::full).captures[c];
+  now_.walk.captures[c] = full ? full : tier(Detail::coarse).captures[c];
+  now_.standsIn[c] = !full && now_.walk.captures[c];
+}
+
+void WalkStream::publish() {
+  auto next = std::make_shared<const LoadedWalk>(now_);
+  {
+    const std::lock_guard lock(published_);
+    std::swap(snapshot_, next);
+  }
+  retired_.push_back(std::move(next));
+  if (options_.wake) options_.wake();
+}
+
+bool WalkStream::clearUnused() {
+  std::vector<WalkPtr> cleared;  // when the lock is given back
+  const std::lock_guard lock(state_);
+  const auto unused = std::partition(retired_.begin(), retired_.end(),
+                                     [](const WalkPtr& walk) { return walk.use_count() > 1; });
+  std::move(unused, retired_.end(), std::back_inserter(cleared));
+  retired_.erase(unused, retired_.end());
+  return !retired_.empty();
+}
+
+// Without threads
+// ------------------------------------------------------------------------------------------------------------
+
+Status WalkStream::complete(std::span<const int> cameras, std::span<const int> regions, TaskRunner& runner,
+                            const Progress& progress, const std::stop_token& stop) {
+  require(options_.threads == 0, "a stream that reads ahead is not told what to read");
+  std::vector<double> distance(now_.walk.captures.size(), std::numeric_limits<double>::infinity());
+  for (const int camera : cameras) {
+    distance[std::size_t(camera)] = -1;
+    for (Tier& t : tiers_) t.lastUse[std::size_t(camera)] = ++uses_;
+  }
+  const auto evictions = counts_.evictions;
+  std::vector<Task> tasks;
+  const auto takeSteps = [&](Detail detail) {
+    const ResidencyPlan planned = plan(detail, distance, std::numeric_limits<std::size_t>::max());
+    evict(detail, planned.evict);
+    for (const ResidencyPlan::Step& step : planned.steps) {
+      evict(detail, step.evict);
+      tasks.push_back({detail == Detail::full ? Task::What::full : Task::What::coarse, step.load});
+    }
+    return planned.beyondLimit;
+  };
+  counts_.beyondLimit = takeSteps(Detail::full);
+  for (const int region : regions)
+    if (locals_[std::size_t(region)] == Residence::absent) tasks.push_back({Task::What::local, region});
+  std::mutex counting;
+  double done = 0;
+  const auto run = [&] {
+    if (tasks.empty()) return;
+    {  // what was evicted goes before more is read
+      const std::lock_guard lock(published_);
+      snapshot_.reset();
+    }
+    retired_.clear();
+    runner.parallelFor(tasks.size(), [&](std::size_t n) {
+      if (stop.stop_requested()) return;
+      finish(tasks[n], read(tasks[n], stop));
+      const std::lock_guard lock(counting);
+      if (progress) progress({++done, double(tasks.size()), "loading captures"});
+    });
+    tasks.clear();
+  };
+  run();
+  for (std::size_t c = 0; c < distance.size(); ++c)  // for coarse ones only where nothing else is to be had
+    if (now_.walk.captures[c] != nullptr || tier(Detail::full).bytes[c] > 0)
+      distance[c] = std::numeric_limits<double>::infinity();
+  takeSteps(Detail::coarse);
+  run();
+  if (snapshot_ == nullptr || counts_.evictions != evictions) publish();  // else all was there
+  retired_.clear();
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "loading was cancelled", "walk");
+  return {};
+}
+
+}  // namespace acentric

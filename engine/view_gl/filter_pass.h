@@ -1,0 +1,26 @@
+#pragma once
+/// The last step of Reconstruction::filtered on OpenGL: each pixel's colour from the samples in it and in the
+/// eight pixels around it (view/pixel_filter.h), before local geometry is drawn.
+
+#include "engine/view_gl/frame_target.h"
+#include "engine/view_gl/gl_program.h"
+
+namespace acentric {
+
+class FilterPass {
+ public:
+  explicit FilterPass(ProgramCache& programs);
+  /// `target` has been drawn with places.
+  Status draw(const FrameTarget& target);
+
+ private:
+  Status resize(int width, int height);
+
+  ProgramCache& programs_;
+  GlVertexArray noAttributes_;
+  GlTexture filtered_;  ///< RGBA8; what is read cannot be drawn into
+  GlFramebuffer into_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace acentric
