@@ -31,6 +31,11 @@ std::size_t bytesOf(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
+std::size_t bytesOf(const SampleBlocks& b) {
+  return bytesOf(b.leastInverse) + bytesOf(b.mostInverse) + bytesOf(b.lowTangent) + bytesOf(b.highTangent) +
+         bytesOf(b.roles);
+}
+
 std::size_t bytesOf(const DisplayCapture& c) {
   const DisplayBackground& b = c.background;
   return sizeof c + bytesOf(c.columnStart) + bytesOf(c.row) + bytesOf(c.inverseDistance) + bytesOf(c.colour) +

@@ -47,18 +47,4 @@ std::optional<TangentRange> visibleTangents(const FrustumPlanes& planes, const g
   return visible;
 }
 
-bool mayBeVisible(const FrustumPlanes& planes, const glm::dvec2& columnDirection, const glm::dvec3& baseline,
-                  const glm::dvec2& range, const TangentRange& tangents) {
-  if (range.x > range.y) return false;
-  const double slack = kSlack * (1 + range.y * glm::length(baseline));
-  for (const glm::dvec3& normal : planes.normals) {
-    const double perInverseDistance = glm::dot(normal, baseline);
-    const double best = glm::dot(glm::dvec2(normal), columnDirection) +
-                        std::max(range.x * perInverseDistance, range.y * perInverseDistance) +
-                        std::max(tangents.low * normal.z, tangents.high * normal.z);
-    if (best + slack < 0) return false;
-  }
-  return true;
-}
-
 }  // namespace acentric

@@ -43,8 +43,4 @@ std::optional<TangentRange> visibleTangents(const FrustumPlanes& planes, const g
                                             const glm::dvec3& baseline, const glm::dvec2& range,
                                             const TangentRange& all);
 
-/// Can a sample of these tangents and inverse distances fall into the frustum?
-bool mayBeVisible(const FrustumPlanes& planes, const glm::dvec2& columnDirection, const glm::dvec3& baseline,
-                  const glm::dvec2& range, const TangentRange& tangents);
-
 }  // namespace acentric

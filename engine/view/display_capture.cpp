@@ -38,6 +38,11 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
     display.blended = display.blended || display.colour[i].a < 255;
   }
 
+  display.rowTangent.resize(rows);
+  for (std::size_t r = 0; r < rows; ++r)
+    display.rowTangent[r] = static_cast<float>(camera.tangentAt(static_cast<double>(r) + 0.5));
+
+  SampleBlocks& blocks = display.blocks;
   display.columnDirection.resize(columns);
   display.columnRange.resize(columns);
   display.columnBlock.resize(columns + 1);
@@ -45,21 +50,23 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
     display.columnDirection[k] = glm::vec2(camera.directionAt(static_cast<double>(k) + 0.5));
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
     display.columnRange[k] = rangeOf(capture, begin, end);
-    display.columnBlock[k] = static_cast<std::uint32_t>(display.blocks.size());
+    display.columnBlock[k] = static_cast<std::uint32_t>(blocks.roles.size());
     for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock) {
       const std::uint32_t last = std::min(i + kSamplesPerBlock, end);
-      display.blocks.push_back({rangeOf(capture, i, last), capture.row[i], capture.row[last - 1],
-                                std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
-                                                std::uint8_t(0), std::bit_or<std::uint8_t>())});
+      const glm::vec2 range = rangeOf(capture, i, last);
+      blocks.leastInverse.push_back(range.x), blocks.mostInverse.push_back(range.y);
+      blocks.lowTangent.push_back(display.rowTangent[capture.row[last - 1]]);
+      blocks.highTangent.push_back(display.rowTangent[capture.row[i]]);
+      blocks.roles.push_back(std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
+                                             std::uint8_t(0), std::bit_or<std::uint8_t>()));
     }
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];
   }
-  display.columnBlock[columns] = static_cast<std::uint32_t>(display.blocks.size());
-
-  display.rowTangent.resize(rows);
-  for (std::size_t r = 0; r < rows; ++r)
-    display.rowTangent[r] = static_cast<float>(camera.tangentAt(static_cast<double>(r) + 0.5));
+  display.columnBlock[columns] = static_cast<std::uint32_t>(blocks.roles.size());
+  for (auto* values : {&blocks.leastInverse, &blocks.mostInverse, &blocks.lowTangent, &blocks.highTangent})
+    values->resize(values->size() + kSampleRoom);
+  blocks.roles.resize(blocks.roles.size() + kSampleRoom);
   return display;
 }
 

@@ -4,10 +4,10 @@ namespace acentric {
 namespace {
 
 constexpr Kernels kKernels[] = {
-    {"scalar", projectSamplesScalar, filterPixelsScalar},
+    {"scalar", projectSamplesScalar, findBlocksScalar, filterPixelsScalar},
 #if defined(__x86_64__)
-    {"AVX2", projectSamplesAvx2, filterPixelsAvx2},
-    {"AVX-512", projectSamplesAvx512, filterPixelsAvx512},
+    {"AVX2", projectSamplesAvx2, findBlocksAvx2, filterPixelsAvx2},
+    {"AVX-512", projectSamplesAvx512, findBlocksAvx512, filterPixelsAvx512},
 #endif
 };
 

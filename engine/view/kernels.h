@@ -11,6 +11,7 @@ namespace acentric {
 struct Kernels {
   const char* name;
   ProjectSamples project;
+  FindBlocks findBlocks;
   FilterPixels filter;
 };
 

@@ -20,19 +20,25 @@ class OpenTiles {
   OpenTiles(const PixelRect& strip, const CoverImage* cover, int beside);
   /// Of what was open, that which holds pixels with slots below `openBelow`.
   OpenTiles(const OpenTiles& before, const Canvas& canvas, std::uint32_t openBelow);
+  /// Of what was open, that which holds pixels that show mirrors.
+  static OpenTiles withMirrors(const OpenTiles& before, const Canvas& canvas);
 
   bool none() const { return sums_.back() == 0; }
   bool all() const { return sums_.back() == columns_ * rows_; }
 
-  /// May a sample of these tangents and inverse distances, which the kernel puts on the picture with
-  /// `column`, reach an open pixel with its splat?
-  bool mayReach(const ProjectColumn& column, const TangentRange& tangents, const glm::vec2& range) const;
+  /// Tells a block test of them.
+  void tell(BlockTest& test) const {
+    test.openTiles = sums_.data();
+    test.tileColumns = std::int32_t(columns_), test.tileRows = std::int32_t(rows_);
+  }
 
  private:
-  static constexpr int kSide = 8;
-  bool any(int x0, int y0, int x1, int y1) const;  ///< pixels [x0, x1) x [y0, y1), cut to the strip
+  static constexpr int kSide = 1 << kTileSideBits;
   bool isOpen(std::size_t i, std::size_t j) const;
   PixelRect tile(std::size_t i, std::size_t j) const;
+  /// Of those that were open before the tiles with such pixels: `holds(x, firstY, endY)` of a column of one.
+  template <class Holds>
+  OpenTiles(const OpenTiles& before, const Holds& holds);
   /// `open(i, j)` of every tile; the tiles of one column follow each other.
   template <class Open>
   void sum(const Open& open);

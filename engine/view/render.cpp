@@ -49,6 +49,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
       settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
   WarpOptions options;
   options.project = kernels.project;
+  options.findBlocks = kernels.findBlocks;
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.cull = settings.renderer != Renderer::scalar;
   options.cover = cover;

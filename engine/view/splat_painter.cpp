@@ -53,9 +53,6 @@ bool blendInto(CanvasPixel& pixel, std::uint64_t& stamp, std::uint32_t colour, s
   return true;
 }
 
-/// Most splats are of one or two pixels a side and not cut by the rectangle.
-constexpr int kSmallSide = 2;
-
 /// `kMarks`: the canvas is told which mirrors it shows. `kPlaces`: and where samples lie. `kBehind`: only
 /// open pixels are painted.
 template <PaintMode mode, bool kMarks, bool kPlaces, bool kBehind>
@@ -69,8 +66,13 @@ class Painter {
         stamps_(target.canvas->stamps.data()),
         mirrors_(target.canvas->mirrors.data()) {}
 
-  std::uint64_t paint(const Splat* splats, int count, bool reversed, bool pixelByPixel) const {
+  [[gnu::noinline]] std::uint64_t paint(const Splat* splats, int count, bool reversed,
+                                        bool pixelByPixel) const {
     std::uint64_t painted = 0;
+    // Are all pixels' samples drawn in the order of the rows, or does some pixel's foot lie between them?
+    if (target_.range.x > target_.footInverse ? !reversed
+                                              : reversed && target_.range.y <= target_.footInverse)
+      pixelByPixel = false;
     const Splat* const end = splats + count;
     if (!pixelByPixel && reversed) {
       for (const Splat* s = end; s > splats;) painted += paint(*--s);
@@ -123,15 +125,11 @@ class Painter {
         canvasPixel((colour & 0xffffffu) | (target_.slot << 24), splat.inverseZDepth) & ~kPlace;
     std::uint8_t mirror = 0;
     if constexpr (kMarks) mirror = target_.mirror == nullptr ? std::uint8_t(0) : target_.mirror[splat.index];
-    if constexpr (kOver && !kBehind) {
-      const bool whole = splat.x >= rect_.x0 && splat.y >= rect_.y0 && splat.x + splat.width <= rect_.x1 &&
-                         splat.y + splat.height <= rect_.y1;
-      if (whole && splat.width <= kSmallSide && splat.height <= kSmallSide &&
-          (mode == PaintMode::over || opaque)) {
+    if constexpr (kOver && !kBehind)
+      if (splat.small && (mode == PaintMode::over || opaque)) {
         paintSmall(splat, plain, mirror);
         return counts(splat);
       }
-    }
     return paintAny(splat, plain, mirror, colour, opaque);
   }
 
@@ -167,6 +165,8 @@ class Painter {
     bool counted = counts(splat);
     if constexpr (kBehind)
       counted = counted && slotOf(pixels_[(x0 - rect_.x0) * height_ + y0]) < target_.openBelow;
+    if constexpr (mode == PaintMode::reflect)
+      counted = counted && y0 < y1 && mirrors_[(x0 - rect_.x0) * height_ + y0] == mirror;
     for (int x = x0; x < x1; ++x) {
       const std::ptrdiff_t start = (x - rect_.x0) * height_;
       CanvasPixel* const column = pixels_ + start;

@@ -1,7 +1,9 @@
 #pragma once
 /// Writes projected samples to the canvas.
 
+#include <cmath>
 #include <cstdint>
+#include <glm/glm.hpp>
 
 #include "engine/view/canvas.h"
 #include "engine/view/warp_kernel.h"
@@ -27,6 +29,7 @@ struct PaintTarget {
   std::uint32_t slot = 0;                ///< 1..kMaxSlots
   std::uint32_t column = 0;              ///< of the capture
   float footInverse = 0;                 ///< RowOrder::footInverse
+  glm::vec2 range{0, HUGE_VALF};         ///< least and largest inverse distance of the splats
   int countedFrom = 0, countedTo = 0;    ///< columns of the picture whose splats are counted
   /// If not 0, only pixels with lesser slots are painted: those that nothing in front has covered.
   std::uint32_t openBelow = 0;

@@ -12,16 +12,18 @@
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
 #include "engine/view/slant_code.h"
+#include "engine/view/warp_kernel.h"
 
 namespace acentric {
 
 inline constexpr std::uint32_t kSamplesPerBlock = 64;
 
-/// What is known of that many successive samples of a column, or of the fewer at its end.
-struct SampleBlock {
-  glm::vec2 range;  ///< smallest and largest inverse distance
-  std::uint16_t firstRow = 0, lastRow = 0;
-  std::uint8_t roles = 0;  ///< that need any of them
+/// What is known of each block: of that many successive samples of a column, or of the fewer at its end. The
+/// arrays have room for kSampleRoom more.
+struct SampleBlocks {
+  std::vector<float> leastInverse, mostInverse;  ///< smallest and largest inverse distance
+  std::vector<float> lowTangent, highTangent;    ///< of its rows
+  std::vector<std::uint8_t> roles;               ///< that need any of them
 };
 
 /// Where a capture shows the background, and the borders of its columns and rows.
@@ -43,7 +45,7 @@ struct DisplayCapture {
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
-  std::vector<SampleBlock> blocks;
+  SampleBlocks blocks;
   std::vector<std::uint32_t> columnBlock;  ///< columns + 1: where each column's blocks start
   DisplayBackground background;
   bool layered = false;              ///< some pixel has more than one sample

@@ -1,6 +1,7 @@
 #include "engine/view/warp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,6 +14,13 @@
 
 namespace acentric {
 namespace {
+
+/// Planes and directions are of unit length, what kernels compute of float precision.
+constexpr double kPlaneSlack = 2e-6;
+
+/// Samples are on their way from memory while so many before them are drawn, in so many columns at most.
+constexpr std::uint32_t kSamplesAhead = 512;
+constexpr std::size_t kMostAhead = 8;
 
 /// What is constant over a piece.
 ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
@@ -62,7 +70,10 @@ class CanvasWarp {
         countedFrom_(x0),
         countedTo_(x1),
         axes_(view),
-        planes_(frustumPlanes(view, rect_, splatMargin(settings.maxSplatPixels))) {}
+        planes_(frustumPlanes(view, rect_, splatMargin(settings.maxSplatPixels))) {
+    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
+      blockTest_.z[i] = static_cast<float>(planes_.normals[i].z);
+  }
 
   WarpCounts run() {
     const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
@@ -78,7 +89,9 @@ class CanvasWarp {
       openBelow_ = 0;
       open_.reset();
     }
-    if (!uncovered.all()) open_ = uncovered;
+    if (plan_.reflections.empty()) return counts_;
+    open_ = OpenTiles::withMirrors(uncovered, canvas_);
+    if (open_->none()) return counts_;
     for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
       const PieceDraw& piece = plan_.reflections[i];
       const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
@@ -104,35 +117,117 @@ class CanvasWarp {
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
   }
 
+  /// Columns in order; each is chosen from and fetched into the processor's caches while those before it are
+  /// drawn.
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    ProjectColumn column = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    for (Column& column : columns_)
+      column.constants = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
+      blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
+    blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
+    blockTest_.openTiles = nullptr;
+    if (open_) open_->tell(blockTest_);
+    std::size_t chosen = 0, drawn = 0;  // columns, in the ring
+    std::uint32_t ahead = 0;            // samples of chosen columns that are not drawn yet
+    const auto drawOne = [&] {
+      const Column& column = columns_[drawn++ % kMostAhead];
+      ahead -= column.samples;
+      drawColumn(piece, capture, column, mode, slot);
+    };
     for (const ColumnRun& run : piece.runs)
-      for (int n = 0; n < run.last - run.first; ++n)
-        drawColumn(piece, capture, column, mode, slot, run.ascending ? run.first + n : run.last - 1 - n);
+      for (int n = 0; n < run.last - run.first; ++n) {
+        Column& next = columns_[chosen % kMostAhead];
+        next.index = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
+        if (!choose(piece, capture, next)) continue;
+        ++chosen, ahead += next.samples;
+        while (chosen - drawn == kMostAhead || ahead > kSamplesAhead + next.samples) drawOne();
+      }
+    while (drawn < chosen) drawOne();
   }
 
-  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, ProjectColumn& column,
-                  PaintMode mode, std::uint32_t slot, int index) {
-    const std::size_t k = static_cast<std::size_t>(index);
-    const glm::dvec2 direction(capture.columnDirection[k]);
-    ColumnSight sight{
-        {static_cast<double>(capture.rowTangent.back()), static_cast<double>(capture.rowTangent.front())},
-        rect_.x0,
-        rect_.x1};
-    if (options_.cull && !piece.sight.empty()) sight = piece.sight[k];
-    if (sight.x1 <= rect_.x0 || sight.x0 >= rect_.x1) return;
+  /// A column of a capture, and which of its samples may be seen.
+  struct Column {
+    std::size_t index = 0;
+    ProjectColumn constants{};
+    std::vector<SampleRun> runs;
+    std::uint32_t samples = 0;
+  };
 
-    axes_.project(glm::dvec3(direction, 0), column.a);
-    axes_.project(double(column.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), column.across);
-    column.maxInverseDistance = piece.maxInverseDistance[k];
-    column.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
-    column.direction[0] = capture.columnDirection[k].x, column.direction[1] = capture.columnDirection[k].y;
-    const int count = projectVisible(piece, capture, column, k, sight.tangents);
+  /// Finds the runs of samples of the column that may be seen, if there are any.
+  bool choose(const PieceDraw& piece, const DisplayCapture& capture, Column& column) {
+    const std::size_t k = column.index;
+    if (options_.cull && !piece.sight.empty() &&
+        (piece.sight[k].x1 <= rect_.x0 || piece.sight[k].x0 >= rect_.x1))
+      return false;
+    ProjectColumn& constants = column.constants;
+    const glm::dvec2 direction(capture.columnDirection[k]);
+    axes_.project(glm::dvec3(direction, 0), constants.a);
+    axes_.project(double(constants.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), constants.across);
+    constants.maxInverseDistance = piece.maxInverseDistance[k];
+    constants.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
+    constants.direction[0] = capture.columnDirection[k].x,
+    constants.direction[1] = capture.columnDirection[k].y;
+
+    const std::uint32_t start = capture.columnStart[k], size = capture.columnStart[k + 1] - start;
+    column.runs.clear();
+    if (options_.cull)
+      findRuns(capture, column, size);
+    else if (size > 0)
+      column.runs.push_back({0, size});
+    column.samples = 0;
+    const auto fetch = [&](const auto& values, const SampleRun& run) {
+      constexpr std::size_t kPerLine = 64 / sizeof(values[0]);
+      for (std::size_t i = start + run.first; i < start + run.end; i += kPerLine)
+        __builtin_prefetch(&values[i]);
+    };
+    for (const SampleRun& run : column.runs) {
+      column.samples += run.end - run.first;
+      fetch(capture.row, run);
+      fetch(capture.inverseDistance, run);
+      fetch(capture.roles, run);
+      fetch(capture.colour, run);
+      if (constants.slanted) fetch(capture.slant, run);
+    }
+    counts_.samplesRead += column.samples;
+    return column.samples > 0;
+  }
+
+  /// Runs of blocks that may be seen, of a column of `size` samples.
+  void findRuns(const DisplayCapture& capture, Column& column, std::uint32_t size) {
+    const std::size_t k = column.index;
+    const std::size_t first = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - first;
+    const SampleBlocks& all = capture.blocks;
+    const BlockColumn own{&all.leastInverse[first], &all.mostInverse[first], &all.lowTangent[first],
+                          &all.highTangent[first], &all.roles[first]};
+    const double steepest =
+        std::max(std::abs(capture.rowTangent.front()), std::abs(capture.rowTangent.back()));
+    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
+      blockTest_.a[i] = static_cast<float>(
+          glm::dot(glm::dvec2(planes_.normals[i]), glm::dvec2(capture.columnDirection[k])) +
+          kPlaneSlack * (1 + steepest));
+    visibleBlocks_.resize(std::max(visibleBlocks_.size(), blocks));
+    const int found = options_.findBlocks(column.constants, blockTest_, own, static_cast<int>(blocks),
+                                          visibleBlocks_.data());
+    for (int i = 0; i < found; ++i) {
+      const std::uint32_t from = visibleBlocks_[static_cast<std::size_t>(i)] * kSamplesPerBlock;
+      if (column.runs.empty() || column.runs.back().end != from) column.runs.push_back({from, from});
+      column.runs.back().end = std::min(from + kSamplesPerBlock, size);
+    }
+  }
+
+  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, const Column& column, PaintMode mode,
+                  std::uint32_t slot) {
+    const std::size_t k = column.index, start = capture.columnStart[k];
+    const std::uint16_t* const row = capture.row.data() + start;
+    splats_.resize(std::max<std::size_t>(splats_.size(), column.samples + kSampleRoom));
+    const int count =
+        options_.project(column.constants,
+                         {capture.rowTangent.data(), row, capture.inverseDistance.data() + start,
+                          capture.roles.data() + start, capture.slant.data() + start},
+                         column.runs.data(), static_cast<int>(column.runs.size()), splats_.data());
     if (count == 0) return;
 
-    const RowOrder order = rowOrder(direction, -glm::dvec3(piece.baseline));
-    const std::size_t start = capture.columnStart[k];
-    const std::uint16_t* const row = capture.row.data() + start;
+    const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
     const PaintTarget target{&canvas_,
                              rect_,
                              capture.colour.data() + start,
@@ -140,8 +235,9 @@ class CanvasWarp {
                              capture.inverseDistance.data() + start,
                              capture.mirror.empty() ? nullptr : capture.mirror.data() + start,
                              slot,
-                             static_cast<std::uint32_t>(index),
+                             static_cast<std::uint32_t>(k),
                              order.footInverse,
+                             drawnRange(capture, piece, k),
                              countedFrom_,
                              countedTo_,
                              openBelow_};
@@ -153,51 +249,6 @@ class CanvasWarp {
     const int above = static_cast<int>(pivot - splats);
     counts_.samplesDrawn += paintSplats(target, mode, splats, above, !order.inwards, capture.layered);
     counts_.samplesDrawn += paintSplats(target, mode, pivot, count - above, order.inwards, capture.layered);
-  }
-
-  /// Projects the samples of column k block by block, leaving out blocks that cannot be seen. Splats count
-  /// samples from the column's first.
-  int projectVisible(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
-                     std::size_t k, const TangentRange& tangents) {
-    const glm::dvec2 range(drawnRange(capture, piece, k));
-    const std::size_t start = capture.columnStart[k], end = capture.columnStart[k + 1];
-    const std::size_t firstBlock = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - firstBlock;
-    splats_.resize(std::max<std::size_t>(splats_.size(), end - start + 16));
-    int count = 0;
-    std::size_t from = start;  // of the run of visible blocks that is being gathered
-    const auto flush = [&](std::size_t to) {
-      if (to <= from) return;
-      for (std::size_t i = from; i < to; i += 64 / sizeof(Rgba8)) __builtin_prefetch(&capture.colour[i]);
-      count += options_.project(column, capture.rowTangent.data(), capture.row.data() + from,
-                                capture.inverseDistance.data() + from, capture.roles.data() + from,
-                                capture.slant.data() + from, static_cast<int>(to - from),
-                                static_cast<std::uint32_t>(from - start), splats_.data() + count);
-      counts_.samplesRead += to - from;
-    };
-    for (std::size_t b = 0; b < blocks; ++b) {
-      if (!options_.cull ||
-          mayShow(piece, capture, column, k, capture.blocks[firstBlock + b], tangents, range))
-        continue;
-      flush(start + b * kSamplesPerBlock);
-      from = start + (b + 1) * kSamplesPerBlock;
-    }
-    flush(end);
-    return count;
-  }
-
-  bool mayShow(const PieceDraw& piece, const DisplayCapture& capture, const ProjectColumn& column,
-               std::size_t k, const SampleBlock& block, const TangentRange& tangents,
-               const glm::dvec2& range) const {
-    if ((block.roles & piece.roles) == 0) return false;
-    const TangentRange rows{static_cast<double>(capture.rowTangent[block.lastRow]),
-                            static_cast<double>(capture.rowTangent[block.firstRow])};
-    if (rows.high < tangents.low || rows.low > tangents.high) return false;
-    const glm::dvec2 drawn{std::max(double(block.range.x), range.x),
-                           std::min(double(block.range.y), range.y)};
-    if (!mayBeVisible(planes_, glm::dvec2(capture.columnDirection[k]), glm::dvec3(piece.baseline), drawn,
-                      rows))
-      return false;
-    return !open_ || open_->mayReach(column, rows, glm::vec2(drawn));
   }
 
   const WalkScene& scene_;
@@ -213,6 +264,9 @@ class CanvasWarp {
   std::uint32_t openBelow_ = 0;  ///< PaintTarget::openBelow
   std::optional<OpenTiles>
       open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
+  BlockTest blockTest_{};
+  std::vector<std::uint16_t> visibleBlocks_;
+  std::array<Column, kMostAhead> columns_;
   std::vector<Splat> splats_;
   WarpCounts counts_;
 };

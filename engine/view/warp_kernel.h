@@ -23,8 +23,9 @@ struct alignas(16) Splat {
   std::uint8_t placeX, placeY;
   std::uint32_t index : 28;  ///< of the sample: firstIndex + its place among those handed in
   /// Of a rectangle: samples of its surface lie 8 / (8 - spread) pixels apart, or less if it is 0.
-  std::uint32_t spread : 4;
-  float inverseZDepth;  ///< 1/m along the view axis; 0 = sky
+  std::uint32_t spread : 3;
+  std::uint32_t small : 1;  ///< at most two pixels wide and high, and not cut by the rectangle
+  float inverseZDepth;      ///< 1/m along the view axis; 0 = sky
 };
 
 enum class PartTest : std::int32_t {
@@ -57,21 +58,62 @@ struct ProjectColumn {
   float low[2], high[2];  ///< border directions of the part
 };
 
-/// Writes the splats that touch the rectangle to `out` (room for count + 16), in the order of the samples,
-/// and returns how many. `rowTangent` is the capture's table; rows do not fall; `slant` is read where the
-/// column is slanted.
-using ProjectSamples = int (*)(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                               const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                               int count, std::uint32_t firstIndex, Splat* out);
+/// What kernels read and write beyond the end of arrays that have room for it.
+inline constexpr int kSampleRoom = 16;
 
-int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                         int count, std::uint32_t firstIndex, Splat* out);
-int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, const std::uint8_t* roles, const Slant* slant, int count,
-                       std::uint32_t firstIndex, Splat* out);
-int projectSamplesAvx512(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                         int count, std::uint32_t firstIndex, Splat* out);
+/// The samples of a column from its first on.
+struct SampleColumn {
+  const float* rowTangent = nullptr;   ///< the capture's table
+  const std::uint16_t* row = nullptr;  ///< rows do not fall
+  const float* inverseDistance = nullptr;
+  const std::uint8_t* roles = nullptr;
+  const Slant* slant = nullptr;  ///< read where the column is slanted
+};
+
+/// Samples [first, end) of a column.
+struct SampleRun {
+  std::uint32_t first = 0, end = 0;
+};
+
+/// Writes the splats of these runs that touch the rectangle to `out` (room for all samples of the runs and
+/// kSampleRoom more), in the order of the samples, and returns how many.
+using ProjectSamples = int (*)(const ProjectColumn& column, const SampleColumn& samples,
+                               const SampleRun* runs, int runCount, Splat* out);
+
+/// The blocks of a column (SampleBlocks), with room for kSampleRoom more.
+struct BlockColumn {
+  const float *leastInverse = nullptr, *mostInverse = nullptr;
+  const float *lowTangent = nullptr, *highTangent = nullptr;
+  const std::uint8_t* roles = nullptr;
+};
+
+/// Which blocks of a column may show something.
+struct BlockTest {
+  /// Of five planes through the eye (FrustumPlanes): a sample lies on their inner sides where
+  /// a + t * z + w * b >= 0, slack for rounding included; `slack` more for each 1/m.
+  float a[5], z[5], b[5], slack;
+  /// Open tiles left of and above each corner, tile column by tile column (OpenTiles); null: all is open.
+  const std::uint32_t* openTiles;
+  std::int32_t tileColumns, tileRows;
+};
+inline constexpr int kTileSideBits = 3;  ///< a tile is 8 pixels wide and high
+
+/// Writes the numbers of the blocks that may have a splat on an open pixel of the rectangle, rising, to `out`
+/// (room for `count`), and returns how many.
+using FindBlocks = int (*)(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks,
+                           int count, std::uint16_t* out);
+
+int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                         int runCount, Splat* out);
+int findBlocksScalar(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                     std::uint16_t* out);
+int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                       int runCount, Splat* out);
+int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                   std::uint16_t* out);
+int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                         int runCount, Splat* out);
+int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                     std::uint16_t* out);
 
 }  // namespace acentric

@@ -52,6 +52,10 @@ struct EightLanes {
   static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
   static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
   static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
+  static unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
+  static M either(M a, M unlessB) {
+    return {_mm256_or_ps(a.v, _mm256_xor_ps(unlessB.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1))))};
+  }
   static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
   static F abs(F a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
   static F sqrt(F a) { return {_mm256_sqrt_ps(a.v)}; }
@@ -61,7 +65,11 @@ struct EightLanes {
   static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }
   static I floor(F a) { return {_mm256_cvttps_epi32(_mm256_floor_ps(a.v))}; }
   static I ceil(F a) { return {_mm256_cvttps_epi32(_mm256_ceil_ps(a.v))}; }
-
+  static I gather(const std::uint32_t* table, I index) {
+    return {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 4)};
+  }
+  static I when(M m, I a) { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }
+  static I times(I a, I b) { return {_mm256_mullo_epi32(a.v, b.v)}; }
   static I mini(I a, I b) { return {_mm256_min_epi32(a.v, b.v)}; }
   static I maxi(I a, I b) { return {_mm256_max_epi32(a.v, b.v)}; }
   static void slants(const Slant* p, F& across, F& down) {
@@ -110,11 +118,14 @@ struct EightLanes {
 
 }  // namespace
 
-int projectSamplesAvx2(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                       const float* inverseDistance, const std::uint8_t* roles, const Slant* slant, int count,
-                       std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<EightLanes>(column, rowTangent, row, inverseDistance, roles, slant, count,
-                                                firstIndex, out);
+int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                       int runCount, Splat* out) {
+  return warp_kernel::projectColumn<EightLanes>(column, samples, runs, runCount, out);
+}
+
+int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                   std::uint16_t* out) {
+  return warp_kernel::findBlocks<EightLanes>(column, test, blocks, count, out);
 }
 
 }  // namespace acentric

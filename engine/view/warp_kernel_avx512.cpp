@@ -48,6 +48,8 @@ struct SixteenLanes {
   static M less(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
   static M notLess(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
   static M greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
+  static unsigned bits(M m) { return m.v; }
+  static M either(M a, M unlessB) { return {static_cast<__mmask16>(a.v | ~unlessB.v)}; }
   static bool any(M m) { return m.v != 0; }
   static F abs(F a) { return {_mm512_abs_ps(a.v)}; }
   static F sqrt(F a) { return {_mm512_sqrt_ps(a.v)}; }
@@ -61,6 +63,9 @@ struct SixteenLanes {
   static I ceil(F a) {
     return {_mm512_cvttps_epi32(_mm512_roundscale_ps(a.v, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC))};
   }
+  static I gather(const std::uint32_t* table, I index) { return {_mm512_i32gather_epi32(index.v, table, 4)}; }
+  static I when(M m, I a) { return {_mm512_maskz_mov_epi32(m.v, a.v)}; }
+  static I times(I a, I b) { return {_mm512_mullo_epi32(a.v, b.v)}; }
   static I mini(I a, I b) { return {_mm512_min_epi32(a.v, b.v)}; }
   static I maxi(I a, I b) { return {_mm512_max_epi32(a.v, b.v)}; }
   static void slants(const Slant* p, F& across, F& down) {
@@ -108,11 +113,14 @@ struct SixteenLanes {
 
 }  // namespace
 
-int projectSamplesAvx512(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                         int count, std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<SixteenLanes>(column, rowTangent, row, inverseDistance, roles, slant,
-                                                  count, firstIndex, out);
+int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                         int runCount, Splat* out) {
+  return warp_kernel::projectColumn<SixteenLanes>(column, samples, runs, runCount, out);
+}
+
+int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                     std::uint16_t* out) {
+  return warp_kernel::findBlocks<SixteenLanes>(column, test, blocks, count, out);
 }
 
 }  // namespace acentric

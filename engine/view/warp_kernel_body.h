@@ -10,6 +10,9 @@ namespace acentric::warp_kernel {
 /// safe.
 inline constexpr float kFarPixel = 30000.0f;
 
+/// A splat reaches this far beyond half its side, rounding up and sideways included.
+inline constexpr float kSplatSlack = 2.5f;
+
 template <class B>
 inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
   const typename B::F x = B::set(c.direction[0]) + w * B::set(c.baseline[0]);
@@ -25,6 +28,17 @@ inline typename B::M touches(const ProjectColumn& c, typename B::I x, typename B
                              typename B::I height) {
   return B::greater(B::seti(c.x1), x) & B::greater(B::seti(c.y1), y) & B::greater(x + width, B::seti(c.x0)) &
          B::greater(y + height, B::seti(c.y0));
+}
+
+/// Splat::small, above the three bits of Splat::spread.
+template <class B>
+inline typename B::I smallBit(const ProjectColumn& c, typename B::I x, typename B::I y, typename B::I width,
+                              typename B::I height) {
+  const auto notAbove = [](typename B::I a, std::int32_t limit) { return B::greater(B::seti(limit + 1), a); };
+  return B::when(notAbove(width, 2) & notAbove(height, 2) & B::greater(x, B::seti(c.x0 - 1)) &
+                     B::greater(y, B::seti(c.y0 - 1)) & notAbove(x + width, c.x1) &
+                     notAbove(y + height, c.y1),
+                 B::seti(8));
 }
 
 /// The pixels [first, first + size) whose centres lie within `half` of `centre`, at least one; and where
@@ -66,7 +80,8 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
   const I spread = B::floor(B::set(8.5f) - B::set(c.perSpread) / B::min(halfX, halfY));
   return B::append(accepted & touches<B>(c, x, y, width, height), x, y,
                    B::pack(width, height, placeX, placeY), firstIndex,
-                   B::mini(B::maxi(spread, B::seti(0)), B::seti(7)), w * perDepth, out);
+                   B::mini(B::maxi(spread, B::seti(0)), B::seti(7)) + smallBit<B>(c, x, y, width, height),
+                   w * perDepth, out);
 }
 
 /// Lanes beyond `count` must hold an inverse distance of NaN.
@@ -107,35 +122,122 @@ template <class B>
   const I x = B::floor(B::select(accepted, u, B::set(0)) + half);
   const I y = B::floor(B::select(accepted, v, B::set(0)) + half);
   accepted = accepted & touches<B>(c, x, y, side, side);
-  return B::append(accepted, x, y, B::pack(side, side, B::seti(0), B::seti(0)), firstIndex, B::seti(0),
-                   w * perDepth, out);
+  return B::append(accepted, x, y, B::pack(side, side, B::seti(0), B::seti(0)), firstIndex,
+                   smallBit<B>(c, x, y, side, side), w * perDepth, out);
 }
 
 template <class B>
-inline int projectColumn(const ProjectColumn& constants, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                         int count, std::uint32_t firstIndex, Splat* out) {
+inline int projectColumn(const ProjectColumn& constants, const SampleColumn& samples, const SampleRun* runs,
+                         int runCount, Splat* out) {
   const ProjectColumn column = constants;  // a copy that no splat is written over: it stays in registers
-  int written = 0, i = 0;
-  for (; i + B::kWidth <= count; i += B::kWidth)
-    written += projectBatch<B>(column, rowTangent, row + i, inverseDistance + i, roles + i,
-                               column.slanted ? slant + i : nullptr,
-                               firstIndex + static_cast<std::uint32_t>(i), out + written);
-  if (i < count) {
+  const SampleColumn from = samples;
+  int written = 0;
+  for (int r = 0; r < runCount; ++r) {
+    std::uint32_t i = runs[r].first;
+    const std::uint32_t end = runs[r].end;
+    for (; i + B::kWidth <= end; i += B::kWidth)
+      written += projectBatch<B>(column, from.rowTangent, from.row + i, from.inverseDistance + i,
+                                 from.roles + i, column.slanted ? from.slant + i : nullptr, i, out + written);
+    if (i == end) continue;
     std::uint16_t lastRow[B::kWidth];
     float lastInverse[B::kWidth];
     std::uint8_t lastRoles[B::kWidth];
     Slant lastSlant[B::kWidth];
-    for (int lane = 0; lane < B::kWidth; ++lane) {
-      lastRow[lane] = row[i + lane < count ? i + lane : count - 1];
-      lastInverse[lane] = i + lane < count ? inverseDistance[i + lane] : __builtin_nanf("");
-      lastRoles[lane] = i + lane < count ? roles[i + lane] : std::uint8_t(0);
-      lastSlant[lane] = column.slanted && i + lane < count ? slant[i + lane] : Slant{};
+    for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
+      const bool there = i + lane < end;
+      lastRow[lane] = from.row[there ? i + lane : end - 1];
+      lastInverse[lane] = there ? from.inverseDistance[i + lane] : __builtin_nanf("");
+      lastRoles[lane] = there ? from.roles[i + lane] : std::uint8_t(0);
+      lastSlant[lane] = column.slanted && there ? from.slant[i + lane] : Slant{};
     }
-    written += projectBatch<B>(column, rowTangent, lastRow, lastInverse, lastRoles, lastSlant,
-                               firstIndex + static_cast<std::uint32_t>(i), out + written);
+    written += projectBatch<B>(column, from.rowTangent, lastRow, lastInverse, lastRoles, lastSlant, i,
+                               out + written);
   }
   return written;
+}
+
+/// May samples between these tangents and inverse distances put a splat on an open tile? Image positions are
+/// quotients of functions that are linear in tangent and inverse distance each, so the corners are extremes;
+/// of the size of squares too, but for a factor that grows away from the middle of the picture.
+template <class B>
+inline typename B::M reachesOpenTile(const ProjectColumn& c, const BlockTest& test, typename B::F lowT,
+                                     typename B::F highT, typename B::F lowW, typename B::F highW) {
+  using F = typename B::F;
+  using I = typename B::I;
+  const F steepest = B::max(B::abs(lowT), B::abs(highT));
+  F perDepth[4], place[2][4];
+  const auto corner = [&](int i, F t, F w) {
+    const auto at = [&](int axis) {
+      return B::set(c.a[axis]) + t * B::set(c.z[axis]) + w * B::set(c.b[axis]);
+    };
+    // Beside or behind the eye: as far away as can be.
+    const F depth = B::max(at(2), B::set(1e-6f));
+    perDepth[i] = B::set(1) / depth;
+    place[0][i] = at(0) * perDepth[i], place[1][i] = at(1) * perDepth[i];
+    return B::less(B::set(1e-3f) * (B::set(1) + steepest), at(2));
+  };
+  const typename B::M before =
+      corner(0, lowT, lowW) & corner(1, lowT, highW) & corner(2, highT, lowW) & corner(3, highT, highW);
+  const auto least = [](const F* p) { return B::min(B::min(p[0], p[1]), B::min(p[2], p[3])); };
+  const auto most = [](const F* p) { return B::max(B::max(p[0], p[1]), B::max(p[2], p[3])); };
+  const auto off = [&](const F* p, float centre) {
+    const F far =
+        B::max(B::abs(least(p) - B::set(centre)), B::abs(most(p) - B::set(centre))) * B::set(c.inverseFocal);
+    return far * far;
+  };
+  F side = B::set(c.maxSide);
+  if (!c.slanted) {
+    const F stretch = B::sqrt((B::set(1) + steepest * steepest) *
+                              (B::set(1) + off(place[0], c.centreX) + off(place[1], c.centreY)));
+    side = B::min(stretch * most(perDepth) * B::set(c.footprint), side);
+  }
+  const F margin = B::set(0.5f) * side + B::set(kSplatSlack);
+  // Tiles [first, end) along an axis, at least one.
+  const auto tiles = [&](const F* p, std::int32_t from, std::int32_t count, I& first, I& end) {
+    const F toTile = B::set(1.0f / (1 << kTileSideBits)), last = B::set(static_cast<float>(count - 1));
+    const auto tile = [&](F x) {
+      const F t = (x - B::set(static_cast<float>(from))) * toTile;
+      return B::floor(B::max(B::min(t, last), B::set(0)));
+    };
+    first = tile(least(p) - margin), end = tile(most(p) + margin) + B::seti(1);
+  };
+  I left, right, top, bottom;
+  tiles(place[0], c.x0, test.tileColumns, left, right);
+  tiles(place[1], c.y0, test.tileRows, top, bottom);
+  const auto sum = [&](I column, I row) {
+    return B::gather(test.openTiles, B::times(column, B::seti(test.tileRows + 1)) + row);
+  };
+  const I open = sum(right, bottom) - sum(left, bottom) - sum(right, top) + sum(left, top);
+  return B::either(B::greater(open, B::seti(0)), before);
+}
+
+template <class B>
+inline int findBlocks(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks,
+                      int count, std::uint16_t* out) {
+  using F = typename B::F;
+  using M = typename B::M;
+  int found = 0;
+  for (int first = 0; first < count; first += B::kWidth) {
+    const F lowT = B::load(blocks.lowTangent + first), highT = B::load(blocks.highTangent + first);
+    const F lowW = B::max(B::load(blocks.leastInverse + first), B::set(column.minInverseDistance));
+    const F highW = B::min(B::load(blocks.mostInverse + first), B::set(column.maxInverseDistance));
+    M kept = B::needed(blocks.roles + first, column.roles) & B::notLess(highW, lowW);
+    const F slack = highW * B::set(test.slack);
+    for (int i = 0; i < 5; ++i) {
+      const F z = B::set(test.z[i]), b = B::set(test.b[i]);
+      kept = kept &
+             B::notLess(B::set(test.a[i]) + B::max(lowT * z, highT * z) + B::max(lowW * b, highW * b) + slack,
+                        B::set(0));
+    }
+    if (!B::any(kept)) continue;
+    if (test.openTiles != nullptr) kept = kept & reachesOpenTile<B>(column, test, lowT, highT, lowW, highW);
+    const int left = count - first;
+    unsigned bits = B::bits(kept);
+    if (left < B::kWidth) bits &= (1u << left) - 1;
+    for (; bits != 0; bits &= bits - 1)
+      out[found++] = static_cast<std::uint16_t>(first + __builtin_ctz(bits));
+  }
+  return found;
 }
 
 }  // namespace acentric::warp_kernel

@@ -19,6 +19,8 @@ struct OneLane {
   static M notLess(F a, F b) { return a >= b; }
   static M greater(I a, I b) { return a > b; }
   static bool any(M m) { return m; }
+  static unsigned bits(M m) { return m; }
+  static M either(M a, M unlessB) { return a || !unlessB; }
   static F abs(F a) { return __builtin_fabsf(a); }
   static F sqrt(F a) { return __builtin_sqrtf(a); }
   static F min(F a, F b) { return a < b ? a : b; }
@@ -33,6 +35,9 @@ struct OneLane {
     const I whole = static_cast<I>(a);
     return whole + (static_cast<float>(whole) < a);
   }
+  static I gather(const std::uint32_t* table, I index) { return static_cast<I>(table[index]); }
+  static I when(M m, I a) { return m ? a : 0; }
+  static I times(I a, I b) { return a * b; }
   static I mini(I a, I b) { return a < b ? a : b; }
   static I maxi(I a, I b) { return a > b ? a : b; }
   /// Tangents of the slants along row and column.
@@ -60,7 +65,8 @@ struct OneLane {
             size.placeX,
             size.placeY,
             index & 0xfffffffu,
-            static_cast<std::uint32_t>(spread) & 15u,
+            static_cast<std::uint32_t>(spread) & 7u,
+            static_cast<std::uint32_t>(spread) >> 3 & 1u,
             inverseZDepth};
     return 1;
   }
@@ -68,11 +74,14 @@ struct OneLane {
 
 }  // namespace
 
-int projectSamplesScalar(const ProjectColumn& column, const float* rowTangent, const std::uint16_t* row,
-                         const float* inverseDistance, const std::uint8_t* roles, const Slant* slant,
-                         int count, std::uint32_t firstIndex, Splat* out) {
-  return warp_kernel::projectColumn<OneLane>(column, rowTangent, row, inverseDistance, roles, slant, count,
-                                             firstIndex, out);
+int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
+                         int runCount, Splat* out) {
+  return warp_kernel::projectColumn<OneLane>(column, samples, runs, runCount, out);
+}
+
+int findBlocksScalar(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
+                     std::uint16_t* out) {
+  return warp_kernel::findBlocks<OneLane>(column, test, blocks, count, out);
 }
 
 }  // namespace acentric

@@ -59,13 +59,14 @@ void timeProjecting() {
       for (const bool slanted : {false, true}) {
         column.slanted = slanted;
         std::size_t kept = 0;
+        const SampleRun run{0, kPerColumn};
         const int repeats = static_cast<int>(40000 * kPerColumn / samples);
         const double seconds = best(repeats, [&] {
           kept = 0;
           for (std::size_t i = 0; i < samples; i += kPerColumn)
-            kept += static_cast<std::size_t>(kernels.project(column, tangents.data(), &rows[i], &inverse[i],
-                                                             &roles[i], &slants[i], int(kPerColumn), 0,
-                                                             out.data()));
+            kept += static_cast<std::size_t>(
+                kernels.project(column, {tangents.data(), &rows[i], &inverse[i], &roles[i], &slants[i]}, &run,
+                                1, out.data()));
         });
         fmt::print(
             "projecting {:>10} samples, {:8} {:10} one thread: {:5.0f} M samples/s, {:.0f} % on the "
@@ -77,14 +78,15 @@ void timeProjecting() {
   }
 }
 
-}  // namespace
-
-int main() {
-  timeProjecting();
+/// Frames of an empty room and boxes, at so many samples per degree.
+void timeFrames(double perDegree, int layers, int width, int height) {
+  fmt::print("{}x{}, {} samples per degree, {} layer{}\n", width, height, perDegree, layers,
+             layers > 1 ? "s" : "");
   const auto layout = test::layoutAroundOrigin(Configuration::b);
   const auto region = layout->regionAt({0, 0});
-  const WalkScene scene = test::walkScene(test::randomBoxes(1, 60, 3.2), layout, *region, 8);
+  const WalkScene scene = test::walkScene(test::randomBoxes(1, 60, 3.2), layout, *region, perDegree, layers);
   PerspectiveView view;
+  view.width = width, view.height = height;
   view.eye = {0.4, 0.3, layout->eyeZ()};
   view.yawRadians = 0.7;
 
@@ -92,18 +94,19 @@ int main() {
     ViewSettings settings;
     settings.secondaryCover = secondary;
     const auto plan = planView(scene, view, settings);
-    if (!plan) return 1;
+    if (!plan) return;
     struct Case {
       std::string name;
-      ProjectSamples project;
+      Kernels kernels;
       bool depthTest;
     };
     std::vector<Case> cases;
-    for (const Kernels& kernels : supportedKernels()) cases.push_back({kernels.name, kernels.project, false});
-    cases.push_back({"depth buffer", supportedKernels().back().project, true});
+    for (const Kernels& kernels : supportedKernels()) cases.push_back({kernels.name, kernels, false});
+    cases.push_back({"depth buffer", supportedKernels().back(), true});
     for (const Case& c : cases) {
       WarpOptions options;
-      options.project = c.project;
+      options.project = c.kernels.project;
+      options.findBlocks = c.kernels.findBlocks;
       options.depthTest = c.depthTest;
       Canvas canvas;
       clearCanvas(scene, view, settings, *plan, 0, view.width, canvas);
@@ -140,4 +143,12 @@ int main() {
                  holes);
     }
   }
+}
+
+}  // namespace
+
+int main() {
+  timeProjecting();
+  timeFrames(8, 1, 960, 540);
+  timeFrames(20, 3, 1280, 720);
 }

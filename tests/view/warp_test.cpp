@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
+#include "engine/geometry/conventions.h"
 #include "engine/view/kernels.h"
+#include "engine/view/open_tiles.h"
+#include "engine/view/picture_axes.h"
 #include "tests/support/print_configuration.h"
 #include "tests/view/capture_fixtures.h"
 
@@ -114,16 +118,19 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
       inverse.push_back(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1));
     }
+    std::vector<SampleRun> runs{{0, std::uint32_t(count)}};
+    if (count > 20) runs = {{1, 18}, {19, std::uint32_t(count)}};
     const auto splats = [&](const Kernels& kernels) {
-      std::vector<Splat> out(static_cast<std::size_t>(count) + 16);
-      out.resize(
-          static_cast<std::size_t>(kernels.project(column, tangents.data(), rows.data(), inverse.data(),
-                                                   roles.data(), slants.data(), count, 7, out.data())));
+      std::vector<Splat> out(static_cast<std::size_t>(count + kSampleRoom));
+      out.resize(static_cast<std::size_t>(
+          kernels.project(column, {tangents.data(), rows.data(), inverse.data(), roles.data(), slants.data()},
+                          runs.data(), int(runs.size()), out.data())));
       return out;
     };
     const std::vector<Splat> expected = splats(supportedKernels().front());
     for (const Splat& a : expected) {
-      ASSERT_NE(roles[a.index - 7] & column.roles, 0u);
+      ASSERT_NE(roles[a.index] & column.roles, 0u);
+      ASSERT_TRUE(count <= 20 || (a.index != 0 && a.index != 18)) << "in no run";
       for (int side : {int(a.width), int(a.height)}) {
         EXPECT_GE(side, 1);
         EXPECT_LE(side, 17);  // a rectangle is as long as it is: it may hold one centre more
@@ -136,6 +143,110 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
         ASSERT_EQ(std::memcmp(&got[i], &expected[i], sizeof(Splat)), 0) << kernels.name << ", splat " << i;
     }
   }
+}
+
+TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProcessor) {
+  std::mt19937 random(5);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  constexpr int kBlocks = 37, kPerBlock = 6, kRows = kBlocks * kPerBlock;
+  std::vector<float> tangents(kRows);
+  for (int row = 0; row < kRows; ++row) tangents[std::size_t(row)] = float(std::tan(1.3 - row * 2.6 / kRows));
+  std::vector<std::uint16_t> rows(kRows);
+  std::iota(rows.begin(), rows.end(), std::uint16_t(0));
+  std::vector<Slant> slants(kRows, Slant{});
+  int reached = 0, found = 0, hidden = 0;
+  for (int round = 0; round < 1500; ++round) {
+    PerspectiveView view;
+    view.width = 640, view.height = 360;
+    view.yawRadians = uniform(0, kTwoPi), view.pitchRadians = uniform(-1.5, 1.5);
+    view.fovRadians = radians(uniform(20, 130));
+    const PictureAxes axes(view);
+    const PixelRect rect{160, 0, 400, 360};
+    constexpr int kMaxSide = 16;
+    const glm::dvec3 baseline(uniform(-3, 3), uniform(-3, 3), round % 3 == 0 ? 0 : uniform(-1, 1));
+    const glm::dvec2 direction =
+        directionOf(round % 4 == 0 ? uniform(0, kTwoPi) : view.yawRadians + uniform(-1, 1));
+    ProjectColumn column{};
+    axes.project(glm::dvec3(direction, 0), column.a);
+    axes.project(glm::dvec3(0, 0, 1), column.z);
+    axes.project(baseline, column.b);
+    column.footprint = float(view.focalPixels() * uniform(0, 0.01));
+    column.maxSide = kMaxSide;
+    column.roles = 2;
+    column.centreX = 320, column.centreY = 180, column.inverseFocal = float(1 / view.focalPixels());
+    column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
+    column.maxInverseDistance = round % 2 == 0 ? std::numeric_limits<float>::infinity() : 0.7f;
+    column.minInverseDistance = round % 5 == 0 ? 0.1f : 0;
+    column.slanted = round % 7 == 0;
+    column.acrossStep = column.downStep = 0.01f, column.perSpread = 4.4f;
+
+    std::vector<float> inverse(kRows);
+    std::vector<std::uint8_t> roles(kRows, 2);
+    SampleBlocks blocks;
+    for (std::size_t b = 0; b < kBlocks; ++b) {
+      const double near = uniform(0, 2), spread = b % 3 == 0 ? uniform(0, 2) : 0.02;
+      for (std::size_t i = b * kPerBlock; i < (b + 1) * kPerBlock; ++i) {
+        inverse[i] = float(near + uniform(0, spread));
+        roles[i] = b % 11 == 0 ? 1 : std::uint8_t(1 + random() % 3);
+      }
+      const auto own = std::span(inverse).subspan(b * kPerBlock, kPerBlock);
+      blocks.leastInverse.push_back(std::ranges::min(own)),
+          blocks.mostInverse.push_back(std::ranges::max(own));
+      blocks.highTangent.push_back(tangents[b * kPerBlock]);
+      blocks.lowTangent.push_back(tangents[(b + 1) * kPerBlock - 1]);
+      blocks.roles.push_back(b % 11 == 0 ? 1 : 3);
+    }
+    for (auto* v : {&blocks.leastInverse, &blocks.mostInverse, &blocks.highTangent, &blocks.lowTangent})
+      v->resize(v->size() + kSampleRoom);
+    blocks.roles.resize(blocks.roles.size() + kSampleRoom, 3);
+
+    CoverImage cover(view.width, view.height, 0);
+    for (int n = 0; n < 60; ++n)
+      cover.at(int(random() % unsigned(view.width)), int(random() % unsigned(view.height))) = kUncovered;
+    const OpenTiles open(rect, &cover, 0);
+    BlockTest test{};
+    const FrustumPlanes planes = frustumPlanes(view, rect, splatMargin(kMaxSide));
+    for (std::size_t i = 0; i < 5; ++i) {
+      test.a[i] = float(glm::dot(glm::dvec2(planes.normals[i]), direction) + 1e-5);
+      test.z[i] = float(planes.normals[i].z), test.b[i] = float(glm::dot(planes.normals[i], baseline));
+    }
+    test.slack = 1e-5f;
+    if (round % 2 == 1) open.tell(test);
+
+    const auto blocksOf = [&](const Kernels& kernels) {
+      std::vector<std::uint16_t> out(kBlocks);
+      out.resize(std::size_t(
+          kernels.findBlocks(column, test,
+                             {blocks.leastInverse.data(), blocks.mostInverse.data(), blocks.lowTangent.data(),
+                              blocks.highTangent.data(), blocks.roles.data()},
+                             kBlocks, out.data())));
+      return out;
+    };
+    const std::vector<std::uint16_t> got = blocksOf(supportedKernels().front());
+    for (const Kernels& kernels : supportedKernels()) EXPECT_EQ(blocksOf(kernels), got) << kernels.name;
+    found += int(got.size());
+    const SampleRun all{0, kRows};
+    std::vector<Splat> splats(kRows + kSampleRoom);
+    const int count = projectSamplesScalar(
+        column, {tangents.data(), rows.data(), inverse.data(), roles.data(), slants.data()}, &all, 1,
+        splats.data());
+    for (const Splat& splat : std::span(splats).first(std::size_t(count))) {
+      bool reaches = test.openTiles == nullptr;
+      for (int x = std::max<int>(splat.x, rect.x0);
+           !reaches && x < std::min<int>(splat.x + splat.width, rect.x1); ++x)
+        for (int y = std::max<int>(splat.y, 0); y < std::min<int>(splat.y + splat.height, rect.y1); ++y)
+          reaches = reaches || cover.at(x, y) == kUncovered;
+      const bool kept = std::ranges::binary_search(got, std::uint16_t(splat.index / kPerBlock));
+      reached += reaches;
+      hidden += !kept;
+      ASSERT_TRUE(kept || !reaches) << "round " << round << ", block " << splat.index / kPerBlock;
+    }
+  }
+  EXPECT_GT(reached, 4000);
+  EXPECT_GT(hidden, 1500) << "samples on the picture, but on no open pixel";
+  EXPECT_LT(found, 1500 * kBlocks / 3);
 }
 
 TEST(Warp, PutsASampleWhereItsPointLies) {
