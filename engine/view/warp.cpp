@@ -1,7 +1,6 @@
 #include "engine/view/warp.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,10 +16,6 @@ namespace {
 
 /// Planes and directions are of unit length, what kernels compute of float precision.
 constexpr double kPlaneSlack = 2e-6;
-
-/// Samples are on their way from memory while so many before them are drawn, in so many columns at most.
-constexpr std::uint32_t kSamplesAhead = 512;
-constexpr std::size_t kMostAhead = 8;
 
 /// What is constant over a piece.
 ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
@@ -117,32 +112,18 @@ class CanvasWarp {
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
   }
 
-  /// Columns in order; each is chosen from and fetched into the processor's caches while those before it are
-  /// drawn.
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    for (Column& column : columns_)
-      column.constants = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    column_.constants = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
     blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
     blockTest_.openTiles = nullptr;
     if (open_) open_->tell(blockTest_);
-    std::size_t chosen = 0, drawn = 0;  // columns, in the ring
-    std::uint32_t ahead = 0;            // samples of chosen columns that are not drawn yet
-    const auto drawOne = [&] {
-      const Column& column = columns_[drawn++ % kMostAhead];
-      ahead -= column.samples;
-      drawColumn(piece, capture, column, mode, slot);
-    };
     for (const ColumnRun& run : piece.runs)
       for (int n = 0; n < run.last - run.first; ++n) {
-        Column& next = columns_[chosen % kMostAhead];
-        next.index = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
-        if (!choose(piece, capture, next)) continue;
-        ++chosen, ahead += next.samples;
-        while (chosen - drawn == kMostAhead || ahead > kSamplesAhead + next.samples) drawOne();
+        column_.index = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
+        if (choose(piece, capture, column_)) drawColumn(piece, capture, column_, mode, slot);
       }
-    while (drawn < chosen) drawOne();
   }
 
   /// A column of a capture, and which of its samples may be seen.
@@ -175,18 +156,10 @@ class CanvasWarp {
     else if (size > 0)
       column.runs.push_back({0, size});
     column.samples = 0;
-    const auto fetch = [&](const auto& values, const SampleRun& run) {
-      constexpr std::size_t kPerLine = 64 / sizeof(values[0]);
-      for (std::size_t i = start + run.first; i < start + run.end; i += kPerLine)
-        __builtin_prefetch(&values[i]);
-    };
     for (const SampleRun& run : column.runs) {
       column.samples += run.end - run.first;
-      fetch(capture.row, run);
-      fetch(capture.inverseDistance, run);
-      fetch(capture.roles, run);
-      fetch(capture.colour, run);
-      if (constants.slanted) fetch(capture.slant, run);
+      for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(Rgba8))
+        __builtin_prefetch(&capture.colour[start + i]);
     }
     counts_.samplesRead += column.samples;
     return column.samples > 0;
@@ -266,7 +239,7 @@ class CanvasWarp {
       open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
   BlockTest blockTest_{};
   std::vector<std::uint16_t> visibleBlocks_;
-  std::array<Column, kMostAhead> columns_;
+  Column column_;
   std::vector<Splat> splats_;
   WarpCounts counts_;
 };
