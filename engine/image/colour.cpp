@@ -4,15 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/image/tone_curve.h"
+
 namespace acentric {
 namespace {
 
-/// Below this peak the tone curve is the identity.
-constexpr float kShoulderStart = 0.76f;
-/// How fast highlights lose colour once their peak is compressed.
-constexpr float kHighlightDesaturation = 0.15f;
-/// Brighter than anything a half float holds after a large exposure; keeps the arithmetic finite.
-constexpr float kBrightest = 1e9f;
+using namespace tone_curve;
 
 /// A finite value >= 0: NaN and negative radiance are black, infinity is the brightest there is.
 float usable(float value) { return value > 0 ? std::min(value, kBrightest) : 0.0f; }
@@ -21,12 +18,9 @@ double decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Finds the code of a linear value by a coarse table and one comparison: a bucket of 1/4096 is narrower than
-/// the narrowest step between codes (1/3295), so at most one threshold lies in it.
 struct CodeTable {
-  static constexpr int kBuckets = 4096;
-  std::array<float, 257> threshold{};                  ///< smallest linear value that rounds to this code
-  std::array<std::uint8_t, kBuckets + 1> firstCode{};  ///< code at each bucket's lower end
+  std::array<float, 257> threshold{};
+  std::array<std::uint8_t, kCodeBuckets + 1 + DisplayCodes::kRoom> firstCode{};
 
   CodeTable() {
     threshold[0] = 0;
@@ -34,8 +28,8 @@ struct CodeTable {
       threshold[static_cast<std::size_t>(code)] = static_cast<float>(decode((code - 0.5) / 255.0));
     threshold[256] = 2;  // never reached
     std::size_t code = 0;
-    for (int bucket = 0; bucket <= kBuckets; ++bucket) {
-      while (threshold[code + 1] <= static_cast<float>(bucket) / kBuckets) ++code;
+    for (int bucket = 0; bucket <= kCodeBuckets; ++bucket) {
+      while (threshold[code + 1] <= static_cast<float>(bucket) / kCodeBuckets) ++code;
       firstCode[static_cast<std::size_t>(bucket)] = static_cast<std::uint8_t>(code);
     }
   }
@@ -43,7 +37,7 @@ struct CodeTable {
   std::uint8_t codeOf(float linear) const {
     if (!(linear > 0)) return 0;  // NaN too
     if (linear >= 1) return 255;
-    const std::size_t code = firstCode[static_cast<std::size_t>(static_cast<int>(linear * kBuckets))];
+    const std::size_t code = firstCode[static_cast<std::size_t>(static_cast<int>(linear * kCodeBuckets))];
     return static_cast<std::uint8_t>(code + (linear >= threshold[code + 1] ? 1 : 0));
   }
 };
@@ -75,6 +69,8 @@ const std::array<float, 256>& linearFromSrgbTable() {
   }();
   return table;
 }
+
+DisplayCodes displayCodes() { return {codeTable().threshold.data(), codeTable().firstCode.data()}; }
 
 std::uint8_t srgbCodeFromLinear(float linear) { return codeTable().codeOf(linear); }
 

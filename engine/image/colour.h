@@ -15,6 +15,14 @@ float srgbFromLinear(float linear);   ///< [0,1] -> [0,1]
 const std::array<float, 256>& linearFromSrgbTable();
 /// The nearest 8-bit sRGB code, by tables (exact, no powers). Values outside [0,1] are clamped, NaN is 0.
 std::uint8_t srgbCodeFromLinear(float linear);
+/// Its tables, for inner loops: the code of a value in [0,1] is that of its bucket (tone_curve.h), or one
+/// more from the next code's threshold on.
+struct DisplayCodes {
+  static constexpr int kRoom = 3;  ///< bytes that may be read behind the last
+  const float* threshold;          ///< 257: the smallest linear value that rounds to each code; 2 at the end
+  const std::uint8_t* firstCode;   ///< buckets + 1: the code at each one's lower end
+};
+DisplayCodes displayCodes();
 
 /// Neutral tone curve: identity up to 0.76 after exposure, a smooth shoulder to 1 above, hue kept: highlights
 /// lose colour instead of clipping channel by channel. Returns display-linear values in [0,1]. `exposure` is

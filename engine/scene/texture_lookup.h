@@ -22,6 +22,10 @@ class TextureSampler {
   /// Refers to the scene's image.
   TextureSampler(const Scene& scene, const TextureUse& use);
   bool used() const { return image_ != nullptr; }  ///< else the texture is white
+  const ColourImage* image() const { return image_; }
+  Wrap wrapU() const { return wrapU_; }
+  Wrap wrapV() const { return wrapV_; }
+  bool nearest() const { return nearest_; }
 
   /// `at`: transformed texture coordinates. `decode`: from Rgba8.
   template <class Decode>

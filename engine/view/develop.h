@@ -3,14 +3,14 @@
 
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
-#include "engine/view/pixel_filter.h"
+#include "engine/view/kernels.h"
 
 namespace acentric {
 
 /// Writes columns [x0, x1) of the picture, which the canvas holds, and holds with their neighbours if it
-/// keeps places: it is then filtered with `filter`. `sources`: by slot. `frame` and `inverseZDepth` (1/m, 0
+/// keeps places: it is then filtered. `sources`: by slot. `frame` and `inverseZDepth` (1/m, 0
 /// in holes) are as large as the picture.
 void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources,
-             FilterPixels filter, Frame& frame, FloatImage& inverseZDepth);
+             const Kernels& kernels, Frame& frame, FloatImage& inverseZDepth);
 
 }  // namespace acentric

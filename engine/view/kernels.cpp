@@ -4,10 +4,10 @@ namespace acentric {
 namespace {
 
 constexpr Kernels kKernels[] = {
-    {"scalar", projectSamplesScalar, findBlocksScalar, filterPixelsScalar},
+    {"scalar", projectSamplesScalar, findBlocksScalar, filterPixelsScalar, writeRowsScalar, shadeRunScalar},
 #if defined(__x86_64__)
-    {"AVX2", projectSamplesAvx2, findBlocksAvx2, filterPixelsAvx2},
-    {"AVX-512", projectSamplesAvx512, findBlocksAvx512, filterPixelsAvx512},
+    {"AVX2", projectSamplesAvx2, findBlocksAvx2, filterPixelsAvx2, writeRowsAvx2, shadeRunAvx2},
+    {"AVX-512", projectSamplesAvx512, findBlocksAvx512, filterPixelsAvx512, writeRowsAvx512, shadeRunAvx512},
 #endif
 };
 
@@ -17,7 +17,8 @@ std::size_t supported() {
       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
     return 3;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) return 2;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c"))
+    return 2;
 #endif
   return 1;
 }

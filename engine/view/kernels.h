@@ -3,7 +3,9 @@
 
 #include <span>
 
+#include "engine/view/canvas_rows.h"
 #include "engine/view/pixel_filter.h"
+#include "engine/view/surface_kernel.h"
 #include "engine/view/warp_kernel.h"
 
 namespace acentric {
@@ -13,6 +15,8 @@ struct Kernels {
   ProjectSamples project;
   FindBlocks findBlocks;
   FilterPixels filter;
+  WriteRows writeRows;
+  ShadeRun shadeRun;
 };
 
 /// The scalar reference first, the fastest last.

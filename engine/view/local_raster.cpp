@@ -184,27 +184,58 @@ void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
   });
 }
 
-void LocalRaster::drawOpaque(const CoverImage& cover, Frame& frame, FloatImage& inverseZDepth,
-                             TaskRunner& runner) const {
+/// What the triangles of a band look like, kept from one row to the next.
+class LocalRaster::BandShading {
+ public:
+  explicit BandShading(const LocalRaster& raster) : raster_(raster) {}
+
+  const std::optional<SurfaceShade>& of(std::uint32_t triangle) {
+    Entry& entry = entries_[triangle % entries_.size()];
+    if (entry.triangle != triangle) {
+      entry.triangle = triangle;
+      entry.shade = raster_.shading_.triangle(raster_.cornersOf(raster_.opaque_[triangle]));
+    }
+    return entry.shade;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t triangle = kUncovered;
+    std::optional<SurfaceShade> shade;
+  };
+  const LocalRaster& raster_;
+  std::array<Entry, 128> entries_;
+};
+
+void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame,
+                             FloatImage& inverseZDepth, TaskRunner& runner) const {
   const glm::vec3 eye(view_.eye);
   forBands(runner, [&](std::size_t, int y0, int y1) {
-    std::uint32_t shaded = kUncovered;  // the triangle that `shading` is of
-    std::optional<TriangleShading> shading;
+    BandShading shading(*this);
     for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < view_.width; ++x) {
+      for (int x = 0, end = 0; x < view_.width; x = end) {
         const std::uint32_t t = cover.at(x, y);
+        for (end = x + 1; end < view_.width && cover.at(end, y) == t;) ++end;
         if (t == kUncovered) continue;
+        std::fill_n(&frame.source.at(x, y), end - x, kSourceLocal);
         const Triangle& triangle = opaque_[t];
-        if (t != shaded) shading = shading_.triangle(cornersOf(triangle)), shaded = t;
         const auto& edge = triangle.edge;
-        const glm::dvec3 values(edge[0].x * x + (edge[0].y * y + edge[0].z),
-                                edge[1].x * x + (edge[1].y * y + edge[1].z),
-                                edge[2].x * x + (edge[2].y * y + edge[2].z));
-        const double sum = values.x + values.y + values.z;
-        frame.colour.at(x, y) = shading ? shading->colourAt(glm::vec3(values / sum))
-                                        : shading_.colourAt(pointAt(triangle, values), eye);
-        frame.source.at(x, y) = kSourceLocal;
-        inverseZDepth.at(x, y) = static_cast<float>(sum * triangle.perDepth);
+        SurfaceRun run;
+        for (int i = 0; i < 3; ++i) run.slope[i] = edge[i].x, run.start[i] = edge[i].y * y + edge[i].z;
+        run.perDepth = triangle.perDepth;
+        run.x0 = x, run.count = end - x;
+        run.colour = reinterpret_cast<std::uint32_t*>(&frame.colour.at(x, y));
+        run.inverseZDepth = &inverseZDepth.at(x, y);
+        if (const auto& shade = shading.of(t)) {
+          shadeRun(*shade, run);
+          continue;
+        }
+        for (int i = x; i < end; ++i) {
+          const glm::dvec3 values(run.slope[0] * i + run.start[0], run.slope[1] * i + run.start[1],
+                                  run.slope[2] * i + run.start[2]);
+          frame.colour.at(i, y) = shading_.colourAt(pointAt(triangle, values), eye);
+          inverseZDepth.at(i, y) = static_cast<float>((values.x + values.y + values.z) * triangle.perDepth);
+        }
       }
   });
 }

@@ -29,7 +29,8 @@ class LocalRaster {
   void findOpaque(CoverImage& cover, TaskRunner& runner) const;
   /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
   /// their depth.
-  void drawOpaque(const CoverImage& cover, Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner) const;
+  void drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame, FloatImage& inverseZDepth,
+                  TaskRunner& runner) const;
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
   /// Pixels keep their source, except that a pixel of an opaque one stays local; over a hole nothing is
   /// drawn.
@@ -54,6 +55,7 @@ class LocalRaster {
   void forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Body>
   void forBands(TaskRunner& runner, const Body& body) const;
+  class BandShading;
   std::array<LocalPoint, 3> cornersOf(const Triangle& triangle) const;
   LocalPoint pointAt(const Triangle& triangle, const glm::dvec3& weights) const;
 

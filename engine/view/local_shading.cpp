@@ -9,6 +9,10 @@
 namespace acentric {
 namespace {
 
+static_assert(int(TextureWrap::repeat) == int(Wrap::repeat) && int(TextureWrap::clamp) == int(Wrap::clamp) &&
+              int(TextureWrap::mirror) == int(Wrap::mirror));
+static_assert(sizeof(Rgba8) == sizeof(std::uint32_t) && sizeof(HalfColour) == 2 * sizeof(std::uint32_t));
+
 template <class Attribute>
 Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
   return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
@@ -127,46 +131,49 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
   return encodeForDisplay(radiance, exposure_, alpha);
 }
 
-std::optional<TriangleShading> LocalShading::triangle(const std::array<LocalPoint, 3>& corners) const {
+std::optional<SurfaceShade> LocalShading::triangle(const std::array<LocalPoint, 3>& corners) const {
   const LocalPoint& point = corners[0];
   const Mesh& mesh = (*meshes_)[point.mesh];
   const LocalMaterial& material = materialOf(point.mesh);
   const Material& m = *material.material;
   if (material.clear() || material.emissionTextured || (material.vertexColours && !mesh.colours.empty()))
     return {};
-  TriangleShading shading;
-  shading.colour_ = glm::vec3(m.baseColour);
-  if (material.emits) shading.emission_ = m.emissive;
-  shading.exposure_ = exposure_;
-  shading.linearFromSrgb_ = &linearFromSrgbTable();
-  const TextureUse& use = m.baseColourTexture;
-  if (material.textured && hasCoordinates(mesh, use)) {
-    shading.texture_ = TextureSampler(*scene_, use);
-    for (std::size_t i = 0; i < 3; ++i)
-      shading.uv_[i] =
-          use.transform * glm::vec3(interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0],
-                                                mesh.triangles[point.triangle], corners[i].barycentric),
-                                    1);
-  }
-  if (light_ == nullptr || material.unlit) return shading;
-  for (std::size_t i = 0; i < 3; ++i) shading.barycentric_[i] = corners[i].barycentric;
-  const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
-  shading.light_ = light_->light.data();
-  if (triangle >= light_->resolution.size()) return shading;
-  shading.resolution_ = light_->resolution[triangle];
-  shading.light_ = light_->samplesOf(triangle, point.back && hasLightOnBack(triangle));
-  return shading;
-}
-
-Rgba8 TriangleShading::colourAt(const glm::vec3& weights) const {
-  const auto mean = [&](const glm::vec2* at) {
-    return at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
+  const auto copy = [](const auto& from, auto& to) {
+    for (int i = 0; i < from.length() && i < int(std::size(to)); ++i) to[i] = from[i];
   };
-  glm::vec3 radiance = colour_;
-  if (texture_.used()) radiance *= glm::vec3(texture_.colour(mean(uv_), *linearFromSrgb_));
-  if (light_ != nullptr)
-    radiance *= resolution_ > 0 ? interpolatedLight(light_, resolution_, mean(barycentric_)) : glm::vec3(0);
-  return encodeForDisplay(radiance + emission_, exposure_);
+  SurfaceShade shade;
+  copy(m.baseColour, shade.colour);
+  if (material.emits) copy(m.emissive, shade.emission);
+  shade.exposure = exposure_;
+  const DisplayCodes codes = displayCodes();
+  shade.threshold = codes.threshold, shade.firstCode = codes.firstCode;
+  const TextureUse& use = m.baseColourTexture;
+  const TextureSampler texture(*scene_, use);
+  if (material.textured && hasCoordinates(mesh, use) && texture.used()) {
+    const ColourImage& image = *texture.image();
+    shade.texels = reinterpret_cast<const std::uint32_t*>(image.pixels.data());
+    shade.width = image.width, shade.height = image.height;
+    shade.wrapU = static_cast<TextureWrap>(texture.wrapU());
+    shade.wrapV = static_cast<TextureWrap>(texture.wrapV());
+    shade.nearest = texture.nearest();
+    shade.linearFromSrgb = linearFromSrgbTable().data();
+    for (std::size_t i = 0; i < 3; ++i)
+      copy(use.transform * glm::vec3(interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0],
+                                                 mesh.triangles[point.triangle], corners[i].barycentric),
+                                     1),
+           shade.uv[i]);
+  }
+  if (light_ == nullptr || material.unlit) return shade;
+  for (std::size_t i = 0; i < 3; ++i) copy(corners[i].barycentric, shade.barycentric[i]);
+  const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
+  const HalfColour* light = light_->light.data();
+  if (triangle < light_->resolution.size() && light_->resolution[triangle] > 0) {
+    if (light_->resolution[triangle] > SurfaceShade::kMaxResolution) return {};
+    shade.resolution = light_->resolution[triangle];
+    light = light_->samplesOf(triangle, point.back && hasLightOnBack(triangle));
+  }
+  shade.light = reinterpret_cast<const std::uint32_t*>(light);
+  return shade;
 }
 
 }  // namespace acentric

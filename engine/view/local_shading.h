@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/scene/texture_lookup.h"
+#include "engine/view/surface_kernel.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
@@ -35,25 +36,6 @@ struct LocalPoint {
   bool back = false;           ///< seen from the side that winds clockwise
 };
 
-/// An opaque triangle whose every point looks like base colour times baked light: what is constant over it.
-/// Pixels then cost one texture read and one light read.
-class TriangleShading {
- public:
-  /// `weights` of the drawn triangle's corners, which sum to 1.
-  Rgba8 colourAt(const glm::vec3& weights) const;
-
- private:
-  friend class LocalShading;
-  TextureSampler texture_;
-  glm::vec2 uv_[3]{};           ///< transformed
-  glm::vec2 barycentric_[3]{};  ///< in the scene triangle
-  glm::vec3 colour_{1}, emission_{0};
-  const HalfColour* light_ = nullptr;  ///< null: 1 everywhere
-  std::uint32_t resolution_ = 0;       ///< of the light; 0: black
-  float exposure_ = 1;
-  const std::array<float, 256>* linearFromSrgb_ = nullptr;
-};
-
 class LocalShading {
  public:
   /// For points of the scene's meshes.
@@ -68,9 +50,9 @@ class LocalShading {
   bool survivesMask(const LocalPoint& point) const;
   /// Display colour; alpha 255 unless the material is clear. Without baked light: the base colour.
   Rgba8 colourAt(const LocalPoint& point, const glm::vec3& eye) const;
-  /// The same for all points of a triangle with these corners; nothing where that needs more than a
-  /// TriangleShading knows.
-  std::optional<TriangleShading> triangle(const std::array<LocalPoint, 3>& corners) const;
+  /// The same for all points of an opaque triangle with these corners; nothing where that needs more than
+  /// kernels know. Refers to the scene and its light.
+  std::optional<SurfaceShade> triangle(const std::array<LocalPoint, 3>& corners) const;
 
  private:
   /// Where there is none, the front's light serves both sides.

@@ -26,6 +26,10 @@ constexpr int kFillRingsWhileLoading = 8;
 /// More than one: some strips hold more than others. Not many more: samples near the borders are read twice.
 constexpr int kStripsPerThread = 2;
 
+const Kernels& kernelsFor(const ViewSettings& settings) {
+  return settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+}
+
 /// By slot of the canvas.
 std::vector<PixelSource> sourcesOf(const ViewPlan& plan) {
   std::vector<PixelSource> sources{kSourceHole, kSourceBackground};
@@ -45,8 +49,7 @@ void resize(Image<T>& image, const PerspectiveView& view) {
 WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                         const ViewPlan& plan, const CoverImage* cover, TaskRunner& runner,
                         FrameMemory& memory, Frame& frame) {
-  const Kernels& kernels =
-      settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+  const Kernels& kernels = kernelsFor(settings);
   WarpOptions options;
   options.project = kernels.project;
   options.findBlocks = kernels.findBlocks;
@@ -76,7 +79,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     if (sky) paintBackground(*sky, view, limits, kBackgroundSlot, canvas);
     background.paint(view, canvas);
     counts[strip] = warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
-    develop(canvas, x0, x1, sources, kernels.filter, frame, memory.inverseZDepth);
+    develop(canvas, x0, x1, sources, kernels, frame, memory.inverseZDepth);
   });
   WarpCounts all;
   for (const WarpCounts& c : counts) all += c;
@@ -120,7 +123,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   stats.warpSeconds = warpTime.seconds();
 
   const Stopwatch drawTime;
-  if (raster) raster->drawOpaque(memory.cover, frame, inverseZDepth, runner);
+  if (raster) raster->drawOpaque(memory.cover, kernelsFor(settings).shadeRun, frame, inverseZDepth, runner);
   if (settings.fillHoles) {  // after the opaque geometry, which closes most holes, and before glass, which
                              // needs something behind it
     const Stopwatch fillTime;

@@ -1,39 +1,12 @@
 #if defined(__x86_64__)
-#include <immintrin.h>
-
+#include "engine/view/lanes_avx2.h"
 #include "engine/view/warp_kernel_body.h"
 
 namespace acentric {
 namespace {
 
-struct Floats {
-  __m256 v;
-  friend Floats operator+(Floats a, Floats b) { return {_mm256_add_ps(a.v, b.v)}; }
-  friend Floats operator-(Floats a, Floats b) { return {_mm256_sub_ps(a.v, b.v)}; }
-  friend Floats operator*(Floats a, Floats b) { return {_mm256_mul_ps(a.v, b.v)}; }
-  friend Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; }
-};
-
-struct Ints {
-  __m256i v;
-  friend Ints operator+(Ints a, Ints b) { return {_mm256_add_epi32(a.v, b.v)}; }
-  friend Ints operator-(Ints a, Ints b) { return {_mm256_sub_epi32(a.v, b.v)}; }
-};
-
-struct Mask {
-  __m256 v;
-  friend Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
-  friend Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
-};
-
-struct EightLanes {
-  static constexpr int kWidth = 8;
-  using F = Floats;
-  using I = Ints;
-  using M = Mask;
-  static F set(float value) { return {_mm256_set1_ps(value)}; }
-  static I seti(std::int32_t value) { return {_mm256_set1_epi32(value)}; }
-  static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
+struct WarpLanes : EightLanes {
+  using EightLanes::gather;
   static F gather(const float* table, const std::uint16_t* rising) {
     const __m256i index = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(rising)));
     const int first = rising[0], span = rising[kWidth - 1] - first;
@@ -49,29 +22,6 @@ struct EightLanes {
         _mm256_and_si256(_mm256_cvtepu8_epi32(narrow), _mm256_set1_epi32(static_cast<int>(wanted)));
     return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(common, _mm256_setzero_si256()))};
   }
-  static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
-  static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
-  static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
-  static unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
-  static M either(M a, M unlessB) {
-    return {_mm256_or_ps(a.v, _mm256_xor_ps(unlessB.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1))))};
-  }
-  static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
-  static F abs(F a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
-  static F sqrt(F a) { return {_mm256_sqrt_ps(a.v)}; }
-  static F min(F a, F b) { return {_mm256_min_ps(a.v, b.v)}; }
-  static F max(F a, F b) { return {_mm256_max_ps(a.v, b.v)}; }
-  static F select(M m, F a, F b) { return {_mm256_blendv_ps(b.v, a.v, m.v)}; }
-  static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }
-  static I floor(F a) { return {_mm256_cvttps_epi32(_mm256_floor_ps(a.v))}; }
-  static I ceil(F a) { return {_mm256_cvttps_epi32(_mm256_ceil_ps(a.v))}; }
-  static I gather(const std::uint32_t* table, I index) {
-    return {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 4)};
-  }
-  static I when(M m, I a) { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }
-  static I times(I a, I b) { return {_mm256_mullo_epi32(a.v, b.v)}; }
-  static I mini(I a, I b) { return {_mm256_min_epi32(a.v, b.v)}; }
-  static I maxi(I a, I b) { return {_mm256_max_epi32(a.v, b.v)}; }
   static void slants(const Slant* p, F& across, F& down) {
     static_assert(sizeof(Slant) == 2);
     const __m256i both = _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
@@ -120,12 +70,12 @@ struct EightLanes {
 
 int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
                        int runCount, Splat* out) {
-  return warp_kernel::projectColumn<EightLanes>(column, samples, runs, runCount, out);
+  return warp_kernel::projectColumn<WarpLanes>(column, samples, runs, runCount, out);
 }
 
 int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                    std::uint16_t* out) {
-  return warp_kernel::findBlocks<EightLanes>(column, test, blocks, count, out);
+  return warp_kernel::findBlocks<WarpLanes>(column, test, blocks, count, out);
 }
 
 }  // namespace acentric

@@ -1,39 +1,12 @@
 #if defined(__x86_64__)
-#include <immintrin.h>
-
+#include "engine/view/lanes_avx512.h"
 #include "engine/view/warp_kernel_body.h"
 
 namespace acentric {
 namespace {
 
-struct Floats {
-  __m512 v;
-  friend Floats operator+(Floats a, Floats b) { return {_mm512_add_ps(a.v, b.v)}; }
-  friend Floats operator-(Floats a, Floats b) { return {_mm512_sub_ps(a.v, b.v)}; }
-  friend Floats operator*(Floats a, Floats b) { return {_mm512_mul_ps(a.v, b.v)}; }
-  friend Floats operator/(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; }
-};
-
-struct Ints {
-  __m512i v;
-  friend Ints operator+(Ints a, Ints b) { return {_mm512_add_epi32(a.v, b.v)}; }
-  friend Ints operator-(Ints a, Ints b) { return {_mm512_sub_epi32(a.v, b.v)}; }
-};
-
-struct Mask {
-  __mmask16 v;
-  friend Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.v, b.v)}; }
-  friend Mask operator|(Mask a, Mask b) { return {_kor_mask16(a.v, b.v)}; }
-};
-
-struct SixteenLanes {
-  static constexpr int kWidth = 16;
-  using F = Floats;
-  using I = Ints;
-  using M = Mask;
-  static F set(float value) { return {_mm512_set1_ps(value)}; }
-  static I seti(std::int32_t value) { return {_mm512_set1_epi32(value)}; }
-  static F load(const float* p) { return {_mm512_loadu_ps(p)}; }
+struct WarpLanes : SixteenLanes {
+  using SixteenLanes::gather;
   static F gather(const float* table, const std::uint16_t* rising) {
     const __m512i index = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rising)));
     const unsigned first = rising[0], span = rising[kWidth - 1] - first;
@@ -45,29 +18,6 @@ struct SixteenLanes {
     const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(roles));
     return {_mm_test_epi8_mask(narrow, _mm_set1_epi8(static_cast<char>(wanted)))};
   }
-  static M less(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
-  static M notLess(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
-  static M greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
-  static unsigned bits(M m) { return m.v; }
-  static M either(M a, M unlessB) { return {static_cast<__mmask16>(a.v | ~unlessB.v)}; }
-  static bool any(M m) { return m.v != 0; }
-  static F abs(F a) { return {_mm512_abs_ps(a.v)}; }
-  static F sqrt(F a) { return {_mm512_sqrt_ps(a.v)}; }
-  static F min(F a, F b) { return {_mm512_min_ps(a.v, b.v)}; }
-  static F max(F a, F b) { return {_mm512_max_ps(a.v, b.v)}; }
-  static F select(M m, F a, F b) { return {_mm512_mask_blend_ps(m.v, b.v, a.v)}; }
-  static F toFloat(I a) { return {_mm512_cvtepi32_ps(a.v)}; }
-  static I floor(F a) {
-    return {_mm512_cvttps_epi32(_mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC))};
-  }
-  static I ceil(F a) {
-    return {_mm512_cvttps_epi32(_mm512_roundscale_ps(a.v, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC))};
-  }
-  static I gather(const std::uint32_t* table, I index) { return {_mm512_i32gather_epi32(index.v, table, 4)}; }
-  static I when(M m, I a) { return {_mm512_maskz_mov_epi32(m.v, a.v)}; }
-  static I times(I a, I b) { return {_mm512_mullo_epi32(a.v, b.v)}; }
-  static I mini(I a, I b) { return {_mm512_min_epi32(a.v, b.v)}; }
-  static I maxi(I a, I b) { return {_mm512_max_epi32(a.v, b.v)}; }
   static void slants(const Slant* p, F& across, F& down) {
     static_assert(sizeof(Slant) == 2);
     const __m512i both = _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
@@ -115,12 +65,12 @@ struct SixteenLanes {
 
 int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
                          int runCount, Splat* out) {
-  return warp_kernel::projectColumn<SixteenLanes>(column, samples, runs, runCount, out);
+  return warp_kernel::projectColumn<WarpLanes>(column, samples, runs, runCount, out);
 }
 
 int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                      std::uint16_t* out) {
-  return warp_kernel::findBlocks<SixteenLanes>(column, test, blocks, count, out);
+  return warp_kernel::findBlocks<WarpLanes>(column, test, blocks, count, out);
 }
 
 }  // namespace acentric

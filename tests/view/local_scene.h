@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/view/kernels.h"
 #include "engine/view/local_raster.h"
 #include "engine/view/walk_scene.h"
 
@@ -65,7 +66,7 @@ inline LocalPicture drawLocal(const WalkScene& walk, const PerspectiveView& view
   const LocalRaster raster(*walk.local[0], shading, view, runner);
   CoverImage cover;
   raster.findOpaque(cover, runner);
-  raster.drawOpaque(cover, picture.frame, picture.inverseZDepth, runner);
+  raster.drawOpaque(cover, supportedKernels().back().shadeRun, picture.frame, picture.inverseZDepth, runner);
   raster.drawClear(picture.frame, picture.inverseZDepth, runner);
   return picture;
 }

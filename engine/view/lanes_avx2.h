@@ -1,0 +1,119 @@
+#pragma once
+/// Eight lanes, for AVX2 (x86-64-v3): see lanes_scalar.h.
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace acentric {
+namespace {
+
+struct Floats {
+  __m256 v;
+  friend Floats operator+(Floats a, Floats b) { return {_mm256_add_ps(a.v, b.v)}; }
+  friend Floats operator-(Floats a, Floats b) { return {_mm256_sub_ps(a.v, b.v)}; }
+  friend Floats operator*(Floats a, Floats b) { return {_mm256_mul_ps(a.v, b.v)}; }
+  friend Floats operator/(Floats a, Floats b) { return {_mm256_div_ps(a.v, b.v)}; }
+};
+
+struct Doubles {
+  __m256d low, high;
+  friend Doubles operator+(Doubles a, Doubles b) {
+    return {_mm256_add_pd(a.low, b.low), _mm256_add_pd(a.high, b.high)};
+  }
+  friend Doubles operator*(Doubles a, Doubles b) {
+    return {_mm256_mul_pd(a.low, b.low), _mm256_mul_pd(a.high, b.high)};
+  }
+  friend Doubles operator/(Doubles a, Doubles b) {
+    return {_mm256_div_pd(a.low, b.low), _mm256_div_pd(a.high, b.high)};
+  }
+};
+
+struct Ints {
+  __m256i v;
+  friend Ints operator+(Ints a, Ints b) { return {_mm256_add_epi32(a.v, b.v)}; }
+  friend Ints operator-(Ints a, Ints b) { return {_mm256_sub_epi32(a.v, b.v)}; }
+};
+
+struct Mask {
+  __m256 v;
+  friend Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
+  friend Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
+};
+
+struct EightLanes {
+  static constexpr int kWidth = 8;
+  using F = Floats;
+  using D = Doubles;
+  using I = Ints;
+  using M = Mask;
+  static F set(float value) { return {_mm256_set1_ps(value)}; }
+  static D setd(double value) { return {_mm256_set1_pd(value), _mm256_set1_pd(value)}; }
+  static I seti(std::int32_t value) { return {_mm256_set1_epi32(value)}; }
+  static I counted(std::int32_t first) { return seti(first) + I{_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
+  static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
+  static __m256i firstLanes(int count) { return _mm256_cmpgt_epi32(seti(count).v, counted(0).v); }
+  static void store(float* p, F a, int count) { _mm256_maskstore_ps(p, firstLanes(count), a.v); }
+  static void store(std::uint32_t* p, I a, int count) {
+    _mm256_maskstore_epi32(reinterpret_cast<int*>(p), firstLanes(count), a.v);
+  }
+
+  static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+  static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+  static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
+  static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
+  static unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
+  static M either(M a, M unlessB) {
+    return {_mm256_or_ps(a.v, _mm256_xor_ps(unlessB.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1))))};
+  }
+  static F select(M m, F a, F b) { return {_mm256_blendv_ps(b.v, a.v, m.v)}; }
+  static I select(M m, I a, I b) { return {_mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v))}; }
+  static I when(M m, I a) { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }
+
+  static F abs(F a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+  static F sqrt(F a) { return {_mm256_sqrt_ps(a.v)}; }
+  static F min(F a, F b) { return {_mm256_min_ps(a.v, b.v)}; }
+  static F max(F a, F b) { return {_mm256_max_ps(a.v, b.v)}; }
+  static I times(I a, I b) { return {_mm256_mullo_epi32(a.v, b.v)}; }
+  static I mini(I a, I b) { return {_mm256_min_epi32(a.v, b.v)}; }
+  static I maxi(I a, I b) { return {_mm256_max_epi32(a.v, b.v)}; }
+  template <int kBits>
+  static I shiftRight(I a) {
+    return {_mm256_srli_epi32(a.v, kBits)};
+  }
+  template <int kBits>
+  static I shiftLeft(I a) {
+    return {_mm256_slli_epi32(a.v, kBits)};
+  }
+  static I both(I a, I b) { return {_mm256_and_si256(a.v, b.v)}; }
+
+  static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }
+  static F toFloat(D a) { return {_mm256_set_m128(_mm256_cvtpd_ps(a.high), _mm256_cvtpd_ps(a.low))}; }
+  static D toDouble(I a) {
+    return {_mm256_cvtepi32_pd(_mm256_castsi256_si128(a.v)),
+            _mm256_cvtepi32_pd(_mm256_extracti128_si256(a.v, 1))};
+  }
+  static I truncate(F a) { return {_mm256_cvttps_epi32(a.v)}; }
+  static I floor(F a) { return truncate(floorOf(a)); }
+  static I ceil(F a) { return truncate({_mm256_ceil_ps(a.v)}); }
+  static F floorOf(F a) { return {_mm256_floor_ps(a.v)}; }
+  static F fromHalf(I half) {
+    const __m256i packed = _mm256_packus_epi32(both(half, seti(0xffff)).v, _mm256_setzero_si256());
+    return {_mm256_cvtph_ps(_mm256_castsi256_si128(_mm256_permute4x64_epi64(packed, 0x08)))};
+  }
+
+  static I gather(const std::uint32_t* table, I index) {
+    return {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 4)};
+  }
+  static F gather(const float* table, I index) { return {_mm256_i32gather_ps(table, index.v, 4)}; }
+  static I gather(const std::uint8_t* table, I index) {
+    return both({_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 1)}, seti(0xff));
+  }
+  static void gatherPairs(const std::uint32_t* table, I index, I& first, I& second) {
+    first = {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 8)};
+    second = {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table + 1), index.v, 8)};
+  }
+};
+
+}  // namespace
+}  // namespace acentric

@@ -1,0 +1,119 @@
+#pragma once
+/// Sixteen lanes, for AVX-512 (x86-64-v4): see lanes_scalar.h.
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace acentric {
+namespace {
+
+struct Floats {
+  __m512 v;
+  friend Floats operator+(Floats a, Floats b) { return {_mm512_add_ps(a.v, b.v)}; }
+  friend Floats operator-(Floats a, Floats b) { return {_mm512_sub_ps(a.v, b.v)}; }
+  friend Floats operator*(Floats a, Floats b) { return {_mm512_mul_ps(a.v, b.v)}; }
+  friend Floats operator/(Floats a, Floats b) { return {_mm512_div_ps(a.v, b.v)}; }
+};
+
+struct Doubles {
+  __m512d low, high;
+  friend Doubles operator+(Doubles a, Doubles b) {
+    return {_mm512_add_pd(a.low, b.low), _mm512_add_pd(a.high, b.high)};
+  }
+  friend Doubles operator*(Doubles a, Doubles b) {
+    return {_mm512_mul_pd(a.low, b.low), _mm512_mul_pd(a.high, b.high)};
+  }
+  friend Doubles operator/(Doubles a, Doubles b) {
+    return {_mm512_div_pd(a.low, b.low), _mm512_div_pd(a.high, b.high)};
+  }
+};
+
+struct Ints {
+  __m512i v;
+  friend Ints operator+(Ints a, Ints b) { return {_mm512_add_epi32(a.v, b.v)}; }
+  friend Ints operator-(Ints a, Ints b) { return {_mm512_sub_epi32(a.v, b.v)}; }
+};
+
+struct Mask {
+  __mmask16 v;
+  friend Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.v, b.v)}; }
+  friend Mask operator|(Mask a, Mask b) { return {_kor_mask16(a.v, b.v)}; }
+};
+
+struct SixteenLanes {
+  static constexpr int kWidth = 16;
+  using F = Floats;
+  using D = Doubles;
+  using I = Ints;
+  using M = Mask;
+  static F set(float value) { return {_mm512_set1_ps(value)}; }
+  static D setd(double value) { return {_mm512_set1_pd(value), _mm512_set1_pd(value)}; }
+  static I seti(std::int32_t value) { return {_mm512_set1_epi32(value)}; }
+  static I counted(std::int32_t first) {
+    return {_mm512_add_epi32(_mm512_set1_epi32(first),
+                             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))};
+  }
+  static F load(const float* p) { return {_mm512_loadu_ps(p)}; }
+  static __mmask16 firstLanes(int count) {
+    return static_cast<__mmask16>(count >= kWidth ? 0xffffu : (1u << count) - 1);
+  }
+  static void store(float* p, F a, int count) { _mm512_mask_storeu_ps(p, firstLanes(count), a.v); }
+  static void store(std::uint32_t* p, I a, int count) { _mm512_mask_storeu_epi32(p, firstLanes(count), a.v); }
+
+  static M less(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
+  static M notLess(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
+  static M greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
+  static bool any(M m) { return m.v != 0; }
+  static unsigned bits(M m) { return m.v; }
+  static M either(M a, M unlessB) { return {static_cast<__mmask16>(a.v | ~unlessB.v)}; }
+  static F select(M m, F a, F b) { return {_mm512_mask_blend_ps(m.v, b.v, a.v)}; }
+  static I select(M m, I a, I b) { return {_mm512_mask_blend_epi32(m.v, b.v, a.v)}; }
+  static I when(M m, I a) { return {_mm512_maskz_mov_epi32(m.v, a.v)}; }
+
+  static F abs(F a) { return {_mm512_abs_ps(a.v)}; }
+  static F sqrt(F a) { return {_mm512_sqrt_ps(a.v)}; }
+  static F min(F a, F b) { return {_mm512_min_ps(a.v, b.v)}; }
+  static F max(F a, F b) { return {_mm512_max_ps(a.v, b.v)}; }
+  static I times(I a, I b) { return {_mm512_mullo_epi32(a.v, b.v)}; }
+  static I mini(I a, I b) { return {_mm512_min_epi32(a.v, b.v)}; }
+  static I maxi(I a, I b) { return {_mm512_max_epi32(a.v, b.v)}; }
+  template <int kBits>
+  static I shiftRight(I a) {
+    return {_mm512_srli_epi32(a.v, kBits)};
+  }
+  template <int kBits>
+  static I shiftLeft(I a) {
+    return {_mm512_slli_epi32(a.v, kBits)};
+  }
+  static I both(I a, I b) { return {_mm512_and_si512(a.v, b.v)}; }
+
+  static F toFloat(I a) { return {_mm512_cvtepi32_ps(a.v)}; }
+  static F toFloat(D a) {
+    return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.low)), _mm512_cvtpd_ps(a.high), 1)};
+  }
+  static D toDouble(I a) {
+    return {_mm512_cvtepi32_pd(_mm512_castsi512_si256(a.v)),
+            _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(a.v, 1))};
+  }
+  static I truncate(F a) { return {_mm512_cvttps_epi32(a.v)}; }
+  static I floor(F a) { return truncate(floorOf(a)); }
+  static I ceil(F a) {
+    return truncate({_mm512_roundscale_ps(a.v, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)});
+  }
+  static F floorOf(F a) { return {_mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)}; }
+  static F fromHalf(I half) { return {_mm512_cvtph_ps(_mm512_cvtepi32_epi16(half.v))}; }
+
+  static I gather(const std::uint32_t* table, I index) { return {_mm512_i32gather_epi32(index.v, table, 4)}; }
+  static F gather(const float* table, I index) { return {_mm512_i32gather_ps(index.v, table, 4)}; }
+  static I gather(const std::uint8_t* table, I index) {
+    return both({_mm512_i32gather_epi32(index.v, table, 1)}, seti(0xff));
+  }
+  static void gatherPairs(const std::uint32_t* table, I index, I& first, I& second) {
+    first = {_mm512_i32gather_epi32(index.v, table, 8)};
+    second = {_mm512_i32gather_epi32(index.v, table + 1, 8)};
+  }
+};
+
+}  // namespace
+}  // namespace acentric

@@ -1,0 +1,48 @@
+#pragma once
+/// The inner loop of local geometry: colours of the pixels of a triangle whose every point looks like base
+/// colour times baked light, plus emission.
+///
+/// One template (surface_kernel_body.h) over the lane types, which all give the same bits. Free of the
+/// standard library and of glm, as warp_kernel.h is.
+
+#include <cstdint>
+
+namespace acentric {
+
+/// How coordinates beyond the texture are brought back: in the order of Wrap.
+enum class TextureWrap : std::uint8_t { repeat, clamp, mirror };
+
+struct SurfaceShade {
+  const std::uint32_t* texels = nullptr;  ///< Rgba8 words, row by row; null: white
+  std::int32_t width = 0, height = 0;
+  TextureWrap wrapU{}, wrapV{};
+  bool nearest = false;
+  float uv[3][2]{};                      ///< of the corners, transformed
+  const std::uint32_t* light = nullptr;  ///< HalfColour, two words each; null: 1 everywhere
+  std::int32_t resolution = 0;           ///< of the light (surface_light.h), kMaxResolution at most; 0: black
+  float barycentric[3][2]{};             ///< of the corners, in the triangle that the light is of
+  float colour[3]{1, 1, 1}, emission[3]{};
+  float exposure = 1;
+  const float* linearFromSrgb = nullptr;  ///< linearFromSrgbTable()
+  const float* threshold = nullptr;       ///< of DisplayCodes
+  const std::uint8_t* firstCode = nullptr;
+
+  static constexpr std::int32_t kMaxResolution = 30000;
+};
+
+/// Pixels [x0, x0 + count) of a row, all of the triangle.
+struct SurfaceRun {
+  double slope[3], start[3];  ///< the edge functions at pixel x: start + x * slope (local_raster.h)
+  double perDepth = 0;        ///< inverse depth by their sum
+  std::int32_t x0 = 0, count = 0;
+  std::uint32_t* colour = nullptr;  ///< Rgba8 words, of pixel x0 on
+  float* inverseZDepth = nullptr;   ///< 1/m
+};
+
+using ShadeRun = void (*)(const SurfaceShade& shade, const SurfaceRun& run);
+
+void shadeRunScalar(const SurfaceShade& shade, const SurfaceRun& run);
+void shadeRunAvx2(const SurfaceShade& shade, const SurfaceRun& run);
+void shadeRunAvx512(const SurfaceShade& shade, const SurfaceRun& run);
+
+}  // namespace acentric

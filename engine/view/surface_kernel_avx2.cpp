@@ -1,0 +1,12 @@
+#if defined(__x86_64__)
+#include "engine/view/lanes_avx2.h"
+#include "engine/view/surface_kernel_body.h"
+
+namespace acentric {
+
+void shadeRunAvx2(const SurfaceShade& shade, const SurfaceRun& run) {
+  surface_kernel::shadeRun<EightLanes>(shade, run);
+}
+
+}  // namespace acentric
+#endif

@@ -1,0 +1,12 @@
+#if defined(__x86_64__)
+#include "engine/view/lanes_avx512.h"
+#include "engine/view/surface_kernel_body.h"
+
+namespace acentric {
+
+void shadeRunAvx512(const SurfaceShade& shade, const SurfaceRun& run) {
+  surface_kernel::shadeRun<SixteenLanes>(shade, run);
+}
+
+}  // namespace acentric
+#endif

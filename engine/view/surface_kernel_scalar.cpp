@@ -1,0 +1,10 @@
+#include "engine/view/lanes_scalar.h"
+#include "engine/view/surface_kernel_body.h"
+
+namespace acentric {
+
+void shadeRunScalar(const SurfaceShade& shade, const SurfaceRun& run) {
+  surface_kernel::shadeRun<OneLane>(shade, run);
+}
+
+}  // namespace acentric
