@@ -26,8 +26,8 @@ constexpr auto kLongestFrame = std::chrono::milliseconds(100);
 /// How often snapshots that frames no longer use are looked for.
 constexpr auto kSweep = std::chrono::milliseconds(30);
 
-template <class T>
-std::size_t bytesOf(const std::vector<T>& values) {
+template <class T, class Allocator>
+std::size_t bytesOf(const std::vector<T, Allocator>& values) {
   return values.size() * sizeof(T);
 }
 

@@ -25,10 +25,10 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   DisplayCapture display;
   display.camera = camera;
   display.columnStart = capture.columnStart;
-  display.row = capture.row;
-  display.inverseDistance = capture.inverseDistance;
-  display.roles = capture.roles;
-  display.mirror = capture.mirror;
+  display.row.assign(capture.row.begin(), capture.row.end());
+  display.inverseDistance.assign(capture.inverseDistance.begin(), capture.inverseDistance.end());
+  display.roles.assign(capture.roles.begin(), capture.roles.end());
+  display.mirror.assign(capture.mirror.begin(), capture.mirror.end());
   display.slant = slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
 
   display.colour.resize(capture.sampleCount());

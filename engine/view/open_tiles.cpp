@@ -17,8 +17,8 @@ void OpenTiles::sum(const Open& open) {
 }
 
 PixelRect OpenTiles::tile(std::size_t i, std::size_t j) const {
-  const int x0 = rect_.x0 + int(i) * kSide, y0 = rect_.y0 + int(j) * kSide;
-  return {x0, y0, std::min(x0 + kSide, rect_.x1), std::min(y0 + kSide, rect_.y1)};
+  const int x0 = rect_.x0 + int(i) * kWidth, y0 = rect_.y0 + int(j) * kHeight;
+  return {x0, y0, std::min(x0 + kWidth, rect_.x1), std::min(y0 + kHeight, rect_.y1)};
 }
 
 bool OpenTiles::isOpen(std::size_t i, std::size_t j) const {
@@ -28,8 +28,8 @@ bool OpenTiles::isOpen(std::size_t i, std::size_t j) const {
 
 OpenTiles::OpenTiles(const PixelRect& strip, const CoverImage* cover, int beside)
     : rect_(strip),
-      columns_(std::size_t(strip.width() + kSide - 1) / kSide),
-      rows_(std::size_t(strip.height() + kSide - 1) / kSide) {
+      columns_(std::size_t(strip.width() + kWidth - 1) / kWidth),
+      rows_(std::size_t(strip.height() + kHeight - 1) / kHeight) {
   sum([&](std::size_t i, std::size_t j) {
     if (cover == nullptr) return true;
     const PixelRect t = tile(i, j);

@@ -33,7 +33,7 @@ class OpenTiles {
   }
 
  private:
-  static constexpr int kSide = 1 << kTileSideBits;
+  static constexpr int kWidth = 1 << kTileWidthBits, kHeight = 1 << kTileHeightBits;
   bool isOpen(std::size_t i, std::size_t j) const;
   PixelRect tile(std::size_t i, std::size_t j) const;
   /// Of those that were open before the tiles with such pixels: `holds(x, firstY, endY)` of a column of one.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/base/large_vector.h"
 #include "engine/image/capture.h"
 #include "engine/image/colour.h"
 #include "engine/layout/layout.h"
@@ -16,7 +17,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSamplesPerBlock = 64;
+inline constexpr std::uint32_t kSamplesPerBlock = 32;
 
 /// What is known of each block: of that many successive samples of a column, or of the fewer at its end. The
 /// arrays have room for kSampleRoom more.
@@ -37,11 +38,11 @@ struct DisplayBackground {
 struct DisplayCapture {
   ColumnCamera camera;
   std::vector<std::uint32_t> columnStart;  ///< columns + 1
-  std::vector<std::uint16_t> row;
-  std::vector<float> inverseDistance;      ///< 1/m, horizontal
-  std::vector<Rgba8> colour;               ///< sRGB, straight alpha
-  std::vector<std::uint8_t> roles;         ///< that need the sample
-  std::vector<Slant> slant;                ///< how its surface is turned (slant.h)
+  LargeVector<std::uint16_t> row;
+  LargeVector<float> inverseDistance;      ///< 1/m, horizontal
+  LargeVector<Rgba8> colour;               ///< sRGB, straight alpha
+  LargeVector<std::uint8_t> roles;         ///< that need the sample
+  LargeVector<Slant> slant;                ///< how its surface is turned (slant.h)
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
@@ -50,7 +51,7 @@ struct DisplayCapture {
   DisplayBackground background;
   bool layered = false;              ///< some pixel has more than one sample
   bool blended = false;              ///< some sample has alpha < 255
-  std::vector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
+  LargeVector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
   /// What mirrors show, at its virtual place; null = nothing. Its `mirror` says which of them shows a sample.
   std::shared_ptr<const DisplayCapture> reflections;
 };

@@ -96,7 +96,8 @@ struct BlockTest {
   const std::uint32_t* openTiles;
   std::int32_t tileColumns, tileRows;
 };
-inline constexpr int kTileSideBits = 3;  ///< a tile is 8 pixels wide and high
+/// Tiles are 2 pixels wide and 8 high, as samples of a column lie one below the other.
+inline constexpr int kTileWidthBits = 1, kTileHeightBits = 3;
 
 /// Writes the numbers of the blocks that may have a splat on an open pixel of the rectangle, rising, to `out`
 /// (room for `count`), and returns how many.

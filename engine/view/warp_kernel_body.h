@@ -10,8 +10,9 @@ namespace acentric::warp_kernel {
 /// safe.
 inline constexpr float kFarPixel = 30000.0f;
 
-/// A splat reaches this far beyond half its side, rounding up and sideways included.
-inline constexpr float kSplatSlack = 2.5f;
+/// A splat reaches this far beyond half its side: half a pixel for its size and half a one for its place,
+/// both rounded to pixels, and rounding errors.
+inline constexpr float kSplatSlack = 1.25f;
 
 template <class B>
 inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
@@ -193,8 +194,9 @@ inline typename B::M reachesOpenTile(const ProjectColumn& c, const BlockTest& te
   }
   const F margin = B::set(0.5f) * side + B::set(kSplatSlack);
   // Tiles [first, end) along an axis, at least one.
-  const auto tiles = [&](const F* p, std::int32_t from, std::int32_t count, I& first, I& end) {
-    const F toTile = B::set(1.0f / (1 << kTileSideBits)), last = B::set(static_cast<float>(count - 1));
+  const auto tiles = [&](const F* p, std::int32_t from, int sideBits, std::int32_t count, I& first, I& end) {
+    const F toTile = B::set(1.0f / static_cast<float>(1 << sideBits)),
+            last = B::set(static_cast<float>(count - 1));
     const auto tile = [&](F x) {
       const F t = (x - B::set(static_cast<float>(from))) * toTile;
       return B::floor(B::max(B::min(t, last), B::set(0)));
@@ -202,8 +204,8 @@ inline typename B::M reachesOpenTile(const ProjectColumn& c, const BlockTest& te
     first = tile(least(p) - margin), end = tile(most(p) + margin) + B::seti(1);
   };
   I left, right, top, bottom;
-  tiles(place[0], c.x0, test.tileColumns, left, right);
-  tiles(place[1], c.y0, test.tileRows, top, bottom);
+  tiles(place[0], c.x0, kTileWidthBits, test.tileColumns, left, right);
+  tiles(place[1], c.y0, kTileHeightBits, test.tileRows, top, bottom);
   const auto sum = [&](I column, I row) {
     return B::gather(test.openTiles, B::times(column, B::seti(test.tileRows + 1)) + row);
   };
