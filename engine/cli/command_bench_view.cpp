@@ -25,8 +25,8 @@ struct Timings {
   }
 };
 
-/// Bytes of a sample that projecting it reads: row, inverse distance, roles; colour; slant.
-constexpr double kBytesPerSample = 2 + 4 + 1 + 4 + 2;
+/// Bytes that are read of a sample.
+constexpr double kBytesPerSample = sizeof(PackedSample) + sizeof(Rgba8);
 
 /// Bytes per second that all threads together read from memory, one after the other: no warp can be faster.
 double streamingReadRate(TaskRunner& runner) {

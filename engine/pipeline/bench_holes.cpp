@@ -180,7 +180,7 @@ class Bench {
               std::string description, const WalkScene& walk, bool otherHand, bool fill) const {
     HoleBenchMethod method{std::move(name), std::move(description), {}, {}, {}, 0};
     for (const CapturePtr& capture : walk.captures)
-      method.samples += capture ? std::uint64_t(capture->row.size()) : 0;
+      method.samples += capture ? std::uint64_t(capture->samples.size()) : 0;
     ViewSettings settings = open_.project.view;
     settings.renderer = Renderer::list;
     settings.localGeometry = true;

@@ -38,11 +38,10 @@ std::size_t bytesOf(const SampleBlocks& b) {
 
 std::size_t bytesOf(const DisplayCapture& c) {
   const DisplayBackground& b = c.background;
-  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.row) + bytesOf(c.inverseDistance) + bytesOf(c.colour) +
-         bytesOf(c.roles) + bytesOf(c.slant) + bytesOf(c.columnDirection) + bytesOf(c.rowTangent) +
-         bytesOf(c.columnRange) + bytesOf(c.blocks) + bytesOf(c.columnBlock) + bytesOf(c.mirror) +
-         b.runs.bytes() + bytesOf(b.columnBorder) + bytesOf(b.rowBorder) +
-         (c.reflections ? bytesOf(*c.reflections) : 0);
+  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.samples) + bytesOf(c.colour) +
+         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.blocks) +
+         bytesOf(c.columnBlock) + bytesOf(c.mirror) + b.runs.bytes() + bytesOf(b.columnBorder) +
+         bytesOf(b.rowBorder) + (c.reflections ? bytesOf(*c.reflections) : 0);
 }
 
 /// A capture that is counted for as long as anybody uses it.

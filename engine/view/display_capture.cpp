@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <functional>
-#include <numeric>
+#include <cmath>
+#include <span>
 
 #include "engine/base/contract.h"
 #include "engine/view/slant.h"
@@ -9,12 +9,14 @@
 namespace acentric {
 namespace {
 
-/// Smallest and largest inverse distance of samples [begin, end); smallest above largest if there are none.
-glm::vec2 rangeOf(const CaptureSamples& capture, std::uint32_t begin, std::uint32_t end) {
-  if (begin >= end) return {1, 0};
-  const auto [low, high] =
-      std::minmax_element(capture.inverseDistance.begin() + begin, capture.inverseDistance.begin() + end);
-  return {*low, *high};
+/// Smallest and largest inverse distance of these samples; smallest above largest if there are none.
+glm::vec2 rangeOf(std::span<const PackedSample> samples) {
+  glm::vec2 range(samples.empty() ? 1 : HUGE_VALF, 0);
+  for (const PackedSample& sample : samples) {
+    const float inverseDistance = inverseDistanceOf(sample);
+    range = {std::min(range.x, inverseDistance), std::max(range.y, inverseDistance)};
+  }
+  return range;
 }
 
 DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture, float exposure) {
@@ -25,11 +27,12 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   DisplayCapture display;
   display.camera = camera;
   display.columnStart = capture.columnStart;
-  display.row.assign(capture.row.begin(), capture.row.end());
-  display.inverseDistance.assign(capture.inverseDistance.begin(), capture.inverseDistance.end());
-  display.roles.assign(capture.roles.begin(), capture.roles.end());
   display.mirror.assign(capture.mirror.begin(), capture.mirror.end());
-  display.slant = slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
+  const std::vector<Slant> slants =
+      slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
+  display.samples.resize(capture.sampleCount());
+  for (std::size_t i = 0; i < display.samples.size(); ++i)
+    display.samples[i] = packSample(capture.inverseDistance[i], capture.roles[i], capture.row[i], slants[i]);
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
@@ -49,16 +52,18 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   for (std::size_t k = 0; k < columns; ++k) {
     display.columnDirection[k] = glm::vec2(camera.directionAt(static_cast<double>(k) + 0.5));
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
-    display.columnRange[k] = rangeOf(capture, begin, end);
+    const std::span column = std::span(display.samples).subspan(begin, end - begin);
+    display.columnRange[k] = rangeOf(column);
     display.columnBlock[k] = static_cast<std::uint32_t>(blocks.roles.size());
-    for (std::uint32_t i = begin; i < end; i += kSamplesPerBlock) {
-      const std::uint32_t last = std::min(i + kSamplesPerBlock, end);
-      const glm::vec2 range = rangeOf(capture, i, last);
+    for (std::size_t i = 0; i < column.size(); i += kSamplesPerBlock) {
+      const std::span block = column.subspan(i, std::min<std::size_t>(kSamplesPerBlock, column.size() - i));
+      const glm::vec2 range = rangeOf(block);
       blocks.leastInverse.push_back(range.x), blocks.mostInverse.push_back(range.y);
-      blocks.lowTangent.push_back(display.rowTangent[capture.row[last - 1]]);
-      blocks.highTangent.push_back(display.rowTangent[capture.row[i]]);
-      blocks.roles.push_back(std::accumulate(capture.roles.begin() + i, capture.roles.begin() + last,
-                                             std::uint8_t(0), std::bit_or<std::uint8_t>()));
+      blocks.lowTangent.push_back(display.rowTangent[block.back().row]);
+      blocks.highTangent.push_back(display.rowTangent[block.front().row]);
+      std::uint8_t roles = 0;
+      for (const PackedSample& sample : block) roles |= rolesOf(sample);
+      blocks.roles.push_back(roles);
     }
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];

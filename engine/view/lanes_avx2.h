@@ -82,11 +82,16 @@ struct EightLanes {
     return {_mm256_srli_epi32(a.v, kBits)};
   }
   template <int kBits>
+  static I shiftSigned(I a) {
+    return {_mm256_srai_epi32(a.v, kBits)};
+  }
+  template <int kBits>
   static I shiftLeft(I a) {
     return {_mm256_slli_epi32(a.v, kBits)};
   }
   static I both(I a, I b) { return {_mm256_and_si256(a.v, b.v)}; }
 
+  static F asFloat(I bits) { return {_mm256_castsi256_ps(bits.v)}; }
   static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }
   static F toFloat(D a) { return {_mm256_set_m128(_mm256_cvtpd_ps(a.high), _mm256_cvtpd_ps(a.low))}; }
   static D toDouble(I a) {

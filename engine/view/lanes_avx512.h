@@ -83,11 +83,16 @@ struct SixteenLanes {
     return {_mm512_srli_epi32(a.v, kBits)};
   }
   template <int kBits>
+  static I shiftSigned(I a) {
+    return {_mm512_srai_epi32(a.v, kBits)};
+  }
+  template <int kBits>
   static I shiftLeft(I a) {
     return {_mm512_slli_epi32(a.v, kBits)};
   }
   static I both(I a, I b) { return {_mm512_and_si512(a.v, b.v)}; }
 
+  static F asFloat(I bits) { return {_mm512_castsi512_ps(bits.v)}; }
   static F toFloat(I a) { return {_mm512_cvtepi32_ps(a.v)}; }
   static F toFloat(D a) {
     return {_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.low)), _mm512_cvtpd_ps(a.high), 1)};

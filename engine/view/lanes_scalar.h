@@ -50,12 +50,18 @@ struct OneLane {
   static I shiftRight(I a) {
     return static_cast<I>(static_cast<std::uint32_t>(a) >> kBits);
   }
+  /// Of signed numbers.
+  template <int kBits>
+  static I shiftSigned(I a) {
+    return a >> kBits;
+  }
   template <int kBits>
   static I shiftLeft(I a) {
     return static_cast<I>(static_cast<std::uint32_t>(a) << kBits);
   }
   static I both(I a, I b) { return a & b; }  ///< bits
 
+  static F asFloat(I bits) { return __builtin_bit_cast(F, bits); }
   static F toFloat(I a) { return static_cast<float>(a); }
   static F toFloat(D a) { return static_cast<float>(a); }
   static D toDouble(I a) { return a; }

@@ -67,9 +67,9 @@ std::int8_t slantCode(double tangent) { return codeOf(static_cast<float>(tangent
 
 double slantTangent(std::int8_t code) { return double(code) / (127 - std::abs(int(code))); }
 
-LargeVector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uint32_t> columnStart,
+std::vector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uint32_t> columnStart,
                             std::span<const std::uint16_t> row, std::span<const float> inverseDistance) {
-  LargeVector<Slant> slants(row.size());
+  std::vector<Slant> slants(row.size());
   const float columnPitch = float(camera.columnPitch()), rowPitch = float(camera.rowPitch());
   const auto cursor = [&](std::size_t column) {  // also of the columns beside the first and the last
     return column < columnStart.size() - 1 ? ColumnCursor(row, columnStart[column], columnStart[column + 1])

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/large_vector.h"
 #include "engine/geometry/column_camera.h"
 #include "engine/view/slant_code.h"
 
@@ -20,7 +19,7 @@ double slantTangent(std::int8_t code);
 /// side the one nearest in depth counts, and of the two sides the flatter one, unless both still look like
 /// one surface: then the steeper. Zero where no side does, where a surface turns away at its edge (drawn as
 /// steep as it is there, it would reach far beyond it), and for the sky.
-LargeVector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uint32_t> columnStart,
+std::vector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uint32_t> columnStart,
                             std::span<const std::uint16_t> row, std::span<const float> inverseDistance);
 
 }  // namespace acentric

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/image/colour.h"
+#include "engine/view/walk_scene.h"
 
 namespace acentric {
 namespace {
@@ -14,12 +15,14 @@ namespace {
 std::uint64_t stampOf(const PaintTarget& target, std::uint32_t index) {
   constexpr std::uint32_t kLastRank = 7;
   std::uint32_t rank = 0;
-  while (rank < kLastRank && rank < index && target.row[index - rank - 1] == target.row[index]) ++rank;
-  const float inverseDistance = target.inverseDistance[index];
+  while (rank < kLastRank && rank < index &&
+         target.samples[index - rank - 1].row == target.samples[index].row)
+    ++rank;
+  const float inverseDistance = inverseDistanceOf(target.samples[index]);
   const std::uint32_t order = inverseDistance > target.footInverse ? rank : 2 * kLastRank + 1 - rank;
   const std::uint32_t depthBits = std::bit_cast<std::uint32_t>(inverseDistance) >> 8;
   return (std::uint64_t(target.slot) << 56) | (std::uint64_t(target.column) << 40) |
-         (std::uint64_t(target.row[index]) << 24) | (depthBits & ~15u) | order;
+         (std::uint64_t(target.samples[index].row) << 24) | (depthBits & ~15u) | order;
 }
 
 /// Is a sample with stamp `other` of a surface that the pixel was tinted by, `stamp` being the last of them?
@@ -96,14 +99,15 @@ class Painter {
   static constexpr bool kOver = mode == PaintMode::over || mode == PaintMode::overBlended;
   static constexpr CanvasPixel kPlace = kPlaces ? kPlaceBits : 0;
 
-  std::uint16_t rowOf(const Splat& splat) const { return target_.row[splat.index]; }
+  std::uint16_t rowOf(const Splat& splat) const { return target_.samples[splat.index].row; }
 
   /// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
   /// beyond it recede.
   [[gnu::always_inline]] std::uint64_t paintPixel(const Splat* first, const Splat* last) const {
     if (last - first == 1) return paint(*first);
-    const Splat* const foot = std::partition_point(
-        first, last, [&](const Splat& s) { return target_.inverseDistance[s.index] > target_.footInverse; });
+    const Splat* const foot = std::partition_point(first, last, [&](const Splat& s) {
+      return inverseDistanceOf(target_.samples[s.index]) > target_.footInverse;
+    });
     std::uint64_t painted = 0;
     for (const Splat* s = first; s < foot; ++s) painted += paint(*s);
     for (const Splat* s = last; s > foot;) painted += paint(*--s);

@@ -23,8 +23,7 @@ struct PaintTarget {
   Canvas* canvas = nullptr;
   PixelRect rect;                 ///< only these pixels are touched
   const Rgba8* colour = nullptr;  ///< Splat::index counts from here
-  const std::uint16_t* row = nullptr;
-  const float* inverseDistance = nullptr;
+  const PackedSample* samples = nullptr;
   const std::uint8_t* mirror = nullptr;  ///< null: of no mirror
   std::uint32_t slot = 0;                ///< 1..kMaxSlots
   std::uint32_t column = 0;              ///< of the capture

@@ -2,6 +2,7 @@
 /// All that a renderer reads: layout, captures made ready for display, and local geometry with its light.
 /// Parts that are not loaded yet are null: the picture then has holes there, never a stall.
 
+#include <bit>
 #include <memory>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "engine/scene/effect_plan.h"
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
-#include "engine/view/slant_code.h"
+#include "engine/view/packed_sample.h"
 #include "engine/view/warp_kernel.h"
 
 namespace acentric {
@@ -34,15 +35,23 @@ struct DisplayBackground {
   std::vector<double> rowBorder;         ///< rows + 1 tangents, falling; empty without runs
 };
 
+inline float inverseDistanceOf(const PackedSample& sample) {
+  return std::bit_cast<float>(sample.inverseDistanceAndRoles & ~0xffu);
+}
+inline std::uint8_t rolesOf(const PackedSample& sample) {
+  return static_cast<std::uint8_t>(sample.inverseDistanceAndRoles);
+}
+/// The inverse distance is rounded to the bits that are kept.
+inline PackedSample packSample(float inverseDistance, std::uint8_t roles, std::uint16_t row, Slant slant) {
+  return {((std::bit_cast<std::uint32_t>(inverseDistance) + 0x80u) & ~0xffu) | roles, row, slant};
+}
+
 /// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.
 struct DisplayCapture {
   ColumnCamera camera;
   std::vector<std::uint32_t> columnStart;  ///< columns + 1
-  LargeVector<std::uint16_t> row;
-  LargeVector<float> inverseDistance;      ///< 1/m, horizontal
+  LargeVector<PackedSample> samples;       ///< rows do not fall within a column
   LargeVector<Rgba8> colour;               ///< sRGB, straight alpha
-  LargeVector<std::uint8_t> roles;         ///< that need the sample
-  LargeVector<Slant> slant;                ///< how its surface is turned (slant.h)
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)

@@ -191,21 +191,18 @@ class CanvasWarp {
   void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, const Column& column, PaintMode mode,
                   std::uint32_t slot) {
     const std::size_t k = column.index, start = capture.columnStart[k];
-    const std::uint16_t* const row = capture.row.data() + start;
+    const PackedSample* const samples = capture.samples.data() + start;
     splats_.resize(std::max<std::size_t>(splats_.size(), column.samples + kSampleRoom));
     const int count =
-        options_.project(column.constants,
-                         {capture.rowTangent.data(), row, capture.inverseDistance.data() + start,
-                          capture.roles.data() + start, capture.slant.data() + start},
-                         column.runs.data(), static_cast<int>(column.runs.size()), splats_.data());
+        options_.project(column.constants, {capture.rowTangent.data(), samples}, column.runs.data(),
+                         static_cast<int>(column.runs.size()), splats_.data());
     if (count == 0) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
     const PaintTarget target{&canvas_,
                              rect_,
                              capture.colour.data() + start,
-                             row,
-                             capture.inverseDistance.data() + start,
+                             samples,
                              capture.mirror.empty() ? nullptr : capture.mirror.data() + start,
                              slot,
                              static_cast<std::uint32_t>(k),
@@ -217,7 +214,7 @@ class CanvasWarp {
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const Splat* splats = splats_.data();
     const Splat* pivot = std::partition_point(splats, splats + count, [&](const Splat& s) {
-      return capture.rowTangent[row[s.index]] > order.pivotTangent;
+      return capture.rowTangent[samples[s.index].row] > order.pivotTangent;
     });
     const int above = static_cast<int>(pivot - splats);
     counts_.samplesDrawn += paintSplats(target, mode, splats, above, !order.inwards, capture.layered);

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "engine/view/slant_code.h"
+#include "engine/view/packed_sample.h"
 
 namespace acentric {
 
@@ -63,11 +63,8 @@ inline constexpr int kSampleRoom = 16;
 
 /// The samples of a column from its first on.
 struct SampleColumn {
-  const float* rowTangent = nullptr;   ///< the capture's table
-  const std::uint16_t* row = nullptr;  ///< rows do not fall
-  const float* inverseDistance = nullptr;
-  const std::uint8_t* roles = nullptr;
-  const Slant* slant = nullptr;  ///< read where the column is slanted
+  const float* rowTangent = nullptr;      ///< the capture's table
+  const PackedSample* samples = nullptr;  ///< rows do not fall
 };
 
 /// Samples [first, end) of a column.

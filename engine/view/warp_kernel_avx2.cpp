@@ -6,31 +6,37 @@ namespace acentric {
 namespace {
 
 struct WarpLanes : EightLanes {
-  using EightLanes::gather;
-  static F gather(const float* table, const std::uint16_t* rising) {
-    const __m256i index = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(rising)));
-    const int first = rising[0], span = rising[kWidth - 1] - first;
-    if (span >= kWidth) return {_mm256_i32gather_ps(table, index, 4)};
-    const __m256i within =
-        _mm256_cmpgt_epi32(_mm256_set1_epi32(span + 1), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    const __m256 near = _mm256_maskload_ps(table + first, within);
-    return {_mm256_permutevar8x32_ps(near, _mm256_sub_epi32(index, _mm256_set1_epi32(first)))};
+  using EightLanes::load;
+  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+    const __m256 first = _mm256_loadu_ps(reinterpret_cast<const float*>(p)),
+                 second = _mm256_loadu_ps(reinterpret_cast<const float*>(p + 4));
+    const auto inOrder = [](__m256 lanes) {
+      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(lanes), 0xd8)};
+    };
+    inverseAndRoles = inOrder(_mm256_shuffle_ps(first, second, 0x88));
+    rowAndSlant = inOrder(_mm256_shuffle_ps(first, second, 0xdd));
+  }
+  static F tangents(const float* table, const PackedSample* rising, I rowAndSlant) {
+    const I row = both(rowAndSlant, seti(0xffff));
+    const int first = rising[0].row, span = rising[kWidth - 1].row - first;
+    if (span >= kWidth) return gather(table, row);
+    const __m256 near = _mm256_maskload_ps(table + first, firstLanes(span + 1));
+    return {_mm256_permutevar8x32_ps(near, (row - seti(first)).v)};
   }
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
     const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(roles));
-    const __m256i common =
-        _mm256_and_si256(_mm256_cvtepu8_epi32(narrow), _mm256_set1_epi32(static_cast<int>(wanted)));
-    return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(common, _mm256_setzero_si256()))};
+    return needed(I{_mm256_cvtepu8_epi32(narrow)}, wanted);
   }
-  static void slants(const Slant* p, F& across, F& down) {
-    static_assert(sizeof(Slant) == 2);
-    const __m256i both = _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
-    const auto tangent = [](__m256i code) {
-      const F size = toFloat({code});
+  static M needed(I roles, std::uint32_t wanted) {
+    return greater(both(roles, seti(static_cast<int>(wanted))), seti(0));
+  }
+  static void slants(I rowAndSlant, F& across, F& down) {
+    const auto tangent = [](I code) {
+      const F size = toFloat(code);
       return size / (set(127) - abs(size));
     };
-    across = tangent(_mm256_srai_epi32(_mm256_slli_epi32(both, 24), 24));
-    down = tangent(_mm256_srai_epi32(both, 8));
+    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
+    down = tangent(shiftSigned<24>(rowAndSlant));
   }
   static I pack(I width, I height, I placeX, I placeY) {
     const __m256i size = _mm256_or_si256(width.v, _mm256_slli_epi32(height.v, 8));

@@ -6,27 +6,34 @@ namespace acentric {
 namespace {
 
 struct WarpLanes : SixteenLanes {
-  using SixteenLanes::gather;
-  static F gather(const float* table, const std::uint16_t* rising) {
-    const __m512i index = _mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rising)));
-    const unsigned first = rising[0], span = rising[kWidth - 1] - first;
-    if (span >= kWidth) return {_mm512_i32gather_ps(index, table, 4)};
+  using SixteenLanes::load;
+  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+    const __m512i first = _mm512_loadu_si512(p), second = _mm512_loadu_si512(p + 8);
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    inverseAndRoles = {_mm512_permutex2var_epi32(first, even, second)};
+    rowAndSlant = {_mm512_permutex2var_epi32(first, (I{even} + seti(1)).v, second)};
+  }
+  static F tangents(const float* table, const PackedSample* rising, I rowAndSlant) {
+    const I row = both(rowAndSlant, seti(0xffff));
+    const unsigned first = rising[0].row, span = rising[kWidth - 1].row - first;
+    if (span >= kWidth) return gather(table, row);
     const __m512 near = _mm512_maskz_loadu_ps(static_cast<__mmask16>((2u << span) - 1), table + first);
-    return {_mm512_permutexvar_ps(_mm512_sub_epi32(index, _mm512_set1_epi32(static_cast<int>(first))), near)};
+    return {_mm512_permutexvar_ps((row - seti(static_cast<int>(first))).v, near)};
   }
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
     const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(roles));
     return {_mm_test_epi8_mask(narrow, _mm_set1_epi8(static_cast<char>(wanted)))};
   }
-  static void slants(const Slant* p, F& across, F& down) {
-    static_assert(sizeof(Slant) == 2);
-    const __m512i both = _mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
-    const auto tangent = [](__m512i code) {
-      const F size = toFloat({code});
+  static M needed(I roles, std::uint32_t wanted) {
+    return {_mm512_test_epi32_mask(roles.v, seti(static_cast<int>(wanted)).v)};
+  }
+  static void slants(I rowAndSlant, F& across, F& down) {
+    const auto tangent = [](I code) {
+      const F size = toFloat(code);
       return size / (set(127) - abs(size));
     };
-    across = tangent(_mm512_srai_epi32(_mm512_slli_epi32(both, 24), 24));
-    down = tangent(_mm512_srai_epi32(both, 8));
+    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
+    down = tangent(shiftSigned<24>(rowAndSlant));
   }
   static I pack(I width, I height, I placeX, I placeY) {
     const __m512i size = _mm512_or_si512(width.v, _mm512_slli_epi32(height.v, 8));

@@ -58,12 +58,12 @@ inline void span(typename B::F centre, typename B::F half, typename B::I& first,
 /// sides are the derivatives of (u, v) along a row and a column of the capture, the sample's slant included.
 template <class B>
 inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, typename B::F t, typename B::F w,
-                            typename B::F u, typename B::F v, typename B::F perDepth, const Slant* slant,
-                            std::uint32_t firstIndex, Splat* out) {
+                            typename B::F u, typename B::F v, typename B::F perDepth,
+                            typename B::I rowAndSlant, std::uint32_t firstIndex, Splat* out) {
   using F = typename B::F;
   using I = typename B::I;
   F across, down;
-  B::slants(slant, across, down);
+  B::slants(rowAndSlant, across, down);
   const F acrossW = w * across * B::set(c.acrossStep), downW = w * down * B::set(c.downStep);
   const F rise = (B::set(1) + t * t) * B::set(c.downStep);
   const F acrossZ = B::set(c.across[2]) + acrossW * B::set(c.b[2]);
@@ -85,20 +85,21 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
                    w * perDepth, out);
 }
 
-/// Lanes beyond `count` must hold an inverse distance of NaN.
+/// Samples of no role are dropped.
 template <class B>
 [[gnu::always_inline]] inline int projectBatch(const ProjectColumn& c, const float* rowTangent,
-                                               const std::uint16_t* row, const float* inverseDistance,
-                                               const std::uint8_t* roles, const Slant* slant,
-                                               std::uint32_t firstIndex, Splat* out) {
+                                               const PackedSample* samples, std::uint32_t firstIndex,
+                                               Splat* out) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
-  const F w = B::load(inverseDistance);
-  const F t = B::gather(rowTangent, row);
+  I inverseAndRoles, rowAndSlant;
+  B::load(samples, inverseAndRoles, rowAndSlant);
+  const F w = B::asFloat(B::both(inverseAndRoles, B::seti(~0xff)));
+  const F t = B::tangents(rowTangent, samples, rowAndSlant);
   const F qz = B::set(c.a[2]) + t * B::set(c.z[2]) + w * B::set(c.b[2]);
-  M accepted =
-      B::needed(roles, c.roles) & B::less(B::set(0), qz) & B::notLess(B::set(c.maxInverseDistance), w);
+  M accepted = B::needed(inverseAndRoles, c.roles) & B::less(B::set(0), qz) &
+               B::notLess(B::set(c.maxInverseDistance), w);
   if (c.minInverseDistance > 0) accepted = accepted & B::notLess(w, B::set(c.minInverseDistance));
   if (c.partTest != PartTest::none) accepted = accepted & insidePart<B>(c, w);
   if (!B::any(accepted)) return 0;
@@ -110,7 +111,7 @@ template <class B>
   const F v = qy * perDepth;
   accepted = accepted & B::less(B::abs(u), B::set(kFarPixel)) & B::less(B::abs(v), B::set(kFarPixel));
 
-  if (c.slanted) return appendRectangles<B>(c, accepted, t, w, u, v, perDepth, slant, firstIndex, out);
+  if (c.slanted) return appendRectangles<B>(c, accepted, t, w, u, v, perDepth, rowAndSlant, firstIndex, out);
   // A sample stands for pitch * distance across; seen under an angle off the view axis the picture stretches
   // it.
   const F offX = (u - B::set(c.centreX)) * B::set(c.inverseFocal);
@@ -137,22 +138,14 @@ inline int projectColumn(const ProjectColumn& constants, const SampleColumn& sam
     std::uint32_t i = runs[r].first;
     const std::uint32_t end = runs[r].end;
     for (; i + B::kWidth <= end; i += B::kWidth)
-      written += projectBatch<B>(column, from.rowTangent, from.row + i, from.inverseDistance + i,
-                                 from.roles + i, column.slanted ? from.slant + i : nullptr, i, out + written);
+      written += projectBatch<B>(column, from.rowTangent, from.samples + i, i, out + written);
     if (i == end) continue;
-    std::uint16_t lastRow[B::kWidth];
-    float lastInverse[B::kWidth];
-    std::uint8_t lastRoles[B::kWidth];
-    Slant lastSlant[B::kWidth];
+    PackedSample last[B::kWidth];
     for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
-      const bool there = i + lane < end;
-      lastRow[lane] = from.row[there ? i + lane : end - 1];
-      lastInverse[lane] = there ? from.inverseDistance[i + lane] : __builtin_nanf("");
-      lastRoles[lane] = there ? from.roles[i + lane] : std::uint8_t(0);
-      lastSlant[lane] = column.slanted && there ? from.slant[i + lane] : Slant{};
+      last[lane] = from.samples[i + lane < end ? i + lane : end - 1];
+      if (i + lane >= end) last[lane].inverseDistanceAndRoles = 0;
     }
-    written += projectBatch<B>(column, from.rowTangent, lastRow, lastInverse, lastRoles, lastSlant, i,
-                               out + written);
+    written += projectBatch<B>(column, from.rowTangent, last, i, out + written);
   }
   return written;
 }

@@ -5,16 +5,24 @@ namespace acentric {
 namespace {
 
 struct WarpLane : OneLane {
-  using OneLane::gather;
-  static F gather(const float* table, const std::uint16_t* rising) { return table[*rising]; }
+  using OneLane::load;
+  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+    inverseAndRoles = static_cast<I>(p->inverseDistanceAndRoles);
+    rowAndSlant = p->row | static_cast<std::uint8_t>(p->slant.across) << 16 |
+                  static_cast<I>(static_cast<std::uint32_t>(p->slant.down) << 24);
+  }
+  static F tangents(const float* table, const PackedSample* rising, I) { return table[rising->row]; }
+  /// Of blocks, and of samples.
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
+  static M needed(I roles, std::uint32_t wanted) { return (static_cast<std::uint32_t>(roles) & wanted) != 0; }
   /// Tangents of the slants along row and column.
-  static void slants(const Slant* p, F& across, F& down) {
-    const auto tangent = [](std::int8_t code) {
-      const F size = static_cast<F>(code);
+  static void slants(I rowAndSlant, F& across, F& down) {
+    const auto tangent = [](I code) {
+      const F size = toFloat(code);
       return size / (127.0f - abs(size));
     };
-    across = tangent(p->across), down = tangent(p->down);
+    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
+    down = tangent(shiftSigned<24>(rowAndSlant));
   }
   struct Size {
     std::uint8_t width, height, placeX, placeY;

@@ -11,25 +11,23 @@
 namespace acentric {
 namespace {
 
-struct PackedSample {
+struct GlSample {
   std::uint32_t inverseDistanceAndRoles;
   std::uint32_t rowAndColumn;
   std::uint32_t colour;
 };
-static_assert(sizeof(PackedSample) == 12, "the shader reads a stride of 12 bytes");
+static_assert(sizeof(GlSample) == 12, "the shader reads a stride of 12 bytes");
 
 /// The shader indexes without checks of its own, so the arrays must agree with each other.
 Status checkArrays(const DisplayCapture& capture, const char* name) {
   const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, what, name); };
   if (Status camera = capture.camera.check(); !camera) return camera;
   const std::size_t columns = std::size_t(capture.camera.columns), rows = std::size_t(capture.camera.rows);
-  const std::size_t samples = capture.row.size();
+  const std::size_t samples = capture.samples.size();
   if (capture.columnStart.size() != columns + 1 || capture.columnDirection.size() != columns ||
       capture.columnRange.size() != columns || capture.rowTangent.size() != rows)
     return bad("the capture's column and row tables do not fit its camera");
-  if (capture.inverseDistance.size() != samples || capture.colour.size() != samples ||
-      capture.roles.size() != samples)
-    return bad("the capture's sample arrays differ in length");
+  if (capture.colour.size() != samples) return bad("the capture's sample arrays differ in length");
   if (!capture.mirror.empty() && capture.mirror.size() != samples)
     return bad("the capture does not name the mirror of each sample");
   if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
@@ -42,21 +40,20 @@ Status checkArrays(const DisplayCapture& capture, const char* name) {
        !std::is_sorted(background.columnStart.begin(), background.columnStart.end()) ||
        background.endRow.size() != background.runCount() || background.roles.size() != background.runCount()))
     return bad("the capture's columns do not partition its background");
-  const auto outside = [&](std::uint16_t row) { return row >= rows; };
-  if (std::any_of(capture.row.begin(), capture.row.end(), outside))
+  if (std::ranges::any_of(capture.samples, [&](const PackedSample& sample) { return sample.row >= rows; }))
     return bad("a sample's row is outside the picture");
   return {};
 }
 
-std::vector<PackedSample> pack(const DisplayCapture& capture, int firstColumn, int lastColumn) {
-  std::vector<PackedSample> packed;
+std::vector<GlSample> pack(const DisplayCapture& capture, int firstColumn, int lastColumn) {
+  std::vector<GlSample> packed;
   packed.reserve(capture.columnStart[std::size_t(lastColumn)] -
                  capture.columnStart[std::size_t(firstColumn)]);
   for (int column = firstColumn; column < lastColumn; ++column)
     for (std::size_t s = capture.columnStart[std::size_t(column)];
          s < capture.columnStart[std::size_t(column) + 1]; ++s)
-      packed.push_back({std::bit_cast<std::uint32_t>(capture.inverseDistance[s]) | capture.roles[s],
-                        capture.row[s] | std::uint32_t(column) << 16,
+      packed.push_back({capture.samples[s].inverseDistanceAndRoles,
+                        capture.samples[s].row | std::uint32_t(column) << 16,
                         std::bit_cast<std::uint32_t>(capture.colour[s])});
   return packed;
 }
@@ -85,7 +82,7 @@ std::vector<LayerPlace> packLayers(const DisplayCapture& capture, int firstColum
     const std::size_t end = capture.columnStart[std::size_t(column) + 1];
     for (std::size_t first = capture.columnStart[std::size_t(column)], last = first; first < end;
          first = last) {
-      while (last < end && capture.row[last] == capture.row[first]) ++last;
+      while (last < end && capture.samples[last].row == capture.samples[first].row) ++last;
       for (std::size_t s = first; s < last; ++s)
         packed.push_back({std::uint8_t(std::min(s - first, kManyLayers)),
                           std::uint8_t(std::min(last - 1 - s, kManyLayers))});
@@ -97,8 +94,10 @@ std::vector<LayerPlace> packLayers(const DisplayCapture& capture, int firstColum
 
 /// Whole words too.
 std::vector<Slant> packSlants(const DisplayCapture& capture, int firstColumn, int lastColumn) {
-  std::vector<Slant> packed(capture.slant.begin() + capture.columnStart[std::size_t(firstColumn)],
-                            capture.slant.begin() + capture.columnStart[std::size_t(lastColumn)]);
+  std::vector<Slant> packed;
+  for (std::size_t s = capture.columnStart[std::size_t(firstColumn)];
+       s < capture.columnStart[std::size_t(lastColumn)]; ++s)
+    packed.push_back(capture.samples[s].slant);
   packed.resize((packed.size() + 1) / 2 * 2);
   return packed;
 }
@@ -109,7 +108,8 @@ std::vector<std::uint8_t> clearSamplesOf(const DisplayCapture& capture) {
   for (std::size_t column = 0; column < most.size(); ++column) {
     int inPixel = 0;
     for (std::size_t s = capture.columnStart[column]; s < capture.columnStart[column + 1]; ++s) {
-      if (s == capture.columnStart[column] || capture.row[s] != capture.row[s - 1]) inPixel = 0;
+      if (s == capture.columnStart[column] || capture.samples[s].row != capture.samples[s - 1].row)
+        inPixel = 0;
       inPixel += capture.colour[s].a < 255 ? 1 : 0;
       most[column] = std::max(most[column], std::uint8_t(std::min(inPixel, kMostClearRanks)));
     }
@@ -128,8 +128,6 @@ GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
 }
 
 Status addSlants(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name) {
-  if (capture.slant.size() != capture.row.size())
-    return fail(ErrorKind::malformed, "the capture does not tell the slant of each sample", name);
   for (CaptureChunk& chunk : buffers.chunks)
     chunk.slants = makeBuffer(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
   return checkGl(fmt::format("uploading the slants of {}", name).c_str());
@@ -145,7 +143,7 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
   std::size_t limit = std::size_t(std::max<GLint64>(driversLargest, 0));
   if (largestBuffer > 0) limit = std::min(limit, largestBuffer);
   // Vertex numbers are signed.
-  const std::size_t mostSamples = std::min(limit / sizeof(PackedSample), std::size_t(1) << 30);
+  const std::size_t mostSamples = std::min(limit / sizeof(GlSample), std::size_t(1) << 30);
 
   CaptureBuffers buffers;
   buffers.owner = capture;

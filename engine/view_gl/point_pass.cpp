@@ -19,8 +19,10 @@ namespace {
 /// First sample of the column at or below a row.
 std::uint32_t firstAtRow(const DisplayCapture& capture, std::uint32_t begin, std::uint32_t end,
                          std::size_t row) {
-  const auto rows = capture.row.begin();
-  return std::uint32_t(std::lower_bound(rows + begin, rows + end, row) - rows);
+  const auto samples = capture.samples.begin();
+  return std::uint32_t(std::partition_point(samples + begin, samples + end,
+                                            [&](const PackedSample& s) { return s.row < row; }) -
+                       samples);
 }
 
 /// First row whose tangent is not above `tangent` (tangents fall from row to row).
@@ -151,7 +153,7 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
   }
   for (const auto& [planned, samples] : steps) {
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
-    if (!capture || capture->row.empty() || planned.runs.empty()) continue;
+    if (!capture || capture->samples.empty() || planned.runs.empty()) continue;
     const std::string name = fmt::format("capture of camera {}", planned.camera);
     const Result<const CaptureBuffers*> buffers =
         captures_.get(capture, name.c_str(), followsSlant(settings.reconstruction));

@@ -35,7 +35,7 @@ glm::dvec2 projected(const PerspectiveView& view, const glm::dvec3& point) {
 OneCapture oneSample(const ColumnCamera& camera, float w, Slant slant, const PerspectiveView& view) {
   Capture capture{{{0, 1}, {0}, {w}, {packColour({1, 1, 1, 1})}, {1}, {}}, camera, 0, {}, {}};
   auto display = std::make_shared<DisplayCapture>(prepareForDisplay(capture, 1));
-  display->slant = {slant};
+  display->samples[0].slant = slant;
   OneCapture one;
   one.scene.captures.push_back(display);
   PieceDraw piece;

@@ -41,7 +41,7 @@ struct Grid {
       columnStart.push_back(static_cast<std::uint32_t>(row.size()));
     }
   }
-  LargeVector<Slant> slants() const { return slantsOf(camera, columnStart, row, inverseDistance); }
+  std::vector<Slant> slants() const { return slantsOf(camera, columnStart, row, inverseDistance); }
 };
 
 TEST(Slants, AreThoseOfAPlane) {
@@ -49,7 +49,7 @@ TEST(Slants, AreThoseOfAPlane) {
   const glm::dvec3 normal(1, 0.7, 0.4);
   const double distance = 3;
   const Grid grid([&](const glm::dvec2& c, double t) { return glm::dot(normal, {c, t}) / distance; });
-  const LargeVector<Slant> slants = grid.slants();
+  const std::vector<Slant> slants = grid.slants();
   for (int k = 0; k < grid.camera.columns; ++k)
     for (int r = 0; r < grid.camera.rows; ++r) {
       const glm::dvec2 c = grid.camera.directionAt(k + 0.5);
@@ -85,7 +85,7 @@ TEST(Slants, AreNoneWhereASurfaceTurnsAwayAtItsEdge) {
     const double half = radius * radius - beside * beside;
     return half < 0 ? 0 : 1 / (along - std::sqrt(half));
   });
-  const LargeVector<Slant> slants = grid.slants();
+  const std::vector<Slant> slants = grid.slants();
   const auto at = [&](int k) { return std::size_t(k * grid.camera.rows + 45); };
   int first = 0;
   while (grid.inverseDistance[at(first)] == 0) ++first;
@@ -97,7 +97,7 @@ TEST(Slants, AreThoseOfASlowSearchThroughLayers) {
   std::mt19937 random(5);
   const ColumnCamera camera = test::cameraAt({0, 0, 1.6}, 0, 40, 50);
   const Capture capture = test::capture(test::randomBoxes(8, 60, 1.5), camera, nullptr, 4);
-  const LargeVector<Slant> slants =
+  const std::vector<Slant> slants =
       slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
   ASSERT_GT(capture.maxLayers(), 2);
   const auto columnOf = [&](std::size_t i) {

@@ -38,14 +38,10 @@ void timeProjecting() {
   for (int row = 0; row < kRows; ++row)
     tangents.push_back(static_cast<float>(std::tan(radians(30 - row / 20.0))));
   for (const std::size_t samples : {20 * kPerColumn, 20000 * kPerColumn}) {
-    std::vector<std::uint16_t> rows(samples + kRoom);
-    std::vector<float> inverse(samples + kRoom);
-    const std::vector<std::uint8_t> roles(samples + kRoom, 0xff);
-    const std::vector<Slant> slants(samples + kRoom, Slant{3, -4});
-    for (std::size_t i = 0; i < samples; ++i) {
-      rows[i] = static_cast<std::uint16_t>(300 + i % kPerColumn * 840 / kPerColumn);
-      inverse[i] = 0.2f + 0.001f * static_cast<float>(i * 7 % 10);
-    }
+    LargeVector<PackedSample> packed(samples + kRoom);
+    for (std::size_t i = 0; i < samples; ++i)
+      packed[i] = packSample(0.2f + 0.001f * static_cast<float>(i * 7 % 10), 0xff,
+                             static_cast<std::uint16_t>(300 + i % kPerColumn * 840 / kPerColumn), {3, -4});
     ProjectColumn column{};
     column.a[0] = 640, column.a[1] = 360, column.a[2] = 1;
     column.z[1] = -1108;
@@ -65,8 +61,7 @@ void timeProjecting() {
           kept = 0;
           for (std::size_t i = 0; i < samples; i += kPerColumn)
             kept += static_cast<std::size_t>(
-                kernels.project(column, {tangents.data(), &rows[i], &inverse[i], &roles[i], &slants[i]}, &run,
-                                1, out.data()));
+                kernels.project(column, {tangents.data(), &packed[i]}, &run, 1, out.data()));
         });
         fmt::print(
             "projecting {:>10} samples, {:8} {:10} one thread: {:5.0f} M samples/s, {:.0f} % on the "

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <cstring>
-#include <numeric>
+#include <ranges>
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/kernels.h"
@@ -104,32 +104,28 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     for (float* p : {column.direction, column.baseline, column.low, column.high})
       p[0] = uniform(-1, 1), p[1] = uniform(-1, 1);
     const int count = 1 + round % 70;
-    std::vector<std::uint16_t> rows;
-    std::vector<float> inverse;
-    std::vector<std::uint8_t> roles;
+    std::vector<PackedSample> samples;
     const std::size_t rowStep = 1 + random() % 6;
-    std::vector<Slant> slants;
     for (int i = 0; i < count; ++i) {
-      slants.push_back({static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125),
-                        static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125)});
-      const std::size_t next = rows.empty() ? random() % 50 : rows.back() + random() % rowStep;
-      rows.push_back(static_cast<std::uint16_t>(std::min(next, tangents.size() - 1)));
-      roles.push_back(static_cast<std::uint8_t>(random()));
+      const auto slantCode = [&] { return static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125); };
+      const Slant slant{slantCode(), slantCode()};
+      const std::size_t next = samples.empty() ? random() % 50 : samples.back().row + random() % rowStep;
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
-      inverse.push_back(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1));
+      const auto roles = static_cast<std::uint8_t>(random());
+      samples.push_back(packSample(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1), roles,
+                                   static_cast<std::uint16_t>(std::min(next, tangents.size() - 1)), slant));
     }
     std::vector<SampleRun> runs{{0, std::uint32_t(count)}};
     if (count > 20) runs = {{1, 18}, {19, std::uint32_t(count)}};
     const auto splats = [&](const Kernels& kernels) {
       std::vector<Splat> out(static_cast<std::size_t>(count + kSampleRoom));
-      out.resize(static_cast<std::size_t>(
-          kernels.project(column, {tangents.data(), rows.data(), inverse.data(), roles.data(), slants.data()},
-                          runs.data(), int(runs.size()), out.data())));
+      out.resize(static_cast<std::size_t>(kernels.project(column, {tangents.data(), samples.data()},
+                                                          runs.data(), int(runs.size()), out.data())));
       return out;
     };
     const std::vector<Splat> expected = splats(supportedKernels().front());
     for (const Splat& a : expected) {
-      ASSERT_NE(roles[a.index] & column.roles, 0u);
+      ASSERT_NE(rolesOf(samples[a.index]) & column.roles, 0u);
       ASSERT_TRUE(count <= 20 || (a.index != 0 && a.index != 18)) << "in no run";
       for (int side : {int(a.width), int(a.height)}) {
         EXPECT_GE(side, 1);
@@ -153,9 +149,6 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
   constexpr int kBlocks = 37, kPerBlock = 6, kRows = kBlocks * kPerBlock;
   std::vector<float> tangents(kRows);
   for (int row = 0; row < kRows; ++row) tangents[std::size_t(row)] = float(std::tan(1.3 - row * 2.6 / kRows));
-  std::vector<std::uint16_t> rows(kRows);
-  std::iota(rows.begin(), rows.end(), std::uint16_t(0));
-  std::vector<Slant> slants(kRows, Slant{});
   int reached = 0, found = 0, hidden = 0;
   for (int round = 0; round < 1500; ++round) {
     PerspectiveView view;
@@ -182,18 +175,16 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     column.slanted = round % 7 == 0;
     column.acrossStep = column.downStep = 0.01f, column.perSpread = 4.4f;
 
-    std::vector<float> inverse(kRows);
-    std::vector<std::uint8_t> roles(kRows, 2);
+    std::vector<PackedSample> samples;
     SampleBlocks blocks;
     for (std::size_t b = 0; b < kBlocks; ++b) {
       const double near = uniform(0, 2), spread = b % 3 == 0 ? uniform(0, 2) : 0.02;
-      for (std::size_t i = b * kPerBlock; i < (b + 1) * kPerBlock; ++i) {
-        inverse[i] = float(near + uniform(0, spread));
-        roles[i] = b % 11 == 0 ? 1 : std::uint8_t(1 + random() % 3);
-      }
-      const auto own = std::span(inverse).subspan(b * kPerBlock, kPerBlock);
-      blocks.leastInverse.push_back(std::ranges::min(own)),
-          blocks.mostInverse.push_back(std::ranges::max(own));
+      for (std::size_t i = b * kPerBlock; i < (b + 1) * kPerBlock; ++i)
+        samples.push_back(packSample(float(near + uniform(0, spread)),
+                                     b % 11 == 0 ? 1 : std::uint8_t(1 + random() % 3), std::uint16_t(i), {}));
+      const auto own = std::span(samples).last(kPerBlock);
+      const auto [least, most] = std::ranges::minmax(own | std::views::transform(inverseDistanceOf));
+      blocks.leastInverse.push_back(least), blocks.mostInverse.push_back(most);
       blocks.highTangent.push_back(tangents[b * kPerBlock]);
       blocks.lowTangent.push_back(tangents[(b + 1) * kPerBlock - 1]);
       blocks.roles.push_back(b % 11 == 0 ? 1 : 3);
@@ -229,9 +220,7 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     found += int(got.size());
     const SampleRun all{0, kRows};
     std::vector<Splat> splats(kRows + kSampleRoom);
-    const int count = projectSamplesScalar(
-        column, {tangents.data(), rows.data(), inverse.data(), roles.data(), slants.data()}, &all, 1,
-        splats.data());
+    const int count = projectSamplesScalar(column, {tangents.data(), samples.data()}, &all, 1, splats.data());
     for (const Splat& splat : std::span(splats).first(std::size_t(count))) {
       bool reaches = test.openTiles == nullptr;
       for (int x = std::max<int>(splat.x, rect.x0);

@@ -44,7 +44,7 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   EXPECT_EQ(*residency.get(scene.captures[0], "first"), *first) << "the same buffers again";
   ASSERT_TRUE(residency.get(scene.captures[1], "second"));
   EXPECT_EQ(residency.count(), 2u);
-  const std::size_t samples = scene.captures[0]->row.size() + scene.captures[1]->row.size();
+  const std::size_t samples = scene.captures[0]->samples.size() + scene.captures[1]->samples.size();
   const std::size_t runs =
       scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
@@ -129,7 +129,7 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
     return !uploaded && uploaded.error().where == "capture of camera 7" &&
            uploaded.error().kind == ErrorKind::malformed;
   };
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.row.back() = 16; }));
+  EXPECT_TRUE(refused([](DisplayCapture& c) { c.samples.back().row = 16; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.colour.pop_back(); }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.mirror = {1}; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart[3] = c.columnStart[4] + 1; }));
