@@ -111,6 +111,7 @@ struct EightLanes {
     return {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 4)};
   }
   static F gather(const float* table, I index) { return {_mm256_i32gather_ps(table, index.v, 4)}; }
+  static F lookUp256(const float* table, I index) { return gather(table, index); }
   static I gather(const std::uint8_t* table, I index) {
     return both({_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 1)}, seti(0xff));
   }

@@ -111,6 +111,18 @@ struct SixteenLanes {
 
   static I gather(const std::uint32_t* table, I index) { return {_mm512_i32gather_epi32(index.v, table, 4)}; }
   static F gather(const float* table, I index) { return {_mm512_i32gather_ps(index.v, table, 4)}; }
+  /// Shuffles cost a third of what gathers do.
+  static F lookUp256(const float* table, I index) {
+    const auto among = [&](int first) {
+      return _mm512_permutex2var_ps(_mm512_loadu_ps(table + first), index.v,
+                                    _mm512_loadu_ps(table + first + 16));
+    };
+    const __m512i part = _mm512_srli_epi32(index.v, 5);
+    __m512 found = among(0);
+    for (int i = 1; i < 8; ++i)
+      found = _mm512_mask_mov_ps(found, _mm512_cmpeq_epi32_mask(part, _mm512_set1_epi32(i)), among(32 * i));
+    return {found};
+  }
   static I gather(const std::uint8_t* table, I index) {
     return both({_mm512_i32gather_epi32(index.v, table, 1)}, seti(0xff));
   }

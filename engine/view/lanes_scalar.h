@@ -88,6 +88,8 @@ struct OneLane {
 
   static I gather(const std::uint32_t* table, I index) { return static_cast<I>(table[index]); }
   static F gather(const float* table, I index) { return table[index]; }
+  /// Of a table of 256.
+  static F lookUp256(const float* table, I index) { return gather(table, index); }
   /// Of a table of bytes with three more behind it.
   static I gather(const std::uint8_t* table, I index) { return table[index]; }
   /// Words 2 * index and 2 * index + 1.

@@ -48,9 +48,9 @@ typename B::I texelAt(typename B::I texel, std::int32_t size, TextureWrap wrap) 
 template <class B>
 Colours<B> decoded(const SurfaceShade& s, typename B::I texel) {
   const typename B::I byte = B::seti(0xff);
-  return {B::gather(s.linearFromSrgb, B::both(texel, byte)),
-          B::gather(s.linearFromSrgb, B::both(B::template shiftRight<8>(texel), byte)),
-          B::gather(s.linearFromSrgb, B::both(B::template shiftRight<16>(texel), byte))};
+  return {B::lookUp256(s.linearFromSrgb, B::both(texel, byte)),
+          B::lookUp256(s.linearFromSrgb, B::both(B::template shiftRight<8>(texel), byte)),
+          B::lookUp256(s.linearFromSrgb, B::both(B::template shiftRight<16>(texel), byte))};
 }
 
 template <class B>
@@ -147,7 +147,7 @@ typename B::I codeOf(const SurfaceShade& s, typename B::F linear) {
   const typename B::F inside = clampToUnit<B>(linear);
   const typename B::I code =
       B::gather(s.firstCode, B::truncate(inside * B::set(static_cast<float>(tone_curve::kCodeBuckets))));
-  const typename B::F next = B::gather(s.threshold, code + B::seti(1));
+  const typename B::F next = B::lookUp256(s.threshold + 1, code);
   return code + B::when(B::notLess(inside, next), B::seti(1));
 }
 

@@ -212,7 +212,7 @@ TEST_F(Gallery, LeavesRoomToWalk) {
 }
 
 TEST_F(Gallery, TheSamplesWalkKeepsItsDistance) {
-  const auto text = readText(fs::path(ACENTRIC_SOURCE_FOLDER) / "projects/gallery/walk.json");
+  const auto text = readText(fs::path(ACENTRIC_SOURCE_FOLDER) / "projects/gallery/paths/walk.json");
   ASSERT_TRUE(text.has_value()) << text.error().describe();
   const auto frames = nlohmann::json::parse(*text).at("frames");
   EXPECT_EQ(frames.size(), 60u);
