@@ -8,7 +8,8 @@
 namespace acentric {
 namespace {
 
-enum class State : std::uint8_t { known, open, queued };
+/// Instead of an inverse depth, of a hole that is being filled from its neighbours.
+constexpr float kQueued = -1;
 
 /// Up to so many times the smaller inverse depth counts as the same surface.
 constexpr float kSameDepth = 1.3f;
@@ -23,13 +24,18 @@ struct Filled {
 
 class HoleFill {
  public:
-  HoleFill(Frame& frame, FloatImage& inverseZDepth)
-      : frame_(frame), inverseZDepth_(inverseZDepth), state_(frame.source.pixels.size(), State::known) {
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (frame_.source.pixels[i] == kSourceHole) {
-        state_[i] = State::open;
-        holes_.push_back(static_cast<std::uint32_t>(i));
-      }
+  HoleFill(Frame& frame, FloatImage& inverseZDepth, TaskRunner& runner)
+      : frame_(frame), inverseZDepth_(inverseZDepth) {
+    constexpr std::size_t kPixelsPerTask = std::size_t(1) << 16;
+    const auto& sources = frame.source.pixels;
+    std::vector<std::vector<std::uint32_t>> found((sources.size() + kPixelsPerTask - 1) / kPixelsPerTask);
+    runner.parallelFor(found.size(), [&](std::size_t task) {
+      const std::size_t end = std::min(sources.size(), (task + 1) * kPixelsPerTask);
+      for (std::size_t i = task * kPixelsPerTask; i < end; ++i)
+        if (sources[i] == kSourceHole) found[task].push_back(static_cast<std::uint32_t>(i));
+    });
+    for (const auto& part : found) holes_.insert(holes_.end(), part.begin(), part.end());
+    for (const std::uint32_t hole : holes_) inverseZDepth_.pixels[hole] = 0;
   }
 
   bool anyHoles() const { return !holes_.empty(); }
@@ -53,8 +59,8 @@ class HoleFill {
     fromLocal_ = fromLocal;
     std::vector<std::uint32_t> ring;
     for (std::uint32_t hole : holes_)
-      if (state_[hole] == State::open && hasKnownNeighbour(hole)) {
-        state_[hole] = State::queued;
+      if (isOpen(hole) && hasKnownNeighbour(hole)) {
+        inverseZDepth_.pixels[hole] = kQueued;
         ring.push_back(hole);
       }
     std::vector<Filled> filled;
@@ -65,17 +71,22 @@ class HoleFill {
       ring.clear();
       for (const Filled& f : filled)
         forNeighbours(f.pixel, [&](std::uint32_t n, bool) {
-          if (state_[n] != State::open) return;
-          state_[n] = State::queued;
+          if (!isOpen(n)) return;
+          inverseZDepth_.pixels[n] = kQueued;
           ring.push_back(n);
         });
     }
-    for (std::uint32_t pixel : ring) state_[pixel] = State::open;
+    for (std::uint32_t pixel : ring) inverseZDepth_.pixels[pixel] = 0;
   }
 
  private:
+  bool isKnown(std::uint32_t pixel) const { return frame_.source.pixels[pixel] != kSourceHole; }
+  /// Neither known nor queued.
+  bool isOpen(std::uint32_t pixel) const {
+    return !isKnown(pixel) && inverseZDepth_.pixels[pixel] != kQueued;
+  }
+
   void fill(const Filled& f) {
-    state_[f.pixel] = State::known;
     frame_.colour.pixels[f.pixel] = f.colour;
     frame_.source.pixels[f.pixel] = kSourceInvented;
     inverseZDepth_.pixels[f.pixel] = f.inverseZDepth;
@@ -92,8 +103,7 @@ class HoleFill {
       x += dx, y += dy;
       if (x < 0 || x >= width || y < 0 || y >= height) return {};
       const std::uint32_t pixel = static_cast<std::uint32_t>(y * width + x);
-      if (state_[pixel] == State::known)
-        return usable(pixel) ? std::optional(End{pixel, steps}) : std::nullopt;
+      if (isKnown(pixel)) return usable(pixel) ? std::optional(End{pixel, steps}) : std::nullopt;
     }
     return {};
   }
@@ -146,7 +156,7 @@ class HoleFill {
   }
 
   bool usable(std::uint32_t pixel) const {
-    return state_[pixel] == State::known && (fromLocal_ || frame_.source.pixels[pixel] != kSourceLocal);
+    return isKnown(pixel) && (fromLocal_ || frame_.source.pixels[pixel] != kSourceLocal);
   }
 
   bool hasKnownNeighbour(std::uint32_t pixel) const {
@@ -178,7 +188,6 @@ class HoleFill {
 
   Frame& frame_;
   FloatImage& inverseZDepth_;
-  std::vector<State> state_;
   std::vector<std::uint32_t> holes_;
   bool fromLocal_ = false;
 };
@@ -186,7 +195,7 @@ class HoleFill {
 }  // namespace
 
 void fillHoles(Frame& frame, FloatImage& inverseZDepth, int maxRings, TaskRunner& runner) {
-  HoleFill fill(frame, inverseZDepth);
+  HoleFill fill(frame, inverseZDepth, runner);
   if (!fill.anyHoles()) return;
   fill.fillAlongLines(maxRings, runner);
   fill.grow(false, maxRings);
