@@ -62,8 +62,11 @@ struct Canvas {
   int width = 0;
   int height = 0;
   std::vector<CanvasPixel> pixels;  ///< [(x - x0) * height + y]
-  std::vector<std::uint64_t>
-      stamps;  ///< the sample last blended into each pixel; empty if nothing is blended
+  /// The sample last blended into each pixel, 0 = none; empty if nothing is blended.
+  std::vector<std::uint64_t> stamps;
+  /// What that left of the pixel's low half: a pixel that has another one by now was painted since, and its
+  /// stamp no longer counts.
+  std::vector<std::uint32_t> blended;
   std::vector<std::uint8_t> mirrors;  ///< the mirror that each pixel shows, 0 = none; empty if none is needed
   bool places = false;                ///< pixels say where their samples lie (kPlaceBits)
 

@@ -45,14 +45,26 @@ bool sameSurface(std::uint64_t stamp, std::uint64_t other) {
   return std::abs(a - b) <= step * std::max(a, b);
 }
 
+/// A pixel and what was last blended into it.
+struct BlendedPixel {
+  CanvasPixel& pixel;
+  std::uint64_t& stamp;
+  std::uint32_t& blended;
+
+  /// 0 where that is hidden now, or was never there.
+  std::uint64_t validStamp() const { return blended == static_cast<std::uint32_t>(pixel) ? stamp : 0; }
+};
+
 /// False where nothing changes.
-bool blendInto(CanvasPixel& pixel, std::uint64_t& stamp, std::uint32_t colour, std::uint64_t newStamp) {
+bool blendInto(const BlendedPixel& at, std::uint32_t colour, std::uint64_t newStamp) {
+  CanvasPixel& pixel = at.pixel;
   const std::uint32_t slot = slotOf(pixel);
-  if (slot == 0 || sameSurface(stamp, newStamp))
+  if (slot == 0 || sameSurface(at.validStamp(), newStamp))
     return false;  // over a hole there is nothing to tint: it stays a hole
   const Rgba8 mixed = blendOver(colourOf(colour), colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u));
   pixel = (pixel & ~CanvasPixel(0xffffffff)) | (wordOf(mixed) & 0xffffffu) | (slot << 24);
-  stamp = newStamp;
+  at.stamp = newStamp;
+  at.blended = static_cast<std::uint32_t>(pixel);
   return true;
 }
 
@@ -67,6 +79,7 @@ class Painter {
         height_(target.canvas->height),
         pixels_(target.canvas->pixels.data()),
         stamps_(target.canvas->stamps.data()),
+        blended_(target.canvas->blended.data()),
         mirrors_(target.canvas->mirrors.data()) {}
 
   [[gnu::noinline]] std::uint64_t paint(const Splat* splats, int count, bool reversed,
@@ -156,7 +169,6 @@ class Painter {
     } else {
       fill(pixels_, plain);
     }
-    if constexpr (mode == PaintMode::overBlended) fill(stamps_, std::uint64_t(0));
     if constexpr (kMarks) fill(mirrors_, mirror);
   }
 
@@ -201,11 +213,9 @@ class Painter {
           if (mirrors[y] == mirror) column[y] = (column[y] & kDepth) | (pixelAt(y) & ~kDepth);
         });
       } else {
-        std::uint64_t* const stamps = stamps_ + start;
         if (mode == PaintMode::overBlended && opaque) {
           each([&](int y) {
             column[y] = pixelAt(y);
-            stamps[y] = 0;  // what was blended here is hidden now
             if constexpr (kMarks) mirrors[y] = mirror;
           });
           continue;
@@ -213,8 +223,9 @@ class Painter {
         const std::uint64_t stamp = stampOf(target_, splat.index);
         each([&](int y) {
           if (mode != PaintMode::overBlended && !(inverseZDepth >= depthOf(column[y]))) return;
-          if (kBehind && (stamps[y] >> 56) >= target_.openBelow) return;  // tinted by what is in front
-          const bool changed = blendInto(column[y], stamps[y], colour, stamp);
+          const BlendedPixel at{column[y], stamps_[start + y], blended_[start + y]};
+          if (kBehind && (at.validStamp() >> 56) >= target_.openBelow) return;  // tinted by what is in front
+          const bool changed = blendInto(at, colour, stamp);
           // What tints a mirror would be lost under what the mirror shows.
           if constexpr (kMarks) mirrors[y] = changed ? std::uint8_t(0) : mirrors[y];
         });
@@ -228,6 +239,7 @@ class Painter {
   const std::ptrdiff_t height_;
   CanvasPixel* const pixels_;
   std::uint64_t* const stamps_;
+  std::uint32_t* const blended_;
   std::uint8_t* const mirrors_;
 };
 

@@ -255,6 +255,7 @@ void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const View
   const std::size_t size = static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   canvas.pixels.assign(size, kEmptyPixel);
   canvas.stamps.assign(blended ? size : 0, 0);
+  canvas.blended.resize(blended ? size : 0);  // of use where there is a stamp
   canvas.mirrors.assign(plan.reflections.empty() ? 0 : size, 0);
 }
 

@@ -71,6 +71,7 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
     warpPieces(scene, view, settings, plan, options, x0, x1, part);
     std::ranges::copy(part.pixels, canvas.column(x0));
     std::ranges::copy(part.stamps, canvas.stamps.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
+    std::ranges::copy(part.blended, canvas.blended.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
     std::ranges::copy(part.mirrors, canvas.mirrors.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
   }
   return canvas;
