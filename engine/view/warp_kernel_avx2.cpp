@@ -30,14 +30,6 @@ struct WarpLanes : EightLanes {
   static M needed(I roles, std::uint32_t wanted) {
     return greater(both(roles, seti(static_cast<int>(wanted))), seti(0));
   }
-  static void slants(I rowAndSlant, F& across, F& down) {
-    const auto tangent = [](I code) {
-      const F size = toFloat(code);
-      return size / (set(127) - abs(size));
-    };
-    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
-    down = tangent(shiftSigned<24>(rowAndSlant));
-  }
   static I pack(I width, I height, I placeX, I placeY) {
     const __m256i size = _mm256_or_si256(width.v, _mm256_slli_epi32(height.v, 8));
     const __m256i place = _mm256_or_si256(placeX.v, _mm256_slli_epi32(placeY.v, 8));

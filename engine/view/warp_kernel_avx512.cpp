@@ -27,14 +27,6 @@ struct WarpLanes : SixteenLanes {
   static M needed(I roles, std::uint32_t wanted) {
     return {_mm512_test_epi32_mask(roles.v, seti(static_cast<int>(wanted)).v)};
   }
-  static void slants(I rowAndSlant, F& across, F& down) {
-    const auto tangent = [](I code) {
-      const F size = toFloat(code);
-      return size / (set(127) - abs(size));
-    };
-    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
-    down = tangent(shiftSigned<24>(rowAndSlant));
-  }
   static I pack(I width, I height, I placeX, I placeY) {
     const __m512i size = _mm512_or_si512(width.v, _mm512_slli_epi32(height.v, 8));
     const __m512i place = _mm512_or_si512(placeX.v, _mm512_slli_epi32(placeY.v, 8));

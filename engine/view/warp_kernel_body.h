@@ -54,6 +54,13 @@ inline void span(typename B::F centre, typename B::F half, typename B::I& first,
   place = B::mini(B::maxi(eighths, B::seti(0)), B::seti(255));
 }
 
+/// Slant.
+template <class B>
+inline typename B::F slantTangent(typename B::I code) {
+  const typename B::F size = B::toFloat(code);
+  return size / (B::set(127) - B::abs(size));
+}
+
 /// Rectangles around the picture of the piece of surface that a sample stands for: a parallelogram, whose
 /// sides are the derivatives of (u, v) along a row and a column of the capture, the sample's slant included.
 template <class B>
@@ -62,8 +69,8 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
                             typename B::I rowAndSlant, std::uint32_t firstIndex, Splat* out) {
   using F = typename B::F;
   using I = typename B::I;
-  F across, down;
-  B::slants(rowAndSlant, across, down);
+  const F across = slantTangent<B>(B::template shiftSigned<24>(B::template shiftLeft<8>(rowAndSlant)));
+  const F down = slantTangent<B>(B::template shiftSigned<24>(rowAndSlant));
   const F acrossW = w * across * B::set(c.acrossStep), downW = w * down * B::set(c.downStep);
   const F rise = (B::set(1) + t * t) * B::set(c.downStep);
   const F acrossZ = B::set(c.across[2]) + acrossW * B::set(c.b[2]);

@@ -15,15 +15,6 @@ struct WarpLane : OneLane {
   /// Of blocks, and of samples.
   static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
   static M needed(I roles, std::uint32_t wanted) { return (static_cast<std::uint32_t>(roles) & wanted) != 0; }
-  /// Tangents of the slants along row and column.
-  static void slants(I rowAndSlant, F& across, F& down) {
-    const auto tangent = [](I code) {
-      const F size = toFloat(code);
-      return size / (127.0f - abs(size));
-    };
-    across = tangent(shiftSigned<24>(shiftLeft<8>(rowAndSlant)));
-    down = tangent(shiftSigned<24>(rowAndSlant));
-  }
   struct Size {
     std::uint8_t width, height, placeX, placeY;
   };
