@@ -3,13 +3,15 @@
 ///
 /// Each of these headers is included only by sources compiled for its processors, and its types are of each
 /// such source alone: an inline function that two of them shared could be the one copy that the linker keeps.
-/// So they stay free of the standard library and of glm too.
+/// So those of vectors stay free of the standard library and of glm too.
 ///
 /// All lane types give the same bits: min and max choose as the processor's vector instructions do (the
 /// second operand where either is not a number), and nothing is fused.
 
 #include <cstddef>
 #include <cstdint>
+
+#include "engine/image/capture.h"
 
 namespace acentric {
 namespace {
@@ -78,13 +80,7 @@ struct OneLane {
   /// The largest whole number not above a finite one.
   static F floorOf(F a) { return __builtin_floorf(a); }
   /// Of the lower sixteen bits; finite halves.
-  static F fromHalf(I half) {
-    const std::uint32_t sign = std::uint32_t(half & 0x8000) << 16, size = std::uint32_t(half & 0x7fff) << 13;
-    constexpr std::uint32_t kRebias = (127u - 15u) << 23;
-    F value = __builtin_bit_cast(F, size + kRebias);
-    if (size < 0x400u << 13) value = __builtin_bit_cast(F, size + kRebias + (1u << 23)) - 0x1p-14f;
-    return __builtin_bit_cast(F, __builtin_bit_cast(std::uint32_t, value) | sign);
-  }
+  static F fromHalf(I half) { return floatFromHalf(static_cast<std::uint16_t>(half)); }
 
   static I gather(const std::uint32_t* table, I index) { return static_cast<I>(table[index]); }
   static F gather(const float* table, I index) { return table[index]; }

@@ -113,89 +113,80 @@ class CanvasWarp {
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    column_.constants = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    constants_ = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
     blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
     blockTest_.openTiles = nullptr;
     if (open_) open_->tell(blockTest_);
+    directionSlack_ =
+        kPlaneSlack *
+        (1 + double(std::max(std::abs(capture.rowTangent.front()), std::abs(capture.rowTangent.back()))));
     for (const ColumnRun& run : piece.runs)
       for (int n = 0; n < run.last - run.first; ++n) {
-        column_.index = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
-        if (choose(piece, capture, column_)) drawColumn(piece, capture, column_, mode, slot);
+        const auto k = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
+        if (const std::uint32_t samples = choose(piece, capture, k); samples > 0)
+          drawColumn(piece, capture, k, samples, mode, slot);
       }
   }
 
-  /// A column of a capture, and which of its samples may be seen.
-  struct Column {
-    std::size_t index = 0;
-    ProjectColumn constants{};
-    std::vector<SampleRun> runs;
-    std::uint32_t samples = 0;
-  };
-
-  /// Finds the runs of samples of the column that may be seen, if there are any.
-  bool choose(const PieceDraw& piece, const DisplayCapture& capture, Column& column) {
-    const std::size_t k = column.index;
+  /// Finds the runs of samples of column k that may be seen; returns how many samples those are.
+  std::uint32_t choose(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k) {
     if (options_.cull && !piece.sight.empty() &&
         (piece.sight[k].x1 <= rect_.x0 || piece.sight[k].x0 >= rect_.x1))
-      return false;
-    ProjectColumn& constants = column.constants;
+      return 0;
     const glm::dvec2 direction(capture.columnDirection[k]);
-    axes_.project(glm::dvec3(direction, 0), constants.a);
-    axes_.project(double(constants.acrossStep) * glm::dvec3(-direction.y, direction.x, 0), constants.across);
-    constants.maxInverseDistance = piece.maxInverseDistance[k];
-    constants.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
-    constants.direction[0] = capture.columnDirection[k].x,
-    constants.direction[1] = capture.columnDirection[k].y;
+    axes_.project(glm::dvec3(direction, 0), constants_.a);
+    axes_.project(double(constants_.acrossStep) * glm::dvec3(-direction.y, direction.x, 0),
+                  constants_.across);
+    constants_.maxInverseDistance = piece.maxInverseDistance[k];
+    constants_.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
+    constants_.direction[0] = capture.columnDirection[k].x,
+    constants_.direction[1] = capture.columnDirection[k].y;
 
     const std::uint32_t start = capture.columnStart[k], size = capture.columnStart[k + 1] - start;
-    column.runs.clear();
+    runs_.clear();
     if (options_.cull)
-      findRuns(capture, column, size);
+      findRuns(capture, k, size);
     else if (size > 0)
-      column.runs.push_back({0, size});
-    column.samples = 0;
-    for (const SampleRun& run : column.runs) {
-      column.samples += run.end - run.first;
+      runs_.push_back({0, size});
+    std::uint32_t samples = 0;
+    for (const SampleRun& run : runs_) {
+      samples += run.end - run.first;
       for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(Rgba8))
         __builtin_prefetch(&capture.colour[start + i]);
     }
-    counts_.samplesRead += column.samples;
-    return column.samples > 0;
+    counts_.samplesRead += samples;
+    return samples;
   }
 
-  /// Runs of blocks that may be seen, of a column of `size` samples.
-  void findRuns(const DisplayCapture& capture, Column& column, std::uint32_t size) {
-    const std::size_t k = column.index;
+  /// Runs of blocks that may be seen, of column k of `size` samples.
+  void findRuns(const DisplayCapture& capture, std::size_t k, std::uint32_t size) {
     const std::size_t first = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - first;
     const SampleBlocks& all = capture.blocks;
     const BlockColumn own{&all.leastInverse[first], &all.mostInverse[first], &all.lowTangent[first],
                           &all.highTangent[first], &all.roles[first]};
-    const double steepest =
-        std::max(std::abs(capture.rowTangent.front()), std::abs(capture.rowTangent.back()));
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.a[i] = static_cast<float>(
-          glm::dot(glm::dvec2(planes_.normals[i]), glm::dvec2(capture.columnDirection[k])) +
-          kPlaneSlack * (1 + steepest));
+          glm::dot(glm::dvec2(planes_.normals[i]), glm::dvec2(capture.columnDirection[k])) + directionSlack_);
     visibleBlocks_.resize(std::max(visibleBlocks_.size(), blocks));
-    const int found = options_.findBlocks(column.constants, blockTest_, own, static_cast<int>(blocks),
-                                          visibleBlocks_.data());
+    const int found =
+        options_.findBlocks(constants_, blockTest_, own, static_cast<int>(blocks), visibleBlocks_.data());
     for (int i = 0; i < found; ++i) {
       const std::uint32_t from = visibleBlocks_[static_cast<std::size_t>(i)] * kSamplesPerBlock;
-      if (column.runs.empty() || column.runs.back().end != from) column.runs.push_back({from, from});
-      column.runs.back().end = std::min(from + kSamplesPerBlock, size);
+      if (runs_.empty() || runs_.back().end != from) runs_.push_back({from, from});
+      runs_.back().end = std::min(from + kSamplesPerBlock, size);
     }
   }
 
-  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, const Column& column, PaintMode mode,
-                  std::uint32_t slot) {
-    const std::size_t k = column.index, start = capture.columnStart[k];
+  /// What `choose` found of column k.
+  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k, std::uint32_t chosen,
+                  PaintMode mode, std::uint32_t slot) {
+    const std::size_t start = capture.columnStart[k];
     const PackedSample* const samples = capture.samples.data() + start;
-    splats_.resize(std::max<std::size_t>(splats_.size(), column.samples + kSampleRoom));
-    const int count =
-        options_.project(column.constants, {capture.rowTangent.data(), samples}, column.runs.data(),
-                         static_cast<int>(column.runs.size()), splats_.data());
+    splats_.resize(std::max<std::size_t>(splats_.size(), chosen + kSampleRoom));
+    const int count = options_.project(constants_, {capture.rowTangent.data(), samples}, runs_.data(),
+                                       static_cast<int>(runs_.size()), splats_.data());
     if (count == 0) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
@@ -236,7 +227,9 @@ class CanvasWarp {
       open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
   BlockTest blockTest_{};
   std::vector<std::uint16_t> visibleBlocks_;
-  Column column_;
+  double directionSlack_ = 0;    ///< of a column's direction against a plane, in BlockTest::a
+  ProjectColumn constants_{};    ///< of the column that is being drawn
+  std::vector<SampleRun> runs_;  ///< of its samples that may be seen
   std::vector<Splat> splats_;
   WarpCounts counts_;
 };
