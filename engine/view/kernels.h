@@ -17,6 +17,7 @@ struct Kernels {
   FilterPixels filter;
   WriteRows writeRows;
   ShadeRun shadeRun;
+  CoverRow coverRow;
 };
 
 /// The scalar reference first, the fastest last.

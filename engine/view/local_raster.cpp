@@ -108,29 +108,43 @@ bool LocalRaster::setUp(std::uint32_t index, Triangle& out) const {
   return true;
 }
 
+LocalRaster::EdgeRow LocalRaster::edgeRow(const Triangle& triangle, int y) const {
+  EdgeRow row;
+  for (int i = 0; i < 3; ++i)
+    row.slope[i] = triangle.edge[i].x, row.start[i] = triangle.edge[i].y * y + triangle.edge[i].z;
+  return row;
+}
+
+/// visit(y, first x, last x, edge functions): all pixels of the rectangle that are covered, and few others.
+template <class Visit>
+void LocalRaster::forEachRow(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const {
+  const int y0 = std::max(triangle.box.y0, rect.y0), y1 = std::min(triangle.box.y1, rect.y1);
+  for (int y = y0; y < y1; ++y) {
+    const EdgeRow row = edgeRow(triangle, y);
+    double low = std::max(triangle.box.x0, rect.x0), high = std::min(triangle.box.x1, rect.x1) - 1;
+    for (int i = 0; i < 3; ++i) {
+      // Where this edge can be crossed, a pixel of slack left and right; the test of each pixel is exact.
+      if (row.slope[i] > 0) low = std::max(low, -row.start[i] / row.slope[i] - 1);
+      if (row.slope[i] < 0) high = std::min(high, -row.start[i] / row.slope[i] + 1);
+    }
+    if (low <= high) visit(y, static_cast<int>(low), static_cast<int>(high), row);
+  }
+}
+
 /// visit(x, y, edge values, inverse depth) for each covered pixel of the rectangle.
 template <class Visit>
 void LocalRaster::forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const {
-  const int y0 = std::max(triangle.box.y0, rect.y0), y1 = std::min(triangle.box.y1, rect.y1);
   const auto& edge = triangle.edge;
-  for (int y = y0; y < y1; ++y) {
-    double start[3];
-    double low = std::max(triangle.box.x0, rect.x0), high = std::min(triangle.box.x1, rect.x1) - 1;
-    for (int i = 0; i < 3; ++i) {
-      start[i] = edge[i].y * y + edge[i].z;
-      // Where this edge can be crossed, a pixel of slack left and right; the test of each pixel is exact.
-      if (edge[i].x > 0) low = std::max(low, -start[i] / edge[i].x - 1);
-      if (edge[i].x < 0) high = std::min(high, -start[i] / edge[i].x + 1);
-    }
-    if (!(low <= high)) continue;
-    for (int x = static_cast<int>(low); x <= static_cast<int>(high); ++x) {
-      const glm::dvec3 values(edge[0].x * x + start[0], edge[1].x * x + start[1], edge[2].x * x + start[2]);
+  forEachRow(triangle, rect, [&](int y, int first, int last, const EdgeRow& row) {
+    for (int x = first; x <= last; ++x) {
+      const glm::dvec3 values(row.slope[0] * x + row.start[0], row.slope[1] * x + row.start[1],
+                              row.slope[2] * x + row.start[2]);
       if (!covers(values.x, edge[0]) || !covers(values.y, edge[1]) || !covers(values.z, edge[2])) continue;
       const double inverseZDepth = (values.x + values.y + values.z) * triangle.perDepth;
       if (inverseZDepth > 1 / kNearest || !(inverseZDepth > 0)) continue;
       visit(x, y, values, static_cast<float>(inverseZDepth));
     }
-  }
+  });
 }
 
 std::array<LocalPoint, 3> LocalRaster::cornersOf(const Triangle& triangle) const {
@@ -162,7 +176,7 @@ void LocalRaster::forBands(TaskRunner& runner, const Body& body) const {
   });
 }
 
-void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
+void LocalRaster::findOpaque(CoverRow coverRow, CoverImage& cover, TaskRunner& runner) const {
   const std::size_t width = static_cast<std::size_t>(view_.width);
   cover.width = view_.width, cover.height = view_.height;
   cover.pixels.resize(width * static_cast<std::size_t>(view_.height));
@@ -173,10 +187,27 @@ void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
     const PixelRect rect{0, y0, view_.width, y1};
     for (const std::uint32_t t : opaqueOfBand_[band]) {
       const Triangle& triangle = opaque_[t];
+      const auto pixelAt = [&](int x, int y) {
+        return static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
+      };
+      if (!triangle.masked) {
+        forEachRow(triangle, rect, [&](int y, int first, int last, const EdgeRow& edges) {
+          TriangleRow row;
+          for (int i = 0; i < 3; ++i) {
+            row.slope[i] = edges.slope[i], row.start[i] = edges.start[i];
+            row.ownsBorder[i] = ownsBorder(triangle.edge[i]);
+          }
+          row.perDepth = triangle.perDepth, row.mostInverse = 1 / kNearest;
+          row.x0 = first, row.count = last + 1 - first;
+          row.triangle = t;
+          row.visible = visible + pixelAt(first, y), row.nearest = nearest.data() + pixelAt(first, y);
+          coverRow(row);
+        });
+        continue;
+      }
       forEachPixel(triangle, rect, [&](int x, int y, const glm::dvec3& values, float depth) {
-        const std::size_t pixel = static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
-        if (depth <= nearest[pixel]) return;
-        if (triangle.masked && !shading_.survivesMask(pointAt(triangle, values))) return;
+        const std::size_t pixel = pixelAt(x, y);
+        if (depth <= nearest[pixel] || !shading_.survivesMask(pointAt(triangle, values))) return;
         nearest[pixel] = depth;
         visible[pixel] = t;
       });
@@ -219,9 +250,9 @@ void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& 
         if (t == kUncovered) continue;
         std::fill_n(&frame.source.at(x, y), end - x, kSourceLocal);
         const Triangle& triangle = opaque_[t];
-        const auto& edge = triangle.edge;
+        const EdgeRow edges = edgeRow(triangle, y);
         SurfaceRun run;
-        for (int i = 0; i < 3; ++i) run.slope[i] = edge[i].x, run.start[i] = edge[i].y * y + edge[i].z;
+        for (int i = 0; i < 3; ++i) run.slope[i] = edges.slope[i], run.start[i] = edges.start[i];
         run.perDepth = triangle.perDepth;
         run.x0 = x, run.count = end - x;
         run.colour = reinterpret_cast<std::uint32_t*>(&frame.colour.at(x, y));

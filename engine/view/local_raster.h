@@ -26,7 +26,7 @@ class LocalRaster {
 
   /// Finds which of the opaque and alpha-tested triangles each pixel of the picture shows: its number, or
   /// kUncovered.
-  void findOpaque(CoverImage& cover, TaskRunner& runner) const;
+  void findOpaque(CoverRow coverRow, CoverImage& cover, TaskRunner& runner) const;
   /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
   /// their depth.
   void drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame, FloatImage& inverseZDepth,
@@ -51,6 +51,13 @@ class LocalRaster {
     bool masked = false;
   };
   bool setUp(std::uint32_t index, Triangle& out) const;
+  /// The edge functions at pixel x of a row are slope * x + start.
+  struct EdgeRow {
+    double slope[3], start[3];
+  };
+  EdgeRow edgeRow(const Triangle& triangle, int y) const;
+  template <class Visit>
+  void forEachRow(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Visit>
   void forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Body>

@@ -130,7 +130,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   if (drawLocal) {
     shading.emplace(scene, *local);
     raster.emplace(*local, *shading, view, runner);
-    raster->findOpaque(memory.cover, runner);
+    raster->findOpaque(kernelsFor(settings).coverRow, memory.cover, runner);
     stats.localSeconds = localTime.seconds();
   }
 

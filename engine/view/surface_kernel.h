@@ -1,6 +1,6 @@
 #pragma once
-/// The inner loop of local geometry: colours of the pixels of a triangle whose every point looks like base
-/// colour times baked light, plus emission.
+/// The inner loops of local geometry: which pixels of a row a triangle covers, and the colours of those of
+/// one whose every point looks like base colour times baked light, plus emission.
 ///
 /// One template (surface_kernel_body.h) over the lane types, which all give the same bits. Free of the
 /// standard library and of glm, as warp_kernel.h is.
@@ -40,6 +40,25 @@ struct SurfaceRun {
 };
 
 using ShadeRun = void (*)(const SurfaceShade& shade, const SurfaceRun& run);
+
+/// Pixels [x0, x0 + count) of a row, some of them of the triangle.
+struct TriangleRow {
+  double slope[3], start[3];  ///< as SurfaceRun
+  bool ownsBorder[3];         ///< are pixels exactly on that edge its own?
+  double perDepth = 0;
+  double mostInverse = 0;  ///< nearer points are not drawn, 1/m
+  std::int32_t x0 = 0, count = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t* visible = nullptr;  ///< the triangle seen at each pixel, of pixel x0 on
+  float* nearest = nullptr;          ///< its inverse depth, 1/m
+};
+
+/// Makes the triangle the one seen where it covers a pixel and is nearer than what was seen there.
+using CoverRow = void (*)(const TriangleRow& row);
+
+void coverRowScalar(const TriangleRow& row);
+void coverRowAvx2(const TriangleRow& row);
+void coverRowAvx512(const TriangleRow& row);
 
 void shadeRunScalar(const SurfaceShade& shade, const SurfaceRun& run);
 void shadeRunAvx2(const SurfaceShade& shade, const SurfaceRun& run);

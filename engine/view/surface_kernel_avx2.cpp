@@ -4,6 +4,8 @@
 
 namespace acentric {
 
+void coverRowAvx2(const TriangleRow& row) { surface_kernel::coverRow<EightLanes>(row); }
+
 void shadeRunAvx2(const SurfaceShade& shade, const SurfaceRun& run) {
   surface_kernel::shadeRun<EightLanes>(shade, run);
 }

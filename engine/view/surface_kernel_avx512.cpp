@@ -4,6 +4,8 @@
 
 namespace acentric {
 
+void coverRowAvx512(const TriangleRow& row) { surface_kernel::coverRow<SixteenLanes>(row); }
+
 void shadeRunAvx512(const SurfaceShade& shade, const SurfaceRun& run) {
   surface_kernel::shadeRun<SixteenLanes>(shade, run);
 }

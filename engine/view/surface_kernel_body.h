@@ -189,4 +189,29 @@ void shadeRun(const SurfaceShade& shade, const SurfaceRun& run) {
   }
 }
 
+template <class B>
+void coverRow(const TriangleRow& row) {
+  using F = typename B::F;
+  using D = typename B::D;
+  using I = typename B::I;
+  using M = typename B::M;
+  const TriangleRow& r = row;
+  const D zero = B::setd(0);
+  for (std::int32_t done = 0; done < r.count; done += B::kWidth) {
+    const std::int32_t count = r.count - done;
+    const D x = B::toDouble(B::counted(r.x0 + done));
+    D value[3];
+    for (int i = 0; i < 3; ++i) value[i] = B::setd(r.slope[i]) * x + B::setd(r.start[i]);
+    const D inverse = (value[0] + value[1] + value[2]) * B::setd(r.perDepth);
+    const F depth = B::toFloat(inverse), before = B::load(r.nearest + done, count);
+    M seen = B::less(zero, inverse) & B::notLess(B::setd(r.mostInverse), inverse) & B::less(before, depth);
+    for (int i = 0; i < 3; ++i)
+      seen = seen & (r.ownsBorder[i] ? B::notLess(value[i], zero) : B::less(zero, value[i]));
+    if (!B::any(seen)) continue;
+    const I own = B::seti(static_cast<std::int32_t>(r.triangle));
+    B::store(r.nearest + done, B::select(seen, depth, before), count);
+    B::store(r.visible + done, B::select(seen, own, B::load(r.visible + done, count)), count);
+  }
+}
+
 }  // namespace acentric::surface_kernel

@@ -3,6 +3,8 @@
 
 namespace acentric {
 
+void coverRowScalar(const TriangleRow& row) { surface_kernel::coverRow<OneLane>(row); }
+
 void shadeRunScalar(const SurfaceShade& shade, const SurfaceRun& run) {
   surface_kernel::shadeRun<OneLane>(shade, run);
 }

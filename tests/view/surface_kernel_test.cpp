@@ -161,6 +161,68 @@ TEST(SurfaceKernel, GivesTheSameCodesWhateverTheProcessor) {
   }
 }
 
+/// A row of pixels that many triangles may cover, in a picture with earlier ones.
+struct CoveredRow {
+  std::vector<std::uint32_t> visible;
+  std::vector<float> nearest;
+
+  void cover(TriangleRow row, CoverRow coverRow) {
+    row.visible = visible.data() + row.x0, row.nearest = nearest.data() + row.x0;
+    coverRow(row);
+  }
+};
+
+TEST(CoverRow, ShowsTheNearestTriangleAtEachPixel) {
+  constexpr int kWidth = 90;
+  std::mt19937 random(14);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int covered = 0, onBorder = 0;
+  for (int round = 0; round < 500; ++round) {
+    const std::size_t room = kWidth + 20;
+    CoveredRow expected{std::vector<std::uint32_t>(room, ~0u), std::vector<float>(room, 0.0f)};
+    std::vector<CoveredRow> got(supportedKernels().size(), expected);
+    for (std::uint32_t t = 0; t < 12; ++t) {
+      TriangleRow row;
+      // Whole numbers, so that edges run through pixel centres.
+      for (int i = 0; i < 3; ++i) {
+        row.slope[i] = int(random() % 5) - 2;
+        row.start[i] = -row.slope[i] * int(random() % kWidth);
+        row.ownsBorder[i] = random() % 2 == 0;
+      }
+      row.start[random() % 3] += between(0, 40);
+      row.perDepth = between(0.001, 0.1), row.mostInverse = 5;
+      row.x0 = int(random() % kWidth), row.count = 1 + int(random() % std::uint32_t(kWidth - row.x0));
+      row.triangle = t;
+      for (int x = row.x0; x < row.x0 + row.count; ++x) {
+        double sum = 0;
+        bool inside = true;
+        for (int i = 0; i < 3; ++i) {
+          const double value = row.slope[i] * x + row.start[i];
+          sum += value;
+          inside = inside && (value > 0 || (value == 0 && row.ownsBorder[i]));
+          onBorder += value == 0;
+        }
+        const double inverse = sum * row.perDepth;
+        const std::size_t pixel = std::size_t(x);
+        if (!inside || !(inverse > 0) || inverse > row.mostInverse ||
+            float(inverse) <= expected.nearest[pixel])
+          continue;
+        expected.visible[pixel] = t, expected.nearest[pixel] = float(inverse);
+        ++covered;
+      }
+      for (std::size_t k = 0; k < got.size(); ++k) got[k].cover(row, supportedKernels()[k].coverRow);
+    }
+    for (std::size_t k = 0; k < got.size(); ++k) {
+      ASSERT_EQ(got[k].visible, expected.visible) << supportedKernels()[k].name << ", round " << round;
+      ASSERT_EQ(got[k].nearest, expected.nearest) << supportedKernels()[k].name << ", round " << round;
+    }
+  }
+  EXPECT_GT(covered, 10000);
+  EXPECT_GT(onBorder, 1000);
+}
+
 TEST(SurfaceKernel, StaysDefinedForCoordinatesAndRadianceOutOfAnyRange) {
   std::mt19937 random(13);
   const float wild[] = {HUGE_VALF, -HUGE_VALF, std::nanf(""), 3e38f, -1e20f, 0x1p23f, -0.0f, 1e-40f};
