@@ -18,6 +18,7 @@ struct Kernels {
   WriteRows writeRows;
   ShadeRun shadeRun;
   CoverRow coverRow;
+  BlendRow blendRow;
 };
 
 /// The scalar reference first, the fastest last.

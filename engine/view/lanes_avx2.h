@@ -57,6 +57,11 @@ struct EightLanes {
   static I load(const std::uint32_t* p, int count) {
     return {_mm256_maskload_epi32(reinterpret_cast<const int*>(p), firstLanes(count))};
   }
+  static I load(const std::uint16_t* p, int count) {
+    alignas(16) std::uint16_t lanes[kWidth] = {};
+    for (int i = 0; i < kWidth && i < count; ++i) lanes[i] = p[i];
+    return {_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(lanes)))};
+  }
   static void store(float* p, F a, int count) { _mm256_maskstore_ps(p, firstLanes(count), a.v); }
   static void store(std::uint32_t* p, I a, int count) {
     _mm256_maskstore_epi32(reinterpret_cast<int*>(p), firstLanes(count), a.v);

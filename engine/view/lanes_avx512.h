@@ -62,6 +62,9 @@ struct SixteenLanes {
   static I load(const std::uint32_t* p, int count) {
     return {_mm512_maskz_loadu_epi32(firstLanes(count), p)};
   }
+  static I load(const std::uint16_t* p, int count) {
+    return {_mm512_cvtepu16_epi32(_mm256_maskz_loadu_epi16(firstLanes(count), p))};
+  }
   static void store(float* p, F a, int count) { _mm512_mask_storeu_ps(p, firstLanes(count), a.v); }
   static void store(std::uint32_t* p, I a, int count) { _mm512_mask_storeu_epi32(p, firstLanes(count), a.v); }
 

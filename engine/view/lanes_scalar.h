@@ -30,6 +30,7 @@ struct OneLane {
   /// The first `count` lanes, the others 0; at least one.
   static F load(const float* p, int) { return *p; }
   static I load(const std::uint32_t* p, int) { return static_cast<I>(*p); }
+  static I load(const std::uint16_t* p, int) { return *p; }
   /// The first `count` lanes; at least one.
   static void store(float* p, F a, int) { *p = a; }
   static void store(std::uint32_t* p, I a, int) { *p = static_cast<std::uint32_t>(a); }

@@ -34,7 +34,7 @@ class LocalRaster {
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
   /// Pixels keep their source, except that a pixel of an opaque one stays local; over a hole nothing is
   /// drawn.
-  void drawClear(Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const;
+  void drawClear(BlendRow blendRow, Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const;
 
   bool hasClear() const { return !clear_.empty(); }
   /// Triangles that reach into the picture.
@@ -51,12 +51,7 @@ class LocalRaster {
     bool masked = false;
   };
   bool setUp(std::uint32_t index, Triangle& out) const;
-  /// The edge functions at pixel x of a row are slope * x + start.
-  struct EdgeRow {
-    double slope[3], start[3];
-  };
-  EdgeRow edgeRow(const Triangle& triangle, int y) const;
-  template <class Visit>
+  template <class Row, class Visit>
   void forEachRow(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Visit>
   void forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;

@@ -155,7 +155,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     stats.fillSeconds = fillTime.seconds();
   }
   if (raster) {
-    if (raster->hasClear()) raster->drawClear(frame, inverseZDepth, runner);
+    if (raster->hasClear()) raster->drawClear(kernelsFor(settings).blendRow, frame, inverseZDepth, runner);
     stats.localTriangles = raster->triangleCount();
     stats.localSeconds += drawTime.seconds() - stats.fillSeconds;
   }

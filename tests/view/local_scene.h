@@ -68,7 +68,7 @@ inline LocalPicture drawLocal(const WalkScene& walk, const PerspectiveView& view
   CoverImage cover;
   raster.findOpaque(kernels.coverRow, cover, runner);
   raster.drawOpaque(cover, kernels.shadeRun, picture.frame, picture.inverseZDepth, runner);
-  raster.drawClear(picture.frame, picture.inverseZDepth, runner);
+  raster.drawClear(kernels.blendRow, picture.frame, picture.inverseZDepth, runner);
   return picture;
 }
 
