@@ -124,6 +124,7 @@ class ColumnMarch {
       beginPixel(row);
       if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
         runPixel(packet.direction[n], hits_[n].distance, next, stop);
+      addBackgroundAlong(packet.direction[n]);
       if (mirrorMarch_)
         mirrorMarch_->run({march_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), flat_, roles_},
                           shown_, out_.counts.rays, stop);
@@ -156,6 +157,7 @@ class ColumnMarch {
     row_ = row;
     flat_ = march_.rows.cosine[std::size_t(row)];
     layer_ = 0;
+    reachedBackground_ = false;
     std::ranges::fill(stored_, 0);
     std::ranges::fill(opaqueAt_, 0);
   }
@@ -177,7 +179,7 @@ class ColumnMarch {
   /// if the pixel is done.
   const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit) {
     if (!hit.found()) {
-      addBackgroundAlong(direction);
+      reachedBackground_ = true;
       return nullptr;
     }
     addSurface(direction, hit);
@@ -190,8 +192,10 @@ class ColumnMarch {
     const double horizontal = double(hit.distance) * flat_;
     const glm::dvec3 point = march_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const double tolerance = sameDepth_ * double(hit.distance);
+    const glm::vec3 wound = hit.geometricNormal(), normal = glm::dot(wound, direction) <= 0 ? wound : -wound;
     const std::uint8_t mirror = march_.mirrors == nullptr ? 0 : march_.mirrors->at(hit, -direction);
     needed_.clear();
+    neededBehind_.clear();
     facing_.clear();
     bool limited = false;
     for (const ColumnRole& role : roles_) {
@@ -200,32 +204,48 @@ class ColumnMarch {
       if (!inPart && mirror == 0) continue;
       if (isFull(role)) {
         limited = limited || inPart;
-      } else if (march_.sight == nullptr ||
-                 (horizontal * (1 - rightBehind_) > opaqueAt_[role.index] &&
-                  march_.sight->sees(role.index, point, tolerance, hints_, out_.counts.rays))) {
-        if (inPart) needed_.push_back(&role);
-        if (mirror != 0) facing_.push_back(&role);
+        continue;
       }
+      RegionSight::Side side = RegionSight::Side::normal;
+      if (march_.sight != nullptr) {
+        if (!(horizontal * (1 - rightBehind_) > opaqueAt_[role.index])) continue;
+        side = march_.sight->sees(role.index, point, glm::dvec3(normal), tolerance, hints_, out_.counts.rays);
+        if (side == RegionSight::Side::none) continue;
+      }
+      const bool behind = side == RegionSight::Side::other;
+      if (inPart) (behind ? neededBehind_ : needed_).push_back(&role);
+      if (mirror != 0 && !behind) facing_.push_back(&role);
     }
-    if (needed_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
-    if (needed_.empty() && facing_.empty()) return;
-    const Shaded shaded = mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
-                                      : march_.shader.shade(hit, -direction, out_.counts.rays);
-    if (needed_.empty()) return;
+    if (needed_.empty() && neededBehind_.empty())
+      ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+    if (!needed_.empty() || !facing_.empty())
+      addSide(needed_,
+              mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
+                          : march_.shader.shade(hit, -direction, out_.counts.rays),
+              horizontal, mirror);
+    // The camera looks at its back: as from the mirrored place.
+    if (!neededBehind_.empty())
+      addSide(neededBehind_, march_.shader.shade(hit, glm::reflect(-direction, normal), out_.counts.rays),
+              horizontal, 0);
+  }
+
+  /// A sample of one side of a surface for the roles that see it.
+  void addSide(std::vector<const ColumnRole*>& needed, const Shaded& shaded, double horizontal,
+               std::uint8_t mirror) {
     const bool opaque = shaded.alpha >= kOpaqueAlpha;
-    if (shaded.alpha < kInvisibleAlpha) return;
+    if (needed.empty() || shaded.alpha < kInvisibleAlpha) return;
     // The last place is kept for an opaque surface: there is always something behind glass.
     if (!opaque)
-      std::erase_if(needed_, [&](const ColumnRole* role) {
+      std::erase_if(needed, [&](const ColumnRole* role) {
         return stored_[role->index] + 1 >= march_.settings.maxLayers;
       });
-    if (needed_.empty()) {
+    if (needed.empty()) {
       ++out_.counts.samples.overLimit;
       return;
     }
     if (opaque)
-      for (const ColumnRole* role : needed_) opaqueAt_[role->index] = horizontal;
-    add(storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
+      for (const ColumnRole* role : needed) opaqueAt_[role->index] = horizontal;
+    add(needed, storedInverseDistance(1 / horizontal, march_.distanceStep), shaded.radiance(),
         opaque ? 1 : shaded.alpha, mirror);
   }
 
@@ -256,12 +276,15 @@ class ColumnMarch {
     shown_.clear();
   }
 
+  /// For the roles that see it, whatever the march met before, or how many samples they have: behind all
+  /// surfaces there is the background, and it takes none.
   void addBackgroundAlong(const glm::vec3& direction) {
     std::uint8_t mask = 0;
     for (const ColumnRole& role : roles_)
-      if (role.holdsBackground && !isFull(role) &&
-          (march_.sight == nullptr ||
-           march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
+      if (role.holdsBackground &&
+          (march_.sight == nullptr
+               ? reachedBackground_ && !isFull(role)
+               : march_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
         mask |= role.bit;
     if (mask != 0) addBackground(row_, mask);
   }
@@ -270,10 +293,10 @@ class ColumnMarch {
     ++out_.counts.samples.background;
   }
 
-  /// A sample for the roles in needed_.
-  void add(float w, const glm::vec3& radiance, float alpha, std::uint8_t mirror = 0) {
+  void add(const std::vector<const ColumnRole*>& needed, float w, const glm::vec3& radiance, float alpha,
+           std::uint8_t mirror) {
     std::uint8_t mask = 0;
-    for (const ColumnRole* role : needed_) {
+    for (const ColumnRole* role : needed) {
       mask |= role->bit;
       ++stored_[role->index];
     }
@@ -288,18 +311,20 @@ class ColumnMarch {
   double rightBehind_;  ///< the same: what the test eyes do not tell from what lies before it
   std::array<Hit, RayPacket::kSize> hits_;
   RegionSight::Hints hints_;
-  glm::dvec2 direction_{0};        ///< of the column
-  std::vector<ColumnRole> roles_;  ///< of the column
-  bool alone_ = false;             ///< of the column: see addAlone
-  int row_ = 0;                    ///< of the pixel
-  double flat_ = 1;                ///< of the pixel: horizontal metres per metre of ray
-  int layer_ = 0;                  ///< of the pixel: samples that it has
-  std::vector<int> stored_;        ///< of the pixel, by role
+  glm::dvec2 direction_{0};         ///< of the column
+  std::vector<ColumnRole> roles_;   ///< of the column
+  bool alone_ = false;              ///< of the column: see addAlone
+  int row_ = 0;                     ///< of the pixel
+  double flat_ = 1;                 ///< of the pixel: horizontal metres per metre of ray
+  int layer_ = 0;                   ///< of the pixel: samples that it has
+  bool reachedBackground_ = false;  ///< of the pixel: is nothing left along its ray?
+  std::vector<int> stored_;         ///< of the pixel, by role
   /// The same: horizontal distance of the last opaque surface stored. What lies right behind it, as the backs
   /// of panels and mouldings, would pass for it before the test eyes, and show in its cracks.
   std::vector<double> opaqueAt_;
-  std::vector<const ColumnRole*> needed_;
-  std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
+  std::vector<const ColumnRole*> needed_;        ///< those that see the side that the camera sees
+  std::vector<const ColumnRole*> neededBehind_;  ///< those that see the other
+  std::vector<const ColumnRole*> facing_;        ///< those that a mirror shows something
   std::optional<MirrorMarch> mirrorMarch_;
   std::vector<ShownInMirror> shown_;  ///< by the mirrors of the pixel
 };

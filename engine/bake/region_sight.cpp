@@ -31,10 +31,16 @@ std::vector<glm::dvec3> RegionSight::eyes() const {
   return eyes;
 }
 
-bool RegionSight::sees(std::size_t role, const glm::dvec3& point, double tolerance, Hints& hints,
-                       RayCounts& rays) const {
-  return any(role, hints,
-             [&](const EyeView& view) { return seesPoint(*scene_, view, point, tolerance, rays); });
+RegionSight::Side RegionSight::sees(std::size_t role, const glm::dvec3& point, const glm::dvec3& normal,
+                                    double tolerance, Hints& hints, RayCounts& rays) const {
+  const auto seenFrom = [&](Side side) {
+    return any(role, hints, [&](const EyeView& view) {
+      const bool onNormal = glm::dot(normal, view.eye() - point) >= 0;
+      return onNormal == (side == Side::normal) && seesPoint(*scene_, view, point, tolerance, rays);
+    });
+  };
+  if (seenFrom(Side::normal)) return Side::normal;
+  return seenFrom(Side::other) ? Side::other : Side::none;
 }
 
 bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,

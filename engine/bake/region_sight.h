@@ -23,8 +23,11 @@ class RegionSight {
   };
   Hints hints() const { return {std::vector<std::size_t>(eyes_.size(), 0)}; }
 
-  /// Does the region of role `role` see a point, give or take `tolerance` metres of depth?
-  bool sees(std::size_t role, const glm::dvec3& point, double tolerance, Hints& hints, RayCounts& rays) const;
+  /// Which side of a surface the region of role `role` sees at a point, give or take `tolerance` metres of
+  /// depth: the one that `normal` is on if any of its eyes does, else the other.
+  enum class Side : std::uint8_t { none, normal, other };
+  Side sees(std::size_t role, const glm::dvec3& point, const glm::dvec3& normal, double tolerance,
+            Hints& hints, RayCounts& rays) const;
   /// The same for what lies infinitely far in a direction (unit).
   bool seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints, RayCounts& rays) const;
 

@@ -206,6 +206,23 @@ TEST(BakeCamera, DropsWhatLiesRightBehindAnOpaqueSurface) {
   EXPECT_GT(deep, 50u) << "the wall behind it, seen from beside the camera";
 }
 
+/// The camera's ray leaves a box through a side that it only sees from within, and the region from without.
+TEST(BakeCamera, ShadesTheSideThatIsSeenAndNotTheOneTheCameraLooksAt) {
+  SceneBuilder builder;
+  const glm::vec3 falling = glm::normalize(glm::vec3(0, -1, -0.3f));  // on the side that faces +y alone
+  builder.box(builder.material(matte()), {4, -1, 0}, {5, 1, 3}).sun(falling, 10).sky(glm::vec3(1e-6f));
+  const auto scene = builder.rays();
+  const auto sideAhead = [&](const BakeSettings& settings) {
+    for (const auto& sample : bakeFrom(scene, cameraAt({0, 0}, {square(2)}), settings).pixel(1 / 4.5, 0.01))
+      if (std::abs(1 / sample.w - std::hypot(4.5, 1.0)) < 0.2) return sample.colour.r;
+    return -1.0f;
+  };
+  EXPECT_NEAR(sideAhead({}), 10 * -falling.y / kPi, 0.02);
+  BakeSettings unpruned;
+  unpruned.pruning = false;
+  EXPECT_LT(sideAhead(unpruned), 1e-3) << "nobody is asked who sees it";
+}
+
 TEST(BakeCamera, DropsAFirstSurfaceThatNoRegionSees) {
   // The camera stands outside its region, in the next room.
   SceneBuilder builder;
@@ -349,6 +366,21 @@ TEST(BakeCamera, TheSkyIsBackgroundAndSoIsBlackWithoutOne) {
   ASSERT_EQ(black.size(), 1u);
   EXPECT_EQ(black[0].w, 0);
   EXPECT_EQ(black[0].colour, glm::vec4(0, 0, 0, 1));
+}
+
+/// A pixel may have all the samples that it can, and the sky be seen past them.
+TEST(BakeCamera, KeepsTheBackgroundThatIsSeenBehindTheLastLayer) {
+  const auto showsSky = [](float halfWidth) {
+    SceneBuilder builder;
+    const int white = builder.material(matte());
+    builder.sky(glm::vec3(1)).floor(white, 10);
+    for (const float x : {3.0f, 3.5f})
+      builder.quad(white, {x, halfWidth, 0}, {x, -halfWidth, 0}, {x, -halfWidth, 9}, {x, halfWidth, 9});
+    const auto pixel = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)}), firstOnly()).pixel(0.01, 0.3);
+    return std::ranges::any_of(pixel, [](const Baked::Sample& s) { return s.w == 0; });
+  };
+  EXPECT_TRUE(showsSky(0.6f)) << "from the corner (1, 1)";
+  EXPECT_FALSE(showsSky(4)) << "nobody sees past the screens";
 }
 
 TEST(BakeCamera, ACameraThatServesNoRegionHasNoSamples) {
