@@ -24,11 +24,17 @@ class LocalRaster {
   LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
               TaskRunner& runner);
 
+  /// Numbers the mirrors among the opaque triangles. What flat mirrors show is drawn as that of captures is,
+  /// by the samples that these keep of reflections (CanvasWarp); their own baked light where there is none.
+  void findMirrors(const FlatMirrors& mirrors);
+  /// By number of the opaque triangles: the mirror that the eye sees of each, 0 = none; empty: none is one.
+  const std::vector<std::uint8_t>& mirrors() const { return mirrors_; }
+
   /// Finds which of the opaque and alpha-tested triangles each pixel of the picture shows: its number, or
   /// kUncovered.
   void findOpaque(CoverImage& cover, TaskRunner& runner) const;
   /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
-  /// their depth.
+  /// their depth. Where one is a mirror and the frame has a source, the colour stays: it is what that shows.
   void drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame, FloatImage& inverseZDepth,
                   TaskRunner& runner) const;
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
@@ -64,6 +70,7 @@ class LocalRaster {
   PerspectiveView view_;
   std::vector<glm::dvec3> inView_;  ///< by local vertex
   std::vector<Triangle> opaque_;
+  std::vector<std::uint8_t> mirrors_;                     ///< by opaque triangle, or empty
   std::vector<std::vector<std::uint32_t>> opaqueOfBand_;  ///< that reach into each band of rows, rising
   std::vector<Triangle> clear_;                           ///< farthest first
 };

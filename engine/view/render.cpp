@@ -4,6 +4,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
@@ -47,8 +48,9 @@ void resize(Image<T>& image, const PerspectiveView& view) {
 
 /// Everything but local geometry, strip by strip; every pixel of the frame and of the depths is written.
 WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                        const ViewPlan& plan, const CoverImage* cover, TaskRunner& runner,
-                        FrameMemory& memory, Frame& frame) {
+                        const ViewPlan& plan, const CoverImage* cover,
+                        std::span<const std::uint8_t> coverMirrors, TaskRunner& runner, FrameMemory& memory,
+                        Frame& frame) {
   const Kernels& kernels = kernelsFor(settings);
   WarpOptions options;
   options.project = kernels.project;
@@ -56,6 +58,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.cull = settings.renderer != Renderer::scalar;
   options.cover = cover;
+  options.coverMirrors = coverMirrors;
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
   std::optional<SkyTable> sky;
   if (showsBackground(limits, view)) sky.emplace(backgroundSky(scene), scene.exposure);
@@ -107,6 +110,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     shading.emplace(scene, *local);
     raster.emplace(*local, *shading, view, runner);
     raster->findOpaque(memory.cover, runner);
+    if (scene.mirrors && !plan.reflections.empty()) raster->findMirrors(*scene.mirrors);
     stats.localSeconds = localTime.seconds();
   }
 
@@ -114,8 +118,9 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   std::set<int> images;
   for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
     for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
-  const WarpCounts counts =
-      drawCaptures(scene, view, settings, plan, drawLocal ? &memory.cover : nullptr, runner, memory, frame);
+  const WarpCounts counts = drawCaptures(
+      scene, view, settings, plan, drawLocal ? &memory.cover : nullptr,
+      raster ? std::span(raster->mirrors()) : std::span<const std::uint8_t>(), runner, memory, frame);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;

@@ -72,7 +72,21 @@ class CanvasWarp {
 
   WarpCounts run() {
     const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
-    if (uncovered.none()) return counts_;
+    if (!uncovered.none()) drawAllPieces(uncovered);
+    if (plan_.reflections.empty()) return counts_;
+    const bool local = !options_.coverMirrors.empty() && openCoverMirrors();
+    open_ = OpenTiles::withMirrors(local ? OpenTiles(rect_, nullptr, 0) : uncovered, canvas_);
+    if (open_->none()) return counts_;
+    for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
+      const PieceDraw& piece = plan_.reflections[i];
+      const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
+      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan_, i));
+    }
+    return counts_;
+  }
+
+ private:
+  void drawAllPieces(const OpenTiles& uncovered) {
     if (!uncovered.all()) open_ = uncovered;
     const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
     const std::size_t firstInFront = static_cast<std::size_t>(first - plan_.pieces.begin());
@@ -84,18 +98,8 @@ class CanvasWarp {
       openBelow_ = 0;
       open_.reset();
     }
-    if (plan_.reflections.empty()) return counts_;
-    open_ = OpenTiles::withMirrors(uncovered, canvas_);
-    if (open_->none()) return counts_;
-    for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
-      const PieceDraw& piece = plan_.reflections[i];
-      const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
-      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan_, i));
-    }
-    return counts_;
   }
 
- private:
   /// Pieces [first, last) of the plan.
   void drawPieces(std::size_t first, std::size_t last) {
     bool blended = false;
@@ -110,6 +114,38 @@ class CanvasWarp {
     if (!options_.depthTest) return pass(PaintMode::over, PaintMode::overBlended, false);
     pass(PaintMode::nearest, PaintMode::nearest, false);
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
+  }
+
+  std::uint8_t coverMirrorAt(int x, int y) const {
+    const std::uint32_t cover = options_.cover->at(x, y);
+    return cover == kUncovered ? std::uint8_t(0) : options_.coverMirrors[cover];
+  }
+
+  /// Makes holes of the pixels that mirrors among the local geometry cover, and says on the canvas whose they
+  /// are. Are there any?
+  bool openCoverMirrors() {
+    const auto pixelAt = [&](int x, int y) { return canvas_.indexOf(x) + static_cast<std::size_t>(y); };
+    const auto forgetHidden = [&](int x, int y) {
+      if (x < rect_.x0 || x >= rect_.x1 || y < rect_.y0 || y >= rect_.y1) return;
+      if (options_.cover->at(x, y) == kUncovered || coverMirrorAt(x, y) != 0) return;
+      canvas_.pixels[pixelAt(x, y)] = kEmptyPixel;
+      canvas_.mirrors[pixelAt(x, y)] = 0;
+    };
+    bool any = false;
+    for (int y = rect_.y0; y < rect_.y1; ++y)
+      for (int x = std::max(rect_.x0 - 1, 0); x < std::min(rect_.x1 + 1, view_.width); ++x) {
+        const std::uint8_t mirror = coverMirrorAt(x, y);
+        if (mirror == 0) continue;
+        if (x >= rect_.x0 && x < rect_.x1) {
+          any = true;
+          canvas_.pixels[pixelAt(x, y)] = kEmptyPixel;
+          canvas_.mirrors[pixelAt(x, y)] = mirror;
+        }
+        if (canvas_.places)  // filters would mix in what other local geometry hides beside it
+          for (const int dx : {-1, 0, 1})
+            for (const int dy : {-1, 0, 1}) forgetHidden(x + dx, y + dy);
+      }
+    return any;
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {

@@ -1,6 +1,8 @@
 #pragma once
 /// Paints a plan's pieces on a canvas: the background of a frame.
 
+#include <span>
+
 #include "engine/view/canvas.h"
 #include "engine/view/open_tiles.h"
 #include "engine/view/view_plan.h"
@@ -22,6 +24,8 @@ struct WarpOptions {
   bool depthTest = false;  ///< nearest sample wins instead of the last one
   bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
   const CoverImage* cover = nullptr;  ///< what hides the captures in the end: nothing is drawn there
+  /// By what covers a pixel: the mirror that it is, 0 = none. There reflections are drawn, over nothing.
+  std::span<const std::uint8_t> coverMirrors = {};
 };
 
 /// Of one canvas.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/bake/material_rules.h"
+#include "engine/scene/material_rules.h"
 #include "engine/bake/shading.h"
 #include "engine/scene/import.h"
 #include "tests/support/scenes.h"

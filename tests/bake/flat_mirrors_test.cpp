@@ -1,4 +1,4 @@
-#include "engine/bake/flat_mirrors.h"
+#include "engine/scene/flat_mirrors.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::uint8_t seenBy(const RayScene& scene, const FlatMirrors& mirrors, glm::vec3
   const Ray ray{from, glm::normalize(to - from)};
   const Hit hit = scene.trace(ray);
   EXPECT_TRUE(hit.found());
-  return hit.found() ? mirrors.at(hit, -ray.direction) : std::uint8_t(0);
+  return hit.found() ? mirrors.at(hit.mesh, hit.triangle, -ray.direction) : std::uint8_t(0);
 }
 
 TEST(FlatMirrors, AreOnePerPlaneAndSide) {

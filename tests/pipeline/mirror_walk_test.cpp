@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/bake/bake.h"
-#include "engine/bake/flat_mirrors.h"
+#include "engine/scene/flat_mirrors.h"
 #include "engine/bake/truth.h"
 #include "engine/view/render.h"
 #include "tests/bake/memory_sink.h"
@@ -66,7 +66,7 @@ std::vector<char> mirrorPixels(const RayScene& scene, const PerspectiveView& vie
     for (int x = 0; x < view.width; ++x) {
       const Ray ray{glm::vec3(view.eye), glm::vec3(glm::normalize(view.rayThrough(x + 0.5, y + 0.5)))};
       const Hit hit = scene.trace(ray);
-      inMirror.push_back(hit.found() && mirrors.at(hit, -ray.direction) != 0 ? 1 : 0);
+      inMirror.push_back(hit.found() && mirrors.at(hit.mesh, hit.triangle, -ray.direction) != 0 ? 1 : 0);
     }
   return inMirror;
 }
