@@ -116,36 +116,34 @@ class CanvasWarp {
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
   }
 
-  std::uint8_t coverMirrorAt(int x, int y) const {
+  /// Which mirror local geometry shows at a pixel that it covers; else nothing.
+  std::optional<std::uint8_t> coverMirrorAt(int x, int y) const {
+    if (x < 0 || x >= view_.width || y < 0 || y >= view_.height) return {};
     const std::uint32_t cover = options_.cover->at(x, y);
-    return cover == kUncovered ? std::uint8_t(0) : options_.coverMirrors[cover];
+    return cover == kUncovered ? std::nullopt : std::optional(options_.coverMirrors[cover]);
   }
 
   /// Makes holes of the pixels that mirrors among the local geometry cover, and says on the canvas whose they
   /// are. Are there any?
   bool openCoverMirrors() {
-    const auto pixelAt = [&](int x, int y) { return canvas_.indexOf(x) + static_cast<std::size_t>(y); };
-    const auto forgetHidden = [&](int x, int y) {
-      if (x < rect_.x0 || x >= rect_.x1 || y < rect_.y0 || y >= rect_.y1) return;
-      if (options_.cover->at(x, y) == kUncovered || coverMirrorAt(x, y) != 0) return;
-      canvas_.pixels[pixelAt(x, y)] = kEmptyPixel;
-      canvas_.mirrors[pixelAt(x, y)] = 0;
-    };
     bool any = false;
-    for (int y = rect_.y0; y < rect_.y1; ++y)
-      for (int x = std::max(rect_.x0 - 1, 0); x < std::min(rect_.x1 + 1, view_.width); ++x) {
-        const std::uint8_t mirror = coverMirrorAt(x, y);
-        if (mirror == 0) continue;
-        if (x >= rect_.x0 && x < rect_.x1) {
-          any = true;
-          canvas_.pixels[pixelAt(x, y)] = kEmptyPixel;
-          canvas_.mirrors[pixelAt(x, y)] = mirror;
-        }
-        if (canvas_.places)  // filters would mix in what other local geometry hides beside it
-          for (const int dx : {-1, 0, 1})
-            for (const int dy : {-1, 0, 1}) forgetHidden(x + dx, y + dy);
+    for (int y = 0; y < view_.height; ++y)
+      for (int x = rect_.x0; x < rect_.x1; ++x) {
+        const auto mirror = coverMirrorAt(x, y);
+        if (!mirror) continue;
+        const std::size_t at = canvas_.indexOf(x) + static_cast<std::size_t>(y);
+        canvas_.mirrors[at] = *mirror;
+        any = any || *mirror != 0;
+        if (*mirror != 0 || (canvas_.places && isBesideCoverMirror(x, y))) canvas_.pixels[at] = kEmptyPixel;
       }
     return any;
+  }
+  /// Filters would mix what other local geometry hides there into the mirror.
+  bool isBesideCoverMirror(int x, int y) const {
+    for (const int dx : {-1, 0, 1})
+      for (const int dy : {-1, 0, 1})
+        if (coverMirrorAt(x + dx, y + dy).value_or(0) != 0) return true;
+    return false;
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
