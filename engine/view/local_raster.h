@@ -24,8 +24,10 @@ class LocalRaster {
   LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
               TaskRunner& runner);
 
-  /// Numbers the mirrors among the opaque triangles. What flat mirrors show is drawn as that of captures is,
-  /// by the samples that these keep of reflections (CanvasWarp); their own baked light where there is none.
+  /// Numbers the mirrors among the opaque triangles. They show the reflections that captures keep (warp.h),
+  /// and where there is none their own baked light. Captures keep what lies beyond the near band: what stands
+  /// so close before a mirror that its virtual place is within is missing in it, and what it would hide
+  /// shows.
   void findMirrors(const FlatMirrors& mirrors);
   /// By number of the opaque triangles: the mirror that the eye sees of each, 0 = none; empty: none is one.
   const std::vector<std::uint8_t>& mirrors() const { return mirrors_; }
