@@ -224,11 +224,15 @@ void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& 
     for (int y = y0; y < y1; ++y)
       for (int x = 0, end = 0; x < view_.width; x = end) {
         const std::uint32_t t = cover.at(x, y);
-        const bool mirror = t != kUncovered && !mirrors_.empty() && mirrors_[t] != 0;
-        const auto reflects = [&](int i) { return mirror && frame.source.at(i, y) != kSourceHole; };
-        const bool reflecting = reflects(x);
-        for (end = x + 1; end < view_.width && cover.at(end, y) == t && reflects(end) == reflecting;) ++end;
+        for (end = x + 1; end < view_.width && cover.at(end, y) == t;) ++end;
         if (t == kUncovered) continue;
+        bool reflecting = false;
+        if (!mirrors_.empty() && mirrors_[t] != 0) {
+          const auto reflects = [&](int i) { return frame.source.at(i, y) != kSourceHole; };
+          reflecting = reflects(x);
+          for (int i = x + 1; i < end; ++i)
+            if (reflects(i) != reflecting) end = i;
+        }
         std::fill_n(&frame.source.at(x, y), end - x, kSourceLocal);
         const Triangle& triangle = opaque_[t];
         const auto& edge = triangle.edge;

@@ -138,7 +138,7 @@ Result<LocalBuffers*> GlRenderer::Impl::localOf(const WalkScene& scene, const Vi
 Result<bool> GlRenderer::Impl::drawReflections(const WalkScene& scene, const ViewPlan& plan,
                                                const PerspectiveView& view, const ViewSettings& settings,
                                                LocalBuffers* local) {
-  const bool mark = local != nullptr && local->mirrors;
+  const bool mark = local != nullptr && local->mirrors && scene.mirrors;
   if (mark)
     if (Status marked = localPass.markMirrors(scene, view, target, *local); !marked)
       return tl::unexpected(marked.error());
