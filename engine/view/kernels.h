@@ -17,6 +17,8 @@ struct Kernels {
   FilterPixels filter;
   WriteRows writeRows;
   ShadeRun shadeRun;
+  CoverRow coverRow;
+  BlendRow blendRow;
 };
 
 /// The scalar reference first, the fastest last.

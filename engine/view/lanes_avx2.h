@@ -53,6 +53,15 @@ struct EightLanes {
   static I counted(std::int32_t first) { return seti(first) + I{_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
   static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
   static __m256i firstLanes(int count) { return _mm256_cmpgt_epi32(seti(count).v, counted(0).v); }
+  static F load(const float* p, int count) { return {_mm256_maskload_ps(p, firstLanes(count))}; }
+  static I load(const std::uint32_t* p, int count) {
+    return {_mm256_maskload_epi32(reinterpret_cast<const int*>(p), firstLanes(count))};
+  }
+  static I load(const std::uint16_t* p, int count) {
+    alignas(16) std::uint16_t lanes[kWidth] = {};
+    for (int i = 0; i < kWidth && i < count; ++i) lanes[i] = p[i];
+    return {_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(lanes)))};
+  }
   static void store(float* p, F a, int count) { _mm256_maskstore_ps(p, firstLanes(count), a.v); }
   static void store(std::uint32_t* p, I a, int count) {
     _mm256_maskstore_epi32(reinterpret_cast<int*>(p), firstLanes(count), a.v);
@@ -60,6 +69,16 @@ struct EightLanes {
 
   static M less(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
   static M notLess(F a, F b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+  static Mask together(__m256d low, __m256d high) {
+    const __m256 mixed = _mm256_shuffle_ps(_mm256_castpd_ps(low), _mm256_castpd_ps(high), 0x88);
+    return {_mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(mixed), 0xd8))};
+  }
+  static M less(D a, D b) {
+    return together(_mm256_cmp_pd(a.low, b.low, _CMP_LT_OQ), _mm256_cmp_pd(a.high, b.high, _CMP_LT_OQ));
+  }
+  static M notLess(D a, D b) {
+    return together(_mm256_cmp_pd(a.low, b.low, _CMP_GE_OQ), _mm256_cmp_pd(a.high, b.high, _CMP_GE_OQ));
+  }
   static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
   static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
   static unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }

@@ -58,11 +58,27 @@ struct SixteenLanes {
   static __mmask16 firstLanes(int count) {
     return static_cast<__mmask16>(count >= kWidth ? 0xffffu : (1u << count) - 1);
   }
+  static F load(const float* p, int count) { return {_mm512_maskz_loadu_ps(firstLanes(count), p)}; }
+  static I load(const std::uint32_t* p, int count) {
+    return {_mm512_maskz_loadu_epi32(firstLanes(count), p)};
+  }
+  static I load(const std::uint16_t* p, int count) {
+    return {_mm512_cvtepu16_epi32(_mm256_maskz_loadu_epi16(firstLanes(count), p))};
+  }
   static void store(float* p, F a, int count) { _mm512_mask_storeu_ps(p, firstLanes(count), a.v); }
   static void store(std::uint32_t* p, I a, int count) { _mm512_mask_storeu_epi32(p, firstLanes(count), a.v); }
 
   static M less(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
   static M notLess(F a, F b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_GE_OQ)}; }
+  static Mask together(__mmask8 low, __mmask8 high) { return {_mm512_kunpackb(high, low)}; }
+  static M less(D a, D b) {
+    return together(_mm512_cmp_pd_mask(a.low, b.low, _CMP_LT_OQ),
+                    _mm512_cmp_pd_mask(a.high, b.high, _CMP_LT_OQ));
+  }
+  static M notLess(D a, D b) {
+    return together(_mm512_cmp_pd_mask(a.low, b.low, _CMP_GE_OQ),
+                    _mm512_cmp_pd_mask(a.high, b.high, _CMP_GE_OQ));
+  }
   static M greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
   static bool any(M m) { return m.v != 0; }
   static unsigned bits(M m) { return m.v; }

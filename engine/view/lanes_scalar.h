@@ -27,12 +27,18 @@ struct OneLane {
   static I seti(std::int32_t value) { return value; }
   static I counted(std::int32_t first) { return first; }  ///< first, first + 1, ...
   static F load(const float* p) { return *p; }
+  /// The first `count` lanes, the others 0; at least one.
+  static F load(const float* p, int) { return *p; }
+  static I load(const std::uint32_t* p, int) { return static_cast<I>(*p); }
+  static I load(const std::uint16_t* p, int) { return *p; }
   /// The first `count` lanes; at least one.
   static void store(float* p, F a, int) { *p = a; }
   static void store(std::uint32_t* p, I a, int) { *p = static_cast<std::uint32_t>(a); }
 
   static M less(F a, F b) { return a < b; }
   static M notLess(F a, F b) { return a >= b; }
+  static M less(D a, D b) { return a < b; }
+  static M notLess(D a, D b) { return a >= b; }
   static M greater(I a, I b) { return a > b; }
   static bool any(M m) { return m; }
   static unsigned bits(M m) { return m; }

@@ -108,29 +108,46 @@ bool LocalRaster::setUp(std::uint32_t index, Triangle& out) const {
   return true;
 }
 
+/// visit(y, row): rows of all pixels of the rectangle that are covered, and few others; `Row` is an EdgeRow
+/// with whatever `visit` fills in.
+template <class Row, class Visit>
+void LocalRaster::forEachRow(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const {
+  Row row;
+  for (int i = 0; i < 3; ++i) {
+    row.slope[i] = triangle.edge[i].x;
+    row.ownsBorder[i] = ownsBorder(triangle.edge[i]);
+  }
+  row.perDepth = triangle.perDepth;
+  row.mostInverse = 1 / kNearest;
+  const int y0 = std::max(triangle.box.y0, rect.y0), y1 = std::min(triangle.box.y1, rect.y1);
+  for (int y = y0; y < y1; ++y) {
+    double low = std::max(triangle.box.x0, rect.x0), high = std::min(triangle.box.x1, rect.x1) - 1;
+    for (int i = 0; i < 3; ++i) {
+      row.start[i] = triangle.edge[i].y * y + triangle.edge[i].z;
+      // Where this edge can be crossed, a pixel of slack left and right; the test of each pixel is exact.
+      if (row.slope[i] > 0) low = std::max(low, -row.start[i] / row.slope[i] - 1);
+      if (row.slope[i] < 0) high = std::min(high, -row.start[i] / row.slope[i] + 1);
+    }
+    if (!(low <= high)) continue;
+    row.x0 = static_cast<int>(low), row.count = static_cast<int>(high) + 1 - row.x0;
+    visit(y, row);
+  }
+}
+
 /// visit(x, y, edge values, inverse depth) for each covered pixel of the rectangle.
 template <class Visit>
 void LocalRaster::forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const {
-  const int y0 = std::max(triangle.box.y0, rect.y0), y1 = std::min(triangle.box.y1, rect.y1);
   const auto& edge = triangle.edge;
-  for (int y = y0; y < y1; ++y) {
-    double start[3];
-    double low = std::max(triangle.box.x0, rect.x0), high = std::min(triangle.box.x1, rect.x1) - 1;
-    for (int i = 0; i < 3; ++i) {
-      start[i] = edge[i].y * y + edge[i].z;
-      // Where this edge can be crossed, a pixel of slack left and right; the test of each pixel is exact.
-      if (edge[i].x > 0) low = std::max(low, -start[i] / edge[i].x - 1);
-      if (edge[i].x < 0) high = std::min(high, -start[i] / edge[i].x + 1);
-    }
-    if (!(low <= high)) continue;
-    for (int x = static_cast<int>(low); x <= static_cast<int>(high); ++x) {
-      const glm::dvec3 values(edge[0].x * x + start[0], edge[1].x * x + start[1], edge[2].x * x + start[2]);
+  forEachRow<EdgeRow>(triangle, rect, [&](int y, const EdgeRow& row) {
+    for (int x = row.x0; x < row.x0 + row.count; ++x) {
+      const glm::dvec3 values(row.slope[0] * x + row.start[0], row.slope[1] * x + row.start[1],
+                              row.slope[2] * x + row.start[2]);
       if (!covers(values.x, edge[0]) || !covers(values.y, edge[1]) || !covers(values.z, edge[2])) continue;
       const double inverseZDepth = (values.x + values.y + values.z) * triangle.perDepth;
-      if (inverseZDepth > 1 / kNearest || !(inverseZDepth > 0)) continue;
+      if (inverseZDepth > row.mostInverse || !(inverseZDepth > 0)) continue;
       visit(x, y, values, static_cast<float>(inverseZDepth));
     }
-  }
+  });
 }
 
 std::array<LocalPoint, 3> LocalRaster::cornersOf(const Triangle& triangle) const {
@@ -171,7 +188,7 @@ void LocalRaster::forBands(TaskRunner& runner, const Body& body) const {
   });
 }
 
-void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
+void LocalRaster::findOpaque(CoverRow coverRow, CoverImage& cover, TaskRunner& runner) const {
   const std::size_t width = static_cast<std::size_t>(view_.width);
   cover.width = view_.width, cover.height = view_.height;
   cover.pixels.resize(width * static_cast<std::size_t>(view_.height));
@@ -182,10 +199,20 @@ void LocalRaster::findOpaque(CoverImage& cover, TaskRunner& runner) const {
     const PixelRect rect{0, y0, view_.width, y1};
     for (const std::uint32_t t : opaqueOfBand_[band]) {
       const Triangle& triangle = opaque_[t];
+      const auto pixelAt = [&](int x, int y) {
+        return static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
+      };
+      if (!triangle.masked) {
+        forEachRow<TriangleRow>(triangle, rect, [&](int y, TriangleRow& row) {
+          row.triangle = t;
+          row.visible = visible + pixelAt(row.x0, y), row.nearest = nearest.data() + pixelAt(row.x0, y);
+          coverRow(row);
+        });
+        continue;
+      }
       forEachPixel(triangle, rect, [&](int x, int y, const glm::dvec3& values, float depth) {
-        const std::size_t pixel = static_cast<std::size_t>(y - y0) * width + static_cast<std::size_t>(x);
-        if (depth <= nearest[pixel]) return;
-        if (triangle.masked && !shading_.survivesMask(pointAt(triangle, values))) return;
+        const std::size_t pixel = pixelAt(x, y);
+        if (depth <= nearest[pixel] || !shading_.survivesMask(pointAt(triangle, values))) return;
         nearest[pixel] = depth;
         visible[pixel] = t;
       });
@@ -257,12 +284,22 @@ void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& 
   });
 }
 
-void LocalRaster::drawClear(Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const {
+void LocalRaster::drawClear(BlendRow blendRow, Frame& frame, const FloatImage& inverseZDepth,
+                            TaskRunner& runner) const {
   const glm::vec3 eye(view_.eye);
   forBands(runner, [&](std::size_t, int y0, int y1) {
     const PixelRect band{0, y0, view_.width, y1};
     for (const Triangle& triangle : clear_) {
       if (triangle.box.y0 >= y1 || triangle.box.y1 <= y0) continue;
+      if (const auto shade = shading_.clearTriangle(cornersOf(triangle), eye)) {
+        forEachRow<ClearRow>(triangle, band, [&](int y, ClearRow& row) {
+          row.colour = reinterpret_cast<std::uint32_t*>(&frame.colour.at(row.x0, y));
+          row.source = &frame.source.at(row.x0, y), row.nearest = &inverseZDepth.at(row.x0, y);
+          row.hole = kSourceHole, row.local = kSourceLocal;
+          blendRow(*shade, row);
+        });
+        continue;
+      }
       forEachPixel(triangle, band, [&](int x, int y, const glm::dvec3& values, float depth) {
         const PixelSource source = frame.source.at(x, y);
         if (source == kSourceHole || (source == kSourceLocal && depth <= inverseZDepth.at(x, y))) return;

@@ -34,7 +34,7 @@ class LocalRaster {
 
   /// Finds which of the opaque and alpha-tested triangles each pixel of the picture shows: its number, or
   /// kUncovered.
-  void findOpaque(CoverImage& cover, TaskRunner& runner) const;
+  void findOpaque(CoverRow coverRow, CoverImage& cover, TaskRunner& runner) const;
   /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
   /// their depth. Where one is a mirror and the frame has a source, the colour stays: it is what that shows.
   void drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame, FloatImage& inverseZDepth,
@@ -42,7 +42,7 @@ class LocalRaster {
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
   /// Pixels keep their source, except that a pixel of an opaque one stays local; over a hole nothing is
   /// drawn.
-  void drawClear(Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const;
+  void drawClear(BlendRow blendRow, Frame& frame, const FloatImage& inverseZDepth, TaskRunner& runner) const;
 
   bool hasClear() const { return !clear_.empty(); }
   /// Triangles that reach into the picture.
@@ -59,6 +59,8 @@ class LocalRaster {
     bool masked = false;
   };
   bool setUp(std::uint32_t index, Triangle& out) const;
+  template <class Row, class Visit>
+  void forEachRow(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Visit>
   void forEachPixel(const Triangle& triangle, const PixelRect& rect, const Visit& visit) const;
   template <class Body>

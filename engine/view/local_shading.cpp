@@ -42,6 +42,11 @@ glm::vec3 normalTowards(const Mesh& mesh, const LocalPoint& point, const glm::ve
   return glm::dot(normal, toEye) < 0 ? -normal : normal;
 }
 
+template <class From, class To>
+void copy(const From& from, To& to) {
+  for (int i = 0; i < from.length() && i < int(std::size(to)); ++i) to[i] = from[i];
+}
+
 }  // namespace
 
 LocalShading::LocalShading(const WalkScene& scene)
@@ -132,19 +137,44 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
 }
 
 std::optional<SurfaceShade> LocalShading::triangle(const std::array<LocalPoint, 3>& corners) const {
+  if (materialOf(corners[0].mesh).clear()) return {};
+  return surfaceOf(corners);
+}
+
+std::optional<ClearShade> LocalShading::clearTriangle(const std::array<LocalPoint, 3>& corners,
+                                                      const glm::vec3& eye) const {
+  const Mesh& mesh = (*meshes_)[corners[0].mesh];
+  const LocalMaterial& material = materialOf(corners[0].mesh);
+  if (!material.clear() || material.masked || (material.blended && material.textured)) return {};
+  const auto surface = surfaceOf(corners);
+  if (!surface) return {};
+  ClearShade shade;
+  shade.surface = *surface;
+  if (material.blended) shade.opacity = std::clamp(material.material->baseColour.a, 0.0f, 1.0f);
+  shade.glass = material.transmissive;
+  shade.transmission = material.material->transmission;
+  const glm::uvec3& triangle = mesh.triangles[corners[0].triangle];
+  const glm::vec3 flat = glm::cross(mesh.positions[triangle.y] - mesh.positions[triangle.x],
+                                    mesh.positions[triangle.z] - mesh.positions[triangle.x]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::vec2& at = corners[i].barycentric;
+    copy(mesh.normals.empty() ? flat : interpolate(mesh.normals, triangle, at), shade.normal[i]);
+    copy(eye - interpolate(mesh.positions, triangle, at), shade.toEye[i]);
+  }
+  return shade;
+}
+
+std::optional<SurfaceShade> LocalShading::surfaceOf(const std::array<LocalPoint, 3>& corners) const {
   const LocalPoint& point = corners[0];
   const Mesh& mesh = (*meshes_)[point.mesh];
   const LocalMaterial& material = materialOf(point.mesh);
   const Material& m = *material.material;
-  if (material.clear() || material.emissionTextured || (material.vertexColours && !mesh.colours.empty()))
-    return {};
-  const auto copy = [](const auto& from, auto& to) {
-    for (int i = 0; i < from.length() && i < int(std::size(to)); ++i) to[i] = from[i];
-  };
+  if (material.emissionTextured || (material.vertexColours && !mesh.colours.empty())) return {};
   SurfaceShade shade;
   copy(m.baseColour, shade.colour);
   if (material.emits) copy(m.emissive, shade.emission);
   shade.exposure = exposure_;
+  shade.linearFromSrgb = linearFromSrgbTable().data();
   const DisplayCodes codes = displayCodes();
   shade.threshold = codes.threshold, shade.firstCode = codes.firstCode;
   const TextureUse& use = m.baseColourTexture;
@@ -156,7 +186,6 @@ std::optional<SurfaceShade> LocalShading::triangle(const std::array<LocalPoint, 
     shade.wrapU = static_cast<TextureWrap>(texture.wrapU());
     shade.wrapV = static_cast<TextureWrap>(texture.wrapV());
     shade.nearest = texture.nearest();
-    shade.linearFromSrgb = linearFromSrgbTable().data();
     for (std::size_t i = 0; i < 3; ++i)
       copy(use.transform * glm::vec3(interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0],
                                                  mesh.triangles[point.triangle], corners[i].barycentric),

@@ -53,8 +53,12 @@ class LocalShading {
   /// The same for all points of an opaque triangle with these corners; nothing where that needs more than
   /// kernels know. Refers to the scene and its light.
   std::optional<SurfaceShade> triangle(const std::array<LocalPoint, 3>& corners) const;
+  /// The same of a clear one.
+  std::optional<ClearShade> clearTriangle(const std::array<LocalPoint, 3>& corners,
+                                          const glm::vec3& eye) const;
 
  private:
+  std::optional<SurfaceShade> surfaceOf(const std::array<LocalPoint, 3>& corners) const;
   /// Where there is none, the front's light serves both sides.
   bool hasLightOnBack(std::uint32_t triangle) const;
   glm::vec4 baseColourAt(const LocalMaterial& material, const Mesh& mesh, const LocalPoint& point) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -29,6 +30,27 @@ constexpr int kStripsPerThread = 2;
 
 const Kernels& kernelsFor(const ViewSettings& settings) {
   return settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+}
+
+/// Borders of strips that take equal time, if every column of the picture takes what it took the last time;
+/// else of equal width.
+std::vector<int> stripBorders(int width, std::size_t strips, const StripTimes& last) {
+  std::vector<int> borders(strips + 1, width);
+  const bool known = last.seconds.size() == strips && last.borders.back() == width;
+  const double all = std::accumulate(last.seconds.begin(), last.seconds.end(), 0.0);
+  double before = 0;  // seconds left of strip `own` of the last frame
+  for (std::size_t s = 0, own = 0; s < strips; ++s) {
+    const double share = static_cast<double>(s) / static_cast<double>(strips);
+    double border = share * width;
+    if (known && all > 0) {
+      while (own + 1 < strips && before + last.seconds[own] < share * all) before += last.seconds[own++];
+      const double inside = last.seconds[own] > 0 ? (share * all - before) / last.seconds[own] : 0;
+      border = last.borders[own] + inside * (last.borders[own + 1] - last.borders[own]);
+    }
+    const int least = s == 0 ? 0 : borders[s - 1] + 1;
+    borders[s] = std::clamp(static_cast<int>(border), least, width - static_cast<int>(strips - s));
+  }
+  return borders;
 }
 
 /// By slot of the canvas.
@@ -70,12 +92,12 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   const int beside =
       settings.reconstruction == Reconstruction::filtered ? 1 : 0;  // columns that filters read
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);
+  const std::vector<int> borders = stripBorders(view.width, strips, memory.strips);
   std::vector<WarpCounts> counts(strips);
+  std::vector<double> seconds(strips);
   runner.parallelFor(strips, [&](std::size_t strip) {
-    const auto columnAt = [&](std::size_t s) {
-      return static_cast<int>(s * static_cast<std::size_t>(view.width) / strips);
-    };
-    const int x0 = columnAt(strip), x1 = columnAt(strip + 1);
+    const Stopwatch time;
+    const int x0 = borders[strip], x1 = borders[strip + 1];
     Canvas& canvas = memory.canvases[strip];
     clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
                 canvas);
@@ -83,7 +105,9 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     background.paint(view, canvas);
     counts[strip] = warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
     develop(canvas, x0, x1, sources, kernels, frame, memory.inverseZDepth);
+    seconds[strip] = time.seconds();
   });
+  memory.strips = {borders, seconds};
   WarpCounts all;
   for (const WarpCounts& c : counts) all += c;
   return all;
@@ -109,7 +133,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   if (drawLocal) {
     shading.emplace(scene, *local);
     raster.emplace(*local, *shading, view, runner);
-    raster->findOpaque(memory.cover, runner);
+    raster->findOpaque(kernelsFor(settings).coverRow, memory.cover, runner);
     if (scene.mirrors && !plan.reflections.empty()) raster->findMirrors(*scene.mirrors);
     stats.localSeconds = localTime.seconds();
   }
@@ -136,7 +160,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     stats.fillSeconds = fillTime.seconds();
   }
   if (raster) {
-    if (raster->hasClear()) raster->drawClear(frame, inverseZDepth, runner);
+    if (raster->hasClear()) raster->drawClear(kernelsFor(settings).blendRow, frame, inverseZDepth, runner);
     stats.localTriangles = raster->triangleCount();
     stats.localSeconds += drawTime.seconds() - stats.fillSeconds;
   }

@@ -12,9 +12,16 @@
 
 namespace acentric {
 
+/// How long the strips of a picture took.
+struct StripTimes {
+  std::vector<int> borders;     ///< from 0 to the picture's width, one more than there are strips
+  std::vector<double> seconds;  ///< by strip
+};
+
 /// What frames are made in, kept from one to the next: fresh memory costs as much as what is drawn on it.
 struct FrameMemory {
   std::vector<Canvas> canvases;  ///< one per strip of the picture
+  StripTimes strips;             ///< of the last frame: the next one is cut so that all take as long
   FloatImage inverseZDepth;
   CoverImage cover;  ///< by local geometry
   Frame frame;       ///< a frame that is no longer needed, or an empty one

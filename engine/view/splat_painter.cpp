@@ -142,34 +142,47 @@ class Painter {
         canvasPixel((colour & 0xffffffu) | (target_.slot << 24), splat.inverseZDepth) & ~kPlace;
     std::uint8_t mirror = 0;
     if constexpr (kMarks) mirror = target_.mirror == nullptr ? std::uint8_t(0) : target_.mirror[splat.index];
-    if constexpr (kOver && !kBehind)
-      if (splat.small && (mode == PaintMode::over || opaque)) {
-        paintSmall(splat, plain, mirror);
-        return counts(splat);
+    if constexpr (kOver || mode == PaintMode::reflect)
+      if (splat.small && (mode != PaintMode::overBlended || opaque)) {
+        const bool seen = paintSmall(splat, plain, mirror);
+        return seen && counts(splat);
       }
     return paintAny(splat, plain, mirror, colour, opaque);
   }
 
   /// Its four corners, which are all its pixels, some of them twice: sizes of splats change from one to the
-  /// next, and a branch on them would be foretold wrongly as often as not.
-  [[gnu::always_inline]] void paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
+  /// next, and a branch on them would be foretold wrongly as often as not. Is its first pixel painted?
+  [[gnu::always_inline]] bool paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
     const std::ptrdiff_t down = splat.height - 1, right = (splat.width - 1) * height_,
                          at = (splat.x - rect_.x0) * height_ + splat.y;
-    const auto fill = [&]<class T>(T* pixels, T value) {
-      T* const p = pixels + at;
-      p[0] = p[down] = p[right] = p[right + down] = value;
+    CanvasPixel* const pixels = pixels_ + at;
+    [[maybe_unused]] std::uint8_t* const mirrors = mirrors_ + at;
+    const auto paintCorner = [&](std::ptrdiff_t corner, int dx, int dy) {
+      CanvasPixel& pixel = pixels[corner];
+      CanvasPixel painted = plain;
+      if constexpr (kPlaces) painted |= placeBits(splat.placeX - dx, splat.placeY - dy, splat.spread);
+      bool open = true;
+      if constexpr (kBehind) open = slotOf(pixel) < target_.openBelow;
+      if constexpr (mode == PaintMode::reflect) {
+        open = mirrors[corner] == mirror;
+        painted = reflected(pixel, painted);
+      }
+      pixel = open ? painted : pixel;
+      if constexpr (kMarks && kOver) mirrors[corner] = open ? mirror : mirrors[corner];
+      return open;
     };
-    if constexpr (kPlaces) {
-      const int x = splat.placeX, y = splat.placeY, dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
-      CanvasPixel* const p = pixels_ + at;
-      p[0] = plain | placeBits(x, y, splat.spread);
-      p[down] = plain | placeBits(x, y - dy, splat.spread);
-      p[right] = plain | placeBits(x - dx, y, splat.spread);
-      p[right + down] = plain | placeBits(x - dx, y - dy, splat.spread);
-    } else {
-      fill(pixels_, plain);
-    }
-    if constexpr (kMarks) fill(mirrors_, mirror);
+    const int dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
+    const bool first = paintCorner(0, 0, 0);
+    paintCorner(down, 0, dy);
+    paintCorner(right, dx, 0);
+    paintCorner(right + down, dx, dy);
+    return first;
+  }
+
+  /// What a mirror's pixel becomes: it keeps the mirror's own depth.
+  static CanvasPixel reflected(CanvasPixel mirror, CanvasPixel shown) {
+    constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff) & ~kPlace;
+    return (mirror & kDepth) | (shown & ~kDepth);
   }
 
   [[gnu::noinline]] bool paintAny(const Splat& splat, CanvasPixel plain, std::uint8_t mirror,
@@ -208,9 +221,8 @@ class Painter {
           if constexpr (kMarks) mirrors[y] = mirror;
         });
       } else if constexpr (mode == PaintMode::reflect) {
-        constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff) & ~kPlace;
         each([&](int y) {
-          if (mirrors[y] == mirror) column[y] = (column[y] & kDepth) | (pixelAt(y) & ~kDepth);
+          if (mirrors[y] == mirror) column[y] = reflected(column[y], pixelAt(y));
         });
       } else {
         if (mode == PaintMode::overBlended && opaque) {

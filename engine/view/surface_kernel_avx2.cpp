@@ -4,6 +4,12 @@
 
 namespace acentric {
 
+void coverRowAvx2(const TriangleRow& row) { surface_kernel::coverRow<EightLanes>(row); }
+
+void blendRowAvx2(const ClearShade& shade, const ClearRow& row) {
+  surface_kernel::blendRow<EightLanes>(shade, row);
+}
+
 void shadeRunAvx2(const SurfaceShade& shade, const SurfaceRun& run) {
   surface_kernel::shadeRun<EightLanes>(shade, run);
 }

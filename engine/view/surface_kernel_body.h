@@ -46,7 +46,7 @@ typename B::I texelAt(typename B::I texel, std::int32_t size, TextureWrap wrap) 
 }
 
 template <class B>
-Colours<B> decoded(const SurfaceShade& s, typename B::I texel) {
+[[gnu::always_inline]] inline Colours<B> decoded(const SurfaceShade& s, typename B::I texel) {
   const typename B::I byte = B::seti(0xff);
   return {B::lookUp256(s.linearFromSrgb, B::both(texel, byte)),
           B::lookUp256(s.linearFromSrgb, B::both(B::template shiftRight<8>(texel), byte)),
@@ -54,7 +54,7 @@ Colours<B> decoded(const SurfaceShade& s, typename B::I texel) {
 }
 
 template <class B>
-Colours<B> textureAt(const SurfaceShade& s, typename B::F u, typename B::F v) {
+[[gnu::always_inline]] inline Colours<B> textureAt(const SurfaceShade& s, typename B::F u, typename B::F v) {
   using F = typename B::F;
   using I = typename B::I;
   const F x = wrapped<B>(u, s.wrapU) * B::set(static_cast<float>(s.width));
@@ -79,7 +79,7 @@ Colours<B> textureAt(const SurfaceShade& s, typename B::F u, typename B::F v) {
 
 /// surfaceCellAt and the three samples that it names.
 template <class B>
-Colours<B> lightAt(const SurfaceShade& s, typename B::F b1, typename B::F b2) {
+[[gnu::always_inline]] inline Colours<B> lightAt(const SurfaceShade& s, typename B::F b1, typename B::F b2) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
@@ -122,7 +122,7 @@ typename B::F usable(typename B::F radiance) {
 
 /// toneMap.
 template <class B>
-Colours<B> toneMapped(Colours<B> radiance, float exposure) {
+[[gnu::always_inline]] inline Colours<B> toneMapped(Colours<B> radiance, float exposure) {
   using F = typename B::F;
   F* const c = radiance.channel;
   for (int k = 0; k < 3; ++k) c[k] = usable<B>(c[k] * B::set(exposure));
@@ -143,7 +143,7 @@ Colours<B> toneMapped(Colours<B> radiance, float exposure) {
 
 /// srgbCodeFromLinear.
 template <class B>
-typename B::I codeOf(const SurfaceShade& s, typename B::F linear) {
+[[gnu::always_inline]] inline typename B::I codeOf(const SurfaceShade& s, typename B::F linear) {
   const typename B::F inside = clampToUnit<B>(linear);
   const typename B::I code =
       B::gather(s.firstCode, B::truncate(inside * B::set(static_cast<float>(tone_curve::kCodeBuckets))));
@@ -151,41 +151,163 @@ typename B::I codeOf(const SurfaceShade& s, typename B::F linear) {
   return code + B::when(B::notLess(inside, next), B::seti(1));
 }
 
+/// The edge functions of a batch of pixels from column x on.
+template <class B>
+struct EdgeValues {
+  typename B::D value[3], sum;
+
+  template <class Row>
+  EdgeValues(const Row& row, std::int32_t x) {
+    const typename B::D column = B::toDouble(B::counted(x));
+    for (int i = 0; i < 3; ++i) value[i] = B::setd(row.slope[i]) * column + B::setd(row.start[i]);
+    sum = value[0] + value[1] + value[2];
+  }
+  /// Of the pixels that the triangle covers, at these inverse depths.
+  typename B::M covered(const EdgeRow& row, typename B::D inverse) const {
+    const typename B::D zero = B::setd(0);
+    typename B::M inside = B::less(zero, inverse) & B::notLess(B::setd(row.mostInverse), inverse);
+    for (int i = 0; i < 3; ++i)
+      inside = inside & (row.ownsBorder[i] ? B::notLess(value[i], zero) : B::less(zero, value[i]));
+    return inside;
+  }
+};
+
+/// Weights of the corners at a batch of pixels.
+template <class B>
+struct Weights {
+  typename B::F weight[3];
+
+  explicit Weights(const EdgeValues<B>& edges) {
+    const typename B::D perSum = B::setd(1) / edges.sum;
+    for (int i = 0; i < 3; ++i) weight[i] = B::toFloat(edges.value[i] * perSum);
+  }
+  template <int kAxes>
+  typename B::F mean(const float (&at)[3][kAxes], int axis) const {
+    return B::set(at[0][axis]) * weight[0] + B::set(at[1][axis]) * weight[1] +
+           B::set(at[2][axis]) * weight[2];
+  }
+};
+
+template <class B>
+void multiply(Colours<B>& colours, const Colours<B>& by) {
+  for (int k = 0; k < 3; ++k) colours.channel[k] = colours.channel[k] * by.channel[k];
+}
+
+template <class B>
+[[gnu::always_inline]] inline Colours<B> baseColourAt(const SurfaceShade& s, const Weights<B>& weights) {
+  Colours<B> base{B::set(s.colour[0]), B::set(s.colour[1]), B::set(s.colour[2])};
+  if (s.texels != nullptr) multiply<B>(base, textureAt<B>(s, weights.mean(s.uv, 0), weights.mean(s.uv, 1)));
+  return base;
+}
+
+/// The display codes of what has this base colour.
+template <class B>
+struct Codes {
+  typename B::I channel[3];
+
+  [[gnu::always_inline]] Codes(const SurfaceShade& s, const Weights<B>& weights, Colours<B> radiance) {
+    if (s.light != nullptr)
+      multiply<B>(radiance, s.resolution > 0 ? lightAt<B>(s, weights.mean(s.barycentric, 0),
+                                                          weights.mean(s.barycentric, 1))
+                                             : Colours<B>{B::set(0), B::set(0), B::set(0)});
+    for (int k = 0; k < 3; ++k) radiance.channel[k] = radiance.channel[k] + B::set(s.emission[k]);
+    const Colours<B> display = toneMapped<B>(radiance, s.exposure);
+    for (int k = 0; k < 3; ++k) channel[k] = codeOf<B>(s, display.channel[k]);
+  }
+};
+
+/// Opaque pixels.
+template <class B>
+typename B::I pixelsOf(const typename B::I (&channel)[3]) {
+  return channel[0] + B::template shiftLeft<8>(channel[1]) + B::template shiftLeft<16>(channel[2]) +
+         B::seti(-0x1000000);
+}
+
 template <class B>
 void shadeRun(const SurfaceShade& shade, const SurfaceRun& run) {
-  using F = typename B::F;
-  using D = typename B::D;
-  using I = typename B::I;
   const SurfaceShade s = shade;  // copies that no pixel is written over: they stay in registers
   const SurfaceRun r = run;
   for (std::int32_t done = 0; done < r.count; done += B::kWidth) {
     const std::int32_t count = r.count - done;
-    const D x = B::toDouble(B::counted(r.x0 + done));
-    D value[3];
-    for (int i = 0; i < 3; ++i) value[i] = B::setd(r.slope[i]) * x + B::setd(r.start[i]);
-    const D sum = value[0] + value[1] + value[2];
-    const D perSum = B::setd(1) / sum;
-    const F weight[3] = {B::toFloat(value[0] * perSum), B::toFloat(value[1] * perSum),
-                         B::toFloat(value[2] * perSum)};
-    const auto mean = [&](const float(&at)[3][2], int axis) {
-      return B::set(at[0][axis]) * weight[0] + B::set(at[1][axis]) * weight[1] +
-             B::set(at[2][axis]) * weight[2];
-    };
-    Colours<B> radiance{B::set(s.colour[0]), B::set(s.colour[1]), B::set(s.colour[2])};
-    const auto multiply = [&](const Colours<B>& by) {
-      for (int k = 0; k < 3; ++k) radiance.channel[k] = radiance.channel[k] * by.channel[k];
-    };
-    if (s.texels != nullptr) multiply(textureAt<B>(s, mean(s.uv, 0), mean(s.uv, 1)));
-    if (s.light != nullptr)
-      multiply(s.resolution > 0 ? lightAt<B>(s, mean(s.barycentric, 0), mean(s.barycentric, 1))
-                                : Colours<B>{B::set(0), B::set(0), B::set(0)});
-    for (int k = 0; k < 3; ++k) radiance.channel[k] = radiance.channel[k] + B::set(s.emission[k]);
-    const Colours<B> display = toneMapped<B>(radiance, s.exposure);
-    const I codes = codeOf<B>(s, display.channel[0]) +
-                    B::template shiftLeft<8>(codeOf<B>(s, display.channel[1])) +
-                    B::template shiftLeft<16>(codeOf<B>(s, display.channel[2])) + B::seti(-0x1000000);
-    B::store(r.colour + done, codes, count);
-    B::store(r.inverseZDepth + done, B::toFloat(sum * B::setd(r.perDepth)), count);
+    const EdgeValues<B> edges(r, r.x0 + done);
+    const Weights<B> weights(edges);
+    const Codes<B> codes(s, weights, baseColourAt<B>(s, weights));
+    B::store(r.colour + done, pixelsOf<B>(codes.channel), count);
+    B::store(r.inverseZDepth + done, B::toFloat(edges.sum * B::setd(r.perDepth)), count);
+  }
+}
+
+/// glassAlpha(...).alpha(); the power is multiplied out.
+template <class B>
+typename B::F glassAlphaAt(const ClearShade& s, const Weights<B>& weights, const Colours<B>& base) {
+  using F = typename B::F;
+  const F one = B::set(1);
+  F dot = B::set(0), normals = B::set(0), ways = B::set(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const F normal = weights.mean(s.normal, axis), way = weights.mean(s.toEye, axis);
+    dot = dot + normal * way, normals = normals + normal * normal, ways = ways + way * way;
+  }
+  const F lengths = B::sqrt(normals * ways);
+  const F cosine = B::select(B::less(B::set(0), lengths), B::abs(dot) / lengths, one);
+  const F grazing = one - clampToUnit<B>(cosine), square = grazing * grazing;
+  const F fresnel = B::set(0.04f) + B::set(0.96f) * (square * square * grazing);
+  const F film = B::min(one, B::set(0.08f) + fresnel);
+  const F luminance = base.channel[0] * B::set(0.2126f) + base.channel[1] * B::set(0.7152f) +
+                      base.channel[2] * B::set(0.0722f);
+  const F passing = clampToUnit<B>(B::set(s.transmission) * luminance);
+  return film + (one - film) * (one - passing);
+}
+
+/// blendOver, where the edges and what is there before let it be seen.
+template <class B>
+void blendRow(const ClearShade& s, const ClearRow& r) {
+  using F = typename B::F;
+  using I = typename B::I;
+  using M = typename B::M;
+  const I byte = B::seti(0xff);
+  for (std::int32_t done = 0; done < r.count; done += B::kWidth) {
+    const std::int32_t count = r.count - done;
+    const EdgeValues<B> edges(r, r.x0 + done);
+    const typename B::D inverse = edges.sum * B::setd(r.perDepth);
+    const I source = B::load(r.source + done, count);
+    const M inFront = B::less(B::load(r.nearest + done, count), B::toFloat(inverse));
+    const M seen = edges.covered(r, inverse) & B::greater(source, B::seti(r.hole)) &
+                   (inFront | B::greater(B::seti(r.local), source));
+    if (!B::any(seen)) continue;
+    const Weights<B> weights(edges);
+    const Colours<B> base = baseColourAt<B>(s.surface, weights);
+    F alpha = B::set(s.opacity);
+    if (s.glass) alpha = alpha * glassAlphaAt<B>(s, weights, base);
+    const I alphaCode = B::truncate(clampToUnit<B>(alpha) * B::set(255) + B::set(0.5f));
+    const F share = B::toFloat(alphaCode) / B::set(255);
+    const Codes<B> over(s.surface, weights, base);
+    const I before = B::load(r.colour + done, count);
+    const I under[3] = {B::both(before, byte), B::both(B::template shiftRight<8>(before), byte),
+                        B::both(B::template shiftRight<16>(before), byte)};
+    I mixed[3];
+    for (int k = 0; k < 3; ++k) {
+      const F low = B::lookUp256(s.surface.linearFromSrgb, under[k]);
+      const F high = B::lookUp256(s.surface.linearFromSrgb, over.channel[k]);
+      mixed[k] = codeOf<B>(s.surface, low + (high - low) * share);
+    }
+    B::store(r.colour + done, B::select(seen, pixelsOf<B>(mixed), before), count);
+  }
+}
+
+template <class B>
+void coverRow(const TriangleRow& r) {
+  using F = typename B::F;
+  using I = typename B::I;
+  for (std::int32_t done = 0; done < r.count; done += B::kWidth) {
+    const std::int32_t count = r.count - done;
+    const EdgeValues<B> edges(r, r.x0 + done);
+    const typename B::D inverse = edges.sum * B::setd(r.perDepth);
+    const F depth = B::toFloat(inverse), before = B::load(r.nearest + done, count);
+    const typename B::M seen = edges.covered(r, inverse) & B::less(before, depth);
+    if (!B::any(seen)) continue;
+    const I own = B::seti(static_cast<std::int32_t>(r.triangle));
+    B::store(r.nearest + done, B::select(seen, depth, before), count);
+    B::store(r.visible + done, B::select(seen, own, B::load(r.visible + done, count)), count);
   }
 }
 

@@ -24,7 +24,7 @@ std::vector<float> largestInverseDistances(const DisplayCapture& capture, const 
   std::vector<float> limits(static_cast<std::size_t>(capture.camera.columns), kInfinity);
   const glm::dvec2 centre(capture.camera.centreOfProjection);
   for (std::size_t k = 0; k < limits.size(); ++k) {
-    const auto span = grown.raySpan(centre, capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    const auto span = grown.raySpan(centre, glm::dvec2(capture.columnDirection[k]));
     if (span && span->second > 0) limits[k] = static_cast<float>((1 + kBorderSlack) / span->second);
   }
   return limits;
@@ -36,7 +36,7 @@ std::vector<float> leastInverseDistances(const DisplayCapture& capture, const Cl
   const glm::dvec2 centre(capture.camera.centreOfProjection), along = clip.side.line.direction();
   const double away = cross(along, centre - clip.side.line.from);  // > 0: the centre lies left
   for (std::size_t k = 0; k < limits.size(); ++k) {
-    const double rate = cross(along, capture.camera.directionAt(static_cast<double>(k) + 0.5));
+    const double rate = cross(along, glm::dvec2(capture.columnDirection[k]));
     const double distance = -away / rate;
     if (clip.side.left ? rate < 0 : rate > 0)
       limits[k] = distance > 0 ? static_cast<float>((1 - kBorderSlack) / distance) : kInfinity;

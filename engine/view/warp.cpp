@@ -187,6 +187,8 @@ class CanvasWarp {
     std::uint32_t samples = 0;
     for (const SampleRun& run : runs_) {
       samples += run.end - run.first;
+      for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(PackedSample))
+        __builtin_prefetch(&capture.samples[start + i]);
       for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(Rgba8))
         __builtin_prefetch(&capture.colour[start + i]);
     }

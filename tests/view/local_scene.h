@@ -64,10 +64,11 @@ inline LocalPicture drawLocal(const WalkScene& walk, const PerspectiveView& view
   TaskRunner runner(workers);
   const LocalShading shading(walk, *walk.local[0]);
   const LocalRaster raster(*walk.local[0], shading, view, runner);
+  const Kernels& kernels = supportedKernels().back();
   CoverImage cover;
-  raster.findOpaque(cover, runner);
-  raster.drawOpaque(cover, supportedKernels().back().shadeRun, picture.frame, picture.inverseZDepth, runner);
-  raster.drawClear(picture.frame, picture.inverseZDepth, runner);
+  raster.findOpaque(kernels.coverRow, cover, runner);
+  raster.drawOpaque(cover, kernels.shadeRun, picture.frame, picture.inverseZDepth, runner);
+  raster.drawClear(kernels.blendRow, picture.frame, picture.inverseZDepth, runner);
   return picture;
 }
 
