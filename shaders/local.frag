@@ -1,10 +1,17 @@
 // A point of local geometry: base colour times baked light, plus emission (engine/view/local_shading.h).
 // Defines, one per effect that is on: TEXTURE, VERTEX_COLOURS, ALPHA_TEST, ALPHA_BLEND, EMISSION, EMISSION_TEXTURE,
-// FRESNEL (transmission), SURFACE_LIGHT. CLEAR: blended, so the framebuffer encodes; else the shader does.
+// FRESNEL (transmission), SURFACE_LIGHT. CLEAR: blended, so the framebuffer encodes; else the shader does. MARK_MIRROR says
+// which mirror the surface is, and that the pixel has no source yet, and nothing more.
 #include "colour.glsl"
 
+#ifdef MARK_MIRROR
+layout(location = 1) out uint source;
+layout(location = 2) out uint mirror;
+uniform uint mirrorNumber;
+#else
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out uint source;
+#endif
 
 in vec2 atBarycentric;
 in vec2 atBaseUv;
@@ -84,6 +91,10 @@ void main() {
 #ifdef ALPHA_TEST
   if (base.a < alphaCutoff) discard;
 #endif
+#ifdef MARK_MIRROR
+  source = 0u;
+  mirror = mirrorNumber;
+#else
   vec3 radiance = base.rgb;
 #ifdef SURFACE_LIGHT
   radiance *= surfaceLight();
@@ -114,4 +125,5 @@ void main() {
   pixel = vec4(srgbFromLinear(display), 1.0);
 #endif
   source = sourceLocal;
+#endif
 }

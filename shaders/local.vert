@@ -26,6 +26,9 @@ out vec3 atNormal;
 // value, and projects may be drawn in any unit.
 const float kNearest = 1e-7;
 
+// The same to the last bit in all programs: what shades is drawn where what told mirrors apart was nearest.
+invariant gl_Position;
+
 void main() {
   vec3 fromEye = position + originFromEye;
   vec3 q = viewFromWorld * fromEye;

@@ -10,13 +10,13 @@
 #include "engine/bake/bake.h"
 #include "engine/bake/chunk_samples.h"
 #include "engine/bake/column_roles.h"
-#include "engine/bake/flat_mirrors.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/mirror_march.h"
 #include "engine/bake/mirror_sight.h"
 #include "engine/bake/region_sight.h"
 #include "engine/bake/shading.h"
 #include "engine/base/stopwatch.h"
+#include "engine/scene/flat_mirrors.h"
 
 namespace acentric {
 namespace {
@@ -193,7 +193,8 @@ class ColumnMarch {
     const glm::dvec3 point = march_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const double tolerance = sameDepth_ * double(hit.distance);
     const glm::vec3 wound = hit.geometricNormal(), normal = glm::dot(wound, direction) <= 0 ? wound : -wound;
-    const std::uint8_t mirror = march_.mirrors == nullptr ? 0 : march_.mirrors->at(hit, -direction);
+    const std::uint8_t mirror =
+        march_.mirrors == nullptr ? 0 : march_.mirrors->at(hit.mesh, hit.triangle, -direction);
     needed_.clear();
     neededBehind_.clear();
     facing_.clear();

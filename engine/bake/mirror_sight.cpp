@@ -96,7 +96,7 @@ std::optional<MirrorSight::Seen> MirrorSight::meets(const EyeView& view, const F
   const glm::vec3 way = glm::normalize(glm::vec3(at) - eye);
   ++rays.visibility;
   const Hit hit = scene_->traceSolid({eye, way});
-  if (!hit.found() || mirrors_->at(hit, -way) != mirror.number) return std::nullopt;
+  if (!hit.found() || mirrors_->at(hit.mesh, hit.triangle, -way) != mirror.number) return std::nullopt;
   return Seen{hit, -way};
 }
 

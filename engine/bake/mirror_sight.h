@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/bake/flat_mirrors.h"
 #include "engine/bake/region_sight.h"
+#include "engine/scene/flat_mirrors.h"
 
 namespace acentric {
 

@@ -10,8 +10,8 @@
 #include "engine/bake/embree_handles.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
-#include "engine/bake/material_rules.h"
 #include "engine/bake/surface.h"
+#include "engine/scene/material_rules.h"
 
 namespace acentric {
 namespace {
@@ -161,11 +161,6 @@ Status checkMesh(const Scene& scene, const Mesh& mesh) {
 }
 
 }  // namespace
-
-glm::vec3 unitNormal(const glm::dvec3& across) {
-  const double length = glm::length(across);
-  return length > 0 && std::isfinite(length) ? glm::vec3(across / length) : glm::vec3(0, 0, 1);
-}
 
 RayCounts& RayCounts::operator+=(const RayCounts& other) {
   primary += other.primary;

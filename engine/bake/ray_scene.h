@@ -11,6 +11,7 @@
 #include "engine/base/result.h"
 #include "engine/scene/effect_plan.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/triangle_normal.h"
 
 namespace acentric {
 
@@ -20,10 +21,6 @@ struct Ray {
   float nearest = 0;    ///< metres
   float farthest = std::numeric_limits<float>::infinity();
 };
-
-/// In double: the cross product of a small triangle's edges underflows in float once it is squared. Upwards
-/// where there is no direction.
-glm::vec3 unitNormal(const glm::dvec3& across);
 
 struct Hit {
   float distance = std::numeric_limits<float>::infinity();  ///< metres; infinity = none

@@ -18,10 +18,10 @@
 #include "engine/bake/ambient.h"
 #include "engine/bake/direct_light.h"
 #include "engine/bake/gathered_light.h"
-#include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
 #include "engine/bake/surface.h"
 #include "engine/image/capture.h"
+#include "engine/scene/material_rules.h"
 
 namespace acentric {
 

@@ -73,12 +73,6 @@ glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t trian
   return colour;
 }
 
-glm::vec3 triangleNormal(const Mesh& mesh, std::uint32_t triangle) {
-  const glm::uvec3& t = mesh.triangles[triangle];
-  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  return unitNormal(glm::cross(b - a, c - a));
-}
-
 template <bool kDetail>
 Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer, const DetailRules& detail,
                   bool emission) {

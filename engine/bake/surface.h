@@ -3,8 +3,8 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/bake/material_rules.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/scene/material_rules.h"
 
 namespace acentric {
 
@@ -22,9 +22,6 @@ struct Surface {
 /// Base colour x texture x vertex colour, alpha straight.
 glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t triangle,
                        const glm::vec2& barycentric, const DetailRules& detail);
-
-/// Unit normal of a triangle as wound; up where it has no area.
-glm::vec3 triangleNormal(const Mesh& mesh, std::uint32_t triangle);
 
 /// `kDetail` false reads neither textures nor vertex colours nor normal maps.
 template <bool kDetail>

@@ -165,6 +165,7 @@ class Bench {
     walk.scene = open_.scene;
     walk.layout = cameras == Cameras::ring ? bare_ : withPanorama_;
     walk.plan = open_.plan;
+    walk.mirrors = open_.mirrors;
     walk.exposure = open_.project.exposure;
     walk.surfaceLight = light_;
     walk.local = {local_};

@@ -29,11 +29,13 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
   open.plan = sameRays ? former->plan : planEffects(*open.scene, project.effects);
   if (sameRays) {
     open.rays = former->rays;
+    open.mirrors = former->mirrors;
   } else {
     if (progress) progress({0, 0, "preparing rays"});
     auto rays = RayScene::build(open.scene, open.plan);
     if (!rays) return tl::unexpected(rays.error());
     open.rays = *rays;
+    open.mirrors = flatMirrorsOf(*open.scene, open.plan);
   }
   if (former && former->project.layout() == project.layout()) {
     open.layout = former->layout;

@@ -61,6 +61,7 @@ Result<PackedWalk> readPackedWalk(const std::filesystem::path& folder, TaskRunne
   WalkScene& walk = packed.walk;
   walk.scene = std::make_shared<const Scene>(std::move(*scene));
   walk.plan = planEffects(*walk.scene, packed.project.effects);
+  walk.mirrors = flatMirrorsOf(*walk.scene, walk.plan);
   walk.layout = std::make_shared<const Layout>(std::move(*layout));
   walk.exposure = packed.project.exposure;
   if (const auto file = packed_walk::lightFile(folder); std::filesystem::exists(file)) {

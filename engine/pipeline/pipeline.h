@@ -49,6 +49,7 @@ struct OpenProject {
   ScenePtr scene;
   EffectPlan plan;
   RayScenePtr rays;
+  std::shared_ptr<const FlatMirrors> mirrors;  ///< null: none
   std::shared_ptr<const Layout> layout;
   std::vector<ContentKey> keys;  ///< of Layout::cameras
   ContentKey surfaceLightKey;

@@ -116,6 +116,7 @@ Result<WalkStart> startWalk(const OpenProject& open, const LoadedWalk* former) {
   walk.scene = open.scene;
   walk.layout = open.layout;
   walk.plan = open.plan;
+  walk.mirrors = open.mirrors;
   walk.exposure = open.project.exposure;
   walk.captures.resize(open.keys.size());
   walk.local.resize(open.layout->regions.size());

@@ -170,6 +170,15 @@ LocalPoint LocalRaster::pointAt(const Triangle& triangle, const glm::dvec3& weig
   return point;
 }
 
+void LocalRaster::findMirrors(const FlatMirrors& mirrors) {
+  for (std::size_t t = 0; t < opaque_.size(); ++t) {
+    const std::uint8_t plane = mirrors.planeOf(local_, local_.triangles[opaque_[t].index]);
+    if (plane == FlatMirrors::kNoPlane) continue;
+    mirrors_.resize(opaque_.size(), 0);
+    mirrors_[t] = mirrors.seenFrom(plane, view_.eye);
+  }
+}
+
 /// body(band, first row, end row).
 template <class Body>
 void LocalRaster::forBands(TaskRunner& runner, const Body& body) const {
@@ -244,6 +253,13 @@ void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& 
         const std::uint32_t t = cover.at(x, y);
         for (end = x + 1; end < view_.width && cover.at(end, y) == t;) ++end;
         if (t == kUncovered) continue;
+        bool reflecting = false;
+        if (!mirrors_.empty() && mirrors_[t] != 0) {
+          const auto reflects = [&](int i) { return frame.source.at(i, y) != kSourceHole; };
+          reflecting = reflects(x);
+          for (int i = x + 1; i < end; ++i)
+            if (reflects(i) != reflecting) end = i;
+        }
         std::fill_n(&frame.source.at(x, y), end - x, kSourceLocal);
         const Triangle& triangle = opaque_[t];
         const auto& edge = triangle.edge;
@@ -253,14 +269,15 @@ void LocalRaster::drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& 
         run.x0 = x, run.count = end - x;
         run.colour = reinterpret_cast<std::uint32_t*>(&frame.colour.at(x, y));
         run.inverseZDepth = &inverseZDepth.at(x, y);
-        if (const auto& shade = shading.of(t)) {
-          shadeRun(*shade, run);
+        const auto* const shade = reflecting ? nullptr : &shading.of(t);
+        if (shade != nullptr && *shade) {
+          shadeRun(**shade, run);
           continue;
         }
         for (int i = x; i < end; ++i) {
           const glm::dvec3 values(run.slope[0] * i + run.start[0], run.slope[1] * i + run.start[1],
                                   run.slope[2] * i + run.start[2]);
-          frame.colour.at(i, y) = shading_.colourAt(pointAt(triangle, values), eye);
+          if (!reflecting) frame.colour.at(i, y) = shading_.colourAt(pointAt(triangle, values), eye);
           inverseZDepth.at(i, y) = static_cast<float>((values.x + values.y + values.z) * triangle.perDepth);
         }
       }

@@ -24,11 +24,19 @@ class LocalRaster {
   LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
               TaskRunner& runner);
 
+  /// Numbers the mirrors among the opaque triangles. They show the reflections that captures keep (warp.h),
+  /// and where there is none their own baked light. Captures keep what lies beyond the near band: what stands
+  /// so close before a mirror that its virtual place is within is missing in it, and what it would hide
+  /// shows.
+  void findMirrors(const FlatMirrors& mirrors);
+  /// By number of the opaque triangles: the mirror that the eye sees of each, 0 = none; empty: none is one.
+  const std::vector<std::uint8_t>& mirrors() const { return mirrors_; }
+
   /// Finds which of the opaque and alpha-tested triangles each pixel of the picture shows: its number, or
   /// kUncovered.
   void findOpaque(CoverRow coverRow, CoverImage& cover, TaskRunner& runner) const;
   /// Draws them where `cover` says: `frame` gets colours and kSourceLocal, `inverseZDepth` (1/m, row by row)
-  /// their depth.
+  /// their depth. Where one is a mirror and the frame has a source, the colour stays: it is what that shows.
   void drawOpaque(const CoverImage& cover, ShadeRun shadeRun, Frame& frame, FloatImage& inverseZDepth,
                   TaskRunner& runner) const;
   /// Blends the clear triangles over the frame, farthest first, where no opaque local geometry is nearer.
@@ -66,6 +74,7 @@ class LocalRaster {
   PerspectiveView view_;
   std::vector<glm::dvec3> inView_;  ///< by local vertex
   std::vector<Triangle> opaque_;
+  std::vector<std::uint8_t> mirrors_;                     ///< by opaque triangle, or empty
   std::vector<std::vector<std::uint32_t>> opaqueOfBand_;  ///< that reach into each band of rows, rising
   std::vector<Triangle> clear_;                           ///< farthest first
 };

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
@@ -69,8 +70,9 @@ void resize(Image<T>& image, const PerspectiveView& view) {
 
 /// Everything but local geometry, strip by strip; every pixel of the frame and of the depths is written.
 WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                        const ViewPlan& plan, const CoverImage* cover, TaskRunner& runner,
-                        FrameMemory& memory, Frame& frame) {
+                        const ViewPlan& plan, const CoverImage* cover,
+                        std::span<const std::uint8_t> coverMirrors, TaskRunner& runner, FrameMemory& memory,
+                        Frame& frame) {
   const Kernels& kernels = kernelsFor(settings);
   WarpOptions options;
   options.project = kernels.project;
@@ -78,6 +80,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.cull = settings.renderer != Renderer::scalar;
   options.cover = cover;
+  options.coverMirrors = coverMirrors;
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
   std::optional<SkyTable> sky;
   if (showsBackground(limits, view)) sky.emplace(backgroundSky(scene), scene.exposure);
@@ -131,6 +134,7 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
     shading.emplace(scene, *local);
     raster.emplace(*local, *shading, view, runner);
     raster->findOpaque(kernelsFor(settings).coverRow, memory.cover, runner);
+    if (scene.mirrors && !plan.reflections.empty()) raster->findMirrors(*scene.mirrors);
     stats.localSeconds = localTime.seconds();
   }
 
@@ -138,8 +142,9 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   std::set<int> images;
   for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
     for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
-  const WarpCounts counts =
-      drawCaptures(scene, view, settings, plan, drawLocal ? &memory.cover : nullptr, runner, memory, frame);
+  const WarpCounts counts = drawCaptures(
+      scene, view, settings, plan, drawLocal ? &memory.cover : nullptr,
+      raster ? std::span(raster->mirrors()) : std::span<const std::uint8_t>(), runner, memory, frame);
   stats.images = static_cast<int>(images.size());
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;

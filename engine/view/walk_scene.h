@@ -11,6 +11,7 @@
 #include "engine/image/colour.h"
 #include "engine/layout/layout.h"
 #include "engine/scene/effect_plan.h"
+#include "engine/scene/flat_mirrors.h"
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
 #include "engine/view/packed_sample.h"
@@ -75,6 +76,8 @@ struct WalkScene {
   std::vector<std::shared_ptr<const DisplayCapture>> captures;  ///< by camera; null = not loaded
   std::vector<std::shared_ptr<const LocalGeometry>> local;      ///< by region; null = not loaded
   std::shared_ptr<const SurfaceLight> surfaceLight;             ///< null = not baked
+  /// Of the scene's triangles, for local geometry to show what captures keep of reflections; null = none.
+  std::shared_ptr<const FlatMirrors> mirrors;
 };
 
 }  // namespace acentric

@@ -72,7 +72,21 @@ class CanvasWarp {
 
   WarpCounts run() {
     const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
-    if (uncovered.none()) return counts_;
+    if (!uncovered.none()) drawAllPieces(uncovered);
+    if (plan_.reflections.empty()) return counts_;
+    const bool local = !options_.coverMirrors.empty() && openCoverMirrors();
+    open_ = OpenTiles::withMirrors(local ? OpenTiles(rect_, nullptr, 0) : uncovered, canvas_);
+    if (open_->none()) return counts_;
+    for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
+      const PieceDraw& piece = plan_.reflections[i];
+      const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
+      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan_, i));
+    }
+    return counts_;
+  }
+
+ private:
+  void drawAllPieces(const OpenTiles& uncovered) {
     if (!uncovered.all()) open_ = uncovered;
     const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
     const std::size_t firstInFront = static_cast<std::size_t>(first - plan_.pieces.begin());
@@ -84,18 +98,8 @@ class CanvasWarp {
       openBelow_ = 0;
       open_.reset();
     }
-    if (plan_.reflections.empty()) return counts_;
-    open_ = OpenTiles::withMirrors(uncovered, canvas_);
-    if (open_->none()) return counts_;
-    for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
-      const PieceDraw& piece = plan_.reflections[i];
-      const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
-      drawPiece(piece, *capture.reflections, PaintMode::reflect, reflectionSlot(plan_, i));
-    }
-    return counts_;
   }
 
- private:
   /// Pieces [first, last) of the plan.
   void drawPieces(std::size_t first, std::size_t last) {
     bool blended = false;
@@ -110,6 +114,36 @@ class CanvasWarp {
     if (!options_.depthTest) return pass(PaintMode::over, PaintMode::overBlended, false);
     pass(PaintMode::nearest, PaintMode::nearest, false);
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
+  }
+
+  /// Which mirror local geometry shows at a pixel that it covers; else nothing.
+  std::optional<std::uint8_t> coverMirrorAt(int x, int y) const {
+    if (x < 0 || x >= view_.width || y < 0 || y >= view_.height) return {};
+    const std::uint32_t cover = options_.cover->at(x, y);
+    return cover == kUncovered ? std::nullopt : std::optional(options_.coverMirrors[cover]);
+  }
+
+  /// Makes holes of the pixels that mirrors among the local geometry cover, and says on the canvas whose they
+  /// are. Are there any?
+  bool openCoverMirrors() {
+    bool any = false;
+    for (int y = 0; y < view_.height; ++y)
+      for (int x = rect_.x0; x < rect_.x1; ++x) {
+        const auto mirror = coverMirrorAt(x, y);
+        if (!mirror) continue;
+        const std::size_t at = canvas_.indexOf(x) + static_cast<std::size_t>(y);
+        canvas_.mirrors[at] = *mirror;
+        any = any || *mirror != 0;
+        if (*mirror != 0 || (canvas_.places && isBesideCoverMirror(x, y))) canvas_.pixels[at] = kEmptyPixel;
+      }
+    return any;
+  }
+  /// Filters would mix what other local geometry hides there into the mirror.
+  bool isBesideCoverMirror(int x, int y) const {
+    for (const int dx : {-1, 0, 1})
+      for (const int dy : {-1, 0, 1})
+        if (coverMirrorAt(x + dx, y + dy).value_or(0) != 0) return true;
+    return false;
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {

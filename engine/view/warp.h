@@ -1,6 +1,8 @@
 #pragma once
 /// Paints a plan's pieces on a canvas: the background of a frame.
 
+#include <span>
+
 #include "engine/view/canvas.h"
 #include "engine/view/open_tiles.h"
 #include "engine/view/view_plan.h"
@@ -22,6 +24,8 @@ struct WarpOptions {
   bool depthTest = false;  ///< nearest sample wins instead of the last one
   bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
   const CoverImage* cover = nullptr;  ///< what hides the captures in the end: nothing is drawn there
+  /// By what covers a pixel: the mirror that it is, 0 = none. There reflections are drawn, over nothing.
+  std::span<const std::uint8_t> coverMirrors = {};
 };
 
 /// Of one canvas.
@@ -56,10 +60,10 @@ inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
 }
 
 /// Paints the pieces of the first cover; those of the second where nothing of the first lies; then what
-/// mirrors show over those pixels that the same mirror came to cover: they keep the mirror's depth. At most
-/// kMaxSlots slots. Columns [x0, x1) of the canvas are those that are counted. Pixels do not depend on how
-/// the picture is cut into canvases: a capture's columns fall on nearly vertical lines, so few samples fall
-/// on two.
+/// mirrors show over those pixels that the same mirror came to cover: they keep the mirror's depth. Where a
+/// mirror of local geometry covers a pixel it shows that alone, or is a hole. At most kMaxSlots slots.
+/// Columns [x0, x1) of the canvas are those that are counted. Pixels do not depend on how the picture is cut
+/// into canvases: a capture's columns fall on nearly vertical lines, so few samples fall on two.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, int x0, int x1, Canvas& canvas);
 

@@ -23,8 +23,9 @@ Status FilterPass::resize(int width, int height) {
   return {};
 }
 
-Status FilterPass::draw(const FrameTarget& target) {
-  const Result<GlProgram*> program = programs_.get("whole_picture.vert", "filter.frag", {});
+Status FilterPass::draw(const FrameTarget& target, bool localMirrors) {
+  const Result<GlProgram*> program =
+      programs_.get("whole_picture.vert", "filter.frag", localMirrors ? Defines{"LOCAL_MIRRORS"} : Defines{});
   if (!program) return tl::unexpected(program.error());
   if (Status sized = resize(target.width(), target.height()); !sized) return sized;
   glDisable(GL_DEPTH_TEST);
@@ -35,9 +36,13 @@ Status FilterPass::draw(const FrameTarget& target) {
   glViewport(0, 0, width_, height_);
   (*program)->use();
   glUniform1ui((*program)->location("hole"), kSourceHole);
-  drawWholePicture(
-      **program, noAttributes_,
-      {{"codes", target.colourCodes()}, {"sources", target.sources()}, {"places", target.places()}});
+  const TextureInput codes{"codes", target.colourCodes()}, sources{"sources", target.sources()},
+      places{"places", target.places()};
+  if (localMirrors)
+    drawWholePicture(**program, noAttributes_,
+                     {codes, sources, places, {"mirrors", target.mirrors()}, {"depths", target.depths()}});
+  else
+    drawWholePicture(**program, noAttributes_, {codes, sources, places});
   glCopyImageSubData(filtered_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, target.colourCodes(), GL_TEXTURE_2D, 0, 0,
                      0, 0, width_, height_, 1);
   return checkGl("filtering");

@@ -10,8 +10,9 @@ namespace acentric {
 class FilterPass {
  public:
   explicit FilterPass(ProgramCache& programs);
-  /// `target` has been drawn with places.
-  Status draw(const FrameTarget& target);
+  /// `target` has been drawn with places. `localMirrors`: mirrors among the local geometry are marked; what
+  /// other local geometry hides beside them is not mixed in (as in view/warp.cpp).
+  Status draw(const FrameTarget& target, bool localMirrors);
 
  private:
   Status resize(int width, int height);

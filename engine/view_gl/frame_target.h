@@ -11,8 +11,9 @@
 namespace acentric {
 
 /// The stencil: 0 in holes; kCovered, and for pixels that the first cover shows kInFront too (what the second
-/// shows lies behind it); kTinted where the first cover's clear samples lie over an open pixel.
-enum StencilBits : GLint { kCovered = 1, kInFront = 2, kTinted = 4 };
+/// shows lies behind it); kTinted where the first cover's clear samples lie over an open pixel; kReflection
+/// where a mirror's reflection was drawn, if there are mirrors among the local geometry.
+enum StencilBits : GLint { kCovered = 1, kInFront = 2, kTinted = 4, kReflection = 8 };
 
 class FrameTarget {
  public:

@@ -71,8 +71,13 @@ struct GlRenderer::Impl {
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
   Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                  const ViewSettings& settings);
+  /// Null: none is to be drawn.
+  Result<LocalBuffers*> localOf(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
+  /// Returns whether there are mirrors among the local geometry.
+  Result<bool> drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                               const ViewSettings& settings, LocalBuffers* local);
   Status drawAfterBackground(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                             const ViewSettings& settings);
+                             const ViewSettings& settings, LocalBuffers* local, bool mirrorsMarked);
 };
 
 Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const PerspectiveView& view,
@@ -100,30 +105,56 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
 
 Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                                  const ViewSettings& settings) {
+  const Result<LocalBuffers*> local = localOf(scene, plan, settings);
+  if (!local) return tl::unexpected(local.error());
   target.begin();
   const Clock::time_point start = Clock::now();
   if (Status drawn = background.draw(scene, plan, view, target); !drawn) return drawn;
   if (Status drawn = points.draw(scene, plan, view, settings, target, stats); !drawn) return drawn;
+  bool mirrorsMarked = false;
+  if (!plan.reflections.empty()) {
+    const Result<bool> marked = drawReflections(scene, plan, view, settings, *local);
+    if (!marked) return tl::unexpected(marked.error());
+    mirrorsMarked = *marked;
+  }
   if (settings.reconstruction == Reconstruction::filtered)
-    if (Status filtered = filter.draw(target); !filtered) return filtered;
+    if (Status filtered = filter.draw(target, mirrorsMarked); !filtered) return filtered;
   stats.warpSeconds = secondsOfDrawing(start);
-  return drawAfterBackground(scene, plan, view, settings);
+  return drawAfterBackground(scene, plan, view, settings, *local, mirrorsMarked);
+}
+
+Result<LocalBuffers*> GlRenderer::Impl::localOf(const WalkScene& scene, const ViewPlan& plan,
+                                                const ViewSettings& settings) {
+  const std::size_t region = std::size_t(plan.region);
+  const bool any = settings.localGeometry && region < scene.local.size() && scene.local[region] &&
+                   !scene.local[region]->triangles.empty() && scene.scene;
+  if (!any) return nullptr;
+  const Clock::time_point start = Clock::now();
+  Result<LocalBuffers*> local = locals.get(scene, region);
+  stats.localSeconds += secondsOfDrawing(start);
+  return local;
+}
+
+Result<bool> GlRenderer::Impl::drawReflections(const WalkScene& scene, const ViewPlan& plan,
+                                               const PerspectiveView& view, const ViewSettings& settings,
+                                               LocalBuffers* local) {
+  const bool mark = local != nullptr && local->mirrors && scene.mirrors;
+  if (mark)
+    if (Status marked = localPass.markMirrors(scene, view, target, *local); !marked)
+      return tl::unexpected(marked.error());
+  if (Status drawn = points.drawReflections(scene, plan, view, settings, mark, target, stats); !drawn)
+    return tl::unexpected(drawn.error());
+  return mark;
 }
 
 Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewPlan& plan,
-                                             const PerspectiveView& view, const ViewSettings& settings) {
-  const std::size_t region = std::size_t(plan.region);
-  const bool drawLocal = settings.localGeometry && region < scene.local.size() && scene.local[region] &&
-                         !scene.local[region]->triangles.empty() && scene.scene;
-  LocalBuffers* local = nullptr;
-  if (drawLocal) {
+                                             const PerspectiveView& view, const ViewSettings& settings,
+                                             LocalBuffers* local, bool mirrorsMarked) {
+  if (local != nullptr) {
     const Clock::time_point start = Clock::now();
-    const Result<LocalBuffers*> buffers = locals.get(scene, region);
-    if (!buffers) return tl::unexpected(buffers.error());
-    local = *buffers;
-    if (Status drawn = localPass.drawOpaque(scene, view, target, *local); !drawn) return drawn;
+    if (Status drawn = localPass.drawOpaque(scene, view, target, *local, mirrorsMarked); !drawn) return drawn;
     stats.localTriangles = local->triangles;
-    stats.localSeconds = secondsOfDrawing(start);
+    stats.localSeconds += secondsOfDrawing(start);
   }
   if (settings.fillHoles) {
     const Clock::time_point start = Clock::now();

@@ -130,35 +130,47 @@ GlBuffer makeBuffer(GLenum target, const std::vector<Value>& values) {
 
 }  // namespace
 
-Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const LocalGeometry>& geometry,
-                                 const std::shared_ptr<const SurfaceLight>& light) {
+Result<LocalBuffers> uploadLocal(const WalkScene& walk,
+                                 const std::shared_ptr<const LocalGeometry>& geometry) {
+  const Scene& scene = *walk.scene;
   if (!fits(scene, *geometry))
     return fail(ErrorKind::malformed, "the local geometry was not made from this scene: clip it again",
                 "local geometry");
   LocalBuffers buffers;
   buffers.owner = geometry;
-  buffers.lightOwner = light;
+  buffers.lightOwner = walk.surfaceLight;
+  buffers.mirrorsOwner = walk.mirrors;
   const std::vector<Mesh>& meshes = geometry->meshes(scene);
-  const SurfaceLight* const ownLight = geometry->surfaces ? &geometry->surfaces->light : light.get();
+  const SurfaceLight* const ownLight =
+      geometry->surfaces ? &geometry->surfaces->light : walk.surfaceLight.get();
   buffers.lit = ownLight != nullptr && !ownLight->empty();
 
   if (!geometry->polygon.corners.empty()) buffers.origin = glm::dvec3(geometry->polygon.corners.front(), 0);
-  std::vector<LocalTriangle> triangles = geometry->triangles;
-  const auto key = [&](const LocalTriangle& t) {
-    const Mesh& mesh = meshes[t.mesh];
+  struct Placed {
+    LocalTriangle triangle;
+    std::uint8_t mirrorPlane;
+  };
+  std::vector<Placed> triangles;
+  triangles.reserve(geometry->triangles.size());
+  for (const LocalTriangle& t : geometry->triangles) {
+    triangles.push_back({t, walk.mirrors ? walk.mirrors->planeOf(*geometry, t) : FlatMirrors::kNoPlane});
+    buffers.mirrors = buffers.mirrors || triangles.back().mirrorPlane != FlatMirrors::kNoPlane;
+  }
+  const auto key = [&](const Placed& placed) {
+    const Mesh& mesh = meshes[placed.triangle.mesh];
     const Material& material = scene.materials[std::size_t(mesh.material)];
     return std::make_tuple(canBeClear(material), mesh.material, !mesh.colours.empty(),
                            hasCoordinates(mesh, material.baseColourTexture),
-                           hasCoordinates(mesh, material.emissiveTexture));
+                           hasCoordinates(mesh, material.emissiveTexture), placed.mirrorPlane);
   };
   std::stable_sort(triangles.begin(), triangles.end(),
-                   [&](const LocalTriangle& a, const LocalTriangle& b) { return key(a) < key(b); });
+                   [&](const Placed& a, const Placed& b) { return key(a) < key(b); });
 
   LightGatherer gatherer(meshes, buffers.lit ? ownLight : nullptr);
   std::vector<LocalGpuVertex> vertices;
   vertices.reserve(3 * triangles.size());
   for (std::size_t n = 0; n < triangles.size(); ++n) {
-    const LocalTriangle& triangle = triangles[n];
+    const LocalTriangle& triangle = triangles[n].triangle;
     const Mesh& mesh = meshes[triangle.mesh];
     const Material& material = scene.materials[std::size_t(mesh.material)];
     const glm::uvec3 source = mesh.triangles[triangle.triangle];
@@ -173,9 +185,9 @@ Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const
            place.first, place.resolution, normalAt(mesh, source, v.barycentric)});
       if (clear) buffers.clearCorners.push_back(position);
     }
-    if (n == 0 || key(triangles[n - 1]) != key(triangle)) {
-      const auto [isClear, index, colours, baseUv, emissiveUv] = key(triangle);
-      buffers.batches.push_back({index, colours, baseUv, emissiveUv, std::uint32_t(n), 0});
+    if (n == 0 || key(triangles[n - 1]) != key(triangles[n])) {
+      const auto [isClear, index, colours, baseUv, emissiveUv, plane] = key(triangles[n]);
+      buffers.batches.push_back({index, colours, baseUv, emissiveUv, plane, std::uint32_t(n), 0});
     }
     ++buffers.batches.back().triangles;
     if (!clear) buffers.firstClear = std::uint32_t(n) + 1;
@@ -208,7 +220,7 @@ Result<LocalBuffers*> LocalResidency::get(const WalkScene& scene, std::size_t re
   const std::shared_ptr<const LocalGeometry>& geometry = scene.local[region];
   auto found = resident_.find(geometry.get());
   if (found == resident_.end()) {
-    Result<LocalBuffers> buffers = uploadLocal(*scene.scene, geometry, scene.surfaceLight);
+    Result<LocalBuffers> buffers = uploadLocal(scene, geometry);
     if (!buffers) return tl::unexpected(buffers.error());
     found = resident_.emplace(geometry.get(), std::move(*buffers)).first;
   }
@@ -221,7 +233,8 @@ void LocalResidency::dropGone(const WalkScene& scene) {
   std::erase_if(resident_, [&](const auto& entry) {
     const auto found = wanted.find(entry.first);
     const bool same = found != wanted.end() && found->second && entry.second.owner.lock() == found->second;
-    if (!same || found->second->surfaces) return !same;  // surfaces of its own bring their light
+    if (!same || entry.second.mirrorsOwner.lock() != scene.mirrors) return true;
+    if (found->second->surfaces) return false;  // surfaces of its own bring their light
     // A light that died reads as null, like none: so whether there was one is kept apart.
     const bool sameLight =
         scene.surfaceLight ? entry.second.lightOwner.lock() == scene.surfaceLight : !entry.second.lit;

@@ -31,14 +31,18 @@ struct LocalBatch {
   bool vertexColours = false;
   bool baseUv = false;
   bool emissiveUv = false;
+  std::uint8_t mirrorPlane = FlatMirrors::kNoPlane;
   std::uint32_t firstTriangle = 0;
   std::uint32_t triangles = 0;
+  bool isMirror() const { return mirrorPlane != FlatMirrors::kNoPlane; }
 };
 
 struct LocalBuffers {
   std::weak_ptr<const LocalGeometry> owner;
   std::weak_ptr<const SurfaceLight> lightOwner;
-  bool lit = false;  ///< a surface light was there
+  std::weak_ptr<const FlatMirrors> mirrorsOwner;
+  bool lit = false;      ///< a surface light was there
+  bool mirrors = false;  ///< some batch is a mirror
   GlVertexArray vertexArray;
   GlBuffer vertices;     ///< LocalGpuVertex, three per triangle
   GlBuffer indices;      ///< of the clear triangles, rewritten in each frame's order
@@ -52,14 +56,14 @@ struct LocalBuffers {
   std::uint32_t triangles = 0;
 };
 
-Result<LocalBuffers> uploadLocal(const Scene& scene, const std::shared_ptr<const LocalGeometry>& geometry,
-                                 const std::shared_ptr<const SurfaceLight>& light);
+Result<LocalBuffers> uploadLocal(const WalkScene& scene,
+                                 const std::shared_ptr<const LocalGeometry>& geometry);
 
 class LocalResidency {
  public:
   /// Valid until the next call of dropGone.
   Result<LocalBuffers*> get(const WalkScene& scene, std::size_t region);
-  /// Drops what `scene` no longer holds, or holds with another light.
+  /// Drops what `scene` no longer holds, or holds with another light or other mirrors.
   void dropGone(const WalkScene& scene);
   std::size_t count() const { return resident_.size(); }
 

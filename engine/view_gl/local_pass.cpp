@@ -67,25 +67,27 @@ Status LocalPass::bindTexture(GlProgram& program, const char* uniform, int unit,
 }
 
 Status LocalPass::prepare(const WalkScene& scene, const PerspectiveView& view, const LocalBuffers& buffers,
-                          const LocalBatch& batch, const LocalMaterial& material) {
+                          const LocalBatch& batch, const LocalMaterial& material, Draws draws) {
   const Material& source = *material.material;
-  const bool textured =
-      material.textured && batch.baseUv && imageOf(*scene.scene, source.baseColourTexture) != nullptr;
-  const bool emissionTextured = material.emissionTextured && batch.emissiveUv &&
+  const bool looks = draws == Draws::looks, coloured = looks || material.masked;
+  const bool textured = coloured && material.textured && batch.baseUv &&
+                        imageOf(*scene.scene, source.baseColourTexture) != nullptr;
+  const bool emissionTextured = looks && material.emissionTextured && batch.emissiveUv &&
                                 imageOf(*scene.scene, source.emissiveTexture) != nullptr;
   Defines defines;
   const auto define = [&](bool on, const char* name) {
     if (on) defines.push_back(name);
   };
   define(textured, "TEXTURE");
-  define(material.vertexColours && batch.vertexColours, "VERTEX_COLOURS");
+  define(coloured && material.vertexColours && batch.vertexColours, "VERTEX_COLOURS");
   define(material.masked, "ALPHA_TEST");
   define(material.blended, "ALPHA_BLEND");
-  define(material.emits, "EMISSION");
+  define(looks && material.emits, "EMISSION");
   define(emissionTextured, "EMISSION_TEXTURE");
   define(material.transmissive, "FRESNEL");
-  define(buffers.lit && !material.unlit, "SURFACE_LIGHT");
+  define(looks && buffers.lit && !material.unlit, "SURFACE_LIGHT");
   define(material.clear(), "CLEAR");
+  define(!looks, "MARK_MIRROR");
   const Result<GlProgram*> found = programs_.get("local.vert", "local.frag", defines);
   if (!found) return tl::unexpected(found.error());
   GlProgram& program = **found;
@@ -100,6 +102,9 @@ Status LocalPass::prepare(const WalkScene& scene, const PerspectiveView& view, c
   glUniform4fv(program.location("baseColour"), 1, glm::value_ptr(source.baseColour));
   glUniform1f(program.location("exposure"), scene.exposure);
   glUniform1ui(program.location("sourceLocal"), kSourceLocal);
+  if (!looks)
+    glUniform1ui(program.location("mirrorNumber"),
+                 batch.isMirror() ? scene.mirrors->seenFrom(batch.mirrorPlane, view.eye) : 0);
   glUniform1f(program.location("alphaCutoff"), source.alphaCutoff);
   glUniform1f(program.location("transmission"), source.transmission);
   glUniform3fv(program.location("emission"), 1, glm::value_ptr(source.emissive));
@@ -114,22 +119,57 @@ Status LocalPass::prepare(const WalkScene& scene, const PerspectiveView& view, c
   return {};
 }
 
+Status LocalPass::markMirrors(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
+                              LocalBuffers& buffers) {
+  const std::vector<LocalMaterial> materials = materialsOf(scene);
+  target.bindForPieces();
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  for (const bool mirrors : {false, true}) {
+    for (const GLuint kept : {0u, 1u, 3u}) {
+      const GLboolean written = kept == 1 && mirrors ? GL_TRUE : GL_FALSE;
+      glColorMaski(kept, written, written, written, written);
+    }
+    for (const LocalBatch& batch : buffers.batches) {
+      const LocalMaterial& material = materials[std::size_t(batch.material)];
+      if (material.clear() || batch.isMirror() != mirrors) continue;
+      if (Status ready = prepare(scene, view, buffers, batch, material, Draws::mirrorNumber); !ready)
+        return ready;
+      glDrawArrays(GL_TRIANGLES, GLint(3 * batch.firstTriangle), GLsizei(3 * batch.triangles));
+    }
+  }
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  return checkGl("marking mirrors among local geometry");
+}
+
 Status LocalPass::drawOpaque(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
-                             LocalBuffers& buffers) {
+                             LocalBuffers& buffers, bool marked) {
   const std::vector<LocalMaterial> materials = materialsOf(scene);
   target.bindForDrawing();
   glDisable(GL_BLEND);
   glDisable(GL_FRAMEBUFFER_SRGB);
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
+  glDepthFunc(marked ? GL_GEQUAL : GL_GREATER);
   glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_ALWAYS, 1, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const LocalBatch& batch : buffers.batches) {
     const LocalMaterial& material = materials[std::size_t(batch.material)];
     if (material.clear()) continue;
-    if (Status ready = prepare(scene, view, buffers, batch, material); !ready) return ready;
-    glDrawArrays(GL_TRIANGLES, GLint(3 * batch.firstTriangle), GLsizei(3 * batch.triangles));
+    if (Status ready = prepare(scene, view, buffers, batch, material, Draws::looks); !ready) return ready;
+    const auto drawWhere = [&](GLenum stencil, GLint value, GLuint bits) {
+      glStencilFunc(stencil, value, bits);
+      glDrawArrays(GL_TRIANGLES, GLint(3 * batch.firstTriangle), GLsizei(3 * batch.triangles));
+    };
+    if (!marked || !batch.isMirror()) {
+      drawWhere(GL_ALWAYS, kCovered, 0xff);
+      continue;
+    }
+    glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);  // only the source changes
+    drawWhere(GL_EQUAL, kCovered | kReflection, kReflection);
+    glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    drawWhere(GL_NOTEQUAL, kCovered | kReflection, kReflection);
   }
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -165,7 +205,9 @@ Status LocalPass::drawClear(const WalkScene& scene, const PerspectiveView& view,
     const LocalBatch& batch = batchOf(buffers.batches, order[n]);
     std::size_t end = n + 1;
     while (end < order.size() && &batchOf(buffers.batches, order[end]) == &batch) ++end;
-    if (Status ready = prepare(scene, view, buffers, batch, materials[std::size_t(batch.material)]); !ready)
+    if (Status ready =
+            prepare(scene, view, buffers, batch, materials[std::size_t(batch.material)], Draws::looks);
+        !ready)
       return ready;
     glDrawElements(GL_TRIANGLES, GLsizei(3 * (end - n)), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(3 * n * sizeof(GLuint)));

@@ -17,16 +17,22 @@ class LocalPass {
  public:
   LocalPass(ProgramCache& programs, TextureCache& textures);
 
+  /// Between pieces and reflections, of buffers with mirrors: what is opaque leaves its depth, and its mirror
+  /// or none to `target`; where a mirror is nearest the pixel has no source any more.
+  Status markMirrors(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
+                     LocalBuffers& buffers);
+  /// `marked`: after markMirrors and the reflections, which stay.
   Status drawOpaque(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
-                    LocalBuffers& buffers);
+                    LocalBuffers& buffers, bool marked);
   /// After the filling of holes: glass needs something behind it.
   Status drawClear(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
                    LocalBuffers& buffers);
 
  private:
+  enum class Draws { looks, mirrorNumber };
   /// Binds the program, uniforms and textures of a batch.
   Status prepare(const WalkScene& scene, const PerspectiveView& view, const LocalBuffers& buffers,
-                 const LocalBatch& batch, const LocalMaterial& material);
+                 const LocalBatch& batch, const LocalMaterial& material, Draws draws);
   Status bindTexture(GlProgram& program, const char* uniform, int unit, const WalkScene& scene,
                      const TextureUse& use);
 

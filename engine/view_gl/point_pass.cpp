@@ -172,17 +172,24 @@ Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
   }
   stats.images = int(images.size());
   target.endPainting();
-  return anyMirror ? drawReflections(scene, plan, view, settings, target, stats) : Status{};
+  return {};
 }
 
 Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                                  const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
+                                  const ViewSettings& settings, bool localMirrors, FrameTarget& target,
+                                  FrameStats& stats) {
   glDisable(GL_FRAMEBUFFER_SRGB);
   glDisable(GL_BLEND);
   target.bindForReflections();  // without the depth test, which leaves the pixels the mirror's depth
   glActiveTexture(GL_TEXTURE0);
   glBindSampler(0, 0);
   glBindTexture(GL_TEXTURE_2D, target.mirrors());
+  if (localMirrors) {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, kReflection, 0xff);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(kReflection);
+  }
   for (const PieceDraw& planned : plan.reflections) {
     const std::shared_ptr<const DisplayCapture>& shown =
         scene.captures[std::size_t(planned.camera)]->reflections;
@@ -193,6 +200,8 @@ Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, 
     Piece piece{planned, *shown, **buffers, view, settings, Piece::Mirrors::reflect};
     if (Status drawn = drawPiece(piece, Samples::all, target, stats); !drawn) return drawn;
   }
+  glStencilMask(0xff);
+  glDisable(GL_STENCIL_TEST);
   return {};
 }
 

@@ -29,14 +29,16 @@ class PointPass {
   /// and samples in `stats`.
   Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
               const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
+  /// What mirrors show, onto the pixels that `target` says belong to them. `localMirrors`: some are local
+  /// geometry; the stencil then says what was drawn.
+  Status drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                         const ViewSettings& settings, bool localMirrors, FrameTarget& target,
+                         FrameStats& stats);
 
  private:
   /// One piece on its way: what all its draw calls share.
   struct Piece;
   enum class Samples { opaque, clear, all };
-  /// What mirrors show, onto the pixels that `target` says belong to them.
-  Status drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                         const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
   Status drawPiece(Piece& piece, Samples samples, FrameTarget& target, FrameStats& stats);
   /// Blended samples behind one another in a pixel cannot be drawn at once: the splats of one pane overlap,
   /// and where they do the pane must still tint once. So rank by rank, each into a layer of its own, laid

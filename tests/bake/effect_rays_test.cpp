@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/bake/material_rules.h"
 #include "engine/bake/shading.h"
 #include "engine/scene/import.h"
+#include "engine/scene/material_rules.h"
 #include "tests/support/scenes.h"
 
 namespace acentric {

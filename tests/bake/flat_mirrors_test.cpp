@@ -1,4 +1,4 @@
-#include "engine/bake/flat_mirrors.h"
+#include "engine/scene/flat_mirrors.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::uint8_t seenBy(const RayScene& scene, const FlatMirrors& mirrors, glm::vec3
   const Ray ray{from, glm::normalize(to - from)};
   const Hit hit = scene.trace(ray);
   EXPECT_TRUE(hit.found());
-  return hit.found() ? mirrors.at(hit, -ray.direction) : std::uint8_t(0);
+  return hit.found() ? mirrors.at(hit.mesh, hit.triangle, -ray.direction) : std::uint8_t(0);
 }
 
 TEST(FlatMirrors, AreOnePerPlaneAndSide) {
@@ -60,6 +60,34 @@ TEST(FlatMirrors, AreOnePerPlaneAndSide) {
   const std::uint8_t upright = at({1, 3, 1}, {1, 5, 0.9f});
   EXPECT_EQ((std::set<int>{0, above, below, upright}.size()), 4u);
   EXPECT_EQ(at({-5, 0, 3}, {-5, 0.1f, 0}), 0) << "no mirror at all";
+}
+
+TEST(FlatMirrors, AreFoundAgainAmongSimplifiedSurfaces) {
+  SceneBuilder builder;
+  const int m = builder.material(silver()), wall = builder.material(glowing(glm::vec3(1)));
+  builder.floor(m, 1).floor(m, 1, 2, {5, 0}).floor(wall, 1, 0, {-5, 0});
+  const auto scene = builder.rays();
+  const FlatMirrors mirrors(scene->scene(), scene->plan());
+  LocalGeometry local = clipToPolygon(scene->scene(), square(20));
+  auto surfaces = std::make_shared<LocalSurfaces>();  // the same surfaces in another order
+  surfaces->meshes.assign(scene->scene().meshes.rbegin(), scene->scene().meshes.rend());
+  LocalGeometry simplified = local;
+  simplified.surfaces = surfaces;
+  const glm::dvec3 eye(0, 0, kEyeZ);
+  std::set<int> numbers;
+  for (std::size_t t = 0; t < local.triangles.size(); ++t) {
+    LocalTriangle& moved = simplified.triangles[t];
+    moved.mesh = std::uint32_t(surfaces->meshes.size()) - 1 - moved.mesh;
+    const std::uint8_t plane = mirrors.planeOf(local, local.triangles[t]);
+    EXPECT_EQ(mirrors.planeOf(simplified, moved), plane);
+    if (plane == FlatMirrors::kNoPlane) continue;
+    const std::uint8_t number = mirrors.seenFrom(plane, eye);
+    const glm::vec3 corner = local.vertices[local.triangles[t].vertices.x].position;
+    EXPECT_EQ(number,
+              mirrors.at(local.triangles[t].mesh, local.triangles[t].triangle, glm::vec3(eye) - corner));
+    numbers.insert(number);
+  }
+  EXPECT_EQ(numbers.size(), 2u) << "one from above, one from below";
 }
 
 TEST(FlatMirrors, AreNeitherCurvedNorBumpyNorClear) {

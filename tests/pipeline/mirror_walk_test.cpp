@@ -8,11 +8,14 @@
 #include <set>
 
 #include "engine/bake/bake.h"
-#include "engine/bake/flat_mirrors.h"
 #include "engine/bake/truth.h"
+#include "engine/pipeline/walk_source.h"
+#include "engine/scene/flat_mirrors.h"
+#include "engine/scene/local_geometry.h"
 #include "engine/view/render.h"
 #include "tests/bake/memory_sink.h"
 #include "tests/bake/scene_builder.h"
+#include "tests/pipeline/small_project.h"
 
 namespace acentric {
 namespace {
@@ -58,6 +61,28 @@ WalkScene walkOf(const Layout& layout, const std::vector<ContentKey>& keys, cons
   return walk;
 }
 
+/// Bakes the cameras of the regions that the eyes stand in.
+void bakeFor(const RayScene& scene, const Layout& layout, const std::vector<glm::dvec2>& eyes,
+             const BakeSettings& settings, test::MemorySink& memory, TaskRunner& runner) {
+  std::set<int> cameras;
+  for (const glm::dvec2& eye : eyes)
+    for (const Cover& cover : layout.regions[std::size_t(*layout.regionAt(eye))].covers)
+      for (const Piece& piece : cover.pieces) cameras.insert(piece.camera);
+  const std::vector<int> which(cameras.begin(), cameras.end());
+  const auto report = bake(scene, layout, which, settings, memory, runner);
+  ASSERT_TRUE(report) << report.error().describe();
+  EXPECT_GT(report->counts.reflections, 1000u);
+}
+
+PerspectiveView viewFrom(const Layout& layout, const glm::dvec2& eye, double yawDegrees) {
+  PerspectiveView view;
+  view.eye = glm::dvec3(eye, layout.eyeZ());
+  view.yawRadians = radians(yawDegrees);
+  view.fovRadians = radians(75);
+  view.width = 200, view.height = 125;
+  return view;
+}
+
 /// Which pixels look into a plane mirror.
 std::vector<char> mirrorPixels(const RayScene& scene, const PerspectiveView& view) {
   const FlatMirrors mirrors(scene.scene(), scene.plan());
@@ -66,7 +91,7 @@ std::vector<char> mirrorPixels(const RayScene& scene, const PerspectiveView& vie
     for (int x = 0; x < view.width; ++x) {
       const Ray ray{glm::vec3(view.eye), glm::vec3(glm::normalize(view.rayThrough(x + 0.5, y + 0.5)))};
       const Hit hit = scene.trace(ray);
-      inMirror.push_back(hit.found() && mirrors.at(hit, -ray.direction) != 0 ? 1 : 0);
+      inMirror.push_back(hit.found() && mirrors.at(hit.mesh, hit.triangle, -ray.direction) != 0 ? 1 : 0);
     }
   return inMirror;
 }
@@ -94,28 +119,17 @@ TEST(MirrorWalk, ShowsReflectionsWhereTheEyeSeesThem) {
     spec.outline.loops.push_back({{-2.2, -2.2}, {2.2, -2.2}, {2.2, 2.2}, {-2.2, 2.2}});
     const auto layout = buildLayout(spec);
     ASSERT_TRUE(layout) << layout.error().describe();
-    const std::array eyes = {glm::dvec2(0.3, 0.2), glm::dvec2(0.7, -1.1)};
-    std::set<int> cameras;
-    for (const glm::dvec2& eye : eyes)
-      for (const Cover& cover : layout->regions[std::size_t(*layout->regionAt(eye))].covers)
-        for (const Piece& piece : cover.pieces) cameras.insert(piece.camera);
-    const std::vector<int> which(cameras.begin(), cameras.end());
+    const std::vector eyes = {glm::dvec2(0.3, 0.2), glm::dvec2(0.7, -1.1)};
     BakeSettings settings;
     settings.samplesPerDegree = 4;
-    test::MemorySink memory;
     TaskRunner runner(0);
-    const auto report = bake(*scene, *layout, which, settings, memory, runner);
-    ASSERT_TRUE(report) << report.error().describe();
-    EXPECT_GT(report->counts.reflections, 1000u);
+    test::MemorySink memory;
+    bakeFor(*scene, *layout, eyes, settings, memory, runner);
     const auto keys = captureKeys(scene->scene(), scene->plan(), settings, *layout);
     const WalkScene moving = walkOf(*layout, keys, memory, true),
                     still = walkOf(*layout, keys, memory, false);
     for (const glm::dvec2& eye : eyes) {
-      PerspectiveView view;
-      view.eye = glm::dvec3(eye, layout->eyeZ());
-      view.yawRadians = radians(45);
-      view.fovRadians = radians(75);
-      view.width = 200, view.height = 125;
+      const PerspectiveView view = viewFrom(*layout, eye, 45);
       const TruthFrame truth = renderTruth(*scene, view, settings, 1, 1, runner);
       const auto inMirror = mirrorPixels(*scene, view);
       const auto psnrOf = [&](const WalkScene& walk) {
@@ -130,6 +144,79 @@ TEST(MirrorWalk, ShowsReflectionsWhereTheEyeSeesThem) {
       EXPECT_GT(with, without + 6) << nameOf(configuration) << " from " << eye.x << " " << eye.y;
     }
   }
+}
+
+TEST(MirrorWalk, KnowsTheMirrorsOfItsScene) {
+  const OpenProject open = test::openWith(hallOfMirrors(), test::smallProject(1, 2));
+  ASSERT_NE(open.mirrors, nullptr);
+  const auto start = startWalk(open, nullptr);
+  ASSERT_TRUE(start) << start.error().describe();
+  EXPECT_EQ(start->walk.walk.mirrors, open.mirrors);
+}
+
+TEST(MirrorWalk, GoesOnWhereAMirrorComesIntoTheNearBand) {
+  const RayScenePtr scene = hallOfMirrors();
+  LayoutSpec spec;
+  spec.configuration = Configuration::e;
+  spec.cellSize = 1.6;
+  spec.nearBand = 3.4;
+  spec.outline.loops.push_back({{-2.2, -2.2}, {2.2, -2.2}, {2.2, 2.2}, {-2.2, 2.2}});
+  const auto layout = buildLayout(spec);
+  ASSERT_TRUE(layout) << layout.error().describe();
+  const auto regionAt = [&](double x) { return *layout->regionAt({x, 0.3}); };
+  const auto isNear = [&](double x) {
+    return layout->regions[std::size_t(regionAt(x))].grown.contains({5, 0.3});
+  };
+  double beyond = -1.5, within = 1.5;  // towards the mirror
+  ASSERT_TRUE(!isNear(beyond) && isNear(within));
+  while (within - beyond > 1e-6) {
+    const double middle = 0.5 * (beyond + within);
+    (isNear(middle) ? within : beyond) = middle;
+  }
+  BakeSettings settings;
+  settings.samplesPerDegree = 4;
+  TaskRunner runner(0);
+  test::MemorySink memory;
+  bakeFor(*scene, *layout, {{beyond, 0.3}, {within, 0.3}}, settings, memory, runner);
+  const auto keys = captureKeys(scene->scene(), scene->plan(), settings, *layout);
+  WalkScene walk = walkOf(*layout, keys, memory, true);
+  walk.scene = scene->sharedScene();
+  walk.plan = scene->plan();
+  walk.mirrors = flatMirrorsOf(*walk.scene, walk.plan);
+  walk.local.resize(layout->regions.size());
+  for (const double x : {beyond, within}) {
+    const Region& region = layout->regions[std::size_t(regionAt(x))];
+    walk.local[std::size_t(regionAt(x))] =
+        std::make_shared<const LocalGeometry>(clipToPolygon(*walk.scene, region.grown));
+  }
+  const auto frameAt = [&](double x) {
+    auto frame = renderFrame(walk, viewFrom(*layout, {x, 0.3}, 20), {}, runner);
+    EXPECT_TRUE(frame);
+    return frame ? std::move(*frame) : Frame{};
+  };
+  const PerspectiveView view = viewFrom(*layout, {within, 0.3}, 20);
+  const TruthFrame truth = renderTruth(*scene, view, settings, 1, 1, runner);
+  const auto inMirror = mirrorPixels(*scene, view);
+  const Frame before = frameAt(beyond), after = frameAt(within);
+  walk.mirrors = nullptr;
+  const Frame poster = frameAt(within);
+  std::size_t local = 0;
+  for (std::size_t p = 0; p < inMirror.size(); ++p) {
+    local += inMirror[p] != 0 && after.source.pixels[p] == kSourceLocal;
+    EXPECT_FALSE(inMirror[p] != 0 && before.source.pixels[p] == kSourceLocal);
+  }
+  EXPECT_GT(local, inMirror.size() / 10);
+  const double fromBeyond = psnrWhere(inMirror, before.colour, truth.colour),
+               fromWithin = psnrWhere(inMirror, after.colour, truth.colour),
+               asPoster = psnrWhere(inMirror, poster.colour, truth.colour),
+               across = psnrWhere(inMirror, before.colour, after.colour);
+  RecordProperty("psnrInMirrors", fmt::format("{:.1f} dB beyond, {:.1f} within ({:.1f} as a poster); {:.1f} "
+                                              "from one to the other",
+                                              fromBeyond, fromWithin, asPoster, across));
+  EXPECT_GT(fromWithin, 25);
+  EXPECT_GT(fromWithin, fromBeyond - 1);
+  EXPECT_GT(fromWithin, asPoster + 6);
+  EXPECT_GT(across, 25);
 }
 
 }  // namespace

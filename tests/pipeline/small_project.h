@@ -29,6 +29,7 @@ inline OpenProject openWith(RayScenePtr rays, const Project& project,
   open.rays = std::move(rays);
   open.scene = open.rays->sharedScene();
   open.plan = open.rays->plan();
+  open.mirrors = flatMirrorsOf(*open.scene, open.plan);
   open.layout = std::make_shared<const Layout>(buildLayout(project.layout()).value());
   open.keys = captureKeys(*open.scene, open.plan, project.bake, *open.layout);
   open.surfaceLightKey = {1, 2};

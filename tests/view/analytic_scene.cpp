@@ -113,11 +113,12 @@ ColumnCamera columnCamera(const Layout& layout, int camera, double perDegree) {
   return out;
 }
 
-std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize) {
+std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize,
+                                                 double nearBand) {
   LayoutSpec spec;
   spec.configuration = configuration;
   spec.cellSize = cellSize;
-  spec.nearBand = 0.5;
+  spec.nearBand = nearBand;
   const double half = 1.5 * cellSize;
   spec.outline.loops.push_back({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
   auto layout = buildLayout(spec);

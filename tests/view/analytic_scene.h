@@ -57,7 +57,8 @@ Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const Co
 ColumnCamera columnCamera(const Layout& layout, int camera, double perDegree);
 
 /// A layout around the origin with the ring (or any region) that holds the origin in its middle.
-std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize = 2);
+std::shared_ptr<const Layout> layoutAroundOrigin(Configuration configuration, double cellSize = 2,
+                                                 double nearBand = 0.5);
 
 /// Captures of all the cameras of one region's covers, each made by `captureOf`.
 WalkScene walkWith(std::shared_ptr<const Layout> layout, int region, double perDegree,

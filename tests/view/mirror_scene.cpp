@@ -1,7 +1,11 @@
 #include "tests/view/mirror_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "tests/view/local_scene.h"
 
 namespace acentric::test {
 namespace {
@@ -19,7 +23,61 @@ double distanceTo(const AnalyticMirror& mirror, const glm::dvec3& origin, const 
   return inside ? distance : kInfinity;
 }
 
+/// Six faces, seen from outside.
+void addBox(LocalSceneBuilder& builder, const AnalyticBox& box) {
+  const int material = builder.material(box.colour);
+  if (box.colour.a < 1) builder.at(material).alphaMode = AlphaMode::blend;
+  const std::array ends = {glm::vec3(box.min), glm::vec3(box.max)};
+  const auto corner = [&](int axis, float a, std::size_t u, std::size_t v) {
+    glm::vec3 p(0);
+    p[axis] = a, p[(axis + 1) % 3] = ends[u][(axis + 1) % 3], p[(axis + 2) % 3] = ends[v][(axis + 2) % 3];
+    return p;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = ends[0][axis], high = ends[1][axis];
+    builder.quad(material, corner(axis, high, 0, 0), corner(axis, high, 1, 0), corner(axis, high, 1, 1),
+                 corner(axis, high, 0, 1));
+    builder.quad(material, corner(axis, low, 0, 0), corner(axis, low, 0, 1), corner(axis, low, 1, 1),
+                 corner(axis, low, 1, 0));
+  }
+}
+
+void addMirror(LocalSceneBuilder& builder, const AnalyticMirror& mirror) {
+  const int material = builder.material(glm::vec4(mirror.tint, 1));
+  builder.at(material).metallic = 1, builder.at(material).roughness = 0;
+  const auto corner = [&](double along, double z) {
+    glm::vec3 p(0);
+    p[mirror.axis] = float(mirror.at), p[1 - mirror.axis] = float(along), p.z = float(z);
+    return p;
+  };
+  builder.quad(material, corner(mirror.low.x, mirror.low.y), corner(mirror.low.x, mirror.high.y),
+               corner(mirror.high.x, mirror.high.y), corner(mirror.high.x, mirror.low.y));
+}
+
 }  // namespace
+
+std::vector<MirrorScene::Seen> MirrorScene::shownByNearMirrors(const glm::dvec3& origin,
+                                                               const glm::dvec3& direction,
+                                                               double from) const {
+  std::vector<Seen> seen;
+  for (const AnalyticMirror& mirror : mirrors) {
+    const double distance = (mirror.at - origin[mirror.axis]) / direction[mirror.axis];
+    if (!mirror.near || !(distance > 0) || !std::isfinite(distance)) continue;
+    glm::dvec3 mirrored = direction;
+    mirrored[mirror.axis] *= -1;
+    int kept = 0;
+    const auto add = [&](const glm::vec4& colour, double virtualDistance) {
+      if (!(virtualDistance > from) || kept == 2) return;
+      seen.push_back({distance, colour * glm::vec4(mirror.tint, 1), mirror.number, virtualDistance});
+      ++kept;
+    };
+    for (const auto& crossing : surfaces.along(origin + distance * direction, mirrored, 1e-9))
+      if (crossing.colour.a >= 1) add(crossing.colour, distance + crossing.distance);
+    add(surfaces.skyColour, kInfinity);
+  }
+  std::ranges::stable_sort(seen, {}, &Seen::virtualDistance);
+  return seen;
+}
 
 std::vector<MirrorScene::Seen> MirrorScene::along(const glm::dvec3& origin, const glm::dvec3& direction,
                                                   double from) const {
@@ -67,6 +125,8 @@ Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const Conv
                          add(out, ray.row, seen.distance, seen);
                        if (seen.mirror != 0) add(out.reflections, ray.row, seen.virtualDistance, seen);
                      }
+                     for (const auto& seen : scene.shownByNearMirrors(ray.origin, ray.direction, ray.from))
+                       add(out.reflections, ray.row, seen.virtualDistance, seen);
                    });
 }
 
@@ -78,6 +138,32 @@ WalkScene walkScene(const MirrorScene& scene, std::shared_ptr<const Layout> layo
                     if (!reflections) made.mirror.clear(), made.reflections = {};
                     return made;
                   });
+}
+
+WalkScene walkPastNearMirrors(MirrorScene& scene, const std::vector<AnalyticBox>& near,
+                              std::shared_ptr<const Layout> layout, int region, double perDegree) {
+  LocalSceneBuilder builder;
+  for (AnalyticMirror& mirror : scene.mirrors) addMirror(builder, mirror);
+  for (const AnalyticBox& box : near) addBox(builder, box);
+  const WalkScene polygons = builder.build();
+  const auto flat = flatMirrorsOf(*polygons.scene, polygons.plan);
+  const glm::dvec2 middle = layout->regions[std::size_t(region)].polygon.centroid();
+  for (std::size_t m = 0; m < scene.mirrors.size(); ++m) {
+    AnalyticMirror& mirror = scene.mirrors[m];
+    glm::vec3 toViewer(0);
+    toViewer[mirror.axis] = float(middle[mirror.axis] - mirror.at);
+    mirror.number = flat->at(std::uint32_t(m), 0, toViewer);
+    mirror.near = true;
+  }
+  scene.surfaces.boxes.insert(scene.surfaces.boxes.end(), near.begin(), near.end());
+  WalkScene walk = walkScene(scene, layout, region, perDegree);
+  walk.scene = polygons.scene;
+  walk.plan = polygons.plan;
+  walk.mirrors = flat;
+  walk.local.resize(layout->regions.size());
+  walk.local[std::size_t(region)] = std::make_shared<const LocalGeometry>(
+      clipToPolygon(*walk.scene, layout->regions[std::size_t(region)].grown));
+  return walk;
 }
 
 }  // namespace acentric::test

@@ -13,6 +13,7 @@ struct AnalyticMirror {
   glm::dvec2 low{0}, high{0};  ///< along the other horizontal axis, and z
   glm::vec3 tint{1};
   std::uint8_t number = 1;
+  bool near = false;  ///< within the near band: captures keep what eyes before any part of its plane may see
 };
 
 struct MirrorScene {
@@ -28,6 +29,10 @@ struct MirrorScene {
   /// What a ray meets beyond `from`, nearest first: blended surfaces, then an opaque one, a mirror or the
   /// sky.
   std::vector<Seen> along(const glm::dvec3& origin, const glm::dvec3& direction, double from) const;
+  /// What near mirrors show along a ray, wherever it meets their planes, beyond `from`, nearest first: the
+  /// first two surfaces, or the sky.
+  std::vector<Seen> shownByNearMirrors(const glm::dvec3& origin, const glm::dvec3& direction,
+                                       double from) const;
 };
 
 Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown);
@@ -35,5 +40,9 @@ Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const Conv
 /// them.
 WalkScene walkScene(const MirrorScene& scene, std::shared_ptr<const Layout> layout, int region,
                     double perDegree, bool reflections = true);
+/// The same where all mirrors are near: they and `near` boxes (which join the scene's) are local geometry,
+/// unlit. Mirrors get the numbers that the view gives them.
+WalkScene walkPastNearMirrors(MirrorScene& scene, const std::vector<AnalyticBox>& near,
+                              std::shared_ptr<const Layout> layout, int region, double perDegree);
 
 }  // namespace acentric::test

@@ -1,4 +1,4 @@
-#include "engine/bake/material_rules.h"
+#include "engine/scene/material_rules.h"
 
 namespace acentric {
 namespace {

@@ -1,13 +1,16 @@
 #pragma once
 /// Which triangles of a scene are plane mirrors, and which of them make one mirror. In a plane mirror what is
 /// seen has one virtual place for all eyes, so that captures can keep it there; in a curved or bumpy one it
-/// has not.
+/// has not. Captures and local geometry number mirrors alike, by scene and effect plan alone.
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <vector>
 
-#include "engine/bake/ray_scene.h"
+#include "engine/scene/effect_plan.h"
+#include "engine/scene/local_geometry.h"
+#include "engine/scene/scene.h"
 
 namespace acentric {
 
@@ -37,12 +40,17 @@ class FlatMirrors {
   static constexpr std::size_t kMaxPlanes = 127;
 
   bool any() const { return !planes_.empty(); }
-  /// Number of the mirror whose side is seen at a hit, 1..255; 0: it is no plane mirror.
-  std::uint8_t at(const Hit& hit, const glm::vec3& toViewer) const {
-    const std::vector<std::uint8_t>& planes = planeOf_[hit.mesh];
-    const std::uint8_t plane = planes.empty() ? kNoPlane : planes[hit.triangle];
-    if (plane == kNoPlane) return 0;
-    return std::uint8_t(1 + 2 * plane + (glm::dot(planes_[plane].normal, toViewer) < 0 ? 1 : 0));
+  /// Number of the mirror whose side is seen of a scene triangle, 1..255; 0: it is no plane mirror.
+  std::uint8_t at(std::uint32_t mesh, std::uint32_t triangle, const glm::vec3& toViewer) const {
+    const std::uint8_t plane = planeOf(mesh, triangle);
+    return plane == kNoPlane ? std::uint8_t(0) : sideOf(plane, toViewer);
+  }
+  static constexpr std::uint8_t kNoPlane = 0xff;
+  /// The plane of a triangle of local geometry; of its own surfaces those that lie in one.
+  std::uint8_t planeOf(const LocalGeometry& local, const LocalTriangle& triangle) const;
+  /// Number of the mirror that an eye sees of a plane, wherever it looks.
+  std::uint8_t seenFrom(std::uint8_t plane, const glm::dvec3& eye) const {
+    return sideOf(plane, glm::vec3(eye - glm::dvec3(planes_[plane].point)));
   }
   /// Both sides of all planes, by number.
   std::vector<FlatMirror> sides() const;
@@ -50,16 +58,36 @@ class FlatMirrors {
   float slack() const { return slack_; }
 
  private:
-  static constexpr std::uint8_t kNoPlane = 0xff;
   struct Plane {
     glm::vec3 normal{0};  ///< unit
     glm::vec3 point{0};
     glm::vec3 right{0}, up{0};
     glm::vec2 low{0}, high{0};
   };
+  struct Facet {
+    std::uint32_t mesh = 0, triangle = 0;
+    float area = 0;
+  };
+  enum class Smooth : std::uint8_t { no, withoutTangents, yes };
+  std::vector<Facet> facetsOf(const std::vector<Mesh>& meshes) const;
+  bool isFacet(const Mesh& mesh, std::uint32_t triangle) const;
+  /// The first that all its corners lie in; kNoPlane if none.
+  std::uint8_t findPlane(const Mesh& mesh, std::uint32_t triangle) const;
+  std::uint8_t planeOf(std::uint32_t mesh, std::uint32_t triangle) const {
+    const std::vector<std::uint8_t>& planes = planeOf_[mesh];
+    return planes.empty() ? kNoPlane : planes[triangle];
+  }
+  std::uint8_t sideOf(std::uint8_t plane, const glm::vec3& toViewer) const {
+    return std::uint8_t(1 + 2 * plane + (glm::dot(planes_[plane].normal, toViewer) < 0 ? 1 : 0));
+  }
+
+  std::vector<Smooth> materials_;
   float slack_ = 0;
   std::vector<Plane> planes_;
   std::vector<std::vector<std::uint8_t>> planeOf_;  ///< by mesh and triangle; empty: none of the mesh
 };
+
+/// Null where there are none.
+std::shared_ptr<const FlatMirrors> flatMirrorsOf(const Scene& scene, const EffectPlan& plan);
 
 }  // namespace acentric
