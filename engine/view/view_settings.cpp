@@ -16,6 +16,8 @@ const char* nameOf(Renderer renderer) {
       return "gl";
     case Renderer::glZbuffer:
       return "gl-zbuffer";
+    case Renderer::glMesh:
+      return "gl-mesh";
   }
   return "list";
 }
@@ -62,6 +64,9 @@ Status ViewSettings::check() const {
     return fail(ErrorKind::invalidArgument,
                 fmt::format("largest splat of {} pixels: must lie in 1..64", maxSplatPixels),
                 "view settings");
+  if (!(meshError >= 0.01 && meshError <= 64))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("mesh error of {} samples: must lie in 0.01..64", meshError), "view settings");
   return {};
 }
 

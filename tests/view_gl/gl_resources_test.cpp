@@ -5,10 +5,10 @@
 
 #include "engine/view/view_plan.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_state.h"
-#include "engine/view_gl/point_pass.h"
 #include "gl_fixture.h"
 #include "tests/view/mirror_scene.h"
 
@@ -100,7 +100,9 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
     const GlStateGuard guard;
     ProgramCache programs;
     CaptureResidency captures(largestBuffer);
-    PointPass points(programs, captures);
+    TaskRunner runner(0);
+    MeshResidency meshes(runner, largestBuffer);
+    CapturePass points(programs, captures, meshes);
     FrameTarget target;
     FrameStats stats;
     EXPECT_TRUE(target.resize(view.width, view.height));

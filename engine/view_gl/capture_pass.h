@@ -1,0 +1,28 @@
+#pragma once
+/// Draws what a view plan takes from captures: the pieces of the first cover, those of the second where
+/// nothing of the first lies, then what mirrors show. As points in order, as points with a depth test, or
+/// opaque samples as meshes with one; samples that blend, and what mirrors show, are points always.
+
+#include "engine/view_gl/frame_target.h"
+#include "engine/view_gl/mesh_pass.h"
+#include "engine/view_gl/point_pass.h"
+
+namespace acentric {
+
+class CapturePass {
+ public:
+  CapturePass(ProgramCache& programs, CaptureResidency& captures, MeshResidency& meshes);
+  /// Into `target`, which begin() has cleared. Writes depth only where a later pass reads it. Counts images,
+  /// samples and meshes in `stats`.
+  Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+              const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
+
+ private:
+  Status drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                         const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
+
+  PointPass points_;
+  MeshPass meshes_;
+};
+
+}  // namespace acentric
