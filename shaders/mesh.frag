@@ -1,6 +1,7 @@
 // The sample of a patch that a pixel shows, if the piece needs it. Defines: CLIP_TO_PART; PLACES says where in the pixel the
 // sample lies; MARK_MIRRORS says which mirror the pixel now shows, of captures with MIRRORS that of the sample, else none.
 #include "capture_depth.glsl"
+#include "fringe.glsl"
 #ifdef CLIP_TO_PART
 #include "part.glsl"
 uniform mat3 worldFromPicture;  // pixel centre (x, y from the top, 1) -> a direction
@@ -21,7 +22,7 @@ smooth in vec3 local;
 flat in float middleTangent;
 flat in uvec4 block;
 
-layout(std430, binding = 4) readonly buffer Texels { uvec2 texels[]; };  // inverse distance and roles, colour
+layout(std430, binding = 4) readonly buffer Texels { uvec2 texels[]; };  // inverse distance and roles, colour and fringes
 layout(std430, binding = 5) readonly buffer Limits { vec2 limits[]; };   // by column: largest and least inverse distance
 #ifdef MIRRORS
 layout(std430, binding = 3) readonly buffer Mirrors { uint mirrorsOfFour[]; };
@@ -51,6 +52,15 @@ void main() {
   float w = uintBitsToFloat(sampled.x & 0xffffff00u);
   vec2 limit = limits[block.w + uint(inside.x)];
   if ((sampled.x & roles) == 0u || w > limit.x || w < limit.y) discard;
+  vec2 beyond = max(-at, at - size);
+  if (any(greaterThan(beyond, vec2(0.0)))) {
+    uint steps = sampled.y >> 24;
+    if (beyond.x > fringe(steps, at.x < 0.0 ? kLowColumn : kHighColumn) ||
+        beyond.y > fringe(steps, at.y < 0.0 ? kTopRow : kBottomRow)) discard;
+    gl_FragDepth = max(gl_FragCoord.z - kBackgroundDepthScale * fringeDepth * gl_FragCoord.w, kSkyDepth);
+  } else {
+    gl_FragDepth = max(gl_FragCoord.z, kSkyDepth);
+  }
 #ifdef PLACES
   vec2 fromCentre = pixelsPerSample * (inside + 0.5 - at);
   ivec2 eighths = clamp(ivec2(floor(vec2(fromCentre.x, -fromCentre.y) * 8.0 + 0.5)), -8, 7) & 15;
@@ -65,9 +75,6 @@ void main() {
   mirror = 0u;
 #endif
 #endif
-  bool beyond = any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, size));
-  float behind = beyond ? kBackgroundDepthScale * fringeDepth * gl_FragCoord.w : 0.0;
-  gl_FragDepth = max(gl_FragCoord.z - behind, kSkyDepth);
-  colour = unpackUnorm4x8(sampled.y);
+  colour = vec4(unpackUnorm4x8(sampled.y).rgb, 1.0);
   source = sourceOfPiece;
 }

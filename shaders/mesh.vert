@@ -3,10 +3,11 @@
 // Of column direction c, row tangent t and inverse distance w a corner is seen along q = K M (c + t z + w b), as a sample is
 // (points.vert). q.z stays undivided: then the card's interpolation is that of the plane itself.
 #include "capture_depth.glsl"
+#include "fringe.glsl"
 
 struct Patch {
   uint columnAndRow;  // the first of its samples; row in the high half
-  uint sizesAndSides;  // bytes: columns, rows, sides beyond which the surface goes on (MeshSide), roles
+  uint sizesAndFringes;  // bytes: columns, rows, fringes (two bits a MeshSide), roles
   uint firstTexel;
   float inverseDistance[4];  // low and high column of the top, then of the bottom
 };
@@ -22,33 +23,30 @@ uniform vec3 baselineInPicture;  // K M b
 uniform vec2 pictureSize;        // pixels
 uniform uint firstTangent;       // among the borders
 uniform vec2 pitches;            // of columns and rows, radians
-uniform vec2 fringes;            // samples beyond an open side, and beyond one where the surface goes on
 
 smooth out vec3 local;  // c along the middle of the patch and to its left, t
 flat out float middleTangent;
 flat out uvec4 block;  // first texel, columns, rows, first column
 
 const int kCorners[6] = int[6](0, 1, 2, 2, 1, 3);
-const uint kLowColumn = 1u, kHighColumn = 2u, kTopRow = 4u, kBottomRow = 8u;
 
 vec2 directionAt(uint column) { return vec2(borders[2u * column], borders[2u * column + 1u]); }
 float tangentAt(uint row) { return borders[firstTangent + row]; }
-float fringe(uint joined, uint side) { return (joined & side) != 0u ? fringes.y : fringes.x; }
 
 void main() {
   Patch p = patches[shown[gl_VertexID / 6]];
   int corner = kCorners[gl_VertexID % 6];
   uint column = p.columnAndRow & 0xffffu, row = p.columnAndRow >> 16;
-  uint columns = p.sizesAndSides & 0xffu, rows = bitfieldExtract(p.sizesAndSides, 8, 8);
-  uint joined = bitfieldExtract(p.sizesAndSides, 16, 8);
+  uint columns = p.sizesAndFringes & 0xffu, rows = bitfieldExtract(p.sizesAndFringes, 8, 8);
+  uint steps = bitfieldExtract(p.sizesAndFringes, 16, 8);
   vec2 low = directionAt(column), high = directionAt(column + columns);
   float top = tangentAt(row), bottom = tangentAt(row + rows);
 
   bool isHigh = (corner & 1) != 0, isBottom = corner >= 2;
   vec2 c = isHigh ? high : low;
-  c += (isHigh ? fringe(joined, kHighColumn) : -fringe(joined, kLowColumn)) * pitches.x * vec2(-c.y, c.x);
+  c += (isHigh ? fringe(steps, kHighColumn) : -fringe(steps, kLowColumn)) * pitches.x * vec2(-c.y, c.x);
   float t = isBottom ? bottom : top;
-  t += (isBottom ? -fringe(joined, kBottomRow) : fringe(joined, kTopRow)) * pitches.y * (1.0 + t * t);
+  t += (isBottom ? -fringe(steps, kBottomRow) : fringe(steps, kTopRow)) * pitches.y * (1.0 + t * t);
   float w = p.inverseDistance[corner];
 
   vec2 middle = normalize(low + high);

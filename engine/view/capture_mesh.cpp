@@ -19,8 +19,10 @@ constexpr int kBandColumns = 128;
 /// A sample that a growing patch foretells within this many bounds may be taken in; fitted again, the patch
 /// must then keep to one.
 constexpr double kCandidate = 2;
+/// Fringes close no wider gaps, samples.
+constexpr double kWidestGap = 1;
 /// Within so many bounds the sample beside a patch continues its surface.
-constexpr double kContinues = 4;
+constexpr double kContinues = 2;
 
 int mostSamples(double pitch, double angle) { return std::clamp(int(angle / pitch), 1, kMostPatchSide); }
 /// A side of n columns at tangent t rises by t (n pitch)^2 / 8 in between, at most half of that as an angle.
@@ -71,8 +73,8 @@ class BandMesher {
   bool takeIn(int column, int row);
   Plane fit(const Rect& rect);
   bool fits(const Rect& rect, const Plane& plane);
-  bool continues(int column, int row, int insideColumn, int insideRow) const;
-  std::uint8_t joinedSides() const;
+  double gapBeside(int column, int row, int insideColumn, int insideRow) const;
+  std::uint8_t fringesOf(int column, int row) const;
   void finish(CaptureMesh& out);
 
   const DisplayCapture& capture_;
@@ -223,45 +225,48 @@ bool BandMesher::fits(const Rect& rect, const Plane& plane) {
   return true;
 }
 
-/// Does a sample of this pixel, which lies beside the patch's own `inside`, continue the surface: as the
-/// patch foretells it, or as its own slant foretells the patch?
-bool BandMesher::continues(int column, int row, int insideColumn, int insideRow) const {
+/// How far the patch and the sample of this pixel that continues its surface come apart where they meet, in
+/// samples; less than zero if none continues it. The pixel lies beside the patch's own `inside`.
+double BandMesher::gapBeside(int column, int row, int insideColumn, int insideRow) const {
   const double allowed = kContinues * bound_.inverseDistance;
   const double foretold = foretell(column, row), inside = foretell(insideColumn, insideRow);
   const double columnPitch = capture_.camera.columnPitch(), rowPitch = capture_.camera.rowPitch();
+  double gap = -1;
   for (std::uint32_t i = pixel(column, row)[0]; i < pixel(column, row)[1]; ++i) {
     if (!opaque(i)) continue;
     const double w = double(inverseOf(i));
     const Slant slant = capture_.samples[i].slant;
+    // From the sample to the patch, as its own slant foretells it.
     const double back = w * (slantTangent(slant.across) * columnPitch * (insideColumn - column) +
                              slantTangent(slant.down) * rowPitch * (insideRow - row));
-    if (std::abs(w - foretold) <= allowed || std::abs(w + back - inside) <= allowed) return true;
+    if (std::abs(w - foretold) > allowed && std::abs(w + back - inside) > allowed) continue;
+    const double apart = std::abs(w + 0.5 * back - 0.5 * (foretold + inside));
+    gap = std::max(gap, std::min(apart / bound_.inverseDistance, 1.0) * bound_.error);
   }
-  return false;
+  return gap;
 }
 
-std::uint8_t BandMesher::joinedSides() const {
-  const int low = rect_.column, high = low + rect_.columns, top = rect_.row, bottom = top + rect_.rows;
-  unsigned joined = 0;
-  // Beyond a sector's border another camera's samples go on.
-  if (low == 0) joined |= kLowColumn;
-  if (high == capture_.camera.columns) joined |= kHighColumn;
-  for (int r = top; r < bottom; ++r) {
-    if (!(joined & kLowColumn) && continues(low - 1, r, low, r)) joined |= kLowColumn;
-    if (!(joined & kHighColumn) && continues(high, r, high - 1, r)) joined |= kHighColumn;
-  }
-  for (int k = low; k < high; ++k) {
-    if (!(joined & kTopRow) && top > 0 && continues(k, top - 1, k, top)) joined |= kTopRow;
-    if (!(joined & kBottomRow) && bottom < rows_ && continues(k, bottom, k, bottom - 1)) joined |= kBottomRow;
-  }
-  return std::uint8_t(joined);
+std::uint8_t BandMesher::fringesOf(int column, int row) const {
+  const int high = rect_.column + rect_.columns - 1, bottom = rect_.row + rect_.rows - 1;
+  const double bend = rect_.columns / double(mostColumns_);
+  unsigned bits = 0;
+  const auto reach = [&](MeshSide side, int beside, int below, double sagitta) {
+    const double gap = gapBeside(column + beside, row + below, column, row);
+    if (gap < 0) return;
+    const double steps = std::ceil((gap + sagitta) / bound_.fringeStep);
+    bits |= unsigned(std::min(steps, double(kMostFringe))) << side;
+  };
+  if (column == rect_.column && column > 0) reach(kLowColumn, -1, 0, 0);
+  if (column == high && column + 1 < capture_.camera.columns) reach(kHighColumn, 1, 0, 0);
+  if (row == rect_.row && row > 0) reach(kTopRow, 0, -1, kSagitta * bend * bend);
+  if (row == bottom && row + 1 < rows_) reach(kBottomRow, 0, 1, kSagitta * bend * bend);
+  return std::uint8_t(bits);
 }
 
 void BandMesher::finish(CaptureMesh& out) {
   MeshPatch patch;
   patch.column = std::uint16_t(rect_.column), patch.row = std::uint16_t(rect_.row);
   patch.columns = std::uint8_t(rect_.columns), patch.rows = std::uint8_t(rect_.rows);
-  patch.joined = joinedSides();
   patch.firstSample = std::uint32_t(out.samples.size());
   for (int k = 0; k < rect_.columns; ++k)
     for (int r = 0; r < rect_.rows; ++r) {
@@ -269,9 +274,15 @@ void BandMesher::finish(CaptureMesh& out) {
       taken_[sample - firstSample_] = 1;
       patch.roles |= rolesOf(capture_.samples[sample]);
       out.samples.push_back(sample);
+      const std::uint8_t fringes = fringesOf(rect_.column + k, rect_.row + r);
+      out.fringes.push_back(fringes);
+      for (const MeshSide side : kMeshSides)
+        patch.fringes =
+            std::uint8_t(std::max(patch.fringes & kMostFringe << side, fringes & kMostFringe << side) |
+                         (patch.fringes & ~(kMostFringe << side)));
     }
   const glm::dvec2 middle = capture_.camera.directionAt(rect_.column + 0.5 * rect_.columns);
-  const std::array<glm::dvec3, 4> corners = cornersOf(capture_.camera, patch, bound_.fringe);
+  const std::array<glm::dvec3, 4> corners = cornersOf(capture_.camera, patch, bound_);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const glm::dvec2 direction(corners[i]);
     patch.inverseDistance[i] =
@@ -284,7 +295,7 @@ void BandMesher::finish(CaptureMesh& out) {
 
 MeshBound meshBound(const ColumnCamera& camera, double error, double reach) {
   const double pitch = std::min(camera.columnPitch(), camera.rowPitch());
-  return {error * pitch / reach, std::min(kOpenFringe + kSagitta + error, 1.0)};
+  return {error * pitch / reach, error, (kSagitta + std::min(error, kWidestGap)) / kMostFringe};
 }
 
 double eyeReach(const Layout& layout, int camera) {
@@ -296,8 +307,9 @@ double eyeReach(const Layout& layout, int camera) {
   return reach;
 }
 
-std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch& patch, double fringe) {
-  const auto beyond = [&](MeshSide side) { return patch.joined & side ? fringe : kOpenFringe; };
+std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch& patch,
+                                    const MeshBound& bound) {
+  const auto beyond = [&](MeshSide side) { return fringeOf(patch.fringes, side, bound); };
   const auto direction = [&](int border, double past) {
     const glm::dvec2 c = camera.directionAt(border);
     return c + past * camera.columnPitch() * glm::dvec2(-c.y, c.x);
@@ -321,12 +333,12 @@ CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bou
     bands[band] = BandMesher(capture, bound, first, std::min(first + kBandColumns, columns)).run();
   });
   CaptureMesh mesh;
-  mesh.fringe = bound.fringe;
   for (CaptureMesh& band : bands) {
     const std::uint32_t before = std::uint32_t(mesh.samples.size());
     for (MeshPatch& patch : band.patches) patch.firstSample += before;
     mesh.patches.insert(mesh.patches.end(), band.patches.begin(), band.patches.end());
     mesh.samples.insert(mesh.samples.end(), band.samples.begin(), band.samples.end());
+    mesh.fringes.insert(mesh.fringes.end(), band.fringes.begin(), band.fringes.end());
     band = {};
   }
   return mesh;

@@ -11,9 +11,10 @@
 /// it is: one bound on the inverse distance, error * pitch / reach, holds the shift below `error` samples
 /// for every eye within `reach` of the camera.
 ///
-/// Neighbouring patches may disagree by twice the bound: where the surface goes on beyond a patch's side, the
-/// patch does too, by `fringe` samples; elsewhere by kOpenFringe. Who draws patches lets the samples that a
-/// fringe covers win over it.
+/// Neighbouring patches may disagree by twice the bound. So patches reach beyond their samples: by
+/// kOpenFringe, and where the surface goes on by as much more as the sample beside is off their plane. Who
+/// draws patches cuts them off at each sample's own fringe, and lets the samples that a fringe covers win
+/// over it.
 
 #include <array>
 #include <cstdint>
@@ -29,13 +30,16 @@ namespace acentric {
 /// Beyond a side where the surface ends; half of what rectangles reach beyond their samples (kOverlap).
 inline constexpr double kOpenFringe = 0.05;
 
-enum MeshSide : std::uint8_t { kLowColumn = 1, kHighColumn = 2, kTopRow = 4, kBottomRow = 8 };
+/// Where the two bits of a side's fringe lie, 0..kMostFringe.
+enum MeshSide { kLowColumn = 0, kHighColumn = 2, kTopRow = 4, kBottomRow = 6 };
+inline constexpr MeshSide kMeshSides[] = {kLowColumn, kHighColumn, kTopRow, kBottomRow};
+inline constexpr int kMostFringe = 3;
 
 /// As shaders/mesh.vert reads it.
 struct MeshPatch {
   std::uint16_t column = 0, row = 0;     ///< the first of its samples
   std::uint8_t columns = 0, rows = 0;    ///< of samples, 1..kMostPatchSide
-  std::uint8_t joined = 0;               ///< MeshSides beyond which the surface goes on
+  std::uint8_t fringes = 0;              ///< the most of its samples on each side
   std::uint8_t roles = 0;                ///< that need any of its samples
   std::uint32_t firstSample = 0;         ///< into CaptureMesh::samples
   std::array<float, 4> inverseDistance;  ///< at its corners: low and high column of the top, then the bottom
@@ -45,7 +49,8 @@ inline constexpr int kMostPatchSide = 64;
 
 struct MeshBound {
   double inverseDistance = 0;  ///< 1/m; by which the mesh may differ from a sample
-  double fringe = 0;           ///< samples
+  double error = 0;            ///< the same in samples
+  double fringeStep = 0;       ///< samples; fringes are kOpenFringe and so many of these
 };
 /// Of a camera for eyes within `reach` metres; `error` in samples (ViewSettings::meshError).
 MeshBound meshBound(const ColumnCamera& camera, double error, double reach);
@@ -56,14 +61,20 @@ struct CaptureMesh {
   std::vector<MeshPatch> patches;      ///< their first columns do not fall
   LargeVector<std::uint32_t> samples;  ///< of the capture: each opaque one once; patch by patch, column by
                                        ///< column, downwards
-  double fringe = 0;                   ///< beyond joined sides, samples
+
+  LargeVector<std::uint8_t> fringes;  ///< of each of these; nothing but at the sides of patches
 
   std::size_t triangleCount() const { return 2 * patches.size(); }
 };
 
+/// How far the surface reaches beyond a patch's samples there, samples.
+inline double fringeOf(std::uint8_t fringes, MeshSide side, const MeshBound& bound) {
+  return kOpenFringe + bound.fringeStep * ((fringes >> side) & kMostFringe);
+}
 /// Column direction and row tangent (c, t) of the patch's corners, in the order of their inverse distances.
 /// Fringes follow the tangents of the circle of directions and of the column: exact to their square.
-std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch& patch, double fringe);
+std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch& patch,
+                                    const MeshBound& bound);
 
 /// Does not depend on the number of threads.
 CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner);

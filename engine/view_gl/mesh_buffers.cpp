@@ -12,19 +12,26 @@
 namespace acentric {
 namespace {
 
-std::vector<glm::uvec2> packTexels(const DisplayCapture& capture, std::span<const std::uint32_t> samples) {
+/// Opaque samples need no alpha: fringes lie there.
+std::vector<glm::uvec2> packTexels(const DisplayCapture& capture, const CaptureMesh& mesh, std::size_t first,
+                                   std::size_t last) {
   std::vector<glm::uvec2> texels;
-  texels.reserve(samples.size());
-  for (const std::uint32_t sample : samples)
+  texels.reserve(last - first);
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t sample = mesh.samples[i];
+    Rgba8 colour = capture.colour[sample];
+    colour.a = mesh.fringes[i];
     texels.emplace_back(capture.samples[sample].inverseDistanceAndRoles,
-                        std::bit_cast<std::uint32_t>(capture.colour[sample]));
+                        std::bit_cast<std::uint32_t>(colour));
+  }
   return texels;
 }
 
 /// Whole words, as the shader reads them.
-std::vector<std::uint8_t> packMirrors(const DisplayCapture& capture, std::span<const std::uint32_t> samples) {
+std::vector<std::uint8_t> packMirrors(const DisplayCapture& capture, const CaptureMesh& mesh,
+                                      std::size_t first, std::size_t last) {
   std::vector<std::uint8_t> mirrors;
-  for (const std::uint32_t sample : samples) mirrors.push_back(capture.mirror[sample]);
+  for (std::size_t i = first; i < last; ++i) mirrors.push_back(capture.mirror[mesh.samples[i]]);
   mirrors.resize((mirrors.size() + 3) / 4 * 4, 0);
   return mirrors;
 }
@@ -50,18 +57,18 @@ MeshBuffers upload(const DisplayCapture& capture, const CaptureMesh& mesh, std::
     while (last < mesh.patches.size() && last - first < mostPatches &&
            samplesBefore(last + 1) - samplesBefore(first) <= mostTexels)
       ++last;
-    const auto samples =
-        std::span(mesh.samples).subspan(samplesBefore(first), samplesBefore(last) - samplesBefore(first));
+    const std::size_t firstSample = samplesBefore(first), lastSample = samplesBefore(last);
     MeshChunk chunk;
     chunk.patches.assign(mesh.patches.begin() + std::ptrdiff_t(first),
                          mesh.patches.begin() + std::ptrdiff_t(last));
     for (MeshPatch& patch : chunk.patches) {
-      patch.firstSample -= std::uint32_t(samplesBefore(first));
+      patch.firstSample -= std::uint32_t(firstSample);
       buffers.widestPatch = std::max(buffers.widestPatch, int(patch.columns));
     }
     chunk.patchBuffer = makeStorage(chunk.patches, buffers.bytes);
-    chunk.texels = makeStorage(packTexels(capture, samples), buffers.bytes);
-    if (!capture.mirror.empty()) chunk.mirrors = makeStorage(packMirrors(capture, samples), buffers.bytes);
+    chunk.texels = makeStorage(packTexels(capture, mesh, firstSample, lastSample), buffers.bytes);
+    if (!capture.mirror.empty())
+      chunk.mirrors = makeStorage(packMirrors(capture, mesh, firstSample, lastSample), buffers.bytes);
     buffers.chunks.push_back(std::move(chunk));
     first = last;
   }

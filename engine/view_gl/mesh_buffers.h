@@ -24,7 +24,7 @@ struct PatchList {
 struct MeshChunk {
   std::vector<MeshPatch> patches;           ///< first samples count from the chunk's texels
   GlBuffer patchBuffer;                     ///< the same
-  GlBuffer texels;                          ///< 8 bytes a sample: inverse distance | roles, colour
+  GlBuffer texels;                          ///< 8 bytes a sample: inverse distance | roles, colour | fringes
   GlBuffer mirrors;                         ///< a byte each; none without mirrors
   std::map<std::uint8_t, PatchList> lists;  ///< by roles
 };

@@ -55,7 +55,7 @@ Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffer
   setUniform(program, "baselineInPicture", glm::vec3(pictureFromWorld * glm::dvec3(piece.plan.baseline)));
   setUniform(program, "pictureSize", glm::vec2(view.width, view.height));
   setUniform(program, "pitches", glm::vec2(camera.columnPitch(), camera.rowPitch()));
-  setUniform(program, "fringes", glm::vec2(kOpenFringe, mesh.bound.fringe));
+  setUniform(program, "fringes", glm::vec2(kOpenFringe, mesh.bound.fringeStep));
   glUniform1ui(program.location("firstTangent"), GLuint(2 * (camera.columns + 1)));
   glUniform1ui(program.location("roles"), piece.plan.roles);
   glUniform1ui(program.location("sourceOfPiece"), GLuint(sourceOfCamera(piece.plan.camera)));

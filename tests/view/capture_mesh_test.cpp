@@ -13,15 +13,15 @@ namespace {
 using test::AnalyticScene;
 
 /// Where the ray of direction (c, t) meets the patch's two triangles, as inverse distance; nothing beside
-/// them. A triangle of corners (c, t, w) holds the point (sum of c, sum of t, sum of w), whatever their
-/// weights.
+/// them unless `extended`. A triangle of corners (c, t, w) holds the point (sum of c, sum of t, sum of w),
+/// whatever their weights.
 std::optional<double> inverseAlong(const glm::dvec3& ray, const ColumnCamera& camera, const MeshPatch& patch,
-                                   double fringe) {
-  const auto corners = cornersOf(camera, patch, fringe);
+                                   const MeshBound& bound, bool extended = false) {
+  const auto corners = cornersOf(camera, patch, bound);
   for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{2, 1, 3}}) {
     const glm::dmat3 columns(corners[std::size_t(i)], corners[std::size_t(j)], corners[std::size_t(k)]);
     const glm::dvec3 weights = glm::inverse(columns) * ray;
-    if (weights.x < 0 || weights.y < 0 || weights.z < 0) continue;
+    if (!extended && (weights.x < 0 || weights.y < 0 || weights.z < 0)) continue;
     const auto w = [&](int corner) { return double(patch.inverseDistance[std::size_t(corner)]); };
     return weights.x * w(i) + weights.y * w(j) + weights.z * w(k);
   }
@@ -72,7 +72,7 @@ TEST(CaptureMesh, HoldsEveryOpaqueSampleOnceWithinTheBound) {
             ASSERT_EQ(m.capture.samples[sample].row, patch.row + r);
             ASSERT_EQ(rolesOf(m.capture.samples[sample]) & ~patch.roles, 0);
             const auto w = inverseAlong(rayOf(m.capture.camera, patch.column + k, patch.row + r),
-                                        m.capture.camera, patch, m.mesh.fringe);
+                                        m.capture.camera, patch, m.bound);
             ASSERT_TRUE(w) << "the patch does not reach its own sample";
             worst = std::max(worst, std::abs(*w - double(inverseDistanceOf(m.capture.samples[sample]))));
           }
@@ -94,7 +94,7 @@ TEST(CaptureMesh, ShiftsNoSampleByMoreThanItsErrorForAnyEyeWithinReach) {
         const std::uint32_t sample = m.mesh.samples[patch.firstSample + std::uint32_t(k * patch.rows + r)];
         const glm::dvec3 ray = rayOf(m.capture.camera, patch.column + k, patch.row + r);
         const double w = double(inverseDistanceOf(m.capture.samples[sample]));
-        const double shown = *inverseAlong(ray, m.capture.camera, patch, m.mesh.fringe);
+        const double shown = *inverseAlong(ray, m.capture.camera, patch, m.bound);
         const glm::dvec2 at = directionOf(views.between(0, kTwoPi)) * views.between(0, reach);
         const glm::dvec3 b(-at, 0), real = ray + w * b, drawn = ray + shown * b;
         if (glm::length(real) < 0.2) continue;  // so near that a sample is no small angle
@@ -107,34 +107,30 @@ TEST(CaptureMesh, ShiftsNoSampleByMoreThanItsErrorForAnyEyeWithinReach) {
 }
 
 TEST(CaptureMesh, JoinsNoSurfacesThatADepthLiesBetween) {
-  // Each box has its own colour: samples of a patch that differ in it are of two surfaces.
-  const Meshed m = meshed(test::randomBoxes(21, 90, 2), 3, 0.25);
-  const glm::dvec3 centre = m.capture.camera.centreOfProjection;
-  std::size_t many = 0;
-  for (const MeshPatch& patch : m.mesh.patches) {
-    std::map<std::uint32_t, int> colours;
-    const std::size_t count = std::size_t(patch.columns) * patch.rows;
-    many += count > 4;
-    for (std::size_t i = 0; i < count; ++i)
-      ++colours[std::bit_cast<std::uint32_t>(m.capture.colour[m.mesh.samples[patch.firstSample + i]])];
-    if (colours.size() < 2) continue;
-    // Then they touch there: on the patch each lies within the bound of one plane, and next to each other
-    // the samples lie no farther apart than that plane's slope and twice the bound.
-    for (int k = 0; k < patch.columns; ++k)
-      for (int r = 0; r + 1 < patch.rows; ++r) {
-        const auto sample = [&](int row) {
-          return m.mesh.samples[patch.firstSample + std::uint32_t(k * patch.rows + row)];
-        };
-        const auto at = [&](int row) {
-          const double w = double(inverseDistanceOf(m.capture.samples[sample(row)]));
-          return centre + rayOf(m.capture.camera, patch.column + k, patch.row + row) / w;
-        };
-        if (m.capture.colour[sample(r)] == m.capture.colour[sample(r + 1)]) continue;
-        const double pitch = m.capture.camera.rowPitch(), far = glm::distance(at(r), centre);
-        EXPECT_LT(glm::distance(at(r), at(r + 1)), 0.08 + 60 * pitch * far) << far;
-      }
+  // Boards of their own colours, one behind the other, each at least a quarter of a metre from the next.
+  AnalyticScene boards;
+  boards.floor = false;
+  test::RandomViews random(8);
+  for (int i = 0; i < 20; ++i) {
+    const double x = 3 + 0.25 * i, y = random.between(-2, 3), z = random.between(-1, 3);
+    const float grey = 0.04f * float(i + 1);
+    boards.boxes.push_back({{x, y - random.between(0.1, 1), z - random.between(0.1, 1)},
+                            {x + 0.001, y + random.between(0.1, 1), z + random.between(0.1, 1)},
+                            {grey, 1 - grey, 0.3f, 1}});
   }
-  EXPECT_GT(many, 100u);
+  for (const int layers : {1, 4}) {
+    const Meshed m = meshed(boards, layers, 0.25, 300, 600);
+    std::size_t merged = 0;
+    for (const MeshPatch& patch : m.mesh.patches) {
+      const std::size_t count = std::size_t(patch.columns) * patch.rows;
+      merged += count;
+      for (std::size_t i = 1; i < count; ++i)
+        ASSERT_EQ(m.capture.colour[m.mesh.samples[patch.firstSample + i]],
+                  m.capture.colour[m.mesh.samples[patch.firstSample]])
+            << patch.column << " " << patch.row;
+    }
+    EXPECT_GT(merged, 10 * m.mesh.patches.size());
+  }
 }
 
 TEST(CaptureMesh, TakesAFewTrianglesOfAWallWhateverItsTurn) {
@@ -157,29 +153,76 @@ TEST(CaptureMesh, NeedsFewerTrianglesForALargerErrorAndIsTheSameForAnyNumberOfTh
     ASSERT_EQ(again.patches[i].inverseDistance, fine.mesh.patches[i].inverseDistance);
 }
 
-TEST(CaptureMesh, ReachesOverToTheNextPatchWhereTheSurfaceGoesOn) {
-  AnalyticScene wall;
-  wall.floor = false;
-  wall.boxes.push_back({{3, -1, 0.6}, {4, 1.2, 2.4}, {0.5f, 0.4f, 0.3f, 1}});
-  const Meshed m = meshed(wall, 1, 0.25, 600, 800);
-  ASSERT_GT(m.mesh.patches.size(), 8u);
-  const auto holds = [&](int column, int row) {
-    return std::ranges::any_of(m.mesh.patches, [&](const MeshPatch& p) {
-      return column >= p.column && column < p.column + p.columns && row >= p.row && row < p.row + p.rows;
-    });
+/// Patch and place among its samples of each sample of a capture with one layer, by column and row.
+struct Held {
+  const MeshPatch* patch = nullptr;
+  std::uint8_t fringes = 0;
+};
+std::map<std::pair<int, int>, Held> heldBy(const CaptureMesh& mesh) {
+  std::map<std::pair<int, int>, Held> held;
+  for (const MeshPatch& patch : mesh.patches)
+    for (int k = 0; k < patch.columns; ++k)
+      for (int r = 0; r < patch.rows; ++r)
+        held[{patch.column + k, patch.row + r}] = {
+            &patch, mesh.fringes[patch.firstSample + std::uint32_t(k * patch.rows + r)]};
+  return held;
+}
+
+TEST(CaptureMesh, FringesCloseTheGapsBetweenPatchesOfACurvedSurface) {
+  const Capture waves =
+      test::captureBy(test::cameraAt({0, 0, 1.6}, 0, 200, 300), nullptr, {},
+                      [](Capture& out, BackgroundBuilder&, const test::PixelRay& ray) {
+                        const double azimuth = std::atan2(ray.direction.y, ray.direction.x);
+                        const double w = 0.3 + 0.05 * std::sin(7 * azimuth) * std::cos(4 * ray.direction.z);
+                        test::addSample(out, ray.row, 1 / w, glm::vec4(0.5f, 0.5f, 0.5f, 1));
+                      });
+  const DisplayCapture capture = prepareForDisplay(waves, 1);
+  const MeshBound bound = meshBound(capture.camera, 0.5, 2);
+  TaskRunner runner(0);
+  const CaptureMesh mesh = buildCaptureMesh(capture, bound, runner);
+  auto held = heldBy(mesh);
+  int borders = 0;
+  double widest = 0;
+  for (int k = 0; k + 1 < capture.camera.columns; ++k)
+    for (int r = 0; r + 1 < capture.camera.rows; ++r)
+      for (const bool across : {true, false}) {
+        const Held here = held[{k, r}], next = held[{k + across, r + !across}];
+        if (here.patch == next.patch) continue;
+        const glm::dvec3 border(capture.camera.directionAt(k + (across ? 1.0 : 0.5)),
+                                capture.camera.tangentAt(r + (across ? 0.5 : 1.0)));
+        const double gap = std::abs(*inverseAlong(border, capture.camera, *here.patch, bound, true) -
+                                    *inverseAlong(border, capture.camera, *next.patch, bound, true)) /
+                           bound.inverseDistance * bound.error;
+        const double closed = fringeOf(here.fringes, across ? kHighColumn : kBottomRow, bound) +
+                              fringeOf(next.fringes, across ? kLowColumn : kTopRow, bound);
+        EXPECT_LE(gap, closed) << k << " " << r;
+        widest = std::max(widest, gap);
+        ++borders;
+      }
+  EXPECT_GT(borders, 1000);
+  EXPECT_GT(widest, 2 * kOpenFringe) << "nothing for fringes to close";
+}
+
+TEST(CaptureMesh, ReachesNoFartherWhereTheSurfaceEnds) {
+  AnalyticScene walls;
+  walls.floor = false;
+  walls.boxes.push_back({{3, -1, 0.6}, {3.1, 1.2, 2.4}, {0.5f, 0.4f, 0.3f, 1}});
+  walls.boxes.push_back({{6, -9, -9}, {7, 0, 9}, {0.2f, 0.4f, 0.6f, 1}});  // behind its right half
+  const Meshed m = meshed(walls, 1, 0.25, 600, 800);
+  auto held = heldBy(m.mesh);
+  const auto colourOf = [&](const Held& at) {
+    return std::bit_cast<std::uint32_t>(m.capture.colour[m.mesh.samples[at.patch->firstSample]]);
   };
-  for (const MeshPatch& p : m.mesh.patches) {
-    const int high = p.column + p.columns, below = p.row + p.rows;
-    bool atLow = p.column == 0, atHigh = high == m.capture.camera.columns, atTop = false, atBottom = false;
-    for (int row = p.row; row < below; ++row)
-      atLow = atLow || holds(p.column - 1, row), atHigh = atHigh || holds(high, row);
-    for (int column = p.column; column < high; ++column)
-      atTop = atTop || holds(column, p.row - 1), atBottom = atBottom || holds(column, below);
-    EXPECT_EQ((p.joined & kLowColumn) != 0, atLow);
-    EXPECT_EQ((p.joined & kHighColumn) != 0, atHigh);
-    EXPECT_EQ((p.joined & kTopRow) != 0, atTop);
-    EXPECT_EQ((p.joined & kBottomRow) != 0, atBottom);
-  }
+  int edges = 0;
+  for (const auto& [place, here] : held)
+    for (const auto& [side, column, row] :
+         {std::tuple(kLowColumn, -1, 0), {kHighColumn, 1, 0}, {kTopRow, 0, -1}, {kBottomRow, 0, 1}}) {
+      const auto beside = held.find({place.first + column, place.second + row});
+      if (beside != held.end() && colourOf(beside->second) == colourOf(here)) continue;
+      EXPECT_EQ(here.fringes >> side & kMostFringe, 0);
+      ++edges;
+    }
+  EXPECT_GT(edges, 1000);
 }
 
 TEST(CaptureMesh, ReachIsTheFarthestEyeThatACameraServes) {
