@@ -89,10 +89,48 @@ std::vector<std::uint8_t> clearSamplesOf(const DisplayCapture& capture) {
   return most;
 }
 
-Status addSlants(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name) {
-  for (CaptureChunk& chunk : buffers.chunks)
-    chunk.slants = makeStorage(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
-  return checkGl(fmt::format("uploading the slants of {}", name).c_str());
+Status addSamples(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name,
+                  std::size_t largestBuffer) {
+  // Vertex numbers are signed.
+  const std::size_t mostSamples =
+      std::min(storageLimit(largestBuffer) / sizeof(GlSample), std::size_t(1) << 30);
+  const auto start = [&](int column) { return std::size_t(capture.columnStart[std::size_t(column)]); };
+  for (int first = 0; first < capture.camera.columns;) {
+    int last = first;
+    while (last < capture.camera.columns && start(last + 1) - start(first) <= mostSamples) ++last;
+    if (last == first)
+      return fail(
+          ErrorKind::tooLarge,
+          fmt::format(
+              "column {} has {} samples, more than this driver's storage buffers hold ({}): bake with "
+              "fewer rows or use a CPU renderer",
+              first, start(first + 1) - start(first), mostSamples),
+          name);
+    if (start(last) > start(first)) {
+      CaptureChunk chunk{first, last, capture.columnStart[std::size_t(first)], {}, {}, {}, {}};
+      chunk.samples = makeStorage(pack(capture, first, last), buffers.bytes);
+      if (capture.layered) chunk.layers = makeStorage(packLayers(capture, first, last), buffers.bytes);
+      if (!capture.mirror.empty())
+        chunk.mirrors = makeStorage(packMirrors(capture, first, last), buffers.bytes);
+      buffers.chunks.push_back(std::move(chunk));
+    }
+    first = last;
+  }
+  buffers.clearSamples = clearSamplesOf(capture);
+  buffers.rowTangents = makeStorage(capture.rowTangent, buffers.bytes);
+  return {};
+}
+
+/// What is asked for and not there yet.
+Status addParts(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name, CaptureParts parts,
+                std::size_t largestBuffer) {
+  if (parts != CaptureParts::background && !buffers.rowTangents)
+    if (Status added = addSamples(buffers, capture, name, largestBuffer); !added) return added;
+  if (parts == CaptureParts::samplesAndSlants)
+    for (CaptureChunk& chunk : buffers.chunks)
+      if (!chunk.slants)
+        chunk.slants = makeStorage(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
+  return checkGl(fmt::format("uploading {}", name).c_str());
 }
 
 }  // namespace
@@ -130,56 +168,27 @@ std::size_t storageLimit(std::size_t largestBuffer) {
   return largestBuffer > 0 ? std::min(limit, largestBuffer) : limit;
 }
 
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+Result<CaptureBuffers> uploadCapture(const DisplayCapture& capture, const char* name, CaptureParts parts,
                                      std::size_t largestBuffer) {
-  if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
-  // Vertex numbers are signed.
-  const std::size_t mostSamples =
-      std::min(storageLimit(largestBuffer) / sizeof(GlSample), std::size_t(1) << 30);
-
+  if (Status sound = checkArrays(capture, name); !sound) return tl::unexpected(sound.error());
   CaptureBuffers buffers;
-  const auto start = [&](int column) { return std::size_t(capture->columnStart[std::size_t(column)]); };
-  for (int first = 0; first < capture->camera.columns;) {
-    int last = first;
-    while (last < capture->camera.columns && start(last + 1) - start(first) <= mostSamples) ++last;
-    if (last == first)
-      return fail(
-          ErrorKind::tooLarge,
-          fmt::format(
-              "column {} has {} samples, more than this driver's storage buffers hold ({}): bake with "
-              "fewer rows or use a CPU renderer",
-              first, start(first + 1) - start(first), mostSamples),
-          name);
-    if (start(last) > start(first)) {
-      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}, {}, {}, {}};
-      chunk.samples = makeStorage(pack(*capture, first, last), buffers.bytes);
-      if (capture->layered) chunk.layers = makeStorage(packLayers(*capture, first, last), buffers.bytes);
-      if (!capture->mirror.empty())
-        chunk.mirrors = makeStorage(packMirrors(*capture, first, last), buffers.bytes);
-      buffers.chunks.push_back(std::move(chunk));
-    }
-    first = last;
-  }
-  buffers.clearSamples = clearSamplesOf(*capture);
-  buffers.rowTangents = makeStorage(capture->rowTangent, buffers.bytes);
-  if (capture->background.runs.runCount() > 0)
-    buffers.background = makeStorage(packBackground(capture->background.runs), buffers.bytes);
-  const std::string doing = fmt::format("uploading {}", name);
-  if (Status uploaded = checkGl(doing.c_str()); !uploaded) return tl::unexpected(uploaded.error());
+  if (capture.background.runs.runCount() > 0)
+    buffers.background = makeStorage(packBackground(capture.background.runs), buffers.bytes);
+  if (Status added = addParts(buffers, capture, name, parts, largestBuffer); !added)
+    return tl::unexpected(added.error());
   return buffers;
 }
 
 Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
-                                                    const char* name, bool slants) {
-  CaptureBuffers* buffers = find(capture);
-  if (buffers == nullptr) {
-    Result<CaptureBuffers> uploaded = uploadCapture(capture, name, largestBuffer_);
-    if (!uploaded) return tl::unexpected(uploaded.error());
-    buffers = &put(capture, std::move(*uploaded));
+                                                    const char* name, CaptureParts parts) {
+  if (CaptureBuffers* buffers = find(capture)) {
+    if (Status added = addParts(*buffers, *capture, name, parts, largestBuffer_); !added)
+      return tl::unexpected(added.error());
+    return buffers;
   }
-  if (slants && !buffers->chunks.empty() && !buffers->chunks.back().slants)
-    if (Status added = addSlants(*buffers, *capture, name); !added) return tl::unexpected(added.error());
-  return buffers;
+  Result<CaptureBuffers> uploaded = uploadCapture(*capture, name, parts, largestBuffer_);
+  if (!uploaded) return tl::unexpected(uploaded.error());
+  return &put(capture, std::move(*uploaded));
 }
 
 }  // namespace acentric

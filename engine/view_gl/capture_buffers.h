@@ -36,7 +36,7 @@ struct CaptureChunk {
 struct CaptureBuffers {
   std::weak_ptr<const DisplayCapture> owner;
   std::vector<CaptureChunk> chunks;
-  GlBuffer rowTangents;  ///< float per row
+  GlBuffer rowTangents;  ///< float per row; none, and no chunks, until samples are asked for
   GlBuffer background;   ///< 8 bytes a run: first row | end row << 16, roles; none without background
   std::vector<std::uint8_t>
       clearSamples;  ///< per column: most clear samples in one pixel, at most kMostClearRanks
@@ -44,9 +44,13 @@ struct CaptureBuffers {
   std::uint64_t lastUse = 0;
 };
 
+/// What is asked for of a capture.
+enum class CaptureParts { background, samples, samplesAndSlants };
+
 /// Uploads a capture. Fails on one whose arrays contradict each other, or whose single column is beyond the
 /// limit: `largestBuffer` bytes, 0 = what the driver allows.
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+Result<CaptureBuffers> uploadCapture(const DisplayCapture& capture, const char* name,
+                                     CaptureParts parts = CaptureParts::samples,
                                      std::size_t largestBuffer = 0);
 
 /// Fails on a capture whose arrays contradict each other: nothing that reads them checks again.
@@ -68,10 +72,9 @@ class CaptureResidency : public Residency<CaptureBuffers> {
  public:
   explicit CaptureResidency(std::size_t largestBuffer = 0) : largestBuffer_(largestBuffer) {}
 
-  /// The buffers of `capture`, with slants if asked for, uploaded now if need be. Valid until the next call
-  /// of dropGone or trim.
+  /// The buffers of `capture`, uploaded now as far as need be. Valid until the next call of dropGone or trim.
   Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
-                                    bool slants = false);
+                                    CaptureParts parts = CaptureParts::samples);
 
  private:
   std::size_t largestBuffer_ = 0;

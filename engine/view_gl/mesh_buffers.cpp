@@ -108,7 +108,7 @@ Result<MeshBuffers*> MeshResidency::get(const std::shared_ptr<const DisplayCaptu
   if (Status uploaded = checkGl(fmt::format("uploading the mesh of {}", name).c_str()); !uploaded)
     return tl::unexpected(uploaded.error());
   buffers.bound = bound;
-  buffers.cost = {camera, mesh.samples.size(), mesh.triangleCount(), buffers.bytes, error, buildSeconds};
+  buffers.cost = {camera, mesh.samples.size(), mesh.triangleCount(), 0, error, buildSeconds};
   return &put(capture, std::move(buffers));
 }
 

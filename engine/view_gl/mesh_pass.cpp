@@ -74,8 +74,6 @@ Status MeshPass::draw(const CapturePiece& piece, const Layout& layout, FrameStat
   const Result<MeshBuffers*> mesh =
       meshes_.get(piece.capture, piece.name().c_str(), layout, piece.plan.camera, piece.settings.meshError);
   if (!mesh) return tl::unexpected(mesh.error());
-  if (std::ranges::find(stats.meshes, piece.plan.camera, &MeshCost::camera) == stats.meshes.end())
-    stats.meshes.push_back((*mesh)->cost);
   const Result<GlProgram*> ready = program(piece, **mesh);
   if (!ready) return tl::unexpected(ready.error());
 
@@ -90,6 +88,10 @@ Status MeshPass::draw(const CapturePiece& piece, const Layout& layout, FrameStat
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, (*mesh)->borders.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, limits_.name());
   for (MeshChunk& chunk : (*mesh)->chunks) drawChunk(piece, chunk, **mesh, stats);
+  MeshCost cost = (*mesh)->cost;
+  cost.bytes = (*mesh)->bytes;  // lists of patches included
+  const auto known = std::ranges::find(stats.meshes, cost.camera, &MeshCost::camera);
+  known == stats.meshes.end() ? stats.meshes.push_back(cost) : void(*known = cost);
   return checkGl("drawing meshes");
 }
 

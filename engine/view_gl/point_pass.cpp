@@ -103,8 +103,9 @@ PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
       columnPlans_(GlBuffer::make()) {}
 
 Status PointPass::draw(const CapturePiece& what, Samples samples, FrameTarget& target, FrameStats& stats) {
-  const Result<const CaptureBuffers*> buffers =
-      captures_.get(what.capture, what.name().c_str(), followsSlant(what.settings.reconstruction));
+  const CaptureParts parts =
+      followsSlant(what.settings.reconstruction) ? CaptureParts::samplesAndSlants : CaptureParts::samples;
+  const Result<const CaptureBuffers*> buffers = captures_.get(what.capture, what.name().c_str(), parts);
   if (!buffers) return tl::unexpected(buffers.error());
   Piece piece{what, **buffers};
   return drawPiece(piece, samples, target, stats);

@@ -45,6 +45,10 @@ Meshed meshed(const AnalyticScene& scene, int layers, double error, int columns 
   Meshed m;
   m.capture = prepareForDisplay(
       test::capture(scene, test::cameraAt({0, 0, 1.6}, 20, columns, rows), nullptr, layers), 1);
+  for (std::size_t i = 0; i < m.capture.samples.size(); ++i) {  // needed by one region here, by another there
+    PackedSample& sample = m.capture.samples[i];
+    sample = packSample(inverseDistanceOf(sample), std::uint8_t(1u << (i / 7 % 8)), sample.row, sample.slant);
+  }
   m.bound = meshBound(m.capture.camera, error, 2);
   TaskRunner runner(0);
   m.mesh = buildCaptureMesh(m.capture, m.bound, runner);
