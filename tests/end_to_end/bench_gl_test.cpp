@@ -60,7 +60,7 @@ TEST(BenchGlFolder, RunsWhereverItIsMovedWithoutAnEnvironment) {
   ASSERT_EQ(json["renderers"].size(), 6u) << "gl, gl-zbuffer and gl-mesh, splats and filtered";
   for (const Json& renderer : json["renderers"]) {
     const bool asMesh = renderer["renderer"] == "gl-mesh";
-    EXPECT_EQ(renderer["samplesPerFrame"].get<double>() > 100, !asMesh);
+    EXPECT_TRUE(asMesh || renderer["samplesPerFrame"].get<double>() > 100);
     EXPECT_EQ(renderer["meshTrianglesPerFrame"].get<double>() > 100, asMesh);
     EXPECT_GT(renderer["frameMsMedian"].get<double>(), 0);
     EXPECT_GE(renderer["frameMsP99"].get<double>(), renderer["frameMsMedian"].get<double>());
