@@ -57,7 +57,8 @@ void main() {
     uint steps = sampled.y >> 24;
     if (beyond.x > fringe(steps, at.x < 0.0 ? kLowColumn : kHighColumn) ||
         beyond.y > fringe(steps, at.y < 0.0 ? kTopRow : kBottomRow)) discard;
-    gl_FragDepth = max(gl_FragCoord.z - kBackgroundDepthScale * fringeDepth * gl_FragCoord.w, kSkyDepth);
+    float behind = gl_FragCoord.z - kBackgroundDepthScale * fringeDepth * gl_FragCoord.w;
+    gl_FragDepth = max(max(behind, 0.25 * gl_FragCoord.z), kSkyDepth);  // still before the background
   } else {
     gl_FragDepth = max(gl_FragCoord.z, kSkyDepth);
   }

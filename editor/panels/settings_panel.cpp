@@ -302,6 +302,11 @@ void drawView(PanelContext& context) {
            "Of OpenGL meshes: how far a surface may shift in the picture. Larger: fewer triangles."},
           view.meshError, kLabelWidth))
     applyFieldEdit(context, edit, setViewSettings(project, view, "mesh error"));
+  if (const ui::FieldEdit edit =
+          ui::numberField({"Mesh triangles", "%.0f", 1000, 0, 2e9,
+                           "Of one capture at most, with a larger error where it must be. 0: any number."},
+                          view.maxMeshTriangles, kLabelWidth))
+    applyFieldEdit(context, edit, setViewSettings(project, view, "mesh triangles"));
   const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
     bool value = view.*member;
     if (const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help)) {

@@ -75,6 +75,7 @@ Status apply(const Look& look, ViewSettings& settings) {
     settings.reconstruction = *parsed;
   }
   if (look.meshError) settings.meshError = *look.meshError;
+  if (look.maxMeshTriangles) settings.maxMeshTriangles = *look.maxMeshTriangles;
   return settings.check();
 }
 

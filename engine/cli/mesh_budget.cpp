@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace acentric::cli {
 namespace {
 
 Json costJson(const MeshCost& cost) {
-  return {{"samples", cost.samples},
+  return {{"errorSamples", cost.error},
+          {"samples", cost.samples},
           {"triangles", cost.triangles},
           {"bytes", cost.bytes},
           {"buildMs", cost.buildSeconds * 1e3}};
@@ -23,7 +26,7 @@ void MeshBudget::add(const FrameStats& stats) {
 MeshCost MeshBudget::sum() const {
   MeshCost all;
   for (const auto& [camera, cost] : meshes_) {
-    all.error = cost.error;
+    all.error = std::max(all.error, cost.error);
     all.samples += cost.samples, all.triangles += cost.triangles, all.bytes += cost.bytes;
     all.buildSeconds += cost.buildSeconds;
   }
@@ -32,7 +35,7 @@ MeshCost MeshBudget::sum() const {
 
 Json MeshBudget::json() const {
   const MeshCost all = sum();
-  Json json = {{"errorSamples", all.error}, {"trianglesDrawnPerFrame", drawnPerFrame()}};
+  Json json = {{"trianglesDrawnPerFrame", drawnPerFrame()}};
   json.update(costJson(all));
   json["captures"] = Json::array();
   for (const auto& [camera, cost] : meshes_) {

@@ -24,7 +24,13 @@ void addLook(CLI::App& command, Look& look) {
       .add_option("--mesh-error", look.meshError,
                   "Of gl-mesh: how far surfaces may shift in a picture, in samples; larger takes fewer "
                   "triangles (default: the project's)")
-      ->check(CLI::Range(0.01, 64.0));
+      ->check(CLI::Range(0.01, kLargestMeshError));
+  command
+      .add_option(
+          "--mesh-triangles", look.maxMeshTriangles,
+          "Of gl-mesh: at most so many a capture, with a larger error where it must be; 0 = any number "
+          "(default: the project's)")
+      ->check(CLI::Range(0, 2000000000));
 }
 
 void addTruthSamples(CLI::App& command, int& samples) {

@@ -29,7 +29,7 @@ struct MeshCost {
   std::uint64_t samples = 0;    ///< in the mesh: all that are opaque
   std::uint64_t triangles = 0;  ///< that they became
   std::uint64_t bytes = 0;      ///< of buffers
-  double error = 0;             ///< ViewSettings::meshError that it was built for
+  double error = 0;             ///< samples; more than was asked for where triangles are limited
   double buildSeconds = 0;      ///< once
 };
 

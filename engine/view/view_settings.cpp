@@ -64,9 +64,14 @@ Status ViewSettings::check() const {
     return fail(ErrorKind::invalidArgument,
                 fmt::format("largest splat of {} pixels: must lie in 1..64", maxSplatPixels),
                 "view settings");
-  if (!(meshError >= 0.01 && meshError <= 64))
+  if (!(meshError >= 0.01 && meshError <= kLargestMeshError))
     return fail(ErrorKind::invalidArgument,
-                fmt::format("mesh error of {} samples: must lie in 0.01..64", meshError), "view settings");
+                fmt::format("mesh error of {} samples: must lie in 0.01..{}", meshError, kLargestMeshError),
+                "view settings");
+  if (maxMeshTriangles < 0)
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("at most {} triangles in a mesh: must not be negative", maxMeshTriangles),
+                "view settings");
   return {};
 }
 

@@ -52,12 +52,18 @@ constexpr bool followsSlant(Reconstruction reconstruction) {
 const char* nameOf(Reconstruction reconstruction);
 Result<Reconstruction> parseReconstruction(std::string_view name);
 
+inline constexpr double kLargestMeshError = 64;
+
 struct ViewSettings {
   Renderer renderer = Renderer::list;
   Reconstruction reconstruction = Reconstruction::splat;
   int maxSplatPixels = 16;  ///< side of the largest splat, 1..64
-  /// Meshes: how far a surface may shift in a picture against where its samples lie, in samples, 0.01..64.
+  /// Meshes: how far a surface may shift in a picture against where its samples lie, in samples,
+  /// 0.01..kLargestMeshError.
   double meshError = 0.25;
+  /// Of a capture's mesh; where it takes more, its error is raised, at most to kLargestMeshError. 0 = any
+  /// number.
+  int maxMeshTriangles = 0;
   bool localGeometry = true;
   bool secondaryCover = true;  ///< in rings: the other hand is painted first, behind
   bool fillHoles = true;       ///< screen-space fill of what is still open, marked as invented

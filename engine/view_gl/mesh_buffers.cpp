@@ -96,19 +96,30 @@ const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, M
 }
 
 Result<MeshBuffers*> MeshResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
-                                        const char* name, const Layout& layout, int camera, double error) {
+                                        const char* name, const Layout& layout, int camera,
+                                        const ViewSettings& settings) {
   MeshBuffers* resident = find(capture);
-  if (resident != nullptr && resident->cost.error == error) return resident;
+  if (resident != nullptr && resident->errorSet == settings.meshError &&
+      resident->trianglesSet == settings.maxMeshTriangles)
+    return resident;
   if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
   const Stopwatch watch;
-  const MeshBound bound = meshBound(capture->camera, error, eyeReach(layout, camera));
-  const CaptureMesh mesh = buildCaptureMesh(*capture, bound, runner_);
+  const double reach = eyeReach(layout, camera);
+  MeshBound bound = meshBound(capture->camera, settings.meshError, reach);
+  CaptureMesh mesh = buildCaptureMesh(*capture, bound, runner_);
+  while (settings.maxMeshTriangles > 0 && mesh.triangleCount() > std::size_t(settings.maxMeshTriangles) &&
+         bound.error < kLargestMeshError) {
+    bound = meshBound(capture->camera, std::min(2 * bound.error, kLargestMeshError), reach);
+    mesh = buildCaptureMesh(*capture, bound, runner_);
+  }
   const double buildSeconds = watch.seconds();
   MeshBuffers buffers = upload(*capture, mesh, storageLimit(largestBuffer_));
   if (Status uploaded = checkGl(fmt::format("uploading the mesh of {}", name).c_str()); !uploaded)
     return tl::unexpected(uploaded.error());
   buffers.bound = bound;
-  buffers.cost = {camera, mesh.samples.size(), mesh.triangleCount(), 0, error, buildSeconds};
+  buffers.errorSet = settings.meshError;
+  buffers.trianglesSet = settings.maxMeshTriangles;
+  buffers.cost = {camera, mesh.samples.size(), mesh.triangleCount(), 0, bound.error, buildSeconds};
   return &put(capture, std::move(buffers));
 }
 

@@ -10,6 +10,7 @@
 #include "engine/base/result.h"
 #include "engine/view/capture_mesh.h"
 #include "engine/view/frame.h"
+#include "engine/view/view_settings.h"
 #include "engine/view_gl/gl_object.h"
 #include "engine/view_gl/residency.h"
 
@@ -34,6 +35,8 @@ struct MeshBuffers {
   std::vector<MeshChunk> chunks;
   GlBuffer borders;  ///< two floats a column border (direction), one a row border (tangent)
   MeshBound bound;
+  double errorSet = 0;  ///< ViewSettings that it was built for
+  int trianglesSet = 0;
   int widestPatch = 0;  ///< columns
   MeshCost cost;
   std::size_t bytes = 0;
@@ -48,10 +51,10 @@ class MeshResidency : public Residency<MeshBuffers> {
   /// Meshes are built with `runner`.
   explicit MeshResidency(TaskRunner& runner, std::size_t largestBuffer = 0)
       : runner_(runner), largestBuffer_(largestBuffer) {}
-  /// The mesh of a camera's capture for this error (ViewSettings::meshError), built now if there is none or
-  /// it was built for another. Valid until the next call of dropGone or trim.
+  /// The mesh of a camera's capture for the error and the triangles that are set, built now if there is none
+  /// or it was built for others. Valid until the next call of dropGone or trim.
   Result<MeshBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
-                           const Layout& layout, int camera, double error);
+                           const Layout& layout, int camera, const ViewSettings& settings);
 
  private:
   TaskRunner& runner_;

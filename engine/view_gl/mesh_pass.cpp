@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <limits>
 
 #include "engine/view_gl/gl_check.h"
 
@@ -72,7 +73,7 @@ Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffer
 Status MeshPass::draw(const CapturePiece& piece, const Layout& layout, FrameStats& stats) {
   const DisplayCapture& capture = *piece.capture;
   const Result<MeshBuffers*> mesh =
-      meshes_.get(piece.capture, piece.name().c_str(), layout, piece.plan.camera, piece.settings.meshError);
+      meshes_.get(piece.capture, piece.name().c_str(), layout, piece.plan.camera, piece.settings);
   if (!mesh) return tl::unexpected(mesh.error());
   const Result<GlProgram*> ready = program(piece, **mesh);
   if (!ready) return tl::unexpected(ready.error());

@@ -172,6 +172,21 @@ std::map<std::pair<int, int>, Held> heldBy(const CaptureMesh& mesh) {
   return held;
 }
 
+TEST(CaptureMesh, IsTheSameAtAnyScale) {
+  const Meshed metres = meshed(test::randomBoxes(4, 80, 2), 2, 0.25);
+  for (const float scale : {0x1p-10f, 0x1p13f}) {
+    DisplayCapture capture = metres.capture;
+    for (PackedSample& sample : capture.samples)
+      sample = packSample(inverseDistanceOf(sample) / scale, rolesOf(sample), sample.row, sample.slant);
+    TaskRunner runner(0);
+    const CaptureMesh mesh =
+        buildCaptureMesh(capture, meshBound(capture.camera, 0.25, 2 * double(scale)), runner);
+    EXPECT_EQ(mesh.samples, metres.mesh.samples);
+    EXPECT_EQ(mesh.fringes, metres.mesh.fringes);
+    ASSERT_EQ(mesh.patches.size(), metres.mesh.patches.size());
+  }
+}
+
 TEST(CaptureMesh, FringesCloseTheGapsBetweenPatchesOfACurvedSurface) {
   const Capture waves =
       test::captureBy(test::cameraAt({0, 0, 1.6}, 0, 200, 300), nullptr, {},

@@ -202,6 +202,16 @@ TEST_F(GlMesh, BuildsEachMeshOnceForAnErrorAndTellsWhatItTakes) {
     EXPECT_LT(coarse[i].triangles, first[i].triangles);
     EXPECT_EQ(coarse[i].error, 2);
   }
+  settings.meshError = 0.25;
+  const auto most = std::ranges::max_element(first, {}, &MeshCost::triangles);
+  settings.maxMeshTriangles = int(most->triangles) * 9 / 10;
+  const auto limited = renderer_->draw(scene, view, settings);
+  ASSERT_TRUE(limited);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const bool fitted = first[i].triangles <= std::uint64_t(settings.maxMeshTriangles);
+    EXPECT_LE(limited->meshes[i].triangles, std::uint64_t(settings.maxMeshTriangles));
+    EXPECT_EQ(limited->meshes[i].error == 0.25, fitted);
+  }
   settings.meshError = 0;
   EXPECT_EQ(renderer_->draw(scene, view, settings).error().kind, ErrorKind::invalidArgument);
 }
