@@ -1,6 +1,10 @@
 // The background: where no capture has rows (engine/view/background.h), or, with CAPTURED, where a capture shows it
 // (engine/view/captured_background.h); CLIP_TO_PART as in points.vert.
+#include "capture_depth.glsl"
 #include "colour.glsl"
+#ifdef CAPTURED
+#include "part.glsl"
+#endif
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint source;
@@ -26,23 +30,6 @@ uniform uint roles;  // of the region that the picture is drawn for
 #else
 uniform float above;  // row tangents
 uniform float below;
-#endif
-#ifdef CLIP_TO_PART
-uniform vec2 partLow;  // unit directions of the part's borders, half-open [low, high)
-uniform vec2 partHigh;
-uniform bool partIsWide;  // more than half a turn
-#endif
-
-const float kSkyDepth = 1e-30;  // as in points.vert
-
-float left(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-
-#ifdef CLIP_TO_PART
-bool inPart(vec2 inPlan) {
-  bool fromLow = left(partLow, inPlan) >= 0.0;
-  bool toHigh = left(inPlan, partHigh) > 0.0;
-  return partIsWide ? fromLow || toHigh : fromLow && toHigh;
-}
 #endif
 
 #ifdef CAPTURED

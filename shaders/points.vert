@@ -9,6 +9,7 @@
 //
 // List priority: the draw calls go through the columns in order; this shader puts the rows of a column, and the
 // samples of a pixel, in theirs by exchanging which sample a vertex number stands for.
+#include "capture_depth.glsl"
 
 struct Sample {
   uint inverseDistanceAndRoles;  // a float whose last 8 bits are always zero, and in their place who needs the sample
@@ -41,10 +42,8 @@ uniform float footprint;     // pixels: side of the splat at q.z = 1, straight a
 uniform float inverseFocal;  // 1/pixels
 #endif
 #ifdef CLIP_TO_PART
+#include "part.glsl"
 uniform vec2 baselineInPlan;  // b, horizontal
-uniform vec2 partLow;         // unit directions of the part's borders, half-open [low, high)
-uniform vec2 partHigh;
-uniform bool partIsWide;      // more than half a turn
 #endif
 
 #ifdef RECTANGLE
@@ -64,11 +63,6 @@ flat out uint pointMirror;
 #endif
 
 const vec4 kOutside = vec4(2.0, 2.0, 2.0, 1.0);
-
-// Inverse depths of captures are scaled down so far that local geometry (local.vert), whose depth is kNearest / z, always
-// lies in front of them, and both share one floating-point depth buffer. Sky is just above the cleared value, a hole.
-const float kBackgroundDepthScale = 1e-20;
-const float kSkyDepth = 1e-30;
 
 #ifndef UNORDERED
 #ifdef LAYERED
@@ -175,11 +169,7 @@ void main() {
   if (colour.a == 1.0 || min(rankAmongClear(index, column.parts.x), lastRank) != rank) return;
 #endif
 #ifdef CLIP_TO_PART
-  vec2 inPlan = column.inPlan + w * baselineInPlan;
-  float fromLow = partLow.x * inPlan.y - partLow.y * inPlan.x;
-  float toHigh = inPlan.x * partHigh.y - inPlan.y * partHigh.x;
-  bool inPart = partIsWide ? (fromLow >= 0.0 || toHigh > 0.0) : (fromLow >= 0.0 && toHigh > 0.0);
-  if (!inPart) return;
+  if (!inPart(column.inPlan + w * baselineInPlan)) return;
 #endif
   vec2 position = q.xy / q.z;
   float side = 1.0;

@@ -297,6 +297,16 @@ void drawView(PanelContext& context) {
           {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
           view.maxSplatPixels, kLabelWidth))
     applyFieldEdit(context, edit, setViewSettings(project, view, "largest splat"));
+  if (const ui::FieldEdit edit = ui::numberField(
+          {"Mesh error", "%.2f samples", 0.01, 0.01, 64,
+           "Of OpenGL meshes: how far a surface may shift in the picture. Larger: fewer triangles."},
+          view.meshError, kLabelWidth))
+    applyFieldEdit(context, edit, setViewSettings(project, view, "mesh error"));
+  if (const ui::FieldEdit edit =
+          ui::numberField({"Mesh triangles", "%.0f", 1000, 0, 2e9,
+                           "Of one capture at most, with a larger error where it must be. 0: any number."},
+                          view.maxMeshTriangles, kLabelWidth))
+    applyFieldEdit(context, edit, setViewSettings(project, view, "mesh triangles"));
   const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
     bool value = view.*member;
     if (const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help)) {

@@ -30,6 +30,8 @@ const char* labelOf(Renderer renderer) {
       return "OpenGL";
     case Renderer::glZbuffer:
       return "OpenGL, depth test";
+    case Renderer::glMesh:
+      return "OpenGL, meshes";
   }
   return "";
 }
@@ -46,6 +48,8 @@ const char* helpFor(Renderer renderer) {
       return "List priority on the graphics card.";
     case Renderer::glZbuffer:
       return "The same splats on the graphics card with a depth test, for comparison.";
+    case Renderer::glMesh:
+      return "Captures as triangles, within the mesh error: no cracks near walls; built when first seen.";
   }
   return "";
 }

@@ -46,8 +46,7 @@ FrameMaker::~FrameMaker() = default;
 
 Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProject> storeys,
                                                        const std::string& rendererName, const Common& common,
-                                                       TaskRunner& runner,
-                                                       const std::string& reconstruction) {
+                                                       TaskRunner& runner, const Look& look) {
   std::unique_ptr<FrameMaker> maker(new FrameMaker(storeys, common, runner));
   maker->settings = storeys.front().project.view;
   if (rendererName == "truth") {
@@ -65,19 +64,26 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
   const auto renderer = parseRenderer(rendererName);
   if (!renderer) return tl::unexpected(renderer.error());
   maker->settings.renderer = *renderer;
-  if (!reconstruction.empty()) {
-    const auto parsed = parseReconstruction(reconstruction);
-    if (!parsed) return tl::unexpected(parsed.error());
-    maker->settings.reconstruction = *parsed;
-  }
+  if (Status applied = apply(look, maker->settings); !applied) return tl::unexpected(applied.error());
   return maker;
+}
+
+Status apply(const Look& look, ViewSettings& settings) {
+  if (!look.reconstruction.empty()) {
+    const auto parsed = parseReconstruction(look.reconstruction);
+    if (!parsed) return tl::unexpected(parsed.error());
+    settings.reconstruction = *parsed;
+  }
+  if (look.meshError) settings.meshError = *look.meshError;
+  if (look.maxMeshTriangles) settings.maxMeshTriangles = *look.maxMeshTriangles;
+  return settings.check();
 }
 
 Status FrameMaker::openGl() {
   if (shared_->gl) return {};
   auto context = HeadlessContext::create();
   if (!context) return tl::unexpected(context.error());
-  auto gl = GlRenderer::create();
+  auto gl = GlRenderer::create(&runner_);
   if (!gl) return tl::unexpected(gl.error());
   shared_->context = std::move(*context);
   shared_->gl = std::move(*gl);
@@ -307,6 +313,7 @@ Json toJson(const FrameStats& stats) {
           {"missingImages", stats.missingImages},
           {"samplesRead", stats.samplesRead},
           {"samplesDrawn", stats.samplesDrawn},
+          {"meshTriangles", stats.meshTriangles},
           {"localTriangles", stats.localTriangles},
           {"warpMs", stats.warpSeconds * 1e3},
           {"localMs", stats.localSeconds * 1e3},

@@ -64,16 +64,23 @@ Report byStorey(const std::vector<std::string>& names, std::vector<Report> repor
 /// "85.0 s", "2.3 min", "1.2 h".
 std::string timeText(double seconds);
 
+/// What the options of a command change in the project's ViewSettings.
+struct Look {
+  std::string reconstruction;       ///< empty = the project's
+  std::optional<double> meshError;  ///< none = the project's, as below
+  std::optional<int> maxMeshTriangles;
+};
+Status apply(const Look& look, ViewSettings& settings);
+
 /// Renders frames of a project by any renderer name, including those of OpenGL (headless), and for comparison
 /// "truth" (ray-traced), "polygons" and "gl-polygons" (every triangle of the scene, unlit). What is baked is
 /// loaded as frames need it, and kept as long as there is room (Common::walkMegabytes).
 class FrameMaker {
  public:
-  /// `storeys`, at least one, must outlive it. `reconstruction` empty: the project's.
+  /// `storeys`, at least one, must outlive it.
   static Result<std::unique_ptr<FrameMaker>> create(std::span<const OpenProject> storeys,
                                                     const std::string& rendererName, const Common& common,
-                                                    TaskRunner& runner,
-                                                    const std::string& reconstruction = {});
+                                                    TaskRunner& runner, const Look& look = {});
   /// What has been loaded, and is from now on, serves this one too: captures are in memory once, and on the
   /// graphics card.
   void shareWalksOf(const FrameMaker& other) { shared_ = other.shared_; }

@@ -93,11 +93,7 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
   if (onOpenGl(*renderer))
     return fail(ErrorKind::unsupported,
                 "--stream walks with renderers of the processor: give --renderers list", "--renderers");
-  if (!options.reconstruction.empty()) {
-    const auto parsed = parseReconstruction(options.reconstruction);
-    if (!parsed) return tl::unexpected(parsed.error());
-    settings.reconstruction = *parsed;
-  }
+  if (Status applied = apply(options.look, settings); !applied) return tl::unexpected(applied.error());
   const auto runner = common.runner();
   const std::uint64_t residentBefore = peakResidentBytes();
 

@@ -5,6 +5,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine.h"
+#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Timings {
   std::vector<double> total, plan, warp, local, fill;
   double samplesRead = 0, samplesDrawn = 0, localTriangles = 0;
+  MeshBudget meshes;
 
   void add(const FrameStats& stats) {
     total.push_back(stats.totalSeconds * 1e3), plan.push_back(stats.planSeconds * 1e3);
@@ -22,6 +24,7 @@ struct Timings {
     fill.push_back(stats.fillSeconds * 1e3);
     samplesRead += double(stats.samplesRead), samplesDrawn += double(stats.samplesDrawn);
     localTriangles += double(stats.localTriangles);
+    meshes.add(stats);
   }
 };
 
@@ -64,7 +67,7 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
     const Stopwatch watch;
-    auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.reconstruction);
+    auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.look);
     if (!maker) return tl::unexpected(maker.error());
     if (!makers.empty()) (*maker)->shareWalksOf(*makers.front());
     if (Status loaded = (*maker)->load(views.front()); !loaded) return tl::unexpected(loaded.error());
@@ -131,6 +134,10 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
           spreadOf(t.plan).median, warp.median, warp.p99, spreadOf(t.local).median, spreadOf(t.fill).median,
           rate / 1e6);
     report.text += "\n";
+    if (t.meshes.any()) {
+      report.json["renderers"].back()["mesh"] = t.meshes.json();
+      report.text += t.meshes.text();
+    }
   }
   return report;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
@@ -33,11 +34,12 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   const OpenProject& open = walk->storeys.front();
   const auto views = evenly(walk->views, options.frames);
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.reconstruction);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.look);
   if (!maker) return tl::unexpected(maker.error());
 
   std::vector<double> psnr, ssim, holes, milliseconds;
   SeamSums seams;
+  MeshBudget meshes;
   Json frames = Json::array();
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
@@ -52,6 +54,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
     if (!options.images.empty())
       if (Status written = writeTriple(options.images, i, *frame, truth); !written)
         return tl::unexpected(written.error());
+    meshes.add(frame->stats);
     psnr.push_back(comparison->psnr);
     ssim.push_back(comparison->ssim);
     holes.push_back(comparison->holeShare);
@@ -84,6 +87,10 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
       "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
       views.size(), walk->size.width, walk->size.height, options.renderer, runner->threads(), p.median, p.min,
       s.median, s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
+  if (meshes.any()) {
+    report.json["mesh"] = meshes.json();
+    report.text += meshes.text();
+  }
   if (options.seams) {
     const auto pops =
         measurePopping(*walk, options.crossings, **maker, options.truthSamples, *runner, common);

@@ -6,6 +6,7 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/frame_pictures.h"
+#include "engine/cli/mesh_budget.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {
@@ -80,7 +81,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
     if (!all) return tl::unexpected(all.error());
     storeys = std::move(*all);
   }
-  auto maker = FrameMaker::create(storeys, options.renderer, common, *runner, options.reconstruction);
+  auto maker = FrameMaker::create(storeys, options.renderer, common, *runner, options.look);
   if (!maker) return tl::unexpected(maker.error());
   if (Status loaded = (*maker)->load(view); !loaded) return tl::unexpected(loaded.error());
   (*maker)->truthSamples = options.truthSamples;
@@ -116,6 +117,9 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
                  {"renderMs", seconds * 1e3},
                  {"stats", toJson(frame->stats)},
                  {"warnings", (*maker)->warnings()}};
+  MeshBudget meshes;
+  meshes.add(frame->stats);
+  if (meshes.any()) report.json["mesh"] = meshes.json();
   if (mode == PictureMode::sources) report.json["sources"] = pictures.sourcesJson(*frame, view);
   if (mode == PictureMode::difference) report.json["gain"] = options.gain;
   report.text = fmt::format("{}\n", options.output.string());
@@ -131,6 +135,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
         frame->stats.fillSeconds * 1e3, frame->stats.images, frame->stats.missingImages,
         countText(frame->stats.samplesRead), countText(frame->stats.samplesDrawn),
         countText(frame->stats.localTriangles), 100 * holeShare);
+  if (options.stats && meshes.any()) report.text += meshes.text();
   return report;
 }
 

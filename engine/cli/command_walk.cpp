@@ -139,7 +139,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
   const auto& views = walk->views;
   const OpenProject& open = walk->storeys.front();
   const auto runner = common.runner();
-  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.reconstruction);
+  auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner, options.look);
   if (!maker) return tl::unexpected(maker.error());
   (*maker)->truthSamples = options.truthSamples;
   const FramePictures shown(walk->storeys, options.gain);

@@ -121,8 +121,9 @@ Result<Report> runBenchPack(const BenchPackOptions& options, const Common& commo
 
 struct RenderOptions {
   std::filesystem::path project, output, holes;
-  std::string eye, size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
-  std::string mode = "picture";                                          ///< frame_pictures.h
+  std::string eye, size = "960x540", renderer = "list";
+  Look look;
+  std::string mode = "picture";  ///< frame_pictures.h
   double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
   int truthSamples = 4;
   int gain = kDifferenceGain;
@@ -132,9 +133,10 @@ Result<Report> runRender(const RenderOptions& options, const Common& common);
 
 struct WalkOptions {
   std::filesystem::path project, path, output;
-  std::string size = "960x540", renderer = "list", reconstruction;  ///< empty = the project's
-  double fovDegrees = 0;                                            ///< 0 = the project's
-  std::vector<std::string> modes{"picture"};                        ///< frame_pictures.h
+  std::string size = "960x540", renderer = "list";
+  Look look;
+  double fovDegrees = 0;                      ///< 0 = the project's
+  std::vector<std::string> modes{"picture"};  ///< frame_pictures.h
   int truthSamples = 4;
   int gain = kDifferenceGain;
 };
@@ -148,7 +150,8 @@ Result<Report> runTour(const TourOptions& options, const Common& common);
 
 struct MeasureOptions {
   std::filesystem::path project, path, images;
-  std::string size = "640x360", renderer = "list", reconstruction;  ///< empty = the project's
+  std::string size = "640x360", renderer = "list";
+  Look look;
   double fovDegrees = 0;
   int frames = 0;  ///< 0 = all; else so many, evenly chosen
   int truthSamples = 1;
@@ -163,8 +166,9 @@ struct ValidateOptions {
 Result<Report> runValidate(const ValidateOptions& options, const Common& common);
 
 struct BenchOptions {
-  std::filesystem::path project, path;           ///< path empty = a tour
-  std::string size = "960x540", reconstruction;  ///< empty = the project's
+  std::filesystem::path project, path;  ///< path empty = a tour
+  std::string size = "960x540";
+  Look look;
   std::vector<std::string> renderers = rendererNames();
   int frames = 30, repeats = 3;
   bool stream = false;  ///< walk in real time, while captures come and go

@@ -15,11 +15,22 @@ std::vector<std::string> renderers(bool truthToo) {
 }
 std::string rendererChoice(bool truthToo) { return fmt::format("{}", fmt::join(renderers(truthToo), ", ")); }
 
-void addReconstruction(CLI::App& command, std::string& reconstruction) {
+void addLook(CLI::App& command, Look& look) {
   command
-      .add_option("--reconstruction", reconstruction,
+      .add_option("--reconstruction", look.reconstruction,
                   "point, splat, surface or filtered (default: the project's)")
       ->check(CLI::IsMember({"point", "splat", "surface", "filtered"}));
+  command
+      .add_option("--mesh-error", look.meshError,
+                  "Of gl-mesh: how far surfaces may shift in a picture, in samples; larger takes fewer "
+                  "triangles (default: the project's)")
+      ->check(CLI::Range(0.01, kLargestMeshError));
+  command
+      .add_option(
+          "--mesh-triangles", look.maxMeshTriangles,
+          "Of gl-mesh: at most so many a capture, with a larger error where it must be; 0 = any number "
+          "(default: the project's)")
+      ->check(CLI::Range(0, 2000000000));
 }
 
 void addTruthSamples(CLI::App& command, int& samples) {
@@ -61,7 +72,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, rendererChoice(true))
       ->check(CLI::IsMember(renderers(true)))
       ->capture_default_str();
-  addReconstruction(*c, o.reconstruction);
+  addLook(*c, o.look);
   c->add_option(
        "--mode", o.mode,
        "What is shown: the picture, the ray-traced truth, their difference, both side by side, which "
@@ -103,7 +114,7 @@ void addWalk(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, rendererChoice(true))
       ->check(CLI::IsMember(renderers(true)))
       ->capture_default_str();
-  addReconstruction(*c, o.reconstruction);
+  addLook(*c, o.look);
   c->add_option(
        "--modes", o.modes,
        "What is written of each frame, separated by commas: the picture, the ray-traced truth, their "
@@ -128,7 +139,7 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
   c->add_option("--renderer", o.renderer, rendererChoice(false))
       ->check(CLI::IsMember(renderers(false)))
       ->capture_default_str();
-  addReconstruction(*c, o.reconstruction);
+  addLook(*c, o.look);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
   c->add_option("--frames", o.frames, "Only so many frames, evenly chosen (0 = all)")->capture_default_str();
@@ -157,7 +168,7 @@ void addFrameTiming(CLI::App& command, BenchOptions& options) {
       ->delimiter(',')
       ->check(CLI::IsMember(benchRenderers()))
       ->capture_default_str();
-  addReconstruction(command, options.reconstruction);
+  addLook(command, options.look);
   command.add_option("--path", options.path, "Path file (default: a tour)");
   command.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   command.add_option("--frames", options.frames, "Frames along the tour or the path")

@@ -173,6 +173,8 @@ void readView(const Json& json, Project& project) {
   project.view.renderer = *parseRenderer(json.value("renderer", "list"));
   project.view.reconstruction = *parseReconstruction(json.value("reconstruction", "splat"));
   read(json, "maxSplatPixels", project.view.maxSplatPixels);
+  read(json, "meshError", project.view.meshError);
+  read(json, "maxMeshTriangles", project.view.maxMeshTriangles);
   read(json, "localGeometry", project.view.localGeometry);
   read(json, "secondaryCover", project.view.secondaryCover);
   read(json, "fillHoles", project.view.fillHoles);
@@ -352,6 +354,8 @@ std::string formatProject(const Project& project) {
        {{"renderer", nameOf(project.view.renderer)},
         {"reconstruction", nameOf(project.view.reconstruction)},
         {"maxSplatPixels", project.view.maxSplatPixels},
+        {"meshError", project.view.meshError},
+        {"maxMeshTriangles", project.view.maxMeshTriangles},
         {"localGeometry", project.view.localGeometry},
         {"secondaryCover", project.view.secondaryCover},
         {"fillHoles", project.view.fillHoles},

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "engine/image/image.h"
 
@@ -22,11 +23,23 @@ constexpr PixelSource sourceOfCamera(int camera) {
   return camera + 1 < kSourceBackground ? static_cast<PixelSource>(camera + 1) : kSourceBackground - 1;
 }
 
+/// What drawing a capture as a mesh takes (capture_mesh.h).
+struct MeshCost {
+  int camera = 0;
+  std::uint64_t samples = 0;    ///< in the mesh: all that are opaque
+  std::uint64_t triangles = 0;  ///< that they became
+  std::uint64_t bytes = 0;      ///< of buffers
+  double error = 0;             ///< samples; more than was asked for where triangles are limited
+  double buildSeconds = 0;      ///< once
+};
+
 struct FrameStats {
   int images = 0;         ///< captures drawn
   int missingImages = 0;  ///< captures that the view needs and that are not loaded
   std::uint64_t samplesRead = 0;
-  std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
+  std::uint64_t samplesDrawn = 0;   ///< that fell on the picture
+  std::uint64_t meshTriangles = 0;  ///< submitted: those of columns in sight and of roles that are needed
+  std::vector<MeshCost> meshes;     ///< of the captures drawn, by camera
   std::uint64_t localTriangles = 0;
   double planSeconds = 0;  ///< choosing pieces and columns
   double warpSeconds = 0;  ///< the background, from captures to pixels

@@ -16,6 +16,8 @@ const char* nameOf(Renderer renderer) {
       return "gl";
     case Renderer::glZbuffer:
       return "gl-zbuffer";
+    case Renderer::glMesh:
+      return "gl-mesh";
   }
   return "list";
 }
@@ -61,6 +63,14 @@ Status ViewSettings::check() const {
   if (maxSplatPixels < 1 || maxSplatPixels > 64)
     return fail(ErrorKind::invalidArgument,
                 fmt::format("largest splat of {} pixels: must lie in 1..64", maxSplatPixels),
+                "view settings");
+  if (!(meshError >= 0.01 && meshError <= kLargestMeshError))
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("mesh error of {} samples: must lie in 0.01..{}", meshError, kLargestMeshError),
+                "view settings");
+  if (maxMeshTriangles < 0)
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("at most {} triangles in a mesh: must not be negative", maxMeshTriangles),
                 "view settings");
   return {};
 }

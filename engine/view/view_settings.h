@@ -16,12 +16,17 @@ enum class Renderer : std::uint8_t {
   zbuffer,    ///< the same splats with a depth buffer, for comparison
   gl,         ///< list priority on OpenGL
   glZbuffer,  ///< the same splats on OpenGL with a depth test, for comparison
+  glMesh,     ///< captures as adaptive meshes on OpenGL, with a depth test (capture_mesh.h)
 };
-inline constexpr Renderer kRenderers[] = {Renderer::list, Renderer::scalar, Renderer::zbuffer, Renderer::gl,
-                                          Renderer::glZbuffer};
+inline constexpr Renderer kRenderers[] = {Renderer::list, Renderer::scalar,    Renderer::zbuffer,
+                                          Renderer::gl,   Renderer::glZbuffer, Renderer::glMesh};
 /// Is it drawn by view_gl instead of view?
 constexpr bool onOpenGl(Renderer renderer) {
-  return renderer == Renderer::gl || renderer == Renderer::glZbuffer;
+  return renderer == Renderer::gl || renderer == Renderer::glZbuffer || renderer == Renderer::glMesh;
+}
+/// Does a depth test find what is nearest, and not the order of drawing?
+constexpr bool depthTested(Renderer renderer) {
+  return renderer == Renderer::zbuffer || renderer == Renderer::glZbuffer || renderer == Renderer::glMesh;
 }
 const char* nameOf(Renderer renderer);
 Result<Renderer> parseRenderer(std::string_view name);
@@ -47,10 +52,18 @@ constexpr bool followsSlant(Reconstruction reconstruction) {
 const char* nameOf(Reconstruction reconstruction);
 Result<Reconstruction> parseReconstruction(std::string_view name);
 
+inline constexpr double kLargestMeshError = 64;
+
 struct ViewSettings {
   Renderer renderer = Renderer::list;
   Reconstruction reconstruction = Reconstruction::splat;
   int maxSplatPixels = 16;  ///< side of the largest splat, 1..64
+  /// Meshes: how far a surface may shift in a picture against where its samples lie, in samples,
+  /// 0.01..kLargestMeshError.
+  double meshError = 0.25;
+  /// Of a capture's mesh; where it takes more, its error is raised, at most to kLargestMeshError. 0 = any
+  /// number.
+  int maxMeshTriangles = 0;
   bool localGeometry = true;
   bool secondaryCover = true;  ///< in rings: the other hand is painted first, behind
   bool fillHoles = true;       ///< screen-space fill of what is still open, marked as invented

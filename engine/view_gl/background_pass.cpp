@@ -61,7 +61,8 @@ Status BackgroundPass::drawCaptured(const WalkScene& scene, const PieceDraw& pie
                                     const PerspectiveView& view) {
   const std::shared_ptr<const DisplayCapture>& capture = scene.captures[std::size_t(piece.camera)];
   const std::string name = fmt::format("capture of camera {}", piece.camera);
-  const Result<const CaptureBuffers*> buffers = captures_.get(capture, name.c_str());
+  const Result<const CaptureBuffers*> buffers =
+      captures_.get(capture, name.c_str(), CaptureParts::background);
   if (!buffers) return tl::unexpected(buffers.error());
   const ColumnCamera& camera = capture->camera;
   const CaptureBackground& background = capture->background.runs;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
 
 #include "engine/view_gl/gl_check.h"
 
@@ -17,33 +16,6 @@ struct GlSample {
   std::uint32_t colour;
 };
 static_assert(sizeof(GlSample) == 12, "the shader reads a stride of 12 bytes");
-
-/// The shader indexes without checks of its own, so the arrays must agree with each other.
-Status checkArrays(const DisplayCapture& capture, const char* name) {
-  const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, what, name); };
-  if (Status camera = capture.camera.check(); !camera) return camera;
-  const std::size_t columns = std::size_t(capture.camera.columns), rows = std::size_t(capture.camera.rows);
-  const std::size_t samples = capture.samples.size();
-  if (capture.columnStart.size() != columns + 1 || capture.columnDirection.size() != columns ||
-      capture.columnRange.size() != columns || capture.rowTangent.size() != rows)
-    return bad("the capture's column and row tables do not fit its camera");
-  if (capture.colour.size() != samples) return bad("the capture's sample arrays differ in length");
-  if (!capture.mirror.empty() && capture.mirror.size() != samples)
-    return bad("the capture does not name the mirror of each sample");
-  if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
-      !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
-    return bad("the capture's columns do not partition its samples");
-  const CaptureBackground& background = capture.background.runs;
-  if (background.runCount() > 0 &&
-      (background.columnStart.size() != columns + 1 || background.columnStart.front() != 0 ||
-       background.columnStart.back() != background.runCount() ||
-       !std::is_sorted(background.columnStart.begin(), background.columnStart.end()) ||
-       background.endRow.size() != background.runCount() || background.roles.size() != background.runCount()))
-    return bad("the capture's columns do not partition its background");
-  if (std::ranges::any_of(capture.samples, [&](const PackedSample& sample) { return sample.row >= rows; }))
-    return bad("a sample's row is outside the picture");
-  return {};
-}
 
 std::vector<GlSample> pack(const DisplayCapture& capture, int firstColumn, int lastColumn) {
   std::vector<GlSample> packed;
@@ -117,40 +89,15 @@ std::vector<std::uint8_t> clearSamplesOf(const DisplayCapture& capture) {
   return most;
 }
 
-template <class Value>
-GlBuffer makeBuffer(const std::vector<Value>& values, std::size_t& bytes) {
-  GlBuffer buffer = GlBuffer::make();
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(values.size() * sizeof(Value)), values.data(),
-               GL_STATIC_DRAW);
-  bytes += values.size() * sizeof(Value);
-  return buffer;
-}
-
-Status addSlants(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name) {
-  for (CaptureChunk& chunk : buffers.chunks)
-    chunk.slants = makeBuffer(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
-  return checkGl(fmt::format("uploading the slants of {}", name).c_str());
-}
-
-}  // namespace
-
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
-                                     std::size_t largestBuffer) {
-  if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
-  GLint64 driversLargest = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &driversLargest);
-  std::size_t limit = std::size_t(std::max<GLint64>(driversLargest, 0));
-  if (largestBuffer > 0) limit = std::min(limit, largestBuffer);
+Status addSamples(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name,
+                  std::size_t largestBuffer) {
   // Vertex numbers are signed.
-  const std::size_t mostSamples = std::min(limit / sizeof(GlSample), std::size_t(1) << 30);
-
-  CaptureBuffers buffers;
-  buffers.owner = capture;
-  const auto start = [&](int column) { return std::size_t(capture->columnStart[std::size_t(column)]); };
-  for (int first = 0; first < capture->camera.columns;) {
+  const std::size_t mostSamples =
+      std::min(storageLimit(largestBuffer) / sizeof(GlSample), std::size_t(1) << 30);
+  const auto start = [&](int column) { return std::size_t(capture.columnStart[std::size_t(column)]); };
+  for (int first = 0; first < capture.camera.columns;) {
     int last = first;
-    while (last < capture->camera.columns && start(last + 1) - start(first) <= mostSamples) ++last;
+    while (last < capture.camera.columns && start(last + 1) - start(first) <= mostSamples) ++last;
     if (last == first)
       return fail(
           ErrorKind::tooLarge,
@@ -160,73 +107,88 @@ Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>
               first, start(first + 1) - start(first), mostSamples),
           name);
     if (start(last) > start(first)) {
-      CaptureChunk chunk{first, last, capture->columnStart[std::size_t(first)], {}, {}, {}, {}};
-      chunk.samples = makeBuffer(pack(*capture, first, last), buffers.bytes);
-      if (capture->layered) chunk.layers = makeBuffer(packLayers(*capture, first, last), buffers.bytes);
-      if (!capture->mirror.empty())
-        chunk.mirrors = makeBuffer(packMirrors(*capture, first, last), buffers.bytes);
+      CaptureChunk chunk{first, last, capture.columnStart[std::size_t(first)], {}, {}, {}, {}};
+      chunk.samples = makeStorage(pack(capture, first, last), buffers.bytes);
+      if (capture.layered) chunk.layers = makeStorage(packLayers(capture, first, last), buffers.bytes);
+      if (!capture.mirror.empty())
+        chunk.mirrors = makeStorage(packMirrors(capture, first, last), buffers.bytes);
       buffers.chunks.push_back(std::move(chunk));
     }
     first = last;
   }
-  buffers.clearSamples = clearSamplesOf(*capture);
-  buffers.rowTangents = makeBuffer(capture->rowTangent, buffers.bytes);
-  if (capture->background.runs.runCount() > 0)
-    buffers.background = makeBuffer(packBackground(capture->background.runs), buffers.bytes);
-  const std::string doing = fmt::format("uploading {}", name);
-  if (Status uploaded = checkGl(doing.c_str()); !uploaded) return tl::unexpected(uploaded.error());
+  buffers.clearSamples = clearSamplesOf(capture);
+  buffers.rowTangents = makeStorage(capture.rowTangent, buffers.bytes);
+  return {};
+}
+
+/// What is asked for and not there yet.
+Status addParts(CaptureBuffers& buffers, const DisplayCapture& capture, const char* name, CaptureParts parts,
+                std::size_t largestBuffer) {
+  if (parts != CaptureParts::background && !buffers.rowTangents)
+    if (Status added = addSamples(buffers, capture, name, largestBuffer); !added) return added;
+  if (parts == CaptureParts::samplesAndSlants)
+    for (CaptureChunk& chunk : buffers.chunks)
+      if (!chunk.slants)
+        chunk.slants = makeStorage(packSlants(capture, chunk.firstColumn, chunk.lastColumn), buffers.bytes);
+  return checkGl(fmt::format("uploading {}", name).c_str());
+}
+
+}  // namespace
+
+Status checkArrays(const DisplayCapture& capture, const char* name) {
+  const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, what, name); };
+  if (Status camera = capture.camera.check(); !camera) return camera;
+  const std::size_t columns = std::size_t(capture.camera.columns), rows = std::size_t(capture.camera.rows);
+  const std::size_t samples = capture.samples.size();
+  if (capture.columnStart.size() != columns + 1 || capture.columnDirection.size() != columns ||
+      capture.columnRange.size() != columns || capture.rowTangent.size() != rows)
+    return bad("the capture's column and row tables do not fit its camera");
+  if (capture.colour.size() != samples) return bad("the capture's sample arrays differ in length");
+  if (!capture.mirror.empty() && capture.mirror.size() != samples)
+    return bad("the capture does not name the mirror of each sample");
+  if (capture.columnStart.front() != 0 || capture.columnStart.back() != samples ||
+      !std::is_sorted(capture.columnStart.begin(), capture.columnStart.end()))
+    return bad("the capture's columns do not partition its samples");
+  const CaptureBackground& background = capture.background.runs;
+  if (background.runCount() > 0 &&
+      (background.columnStart.size() != columns + 1 || background.columnStart.front() != 0 ||
+       background.columnStart.back() != background.runCount() ||
+       !std::is_sorted(background.columnStart.begin(), background.columnStart.end()) ||
+       background.endRow.size() != background.runCount() || background.roles.size() != background.runCount()))
+    return bad("the capture's columns do not partition its background");
+  if (std::ranges::any_of(capture.samples, [&](const PackedSample& sample) { return sample.row >= rows; }))
+    return bad("a sample's row is outside the picture");
+  return {};
+}
+
+std::size_t storageLimit(std::size_t largestBuffer) {
+  GLint64 driversLargest = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &driversLargest);
+  const std::size_t limit = std::size_t(std::max<GLint64>(driversLargest, 0));
+  return largestBuffer > 0 ? std::min(limit, largestBuffer) : limit;
+}
+
+Result<CaptureBuffers> uploadCapture(const DisplayCapture& capture, const char* name, CaptureParts parts,
+                                     std::size_t largestBuffer) {
+  if (Status sound = checkArrays(capture, name); !sound) return tl::unexpected(sound.error());
+  CaptureBuffers buffers;
+  if (capture.background.runs.runCount() > 0)
+    buffers.background = makeStorage(packBackground(capture.background.runs), buffers.bytes);
+  if (Status added = addParts(buffers, capture, name, parts, largestBuffer); !added)
+    return tl::unexpected(added.error());
   return buffers;
 }
 
 Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
-                                                    const char* name, bool slants) {
-  auto found = resident_.find(capture.get());
-  // Another capture may have been made at the address of one that died.
-  if (found != resident_.end() && found->second.owner.lock() != capture) {
-    bytes_ -= found->second.bytes;
-    resident_.erase(found);
-    found = resident_.end();
+                                                    const char* name, CaptureParts parts) {
+  if (CaptureBuffers* buffers = find(capture)) {
+    if (Status added = addParts(*buffers, *capture, name, parts, largestBuffer_); !added)
+      return tl::unexpected(added.error());
+    return buffers;
   }
-  if (found == resident_.end()) {
-    Result<CaptureBuffers> buffers = uploadCapture(capture, name, largestBuffer_);
-    if (!buffers) return tl::unexpected(buffers.error());
-    bytes_ += buffers->bytes;
-    found = resident_.emplace(capture.get(), std::move(*buffers)).first;
-  }
-  CaptureBuffers& buffers = found->second;
-  if (slants && !buffers.chunks.empty() && !buffers.chunks.back().slants) {
-    const std::size_t before = buffers.bytes;
-    const Status added = addSlants(buffers, *capture, name);
-    bytes_ += buffers.bytes - before;
-    if (!added) return tl::unexpected(added.error());
-  }
-  buffers.lastUse = frame_;
-  return &found->second;
-}
-
-void CaptureResidency::dropGone(const WalkScene& scene) {
-  std::set<const DisplayCapture*> wanted;
-  for (const auto& capture : scene.captures) {
-    wanted.insert(capture.get());
-    if (capture) wanted.insert(capture->reflections.get());
-  }
-  std::erase_if(resident_, [&](const auto& entry) {
-    if (wanted.contains(entry.first) && !entry.second.owner.expired()) return false;
-    bytes_ -= entry.second.bytes;
-    return true;
-  });
-}
-
-void CaptureResidency::trim(std::size_t bytes) {
-  while (bytes_ > bytes) {
-    const auto oldest =
-        std::min_element(resident_.begin(), resident_.end(),
-                         [](const auto& a, const auto& b) { return a.second.lastUse < b.second.lastUse; });
-    if (oldest == resident_.end() || oldest->second.lastUse == frame_) break;
-    bytes_ -= oldest->second.bytes;
-    resident_.erase(oldest);
-  }
-  ++frame_;
+  Result<CaptureBuffers> uploaded = uploadCapture(*capture, name, parts, largestBuffer_);
+  if (!uploaded) return tl::unexpected(uploaded.error());
+  return &put(capture, std::move(*uploaded));
 }
 
 }  // namespace acentric

@@ -3,13 +3,13 @@
 /// columns.
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
 #include "engine/base/result.h"
 #include "engine/view/walk_scene.h"
 #include "engine/view_gl/gl_object.h"
+#include "engine/view_gl/residency.h"
 
 namespace acentric {
 
@@ -36,7 +36,7 @@ struct CaptureChunk {
 struct CaptureBuffers {
   std::weak_ptr<const DisplayCapture> owner;
   std::vector<CaptureChunk> chunks;
-  GlBuffer rowTangents;  ///< float per row
+  GlBuffer rowTangents;  ///< float per row; none, and no chunks, until samples are asked for
   GlBuffer background;   ///< 8 bytes a run: first row | end row << 16, roles; none without background
   std::vector<std::uint8_t>
       clearSamples;  ///< per column: most clear samples in one pixel, at most kMostClearRanks
@@ -44,32 +44,40 @@ struct CaptureBuffers {
   std::uint64_t lastUse = 0;
 };
 
+/// What is asked for of a capture.
+enum class CaptureParts { background, samples, samplesAndSlants };
+
 /// Uploads a capture. Fails on one whose arrays contradict each other, or whose single column is beyond the
 /// limit: `largestBuffer` bytes, 0 = what the driver allows.
-Result<CaptureBuffers> uploadCapture(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
+Result<CaptureBuffers> uploadCapture(const DisplayCapture& capture, const char* name,
+                                     CaptureParts parts = CaptureParts::samples,
                                      std::size_t largestBuffer = 0);
 
-/// What is resident, by the identity of the shared capture.
-class CaptureResidency {
+/// Fails on a capture whose arrays contradict each other: nothing that reads them checks again.
+Status checkArrays(const DisplayCapture& capture, const char* name);
+/// What shader storage buffers may hold, bytes; at most `largestBuffer` unless that is 0.
+std::size_t storageLimit(std::size_t largestBuffer);
+/// A storage buffer of these values; counts its bytes.
+template <class Values>
+GlBuffer makeStorage(const Values& values, std::size_t& bytes) {
+  GlBuffer buffer = GlBuffer::make();
+  const std::size_t size = values.size() * sizeof values[0];
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(size), values.data(), GL_STATIC_DRAW);
+  bytes += size;
+  return buffer;
+}
+
+class CaptureResidency : public Residency<CaptureBuffers> {
  public:
   explicit CaptureResidency(std::size_t largestBuffer = 0) : largestBuffer_(largestBuffer) {}
 
-  /// The buffers of `capture`, with slants if asked for, uploaded now if need be. Valid until the next call
-  /// of dropGone or trim.
+  /// The buffers of `capture`, uploaded now as far as need be. Valid until the next call of dropGone or trim.
   Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
-                                    bool slants = false);
-  /// Drops the captures that are no longer anywhere in memory or no longer in `scene`.
-  void dropGone(const WalkScene& scene);
-  /// Drops those unused for longest until at most `bytes` remain; keeps what was used since the last trim.
-  void trim(std::size_t bytes);
-  std::size_t bytes() const { return bytes_; }
-  std::size_t count() const { return resident_.size(); }
+                                    CaptureParts parts = CaptureParts::samples);
 
  private:
   std::size_t largestBuffer_ = 0;
-  std::map<const DisplayCapture*, CaptureBuffers> resident_;
-  std::size_t bytes_ = 0;
-  std::uint64_t frame_ = 1;
 };
 
 }  // namespace acentric

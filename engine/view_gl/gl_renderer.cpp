@@ -11,6 +11,7 @@
 #include "engine/view/view_plan.h"
 #include "engine/view_gl/background_pass.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/fill_pass.h"
 #include "engine/view_gl/filter_pass.h"
 #include "engine/view_gl/frame_target.h"
@@ -18,12 +19,11 @@
 #include "engine/view_gl/gl_program.h"
 #include "engine/view_gl/gl_state.h"
 #include "engine/view_gl/local_pass.h"
-#include "engine/view_gl/point_pass.h"
 
 namespace acentric {
 namespace {
 
-/// Captures beyond this leave graphics memory, those unused for longest first.
+/// Captures beyond this leave graphics memory, those unused for longest first; of meshes the same.
 constexpr std::size_t kCaptureBudgetBytes = std::size_t(2) << 30;
 
 /// ViewSettings::maxSplatPixels at most.
@@ -54,13 +54,18 @@ double secondsBetween(const GlQuery& first, const GlQuery& second) {
 }  // namespace
 
 struct GlRenderer::Impl {
+  explicit Impl(TaskRunner* given) : runner(given != nullptr ? *given : own) {}
+
+  TaskRunner own;  // this thread alone
+  TaskRunner& runner;
   ProgramCache programs;
   CaptureResidency captures;
+  MeshResidency meshes{runner};
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
   BackgroundPass background{programs, captures};
-  PointPass points{programs, captures};
+  CapturePass capturePass{programs, captures, meshes};
   FilterPass filter{programs};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
@@ -91,6 +96,7 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   stats = {};
   stats.missingImages = plan->missingImages;
   captures.dropGone(scene);
+  meshes.dropGone(scene);
   locals.dropGone(scene);
   textures.dropGone();
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
@@ -98,6 +104,7 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return tl::unexpected(drawn.error());
   glQueryCounter(done.name(), GL_TIMESTAMP);
   captures.trim(kCaptureBudgetBytes);
+  meshes.trim(kCaptureBudgetBytes);
   stats.totalSeconds = secondsOfDrawing(start);
   cardSeconds = secondsBetween(begun, done);
   return stats;
@@ -110,7 +117,7 @@ Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, c
   target.begin();
   const Clock::time_point start = Clock::now();
   if (Status drawn = background.draw(scene, plan, view, target); !drawn) return drawn;
-  if (Status drawn = points.draw(scene, plan, view, settings, target, stats); !drawn) return drawn;
+  if (Status drawn = capturePass.draw(scene, plan, view, settings, target, stats); !drawn) return drawn;
   bool mirrorsMarked = false;
   if (!plan.reflections.empty()) {
     const Result<bool> marked = drawReflections(scene, plan, view, settings, *local);
@@ -142,7 +149,7 @@ Result<bool> GlRenderer::Impl::drawReflections(const WalkScene& scene, const Vie
   if (mark)
     if (Status marked = localPass.markMirrors(scene, view, target, *local); !marked)
       return tl::unexpected(marked.error());
-  if (Status drawn = points.drawReflections(scene, plan, view, settings, mark, target, stats); !drawn)
+  if (Status drawn = capturePass.drawReflections(scene, plan, view, settings, mark, target, stats); !drawn)
     return tl::unexpected(drawn.error());
   return mark;
 }
@@ -173,7 +180,7 @@ Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewP
 GlRenderer::GlRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GlRenderer::~GlRenderer() = default;
 
-Result<std::unique_ptr<GlRenderer>> GlRenderer::create() {
+Result<std::unique_ptr<GlRenderer>> GlRenderer::create(TaskRunner* runner) {
   const int version = epoxy_gl_version();
   if (version < 43 || !epoxy_is_desktop_gl())
     return fail(
@@ -197,7 +204,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create() {
         "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
-  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>()));
+  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(runner)));
   // The variant that every walk needs: a driver that refuses our shaders says so now, not in the first frame.
   const Result<GlProgram*> program = renderer->impl_->programs.get("points.vert", "points.frag", {"SPLAT"});
   if (!program) return tl::unexpected(program.error());

@@ -1,13 +1,15 @@
 #pragma once
 /// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
 /// as buffers. Draws the pieces of the same ViewPlan back to front without depth test (or, for comparison,
-/// with one), then local geometry with one.
+/// with one; or as adaptive meshes with one, built when a capture is first drawn), then local geometry with
+/// one.
 
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/base/task_runner.h"
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/frame.h"
 #include "engine/view/view_settings.h"
@@ -18,8 +20,9 @@ namespace acentric {
 class GlRenderer {
  public:
   /// With the context current, as in every call and for destruction. Compiles the shaders that every walk
-  /// needs; the others when first used.
-  static Result<std::unique_ptr<GlRenderer>> create();
+  /// needs; the others when first used. Meshes are built with `runner`, which must outlive the renderer;
+  /// null: on the calling thread.
+  static Result<std::unique_ptr<GlRenderer>> create(TaskRunner* runner = nullptr);
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
-#include "engine/geometry/conventions.h"
 #include "engine/view/column_culling.h"
 #include "engine/view/column_order.h"
 #include "engine/view/warp.h"
@@ -36,14 +34,6 @@ std::size_t rowBelowTangent(const DisplayCapture& capture, double tangent) {
   return std::size_t(std::partition_point(capture.rowTangent.begin(), capture.rowTangent.end(),
                                           [&](float t) { return double(t) >= tangent; }) -
                      capture.rowTangent.begin());
-}
-
-/// K M: world directions to (u z, v z, z).
-glm::dmat3 pictureMatrix(const PerspectiveView& view) {
-  const double focal = view.focalPixels();
-  const glm::dmat3 pictureFromView(glm::dvec3(focal, 0, 0), glm::dvec3(0, focal, 0),
-                                   glm::dvec3(0.5 * view.width, 0.5 * view.height, 1));
-  return pictureFromView * view.viewFromWorld();
 }
 
 class ColumnPlanner {
@@ -91,26 +81,14 @@ const CaptureChunk* chunkOf(const CaptureBuffers& buffers, int column) {
   return nullptr;  // a column without samples
 }
 
-void setUniform(GlProgram& program, const char* name, const glm::vec2& value) {
-  glUniform2f(program.location(name), value.x, value.y);
-}
-void setUniform(GlProgram& program, const char* name, const glm::vec3& value) {
-  glUniform3f(program.location(name), value.x, value.y, value.z);
-}
-
 }  // namespace
 
-struct PointPass::Piece {
-  const PieceDraw& plan;
-  const DisplayCapture& capture;
+struct PointPass::Piece : CapturePiece {
   const CaptureBuffers& buffers;
-  const PerspectiveView& view;
-  const ViewSettings& settings;
-  enum class Mirrors { none, mark, reflect } mirrors = Mirrors::none;
   std::vector<std::pair<const CaptureChunk*, int>> columns = {};  ///< visible ones, in drawing order
 
   /// What mirrors show is laid over their pixels in order, whatever the rest is drawn by.
-  bool depthTest() const { return settings.renderer == Renderer::glZbuffer && mirrors != Mirrors::reflect; }
+  bool depthTest() const { return depthTested(settings.renderer) && mirrors != Mirrors::reflect; }
   bool splat() const { return settings.reconstruction == Reconstruction::splat; }
   bool rectangles() const { return followsSlant(settings.reconstruction); }
   /// A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
@@ -124,85 +102,13 @@ PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
       noAttributes_(GlVertexArray::make()),
       columnPlans_(GlBuffer::make()) {}
 
-Status PointPass::draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                       const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
-  const auto sharedOf = [&](const PieceDraw& piece) { return scene.captures[std::size_t(piece.camera)]; };
-  const bool anyClear = std::any_of(plan.pieces.begin(), plan.pieces.end(), [&](const PieceDraw& piece) {
-    return sharedOf(piece) && sharedOf(piece)->blended;
-  });
-  const bool anyMirror = !plan.reflections.empty();
-  const bool filtered = settings.reconstruction == Reconstruction::filtered;
-  if (Status ready = target.beginPieces(anyMirror, filtered); !ready) return ready;
-  std::set<int> images;
-  for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
-  const bool depthTest = settings.renderer == Renderer::glZbuffer;
-  struct Step {
-    const PieceDraw& piece;
-    Samples samples;
-  };
-  std::vector<Step> steps;
-  for (const bool behind : {false, true}) {
-    const auto add = [&](Samples samples) {
-      for (const PieceDraw& piece : plan.pieces)
-        if (piece.secondary == behind &&
-            (samples != Samples::clear || (sharedOf(piece) && sharedOf(piece)->blended)))
-          steps.push_back({piece, samples});
-    };
-    add(depthTest ? Samples::opaque : Samples::all);
-    if (depthTest) add(Samples::clear);  // in front of the nearest of what is opaque, as in view/warp.cpp
-  }
-  for (const auto& [planned, samples] : steps) {
-    const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
-    if (!capture || capture->samples.empty() || planned.runs.empty()) continue;
-    const std::string name = fmt::format("capture of camera {}", planned.camera);
-    const Result<const CaptureBuffers*> buffers =
-        captures_.get(capture, name.c_str(), followsSlant(settings.reconstruction));
-    if (!buffers) return tl::unexpected(buffers.error());
-    // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
-    // holes.
-    target.beginPainting(depthTest                        ? FrameTarget::Depth::test
-                         : anyClear || settings.fillHoles ? FrameTarget::Depth::keep
-                                                          : FrameTarget::Depth::ignore,
-                         planned.secondary ? FrameTarget::Cover::behind : FrameTarget::Cover::inFront);
-    target.bindForPieces();
-    Piece piece{planned, *capture, **buffers,
-                view,    settings, anyMirror ? Piece::Mirrors::mark : Piece::Mirrors::none};
-    images.insert(planned.camera);
-    if (Status drawn = drawPiece(piece, samples, target, stats); !drawn) return drawn;
-  }
-  stats.images = int(images.size());
-  target.endPainting();
-  return {};
-}
-
-Status PointPass::drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                                  const ViewSettings& settings, bool localMirrors, FrameTarget& target,
-                                  FrameStats& stats) {
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glDisable(GL_BLEND);
-  target.bindForReflections();  // without the depth test, which leaves the pixels the mirror's depth
-  glActiveTexture(GL_TEXTURE0);
-  glBindSampler(0, 0);
-  glBindTexture(GL_TEXTURE_2D, target.mirrors());
-  if (localMirrors) {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, kReflection, 0xff);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    glStencilMask(kReflection);
-  }
-  for (const PieceDraw& planned : plan.reflections) {
-    const std::shared_ptr<const DisplayCapture>& shown =
-        scene.captures[std::size_t(planned.camera)]->reflections;
-    const std::string name = fmt::format("reflections of camera {}", planned.camera);
-    const Result<const CaptureBuffers*> buffers =
-        captures_.get(shown, name.c_str(), followsSlant(settings.reconstruction));
-    if (!buffers) return tl::unexpected(buffers.error());
-    Piece piece{planned, *shown, **buffers, view, settings, Piece::Mirrors::reflect};
-    if (Status drawn = drawPiece(piece, Samples::all, target, stats); !drawn) return drawn;
-  }
-  glStencilMask(0xff);
-  glDisable(GL_STENCIL_TEST);
-  return {};
+Status PointPass::draw(const CapturePiece& what, Samples samples, FrameTarget& target, FrameStats& stats) {
+  const CaptureParts parts =
+      followsSlant(what.settings.reconstruction) ? CaptureParts::samplesAndSlants : CaptureParts::samples;
+  const Result<const CaptureBuffers*> buffers = captures_.get(what.capture, what.name().c_str(), parts);
+  if (!buffers) return tl::unexpected(buffers.error());
+  Piece piece{what, **buffers};
+  return drawPiece(piece, samples, target, stats);
 }
 
 Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
@@ -213,12 +119,12 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
   if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
   if (samples == Samples::opaque && piece.depthTest())
     defines.push_back("UNORDERED");
-  else if (piece.capture.layered)
+  else if (piece.capture->layered)
     defines.push_back("LAYERED");
-  if (piece.capture.blended) defines.push_back(samples == Samples::clear ? "CLEAR" : "OPAQUE");
-  if (!piece.capture.mirror.empty() && piece.mirrors != Piece::Mirrors::none) defines.push_back("MIRRORS");
-  if (piece.mirrors == Piece::Mirrors::mark) defines.push_back("MARK_MIRRORS");
-  if (piece.mirrors == Piece::Mirrors::reflect) defines.push_back("REFLECT");
+  if (piece.capture->blended) defines.push_back(samples == Samples::clear ? "CLEAR" : "OPAQUE");
+  if (!piece.capture->mirror.empty() && piece.mirrors != Mirrors::none) defines.push_back("MIRRORS");
+  if (piece.mirrors == Mirrors::mark) defines.push_back("MARK_MIRRORS");
+  if (piece.mirrors == Mirrors::reflect) defines.push_back("REFLECT");
   const Result<GlProgram*> found = programs_.get("points.vert", "points.frag", defines);
   if (!found) return found;
   GlProgram& program = **found;
@@ -234,7 +140,7 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
   glUniform1f(program.location("maxSide"), float(piece.settings.maxSplatPixels));
   if (piece.splat()) {
     const double focal = view.focalPixels();
-    const double pitch = std::max(piece.capture.camera.columnPitch(), piece.capture.camera.rowPitch());
+    const double pitch = std::max(piece.capture->camera.columnPitch(), piece.capture->camera.rowPitch());
     glUniform1f(program.location("footprint"), float(focal * pitch * kSlantAllowance));
     glUniform1f(program.location("inverseFocal"), float(1 / focal));
   }
@@ -242,16 +148,14 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
     const double half = 0.5 * kOverlap;
     setUniform(program, "eastInPicture", glm::vec3(pictureFromWorld[0]));
     setUniform(program, "northInPicture", glm::vec3(pictureFromWorld[1]));
-    setUniform(program, "steps",
-               glm::vec2(half * piece.capture.camera.columnPitch(), half * piece.capture.camera.rowPitch()));
+    setUniform(
+        program, "steps",
+        glm::vec2(half * piece.capture->camera.columnPitch(), half * piece.capture->camera.rowPitch()));
     glUniform1f(program.location("perSpread"), float(8 * half));
   }
   if (piece.plan.clipToPart) {
-    const AzimuthRange& part = piece.plan.part.azimuths;
+    setPart(program, piece.plan);
     setUniform(program, "baselineInPlan", glm::vec2(piece.plan.baseline));
-    setUniform(program, "partLow", glm::vec2(directionOf(part.low)));
-    setUniform(program, "partHigh", glm::vec2(directionOf(part.low + part.width)));
-    glUniform1i(program.location("partIsWide"), part.width > kPi ? 1 : 0);
   }
   glBindVertexArray(noAttributes_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, piece.buffers.rowTangents.name());
@@ -262,8 +166,8 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
 }
 
 Status PointPass::drawPiece(Piece& piece, Samples samples, FrameTarget& target, FrameStats& stats) {
-  plans_.assign(std::size_t(piece.capture.camera.columns), ColumnPlan{});
-  const ColumnPlanner planner(piece.capture, piece.plan, piece.view);
+  plans_.assign(std::size_t(piece.capture->camera.columns), ColumnPlan{});
+  const ColumnPlanner planner(*piece.capture, piece.plan, piece.view);
   for (const ColumnRun& run : piece.plan.runs)
     for (int n = 0; n < run.last - run.first; ++n) {
       const int column = run.ascending ? run.first + n : run.last - 1 - n;
@@ -281,13 +185,13 @@ Status PointPass::drawPiece(Piece& piece, Samples samples, FrameTarget& target, 
     if (!opaque) return tl::unexpected(opaque.error());
     drawColumns(piece, -1, stats);
   }
-  if (samples != Samples::opaque && piece.capture.blended)
+  if (samples != Samples::opaque && piece.capture->blended)
     if (Status drawn = drawClearRanks(piece, target, stats); !drawn) return drawn;
   return checkGl("drawing captures");
 }
 
 Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& stats) {
-  const bool marks = piece.mirrors == Piece::Mirrors::mark;
+  const bool marks = piece.mirrors == Mirrors::mark;
   const Result<GlProgram*> lay =
       programs_.get("whole_picture.vert", "clear_layer.frag", marks ? Defines{"MARK_MIRRORS"} : Defines{});
   if (!lay) return tl::unexpected(lay.error());

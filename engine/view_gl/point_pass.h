@@ -1,11 +1,10 @@
 #pragma once
-/// Draws the pieces of a view plan as points, back to front by submission, without a depth test (list
-/// priority); or, for comparison, the same points with one.
+/// Draws a piece of a view plan as points, back to front by submission, without a depth test (list priority);
+/// or with one, in any order.
 
-#include "engine/geometry/perspective_view.h"
 #include "engine/view/frame.h"
-#include "engine/view/view_plan.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
 
@@ -25,20 +24,12 @@ static_assert(sizeof(ColumnPlan) == 48, "the shader reads a stride of 48 bytes")
 class PointPass {
  public:
   PointPass(ProgramCache& programs, CaptureResidency& captures);
-  /// Into `target`, which begin() has cleared. Writes depth only where a later pass reads it. Counts images
-  /// and samples in `stats`.
-  Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-              const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
-  /// What mirrors show, onto the pixels that `target` says belong to them. `localMirrors`: some are local
-  /// geometry; the stencil then says what was drawn.
-  Status drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                         const ViewSettings& settings, bool localMirrors, FrameTarget& target,
-                         FrameStats& stats);
+  /// Into what is bound of `target`, ready for painting. Counts samples in `stats`.
+  Status draw(const CapturePiece& piece, Samples samples, FrameTarget& target, FrameStats& stats);
 
  private:
-  /// One piece on its way: what all its draw calls share.
+  /// With its buffers.
   struct Piece;
-  enum class Samples { opaque, clear, all };
   Status drawPiece(Piece& piece, Samples samples, FrameTarget& target, FrameStats& stats);
   /// Blended samples behind one another in a pixel cannot be drawn at once: the splats of one pane overlap,
   /// and where they do the pane must still tint once. So rank by rank, each into a layer of its own, laid

@@ -44,7 +44,7 @@ class WithGl : public testing::Test {
 
 /// As the scalar reference paints it; what a depth test shows if that is asked for.
 inline Frame onCpu(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {
-  settings.renderer = settings.renderer == Renderer::glZbuffer ? Renderer::zbuffer : Renderer::scalar;
+  settings.renderer = depthTested(settings.renderer) ? Renderer::zbuffer : Renderer::scalar;
   TaskRunner runner(0);
   auto frame = renderFrame(scene, view, settings, runner);
   if (!frame) {

@@ -317,7 +317,8 @@ TEST_F(GlPoints, RefusesWhatTheCpuRefuses) {
   EXPECT_EQ(renderer_->draw(scene, view, settings).error().kind, ErrorKind::invalidArgument);
   TaskRunner runner(0);
   settings = {};
-  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer}) {
+  for (const Renderer renderer : kRenderers) {
+    if (!onOpenGl(renderer)) continue;
     settings.renderer = renderer;
     EXPECT_FALSE(renderFrame(scene, view, settings, runner)) << "what is drawn here is not drawn there";
   }

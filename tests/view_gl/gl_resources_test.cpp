@@ -5,10 +5,10 @@
 
 #include "engine/view/view_plan.h"
 #include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_state.h"
-#include "engine/view_gl/point_pass.h"
 #include "gl_fixture.h"
 #include "tests/view/mirror_scene.h"
 
@@ -49,6 +49,10 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
       scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
   EXPECT_EQ(residency.bytes(), 12 * samples + 8 * runs + 2 * 16 * sizeof(float));
+  CaptureResidency forBackgrounds;
+  for (const auto& capture : scene.captures)
+    ASSERT_TRUE(forBackgrounds.get(capture, "its background", CaptureParts::background));
+  EXPECT_EQ(forBackgrounds.bytes(), 8 * runs);
 
   auto reflecting = std::make_shared<DisplayCapture>(*scene.captures[1]);
   reflecting->reflections = smallCapture();
@@ -96,25 +100,33 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   view.width = 200, view.height = 120;
   const auto plan = planView(scene, view, {});
   ASSERT_TRUE(plan);
-  const auto drawnWith = [&](std::size_t largestBuffer) {
+  const auto drawnWith = [&](std::size_t largestBuffer, Renderer renderer) {
     const GlStateGuard guard;
     ProgramCache programs;
     CaptureResidency captures(largestBuffer);
-    PointPass points(programs, captures);
+    TaskRunner runner(0);
+    MeshResidency meshes(runner, largestBuffer);
+    CapturePass pass(programs, captures, meshes);
     FrameTarget target;
     FrameStats stats;
+    ViewSettings settings;
+    settings.renderer = renderer;
     EXPECT_TRUE(target.resize(view.width, view.height));
     target.begin();
-    EXPECT_TRUE(points.draw(scene, *plan, view, {}, target, stats));
+    EXPECT_TRUE(pass.draw(scene, *plan, view, settings, target, stats));
     return target.read();
   };
   const std::size_t someColumns = 12 * 5000;
   EXPECT_FALSE(plan->reflections.empty());
   const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
-  EXPECT_GT(uploadCapture(first, "cut", someColumns)->chunks.size(), 4u);
-  EXPECT_EQ(drawnWith(someColumns).colour.pixels, drawnWith(0).colour.pixels);
+  EXPECT_GT(uploadCapture(*first, "cut", CaptureParts::samples, someColumns)->chunks.size(), 4u);
+  TaskRunner runner(0);
+  MeshResidency meshes(runner, someColumns);
+  EXPECT_GT((*meshes.get(first, "cut", *layout, plan->pieces[0].camera, {}))->chunks.size(), 2u);
+  for (const Renderer renderer : {Renderer::gl, Renderer::glMesh})
+    EXPECT_EQ(drawnWith(someColumns, renderer).colour.pixels, drawnWith(0, renderer).colour.pixels);
 
-  const auto tooSmall = uploadCapture(first, "capture of camera 3", 120);
+  const auto tooSmall = uploadCapture(*first, "capture of camera 3", CaptureParts::samples, 120);
   ASSERT_FALSE(tooSmall);
   EXPECT_EQ(tooSmall.error().kind, ErrorKind::tooLarge);
   EXPECT_EQ(tooSmall.error().where, "capture of camera 3");
@@ -125,7 +137,7 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   const auto refused = [&](auto&& spoil) {
     auto spoilt = std::make_shared<DisplayCapture>(*sound);
     spoil(*spoilt);
-    const auto uploaded = uploadCapture(spoilt, "capture of camera 7");
+    const auto uploaded = uploadCapture(*spoilt, "capture of camera 7");
     return !uploaded && uploaded.error().where == "capture of camera 7" &&
            uploaded.error().kind == ErrorKind::malformed;
   };
@@ -135,7 +147,7 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart[3] = c.columnStart[4] + 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart.back() += 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.rowTangent.pop_back(); }));
-  EXPECT_TRUE(uploadCapture(sound, "sound"));
+  EXPECT_TRUE(uploadCapture(*sound, "sound"));
 }
 
 TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {
@@ -145,9 +157,11 @@ TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {
   PerspectiveView view;
   view.eye = {0.1, 0.1, layout->eyeZ()};
   view.width = 64, view.height = 48;
-  onGl(scene, view, {});
+  ViewSettings settings;
+  onGl(scene, view, settings);
   view.width = 80;  // makes the framebuffer anew
-  onGl(scene, view, {});
+  settings.renderer = Renderer::glMesh;
+  onGl(scene, view, settings);
   EXPECT_EQ(glIsTexture(renderer_->colourTexture()), GL_TRUE);
   renderer_.reset();
   int left = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <thread>
+
 #include "engine/base/stopwatch.h"
 #include "engine/measure/statistics.h"
 #include "engine/view_gl/gl_renderer.h"
@@ -16,7 +18,7 @@ constexpr const char* kMeasured =
 
 struct Times {
   std::vector<double> frame, card, readBack;  // milliseconds
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0, meshTriangles = 0;
   FrameStats last;
 };
 
@@ -34,7 +36,8 @@ std::vector<PerspectiveView> viewsOf(const PackedWalk& packed, const GlTimingOpt
 Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options) {
   auto context = HeadlessContext::create();
   if (!context) return tl::unexpected(context.error());
-  const auto renderer = GlRenderer::create();
+  TaskRunner runner(int(std::max(1U, std::thread::hardware_concurrency())) - 1);  // for building meshes
+  const auto renderer = GlRenderer::create(&runner);
   if (!renderer) return tl::unexpected(renderer.error());
   const std::vector<PerspectiveView> views = viewsOf(packed, options);
   std::vector<Times> times(options.modes.size());
@@ -53,6 +56,7 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
         times[m].card.push_back((*renderer)->cardSeconds() * 1e3);
         times[m].readBack.push_back(reading.seconds() * 1e3);
         times[m].samples += stats->samplesRead;
+        times[m].meshTriangles += stats->meshTriangles;
         times[m].last = *stats;
       }
 
@@ -68,7 +72,9 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
                  readBack = spreadOf(times[m].readBack);
     const std::string name = nameOf(options.modes[m].renderer),
                       reconstruction = nameOf(options.modes[m].reconstruction);
-    const double samples = double(times[m].samples) / double(std::max<std::size_t>(times[m].frame.size(), 1));
+    const double frames = double(std::max<std::size_t>(times[m].frame.size(), 1));
+    const double samples = double(times[m].samples) / frames,
+                 triangles = double(times[m].meshTriangles) / frames;
     out.json["renderers"].push_back({{"renderer", name},
                                      {"reconstruction", reconstruction},
                                      {"frameMsMedian", frame.median},
@@ -78,12 +84,13 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
                                      {"readBackMsMedian", readBack.median},
                                      {"framesPerSecond", frame.median > 0 ? 1e3 / frame.median : 0},
                                      {"samplesPerFrame", samples},
+                                     {"meshTrianglesPerFrame", triangles},
                                      {"localTriangles", times[m].last.localTriangles}});
     out.text += fmt::format(
         "  {:<10} {:<8} frame {:8.3f} ms median, {:8.3f} ms p99; card {:8.3f} ms; read back {:7.3f} ms; "
-        "{:.2f} M "
-        "samples\n",
-        name, reconstruction, frame.median, frame.p99, card.median, readBack.median, 1e-6 * samples);
+        "{:.2f} M samples, {:.2f} M mesh triangles\n",
+        name, reconstruction, frame.median, frame.p99, card.median, readBack.median, 1e-6 * samples,
+        1e-6 * triangles);
   }
   out.text += fmt::format("{}\n", kMeasured);
   return out;

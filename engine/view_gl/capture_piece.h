@@ -1,0 +1,37 @@
+#pragma once
+/// A piece of a view plan on its way to the picture: what all passes that draw samples share.
+
+#include <memory>
+#include <string>
+
+#include "engine/geometry/perspective_view.h"
+#include "engine/view/view_plan.h"
+#include "engine/view_gl/gl_program.h"
+
+namespace acentric {
+
+enum class Samples { opaque, clear, all };
+
+/// Pieces mark the pixels that show a mirror; what mirrors show is drawn onto those.
+enum class Mirrors { none, mark, reflect };
+
+struct CapturePiece {
+  const PieceDraw& plan;
+  std::shared_ptr<const DisplayCapture> capture;  ///< or what its mirrors show
+  const PerspectiveView& view;
+  const ViewSettings& settings;
+  Mirrors mirrors = Mirrors::none;
+
+  /// For messages.
+  std::string name() const;
+};
+
+/// K M: world directions to (u z, v z, z).
+glm::dmat3 pictureMatrix(const PerspectiveView& view);
+
+void setUniform(GlProgram& program, const char* name, const glm::vec2& value);
+void setUniform(GlProgram& program, const char* name, const glm::vec3& value);
+/// Those of shaders/part.glsl.
+void setPart(GlProgram& program, const PieceDraw& piece);
+
+}  // namespace acentric

@@ -1,0 +1,26 @@
+#pragma once
+/// Draws the opaque samples of a piece of a view plan as the mesh of its capture, with a depth test.
+
+#include "engine/view/frame.h"
+#include "engine/view_gl/capture_piece.h"
+#include "engine/view_gl/mesh_buffers.h"
+
+namespace acentric {
+
+class MeshPass {
+ public:
+  MeshPass(ProgramCache& programs, MeshResidency& meshes);
+  /// Into what is bound, ready for painting with a depth test. Counts triangles in `stats`.
+  Status draw(const CapturePiece& piece, const Layout& layout, FrameStats& stats);
+
+ private:
+  Result<GlProgram*> program(const CapturePiece& piece, const MeshBuffers& mesh);
+  void drawChunk(const CapturePiece& piece, MeshChunk& chunk, MeshBuffers& mesh, FrameStats& stats);
+
+  ProgramCache& programs_;
+  MeshResidency& meshes_;
+  GlVertexArray noAttributes_;  ///< triangles pull their data from buffers
+  GlBuffer limits_;
+};
+
+}  // namespace acentric
