@@ -78,6 +78,7 @@ WalkStream::WalkStream(WalkStart start, WalkStreamOptions options)
     t.captures.resize(cameras);
     t.measured.assign(cameras, 0);
     t.made.assign(cameras, 0);
+    t.madeBytes.assign(cameras, 0);
   }
   guessBytes();
   for (std::size_t c = 0; c < cameras; ++c)
@@ -247,8 +248,10 @@ std::optional<WalkStream::Task> WalkStream::nextSketch() const {
         (nearest < 0 || distances_.camera[c] < distances_.camera[std::size_t(nearest)]))
       nearest = int(c);
   if (nearest < 0) return std::nullopt;
-  if (taken(Detail::coarse) + coarseBytesOf(full.bytes[std::size_t(nearest)]) > limitOf(Detail::coarse))
-    return std::nullopt;
+  // One that was made before took what it took: were only the guess believed, it would come and go for ever.
+  const auto c = std::size_t(nearest);
+  const std::size_t bytes = std::max(coarseBytesOf(full.bytes[c]), coarse.madeBytes[c]);
+  if (taken(Detail::coarse) + bytes > limitOf(Detail::coarse)) return std::nullopt;
   return Task{Task::What::sketch, nearest, true};
 }
 
@@ -392,6 +395,7 @@ void WalkStream::insert(Detail detail, int camera, CapturePtr capture, bool made
   t.bytes[c] = bytesOf(*capture);
   t.measured[c] = 1;
   t.made[c] = made;
+  if (made) t.madeBytes[c] = t.bytes[c];
   t.residence[c] = Residence::resident;
   t.lastUse[c] = ++uses_;
   t.captures[c] = std::move(capture);

@@ -80,8 +80,9 @@ class WalkStream {
     std::vector<Residence> residence;
     std::vector<std::uint64_t> lastUse;
     std::vector<CapturePtr> captures;
-    std::vector<char> measured;  ///< `bytes` is no longer a guess
-    std::vector<char> made;      ///< not from a file
+    std::vector<char> measured;          ///< `bytes` is no longer a guess
+    std::vector<char> made;              ///< not from a file
+    std::vector<std::size_t> madeBytes;  ///< what it took when it was made last
   };
   struct Task {
     enum class What { full, coarse, local, sketch } what = What::full;
