@@ -245,6 +245,22 @@ TEST_F(SlowWalk, WhatIsEvictedIsGoneWhenItsLastFrameIsDone) {
   EXPECT_TRUE(left.expired()) << "cleared away by a loader, not by the frame";
 }
 
+/// Coarse copies that are made on the way take more than was guessed: at some limit the last one does not
+/// fit.
+TEST_F(SlowWalk, ComesToRestWhateverTheLimit) {
+  for (int k = 0; k < 24; ++k) {
+    WalkStreamOptions options;
+    options.memoryBytes = 30 * bytesOfOne() + std::size_t(k) * 800;
+    options.where.eye = {-4, 0};
+    WalkStream stream(start(), options);
+    for (int i = 0; i <= 16; ++i) {
+      stream.go({{-4 + 0.5 * i, 0}, 0, {1, 0}});
+      settle(stream);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 TEST_F(SlowWalk, ADamagedCaptureIsToldOfOnceAndItsCoarseOneStays) {
   const int bad = *neededAt({0, 0}).begin();
   source_->damaged = {bad};
