@@ -15,6 +15,8 @@ namespace acentric::test {
 
 struct RandomViews {
   std::mt19937 random;
+  double rise = 0.8, pitch = 0.5;  ///< at most, metres from the layout's eye height and radians
+  int width = 320, height = 200;
   explicit RandomViews(unsigned seed) : random(seed) {}
   double between(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -22,12 +24,12 @@ struct RandomViews {
   PerspectiveView next(const Layout& layout, int region, double fovDegrees) {
     const ConvexPolygon& polygon = layout.regions[static_cast<std::size_t>(region)].polygon;
     PerspectiveView view;
-    view.eye = glm::dvec3(randomPointIn(polygon, random), layout.eyeZ() + between(-0.8, 0.8));
+    view.eye = glm::dvec3(randomPointIn(polygon, random), layout.eyeZ() + between(-rise, rise));
     view.yawRadians = between(0, kTwoPi);
-    view.pitchRadians = between(-0.5, 0.5);
+    view.pitchRadians = between(-pitch, pitch);
     view.fovRadians = radians(fovDegrees);
-    view.width = 320;
-    view.height = 200;
+    view.width = width;
+    view.height = height;
     return view;
   }
 };

@@ -23,6 +23,17 @@ inline MirrorScene roomWithMirror() {
   return scene;
 }
 
+/// Towards that mirror.
+inline PerspectiveView viewIntoMirror(const Layout& layout, const glm::dvec3& offset, int width = 320,
+                                      int height = 200) {
+  PerspectiveView view;
+  view.eye = glm::dvec3(0.05, 0.05, layout.eyeZ()) + offset;
+  view.fovRadians = radians(70);
+  view.width = width;
+  view.height = height;
+  return view;
+}
+
 /// Peak signal to noise of the pixels that look into a mirror, dB; the error of each channel is in codes.
 inline double psnrInMirrors(const MirrorScene& scene, const PerspectiveView& view, const Frame& frame) {
   double sum = 0;

@@ -12,14 +12,7 @@ using test::roomWithMirror;
 struct Walk {
   std::shared_ptr<const Layout> layout = test::layoutAroundOrigin(Configuration::b);
   int region = *layout->regionAt({0.05, 0.05});
-  PerspectiveView view(const glm::dvec3& offset) const {
-    PerspectiveView view;
-    view.eye = glm::dvec3(0.05, 0.05, layout->eyeZ()) + offset;
-    view.fovRadians = radians(70);
-    view.width = 320;
-    view.height = 200;
-    return view;
-  }
+  PerspectiveView view(const glm::dvec3& offset) const { return test::viewIntoMirror(*layout, offset); }
 };
 
 TEST(Mirrors, ShowWhatTheEyeSeesInThemNotWhatTheCameraSaw) {

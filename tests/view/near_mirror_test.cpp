@@ -26,14 +26,7 @@ class NearMirrors : public testing::Test {
     walk.mirrors = nullptr;
     return walk;
   }
-  PerspectiveView view(const glm::dvec3& offset) const {
-    PerspectiveView view;
-    view.eye = glm::dvec3(0.05, 0.05, layout_->eyeZ()) + offset;
-    view.fovRadians = radians(70);
-    view.width = 320;
-    view.height = 200;
-    return view;
-  }
+  PerspectiveView view(const glm::dvec3& offset) const { return test::viewIntoMirror(*layout_, offset); }
   /// What a ray through the middle of a pixel sees, nearest first.
   std::vector<MirrorScene::Seen> truth(const PerspectiveView& view, int x, int y) const {
     return scene_.along(view.eye, view.rayThrough(x + 0.5, y + 0.5), 0);

@@ -1,9 +1,9 @@
 #include <cmath>
-#include <random>
 
 #include "engine/measure/compare.h"
 #include "engine/view/view_plan.h"
 #include "gl_fixture.h"
+#include "tests/view/capture_fixtures.h"
 #include "tests/view/mirror_scene.h"
 
 namespace acentric {
@@ -24,20 +24,12 @@ constexpr double kMeanAlongEdges = 0.006;  ///< of the colours
 
 class GlMesh : public test::WithGl {
  protected:
-  std::mt19937 random_{11};
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
+  GlMesh() {
+    views_.rise = 0.3, views_.pitch = 0.4;
+    views_.width = 321, views_.height = 199;
   }
   PerspectiveView nextView(const Layout& layout, int region, double fovDegrees) {
-    PerspectiveView view;
-    view.eye = glm::dvec3(test::randomPointIn(layout.regions[std::size_t(region)].polygon, random_),
-                          layout.eyeZ() + between(-0.3, 0.3));
-    view.yawRadians = between(0, kTwoPi);
-    view.pitchRadians = between(-0.4, 0.4);
-    view.fovRadians = radians(fovDegrees);
-    view.width = 321;
-    view.height = 199;
-    return view;
+    return views_.next(layout, region, fovDegrees);
   }
   /// The share of pixels whose colours differ by more than so many codes.
   double expectLikeCpu(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
@@ -52,6 +44,8 @@ class GlMesh : public test::WithGl {
     EXPECT_EQ(gl.stats.missingImages, cpu.stats.missingImages);
     return share;
   }
+
+  test::RandomViews views_{11};
 };
 
 ViewSettings asMesh() {
@@ -135,7 +129,7 @@ TEST_F(GlMesh, LeavesNoPinholesInAMagnifiedWall) {
   view.fovRadians = radians(40);
   for (int i = 0; i < 6; ++i) {
     view.eye = nextView(*layout, region, 40).eye;
-    view.yawRadians = between(-0.4, 0.4), view.pitchRadians = between(-0.3, 0.3);
+    view.yawRadians = views_.between(-0.4, 0.4), view.pitchRadians = views_.between(-0.3, 0.3);
     EXPECT_EQ(onGl(scene, view, asMesh()).holeCount(), 0u) << view.yawRadians;
     EXPECT_GT(onCpu(scene, view, asMesh()).holeCount(), 1000u);
   }

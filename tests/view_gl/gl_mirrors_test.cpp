@@ -21,12 +21,7 @@ class GlMirrors : public test::WithGl {
     return test::walkPastNearMirrors(scene_, near, layout_, region_, 4);
   }
   PerspectiveView view(const glm::dvec3& offset) const {
-    PerspectiveView view;
-    view.eye = glm::dvec3(0.05, 0.05, layout_->eyeZ()) + offset;
-    view.fovRadians = radians(70);
-    view.width = 321;
-    view.height = 199;
-    return view;
+    return test::viewIntoMirror(*layout_, offset, 321, 199);
   }
   bool hasVariant(const std::string& words) const {
     return std::ranges::any_of(renderer_->variants(),

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "engine/view/view_plan.h"
 #include "gl_fixture.h"
+#include "tests/view/capture_fixtures.h"
 #include "tests/view/mirror_scene.h"
 
 namespace acentric {
@@ -17,21 +17,10 @@ using test::onCpu;
 
 class GlPoints : public test::WithGl {
  protected:
-  std::mt19937 random_{11};
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  GlPoints() { views_.width = 321, views_.height = 199; }  // odd: half a pixel matters
 
   PerspectiveView nextView(const Layout& layout, int region, double fovDegrees) {
-    PerspectiveView view;
-    view.eye = glm::dvec3(test::randomPointIn(layout.regions[std::size_t(region)].polygon, random_),
-                          layout.eyeZ() + between(-0.8, 0.8));
-    view.yawRadians = between(0, kTwoPi);
-    view.pitchRadians = between(-0.5, 0.5);
-    view.fovRadians = radians(fovDegrees);
-    view.width = 321;  // odd: half a pixel matters
-    view.height = 199;
-    return view;
+    return views_.next(layout, region, fovDegrees);
   }
 
   void expectLikeCpu(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
@@ -44,6 +33,8 @@ class GlPoints : public test::WithGl {
     EXPECT_EQ(gl.stats.missingImages, cpu.stats.missingImages);
     EXPECT_TRUE(gl.stats.samplesRead > 0 || cpu.stats.samplesDrawn == 0);
   }
+
+  test::RandomViews views_{11};
 };
 
 ViewSettings withoutFill() {
