@@ -68,10 +68,18 @@ struct Canvas {
   /// stamp no longer counts.
   std::vector<std::uint32_t> blended;
   std::vector<std::uint8_t> mirrors;  ///< the mirror that each pixel shows, 0 = none; empty if none is needed
-  bool places = false;                ///< pixels say where their samples lie (kPlaceBits)
+  /// What such a pixel was painted: one that is another by now was painted since, and shows no mirror any
+  /// more (settleMirrors).
+  std::vector<CanvasPixel> mirrorPixels;
+  bool places = false;  ///< pixels say where their samples lie (kPlaceBits)
 
   PixelRect rect() const { return {x0, 0, x0 + width, height}; }
   std::size_t indexOf(int x) const { return std::size_t(x - x0) * std::size_t(height); }
+  /// Takes away mirrors that were painted over.
+  void settleMirrors() {
+    for (std::size_t i = 0; i < mirrors.size(); ++i)
+      if (mirrors[i] != 0 && mirrorPixels[i] != pixels[i]) mirrors[i] = 0;
+  }
   CanvasPixel* column(int x) { return pixels.data() + indexOf(x); }
   const CanvasPixel* column(int x) const { return pixels.data() + indexOf(x); }
 };

@@ -109,6 +109,8 @@ struct EightLanes {
     return {_mm256_slli_epi32(a.v, kBits)};
   }
   static I both(I a, I b) { return {_mm256_and_si256(a.v, b.v)}; }
+  static I different(I a, I b) { return {_mm256_xor_si256(a.v, b.v)}; }
+  static I asInts(F bits) { return {_mm256_castps_si256(bits.v)}; }
 
   static F asFloat(I bits) { return {_mm256_castsi256_ps(bits.v)}; }
   static F toFloat(I a) { return {_mm256_cvtepi32_ps(a.v)}; }

@@ -107,6 +107,8 @@ struct SixteenLanes {
     return {_mm512_slli_epi32(a.v, kBits)};
   }
   static I both(I a, I b) { return {_mm512_and_si512(a.v, b.v)}; }
+  static I different(I a, I b) { return {_mm512_xor_si512(a.v, b.v)}; }
+  static I asInts(F bits) { return {_mm512_castps_si512(bits.v)}; }
 
   static F asFloat(I bits) { return {_mm512_castsi512_ps(bits.v)}; }
   static F toFloat(I a) { return {_mm512_cvtepi32_ps(a.v)}; }

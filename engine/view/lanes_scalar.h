@@ -67,7 +67,9 @@ struct OneLane {
   static I shiftLeft(I a) {
     return static_cast<I>(static_cast<std::uint32_t>(a) << kBits);
   }
-  static I both(I a, I b) { return a & b; }  ///< bits
+  static I both(I a, I b) { return a & b; }       ///< bits
+  static I different(I a, I b) { return a ^ b; }  ///< bits
+  static I asInts(F bits) { return __builtin_bit_cast(I, bits); }
 
   static F asFloat(I bits) { return __builtin_bit_cast(F, bits); }
   static F toFloat(I a) { return static_cast<float>(a); }

@@ -55,53 +55,51 @@ struct BlendedPixel {
   std::uint64_t validStamp() const { return blended == static_cast<std::uint32_t>(pixel) ? stamp : 0; }
 };
 
-/// False where nothing changes.
-bool blendInto(const BlendedPixel& at, std::uint32_t colour, std::uint64_t newStamp) {
+void blendInto(const BlendedPixel& at, std::uint32_t colour, std::uint64_t newStamp) {
   CanvasPixel& pixel = at.pixel;
   const std::uint32_t slot = slotOf(pixel);
   if (slot == 0 || sameSurface(at.validStamp(), newStamp))
-    return false;  // over a hole there is nothing to tint: it stays a hole
+    return;  // over a hole there is nothing to tint: it stays a hole
   const Rgba8 mixed = blendOver(colourOf(colour), colourOf(static_cast<std::uint32_t>(pixel) | 0xff000000u));
   pixel = (pixel & ~CanvasPixel(0xffffffff)) | (wordOf(mixed) & 0xffffffu) | (slot << 24);
   at.stamp = newStamp;
   at.blended = static_cast<std::uint32_t>(pixel);
-  return true;
 }
 
-/// `kMarks`: the canvas is told which mirrors it shows. `kPlaces`: and where samples lie. `kBehind`: only
-/// open pixels are painted.
+/// `kMarks`: samples may be of mirrors, which the canvas is told. `kPlaces`: and where samples lie.
+/// `kBehind`: only open pixels are painted.
 template <PaintMode mode, bool kMarks, bool kPlaces, bool kBehind>
 class Painter {
  public:
-  explicit Painter(const PaintTarget& target)
+  Painter(const PaintTarget& target, const SplatArrays& splats)
       : target_(target),
-        rect_(target.rect),
+        splats_(splats),
+        rect_(target.canvas->rect()),
         height_(target.canvas->height),
         pixels_(target.canvas->pixels.data()),
         stamps_(target.canvas->stamps.data()),
         blended_(target.canvas->blended.data()),
-        mirrors_(target.canvas->mirrors.data()) {}
+        mirrors_(target.canvas->mirrors.data()),
+        mirrorPixels_(target.canvas->mirrorPixels.data()) {}
 
-  [[gnu::noinline]] std::uint64_t paint(const Splat* splats, int count, bool reversed,
-                                        bool pixelByPixel) const {
+  [[gnu::noinline]] std::uint64_t paint(int begin, int end, bool reversed, bool pixelByPixel) const {
     std::uint64_t painted = 0;
     // Are all pixels' samples drawn in the order of the rows, or does some pixel's foot lie between them?
     if (target_.range.x > target_.footInverse ? !reversed
                                               : reversed && target_.range.y <= target_.footInverse)
       pixelByPixel = false;
-    const Splat* const end = splats + count;
     if (!pixelByPixel && reversed) {
-      for (const Splat* s = end; s > splats;) painted += paint(*--s);
+      for (int i = end; i > begin;) painted += paint(--i);
     } else if (!pixelByPixel) {
-      for (const Splat* s = splats; s < end; ++s) painted += paint(*s);
+      for (int i = begin; i < end; ++i) painted += paint(i);
     } else if (reversed) {
-      for (const Splat *last = end, *first = end; last > splats; last = first) {
-        for (--first; first > splats && rowOf(first[-1]) == rowOf(last[-1]);) --first;
+      for (int last = end, first = end; last > begin; last = first) {
+        for (--first; first > begin && rowOf(first - 1) == rowOf(last - 1);) --first;
         painted += paintPixel(first, last);
       }
     } else {
-      for (const Splat *first = splats, *last = splats; first < end; first = last) {
-        for (++last; last < end && rowOf(*last) == rowOf(*first);) ++last;
+      for (int first = begin, last = begin; first < end; first = last) {
+        for (++last; last < end && rowOf(last) == rowOf(first);) ++last;
         painted += paintPixel(first, last);
       }
     }
@@ -112,72 +110,75 @@ class Painter {
   static constexpr bool kOver = mode == PaintMode::over || mode == PaintMode::overBlended;
   static constexpr CanvasPixel kPlace = kPlaces ? kPlaceBits : 0;
 
-  std::uint16_t rowOf(const Splat& splat) const { return target_.samples[splat.index].row; }
+  std::uint16_t rowOf(int i) const { return target_.samples[sampleOf(splats_, i)].row; }
 
   /// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
   /// beyond it recede.
-  [[gnu::always_inline]] std::uint64_t paintPixel(const Splat* first, const Splat* last) const {
-    if (last - first == 1) return paint(*first);
-    const Splat* const foot = std::partition_point(first, last, [&](const Splat& s) {
-      return inverseDistanceOf(target_.samples[s.index]) > target_.footInverse;
-    });
+  [[gnu::always_inline]] std::uint64_t paintPixel(int first, int last) const {
+    if (last - first == 1) return paint(first);
+    int foot = first;
+    while (foot < last && inverseDistanceOf(target_.samples[sampleOf(splats_, foot)]) > target_.footInverse)
+      ++foot;
     std::uint64_t painted = 0;
-    for (const Splat* s = first; s < foot; ++s) painted += paint(*s);
-    for (const Splat* s = last; s > foot;) painted += paint(*--s);
+    for (int i = first; i < foot; ++i) painted += paint(i);
+    for (int i = last; i > foot;) painted += paint(--i);
     return painted;
   }
 
   /// Once, where its first pixel is.
-  [[gnu::always_inline]] bool counts(const Splat& splat) const {
-    const int first = std::max<int>(splat.x, 0);
+  [[gnu::always_inline]] bool counts(int x) const {
+    const int first = std::max(x, 0);
     return first >= target_.countedFrom && first < target_.countedTo;
   }
 
-  [[gnu::always_inline]] bool paint(const Splat& splat) const {
-    const std::uint32_t colour = wordOf(target_.colour[splat.index]);
-    const bool opaque = colour >= 0xff000000u;
-    const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
-    if (!wanted) return false;
-    const CanvasPixel plain =
-        canvasPixel((colour & 0xffffffu) | (target_.slot << 24), splat.inverseZDepth) & ~kPlace;
-    std::uint8_t mirror = 0;
-    if constexpr (kMarks) mirror = target_.mirror == nullptr ? std::uint8_t(0) : target_.mirror[splat.index];
-    if constexpr (kOver || mode == PaintMode::reflect)
-      if (splat.small && (mode != PaintMode::overBlended || opaque)) {
-        const bool seen = paintSmall(splat, plain, mirror);
-        return seen && counts(splat);
-      }
-    return paintAny(splat, plain, mirror, colour, opaque);
+  std::uint8_t mirrorOf(int i) const {
+    return kMarks ? target_.mirror[sampleOf(splats_, i)] : std::uint8_t(0);
   }
 
-  /// Its four corners, which are all its pixels, some of them twice: sizes of splats change from one to the
-  /// next, and a branch on them would be foretold wrongly as often as not. Is its first pixel painted?
-  [[gnu::always_inline]] bool paintSmall(const Splat& splat, CanvasPixel plain, std::uint8_t mirror) const {
-    const std::ptrdiff_t down = splat.height - 1, right = (splat.width - 1) * height_,
-                         at = (splat.x - rect_.x0) * height_ + splat.y;
-    CanvasPixel* const pixels = pixels_ + at;
-    [[maybe_unused]] std::uint8_t* const mirrors = mirrors_ + at;
-    const auto paintCorner = [&](std::ptrdiff_t corner, int dx, int dy) {
-      CanvasPixel& pixel = pixels[corner];
-      CanvasPixel painted = plain;
-      if constexpr (kPlaces) painted |= placeBits(splat.placeX - dx, splat.placeY - dy, splat.spread);
-      bool open = true;
-      if constexpr (kBehind) open = slotOf(pixel) < target_.openBelow;
-      if constexpr (mode == PaintMode::reflect) {
-        open = mirrors[corner] == mirror;
-        painted = reflected(pixel, painted);
-      }
-      pixel = open ? painted : pixel;
-      if constexpr (kMarks && kOver) mirrors[corner] = open ? mirror : mirrors[corner];
-      return open;
-    };
-    const int dx = 8 * (splat.width - 1), dy = 8 * (splat.height - 1);
-    const bool first = paintCorner(0, 0, 0);
-    paintCorner(down, 0, dy);
-    paintCorner(right, dx, 0);
-    paintCorner(right + down, dx, dy);
-    return first;
+  [[gnu::always_inline]] bool paint(int i) const {
+    const std::uint32_t steps = splats_.steps[i];
+    if (const std::uint8_t mirror = mirrorOf(i); steps != 0 && (mirror == 0 || mode == PaintMode::reflect))
+        [[likely]] {
+      if constexpr (mode == PaintMode::blendOnNearest) return false;
+      return paintCorners(splats_.pixels[i], splats_.firsts[i], steps, mirror) &&
+             counts(columnOf(splats_, i));
+    }
+    return paintAny(i);
   }
+
+  /// The four corners, which are all pixels of such a splat, some of them twice: sizes of splats change from
+  /// one to the next, and a branch on them would be foretold wrongly as often as not. Is its first pixel
+  /// painted?
+  [[gnu::always_inline]] bool paintCorners(CanvasPixel pixel, std::uint32_t first, std::uint32_t steps,
+                                           std::uint8_t mirror) const {
+    const std::ptrdiff_t right = steps & 0xffffu, down = steps >> 16 & 1u;
+    CanvasPixel beside = 0, below = 0;  // what differs there
+    if constexpr (kPlaces) {
+      beside = CanvasPixel(steps >> 24 & 0xfu) << 32;
+      below = CanvasPixel(steps >> 24 & 0xf0u) << 32;
+    }
+    const bool seen = paintOne(first, pixel, mirror);
+    paintOne(first + down, pixel ^ below, mirror);
+    paintOne(first + right, pixel ^ beside, mirror);
+    paintOne(first + right + down, pixel ^ beside ^ below, mirror);
+    return seen;
+  }
+
+  /// A pixel of the canvas, without a branch. Is it one of those that may be painted?
+  [[gnu::always_inline]] bool paintOne(std::ptrdiff_t at, CanvasPixel painted, std::uint8_t mirror) const {
+    CanvasPixel& pixel = pixels_[at];
+    bool open = true;
+    if constexpr (kBehind) open = slotOf(pixel) < target_.openBelow;
+    if constexpr (mode == PaintMode::reflect) {
+      open = mirrors_[at] == mirror;
+      painted = reflected(pixel, painted);
+    }
+    const bool inFront = mode != PaintMode::nearest || depthOf(painted) > depthOf(pixel);
+    pixel = open && inFront ? painted : pixel;
+    return open;
+  }
+
+  static float depthOf(CanvasPixel pixel) { return inverseZDepthOf(pixel & ~kPlace); }
 
   /// What a mirror's pixel becomes: it keeps the mirror's own depth.
   static CanvasPixel reflected(CanvasPixel mirror, CanvasPixel shown) {
@@ -185,95 +186,77 @@ class Painter {
     return (mirror & kDepth) | (shown & ~kDepth);
   }
 
-  [[gnu::noinline]] bool paintAny(const Splat& splat, CanvasPixel plain, std::uint8_t mirror,
-                                  std::uint32_t colour, bool opaque) const {
-    const int x0 = std::max<int>(splat.x, rect_.x0), x1 = std::min<int>(splat.x + splat.width, rect_.x1);
-    const int y0 = std::max<int>(splat.y, rect_.y0), y1 = std::min<int>(splat.y + splat.height, rect_.y1);
-    const float inverseZDepth = inverseZDepthOf(plain);
-    const auto depthOf = [](CanvasPixel pixel) { return inverseZDepthOf(pixel & ~kPlace); };
-    bool counted = counts(splat);
+  [[gnu::noinline]] bool paintAny(int i) const {
+    const Splat splat = splatAt(splats_, i);
+    const std::uint32_t colour = wordOf(target_.colour[splat.index]);
+    const bool opaque = colour >= 0xff000000u;
+    const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
+    if (!wanted) return false;
+    const std::uint8_t mirror = mirrorOf(i);
+    const CanvasPixel plain = splat.pixel & ~kPlace;
+    const int x0 = std::max(splat.x, rect_.x0), x1 = std::min(splat.x + splat.width, rect_.x1);
+    const int y0 = std::max(splat.y, rect_.y0), y1 = std::min(splat.y + splat.height, rect_.y1);
+    bool counted = counts(splat.x);
     if constexpr (kBehind)
       counted = counted && slotOf(pixels_[(x0 - rect_.x0) * height_ + y0]) < target_.openBelow;
     if constexpr (mode == PaintMode::reflect)
       counted = counted && y0 < y1 && mirrors_[(x0 - rect_.x0) * height_ + y0] == mirror;
-    for (int x = x0; x < x1; ++x) {
-      const std::ptrdiff_t start = (x - rect_.x0) * height_;
-      CanvasPixel* const column = pixels_ + start;
-      [[maybe_unused]] std::uint8_t* const mirrors = mirrors_ + start;
-      const auto pixelAt = [&](int y) {
-        if constexpr (!kPlaces) return plain;
-        return plain |
-               placeBits(splat.placeX - 8 * (x - splat.x), splat.placeY - 8 * (y - splat.y), splat.spread);
-      };
-      const auto each = [&](auto&& paintRow) {
-        for (int y = y0; y < y1; ++y)
-          if (!kBehind || slotOf(column[y]) < target_.openBelow) paintRow(y);
-      };
-      if constexpr (mode == PaintMode::over) {
-        each([&](int y) {
-          column[y] = pixelAt(y);
-          if constexpr (kMarks) mirrors[y] = mirror;
-        });
-      } else if constexpr (mode == PaintMode::nearest) {
-        each([&](int y) {
-          if (!(inverseZDepth > depthOf(column[y]))) return;
-          column[y] = pixelAt(y);
-          if constexpr (kMarks) mirrors[y] = mirror;
-        });
-      } else if constexpr (mode == PaintMode::reflect) {
-        each([&](int y) {
-          if (mirrors[y] == mirror) column[y] = reflected(column[y], pixelAt(y));
-        });
-      } else {
-        if (mode == PaintMode::overBlended && opaque) {
-          each([&](int y) {
-            column[y] = pixelAt(y);
-            if constexpr (kMarks) mirrors[y] = mirror;
-          });
+    const bool tints = mode == PaintMode::blendOnNearest || (mode == PaintMode::overBlended && !opaque);
+    const std::uint64_t stamp = tints ? stampOf(target_, splat.index) : 0;
+    for (int x = x0; x < x1; ++x)
+      for (int y = y0; y < y1; ++y) {
+        const std::ptrdiff_t at = (x - rect_.x0) * height_ + y;
+        if (kBehind && slotOf(pixels_[at]) >= target_.openBelow) continue;
+        if (tints) {
+          tint(at, plain, colour, stamp);
           continue;
         }
-        const std::uint64_t stamp = stampOf(target_, splat.index);
-        each([&](int y) {
-          if (mode != PaintMode::overBlended && !(inverseZDepth >= depthOf(column[y]))) return;
-          const BlendedPixel at{column[y], stamps_[start + y], blended_[start + y]};
-          if (kBehind && (at.validStamp() >> 56) >= target_.openBelow) return;  // tinted by what is in front
-          const bool changed = blendInto(at, colour, stamp);
-          // What tints a mirror would be lost under what the mirror shows.
-          if constexpr (kMarks) mirrors[y] = changed ? std::uint8_t(0) : mirrors[y];
-        });
+        CanvasPixel pixel = plain;
+        if constexpr (kPlaces)
+          pixel |=
+              placeBits(splat.placeX - 8 * (x - splat.x), splat.placeY - 8 * (y - splat.y), splat.spread);
+        paintOne(at, pixel, mirror);
+        if (mirror != 0 && mode != PaintMode::reflect && pixels_[at] == pixel)
+          mirrors_[at] = mirror, mirrorPixels_[at] = pixel;
       }
-    }
     return counted;
   }
 
+  /// Of a sample that is not opaque.
+  void tint(std::ptrdiff_t at, CanvasPixel plain, std::uint32_t colour, std::uint64_t stamp) const {
+    if (mode != PaintMode::overBlended && !(inverseZDepthOf(plain) >= depthOf(pixels_[at]))) return;
+    const BlendedPixel pixel{pixels_[at], stamps_[at], blended_[at]};
+    if (kBehind && (pixel.validStamp() >> 56) >= target_.openBelow) return;  // tinted by what is in front
+    blendInto(pixel, colour, stamp);
+  }
+
   const PaintTarget target_;
+  const SplatArrays splats_;
   const PixelRect rect_;
   const std::ptrdiff_t height_;
   CanvasPixel* const pixels_;
   std::uint64_t* const stamps_;
   std::uint32_t* const blended_;
   std::uint8_t* const mirrors_;
+  CanvasPixel* const mirrorPixels_;
 };
 
 template <bool kMarks, bool kPlaces, bool kBehind>
-std::uint64_t paintBy(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
-                      bool reversed, bool pixelByPixel) {
+std::uint64_t paintBy(const PaintTarget& target, PaintMode mode, const SplatArrays& splats, int first,
+                      int end, bool reversed, bool pixelByPixel) {
+  const auto paint = [&](auto painter) { return painter.paint(first, end, reversed, pixelByPixel); };
   switch (mode) {
     case PaintMode::over:
-      return Painter<PaintMode::over, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
-                                                                              pixelByPixel);
+      return paint(Painter<PaintMode::over, kMarks, kPlaces, kBehind>(target, splats));
     case PaintMode::overBlended:
-      return Painter<PaintMode::overBlended, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
-                                                                                     pixelByPixel);
+      return paint(Painter<PaintMode::overBlended, kMarks, kPlaces, kBehind>(target, splats));
     case PaintMode::nearest:
-      return Painter<PaintMode::nearest, kMarks, kPlaces, kBehind>(target).paint(splats, count, reversed,
-                                                                                 false);
+      pixelByPixel = false;
+      return paint(Painter<PaintMode::nearest, kMarks, kPlaces, kBehind>(target, splats));
     case PaintMode::blendOnNearest:
-      return Painter<PaintMode::blendOnNearest, kMarks, kPlaces, kBehind>(target).paint(
-          splats, count, reversed, pixelByPixel);
+      return paint(Painter<PaintMode::blendOnNearest, kMarks, kPlaces, kBehind>(target, splats));
     case PaintMode::reflect:
-      return Painter<PaintMode::reflect, true, kPlaces, false>(target).paint(splats, count, reversed,
-                                                                             pixelByPixel);
+      return paint(Painter<PaintMode::reflect, true, kPlaces, false>(target, splats));
   }
   return 0;
 }
@@ -285,15 +268,15 @@ constexpr auto paintByPlace(bool behind) {
 
 }  // namespace
 
-std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
-                          bool reversed, bool pixelByPixel) {
+std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const SplatArrays& splats, int first,
+                          int end, bool reversed, bool pixelByPixel) {
   const Canvas& canvas = *target.canvas;
-  const bool behind = target.openBelow > 0, marks = !canvas.mirrors.empty();
+  const bool behind = target.openBelow > 0, marks = !canvas.mirrors.empty() && target.mirror != nullptr;
   const auto paint = canvas.places
                          ? marks ? paintByPlace<true, true>(behind) : paintByPlace<false, true>(behind)
                      : marks ? paintByPlace<true, false>(behind)
                              : paintByPlace<false, false>(behind);
-  return paint(target, mode, splats, count, reversed, pixelByPixel);
+  return paint(target, mode, splats, first, end, reversed, pixelByPixel);
 }
 
 }  // namespace acentric

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/view/canvas.h"
-#include "engine/view/warp_kernel.h"
+#include "engine/view/splats.h"
 
 namespace acentric {
 
@@ -21,7 +21,6 @@ enum class PaintMode {
 /// Which samples the splats come from, and where they go.
 struct PaintTarget {
   Canvas* canvas = nullptr;
-  PixelRect rect;                 ///< only these pixels are touched
   const Rgba8* colour = nullptr;  ///< Splat::index counts from here
   const PackedSample* samples = nullptr;
   const std::uint8_t* mirror = nullptr;  ///< null: of no mirror
@@ -34,12 +33,12 @@ struct PaintTarget {
   std::uint32_t openBelow = 0;
 };
 
-/// One splat after the other, first to last, or last to first. `pixelByPixel` (layered captures): rows in
+/// Splats [first, end), one after the other, or last to first. `pixelByPixel` (layered captures): rows in
 /// that order too, but the samples of each pixel by their distance from the eye (column_order.h). Returns how
 /// many were painted whose first visible pixel lies in the columns that count and may be painted, so that
 /// canvases beside each other add up. A canvas that has room for them is told the mirrors that its pixels
 /// show.
-std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat* splats, int count,
-                          bool reversed, bool pixelByPixel);
+std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const SplatArrays& splats, int first,
+                          int end, bool reversed, bool pixelByPixel);
 
 }  // namespace acentric

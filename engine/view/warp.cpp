@@ -20,7 +20,8 @@ constexpr double kPlaneSlack = 2e-6;
 /// What is constant over a piece.
 ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
                              const ViewSettings& settings, const PieceDraw& piece,
-                             const DisplayCapture& capture, const PixelRect& rect) {
+                             const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot,
+                             bool places) {
   ProjectColumn column{};
   axes.project(glm::dvec3(0, 0, 1), column.z);
   axes.project(glm::dvec3(piece.baseline), column.b);
@@ -39,6 +40,8 @@ ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& vie
   column.centreY = 0.5f * static_cast<float>(view.height);
   column.inverseFocal = static_cast<float>(1 / focal);
   column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
+  column.slot = slot;
+  column.places = places;
   column.baseline[0] = piece.baseline.x, column.baseline[1] = piece.baseline.y;
   if (piece.clipToPart) {
     const AzimuthRange part = piece.part.azimuths;
@@ -74,6 +77,7 @@ class CanvasWarp {
     const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
     if (!uncovered.none()) drawAllPieces(uncovered);
     if (plan_.reflections.empty()) return counts_;
+    canvas_.settleMirrors();
     const bool local = !options_.coverMirrors.empty() && openCoverMirrors();
     open_ = OpenTiles::withMirrors(local ? OpenTiles(rect_, nullptr, 0) : uncovered, canvas_);
     if (open_->none()) return counts_;
@@ -147,7 +151,7 @@ class CanvasWarp {
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    constants_ = columnTemplate(axes_, view_, settings_, piece, capture, rect_);
+    constants_ = columnTemplate(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
     blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
@@ -220,14 +224,15 @@ class CanvasWarp {
                   PaintMode mode, std::uint32_t slot) {
     const std::size_t start = capture.columnStart[k];
     const PackedSample* const samples = capture.samples.data() + start;
-    splats_.resize(std::max<std::size_t>(splats_.size(), chosen + kSampleRoom));
-    const int count = options_.project(constants_, {capture.rowTangent.data(), samples}, runs_.data(),
-                                       static_cast<int>(runs_.size()), splats_.data());
+    const SplatArrays& splats = splats_.room(chosen);
+    const SampleColumn column{capture.rowTangent.data(), samples,
+                              reinterpret_cast<const unsigned char*>(capture.colour.data() + start)};
+    const int count =
+        options_.project(constants_, column, runs_.data(), static_cast<int>(runs_.size()), splats);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
     const PaintTarget target{&canvas_,
-                             rect_,
                              capture.colour.data() + start,
                              samples,
                              capture.mirror.empty() ? nullptr : capture.mirror.data() + start,
@@ -239,13 +244,13 @@ class CanvasWarp {
                              countedTo_,
                              openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
-    const Splat* splats = splats_.data();
-    const Splat* pivot = std::partition_point(splats, splats + count, [&](const Splat& s) {
-      return capture.rowTangent[samples[s.index].row] > order.pivotTangent;
-    });
-    const int above = static_cast<int>(pivot - splats);
-    counts_.samplesDrawn += paintSplats(target, mode, splats, above, !order.inwards, capture.layered);
-    counts_.samplesDrawn += paintSplats(target, mode, pivot, count - above, order.inwards, capture.layered);
+    const auto isAbove = [&](std::uint32_t index) {
+      return capture.rowTangent[samples[index & 0xfffffffu].row] > order.pivotTangent;
+    };
+    const int above = static_cast<int>(std::partition_point(splats.indices, splats.indices + count, isAbove) -
+                                       splats.indices);
+    counts_.samplesDrawn += paintSplats(target, mode, splats, 0, above, !order.inwards, capture.layered);
+    counts_.samplesDrawn += paintSplats(target, mode, splats, above, count, order.inwards, capture.layered);
   }
 
   const WalkScene& scene_;
@@ -266,7 +271,7 @@ class CanvasWarp {
   double directionSlack_ = 0;    ///< of a column's direction against a plane, in BlockTest::a
   ProjectColumn constants_{};    ///< of the column that is being drawn
   std::vector<SampleRun> runs_;  ///< of its samples that may be seen
-  std::vector<Splat> splats_;
+  SplatMemory splats_;
   WarpCounts counts_;
 };
 
@@ -286,6 +291,7 @@ void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const View
   canvas.stamps.assign(blended ? size : 0, 0);
   canvas.blended.resize(blended ? size : 0);  // of use where there is a stamp
   canvas.mirrors.assign(plan.reflections.empty() ? 0 : size, 0);
+  canvas.mirrorPixels.resize(canvas.mirrors.size());  // of use where there is a mirror
 }
 
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,

@@ -15,18 +15,27 @@
 
 namespace acentric {
 
-/// A square with its top left pixel at (x, y); with ProjectColumn::slanted a rectangle.
-struct alignas(16) Splat {
-  std::int16_t x, y;
-  std::uint8_t width, height;
-  /// Of a rectangle: the sample's place, eighths of a pixel from its left and upper border, 255 at most.
-  std::uint8_t placeX, placeY;
-  std::uint32_t index : 28;  ///< of the sample: firstIndex + its place among those handed in
-  /// Of a rectangle: samples of its surface lie 8 / (8 - spread) pixels apart, or less if it is 0.
-  std::uint32_t spread : 3;
-  std::uint32_t small : 1;  ///< at most two pixels wide and high, and not cut by the rectangle
-  float inverseZDepth;      ///< 1/m along the view axis; 0 = sky
+/// The splats of a column, an array for each thing that is known of them, with room for all samples of the
+/// runs and kSampleRoom more. A splat is a square; with ProjectColumn::slanted a rectangle.
+struct SplatArrays {
+  /// What its pixels become: CanvasPixel, of the colour without its alpha. Where places are kept, that of the
+  /// pixel in the top left corner.
+  std::uint64_t* pixels = nullptr;
+  /// For painting all pixels by their corners: 0 if the splat is more than two pixels wide or high, reaches
+  /// beyond the rectangle, or is not opaque. Else kWholeSplat, and from its first pixel to the others: in
+  /// bits 0..15 the step to the right, in bit 16 the step down; in bits 24..27 and 28..31 the bits of their
+  /// horizontal and vertical places that are others (kPlaceBits).
+  std::uint32_t* steps = nullptr;
+  std::uint32_t* firsts = nullptr;   ///< where steps start: the first pixel on the canvas
+  std::uint32_t* corners = nullptr;  ///< of the top left pixel: x, and y in the upper half, both signed
+  /// Bytes: width, height; of a rectangle the sample's place, eighths of a pixel from its left and upper
+  /// border, 255 at most.
+  std::uint32_t* sizes = nullptr;
+  /// In bits 0..27 the sample, firstIndex + its place among those handed in; of a rectangle in bits 28..30
+  /// its spread: samples of its surface lie 8 / (8 - spread) pixels apart, or less if it is 0.
+  std::uint32_t* indices = nullptr;
 };
+inline constexpr std::uint32_t kWholeSplat = 1u << 17;
 
 enum class PartTest : std::int32_t {
   none,
@@ -51,7 +60,9 @@ struct ProjectColumn {
   std::uint32_t roles;          ///< samples that none of these needs are dropped
   float centreX, centreY;       ///< picture centre, pixels
   float inverseFocal;           ///< 1/pixels
-  std::int32_t x0, y0, x1, y1;  ///< splats that miss this rectangle are dropped
+  std::int32_t x0, y0, x1, y1;  ///< the canvas: splats that miss it are dropped
+  std::uint32_t slot;           ///< of the canvas, 1..255
+  bool places;                  ///< pixels say where their samples lie
   PartTest partTest;
   float direction[2];     ///< column direction in plan
   float baseline[2];      ///< b in plan, metres
@@ -65,6 +76,7 @@ inline constexpr int kSampleRoom = 16;
 struct SampleColumn {
   const float* rowTangent = nullptr;      ///< the capture's table
   const PackedSample* samples = nullptr;  ///< rows do not fall
+  const unsigned char* colour = nullptr;  ///< Rgba8, four bytes each
 };
 
 /// Samples [first, end) of a column.
@@ -72,10 +84,10 @@ struct SampleRun {
   std::uint32_t first = 0, end = 0;
 };
 
-/// Writes the splats of these runs that touch the rectangle to `out` (room for all samples of the runs and
-/// kSampleRoom more), in the order of the samples, and returns how many.
+/// Writes the splats of these runs that touch the canvas to `out`, in the order of the samples, and returns
+/// how many.
 using ProjectSamples = int (*)(const ProjectColumn& column, const SampleColumn& samples,
-                               const SampleRun* runs, int runCount, Splat* out);
+                               const SampleRun* runs, int runCount, const SplatArrays& out);
 
 /// The blocks of a column (SampleBlocks), with room for kSampleRoom more.
 struct BlockColumn {
@@ -102,15 +114,15 @@ using FindBlocks = int (*)(const ProjectColumn& column, const BlockTest& test, c
                            int count, std::uint16_t* out);
 
 int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, Splat* out);
+                         int runCount, const SplatArrays& out);
 int findBlocksScalar(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                      std::uint16_t* out);
 int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                       int runCount, Splat* out);
+                       int runCount, const SplatArrays& out);
 int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                    std::uint16_t* out);
 int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, Splat* out);
+                         int runCount, const SplatArrays& out);
 int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                      std::uint16_t* out);
 

@@ -5,6 +5,17 @@
 namespace acentric {
 namespace {
 
+/// By mask.
+struct KeptLanes {
+  std::uint8_t lanes[256][8] = {};
+  constexpr KeptLanes() {
+    for (unsigned mask = 0; mask < 256; ++mask)
+      for (unsigned lane = 0, next = 0; lane < 8; ++lane)
+        if ((mask >> lane & 1u) != 0) lanes[mask][next++] = static_cast<std::uint8_t>(lane);
+  }
+};
+constexpr KeptLanes kKeptLanes;
+
 struct WarpLanes : EightLanes {
   using EightLanes::load;
   static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
@@ -15,6 +26,9 @@ struct WarpLanes : EightLanes {
     };
     inverseAndRoles = inOrder(_mm256_shuffle_ps(first, second, 0x88));
     rowAndSlant = inOrder(_mm256_shuffle_ps(first, second, 0xdd));
+  }
+  static I words(const unsigned char* p, int count) {
+    return load(reinterpret_cast<const std::uint32_t*>(p), count);
   }
   static F tangents(const float* table, const PackedSample* rising, I rowAndSlant) {
     const I row = both(rowAndSlant, seti(0xffff));
@@ -30,44 +44,26 @@ struct WarpLanes : EightLanes {
   static M needed(I roles, std::uint32_t wanted) {
     return greater(both(roles, seti(static_cast<int>(wanted))), seti(0));
   }
-  static I pack(I width, I height, I placeX, I placeY) {
-    const __m256i size = _mm256_or_si256(width.v, _mm256_slli_epi32(height.v, 8));
-    const __m256i place = _mm256_or_si256(placeX.v, _mm256_slli_epi32(placeY.v, 8));
-    return {_mm256_or_si256(size, _mm256_slli_epi32(place, 16))};
+  /// The kept lanes' numbers, one after the other.
+  static I kept(M accepted) {
+    const __m128i numbers =
+        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kKeptLanes.lanes[bits(accepted)]));
+    return {_mm256_cvtepu8_epi32(numbers)};
   }
-
-  /// Writes all eight splats one after the other and steps on only past the accepted ones: no branches.
-  static int append(M accepted, I x, I y, I size, std::uint32_t index, I spread, F inverseZDepth,
-                    Splat* out) {
-    const unsigned bits = static_cast<unsigned>(_mm256_movemask_ps(accepted.v));
-    if (bits == 0) return 0;
-    const __m256i xy = _mm256_blend_epi16(x.v, _mm256_slli_epi32(y.v, 16), 0xaa);
-    const __m256i counted = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(index)),
-                                             _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    const __m256i indices = _mm256_or_si256(counted, _mm256_slli_epi32(spread.v, 28));
-    const __m256i depth = _mm256_castps_si256(inverseZDepth.v);
-    const __m256i low01 = _mm256_unpacklo_epi32(xy, size.v), high01 = _mm256_unpackhi_epi32(xy, size.v);
-    const __m256i low23 = _mm256_unpacklo_epi32(indices, depth),
-                  high23 = _mm256_unpackhi_epi32(indices, depth);
-    const __m256i lanes[4] = {_mm256_unpacklo_epi64(low01, low23), _mm256_unpackhi_epi64(low01, low23),
-                              _mm256_unpacklo_epi64(high01, high23), _mm256_unpackhi_epi64(high01, high23)};
-    Splat* next = out;
-    for (unsigned lane = 0; lane < 4; ++lane) {
-      _mm_store_si128(reinterpret_cast<__m128i*>(next), _mm256_castsi256_si128(lanes[lane]));
-      next += (bits >> lane) & 1u;
-    }
-    for (unsigned lane = 0; lane < 4; ++lane) {
-      _mm_store_si128(reinterpret_cast<__m128i*>(next), _mm256_extracti128_si256(lanes[lane], 1));
-      next += (bits >> (lane + 4)) & 1u;
-    }
-    return static_cast<int>(next - out);
+  static I together(I kept, I lanes) { return {_mm256_permutevar8x32_epi32(lanes.v, kept.v)}; }
+  static void storeAll(std::uint32_t* p, I a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
+  static void storePairs(std::uint64_t* p, I low, I high) {
+    const __m256i first = _mm256_unpacklo_epi32(low.v, high.v), second = _mm256_unpackhi_epi32(low.v, high.v);
+    __m256i* const to = reinterpret_cast<__m256i*>(p);
+    _mm256_storeu_si256(to, _mm256_permute2x128_si256(first, second, 0x20));
+    _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(first, second, 0x31));
   }
 };
 
 }  // namespace
 
 int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                       int runCount, Splat* out) {
+                       int runCount, const SplatArrays& out) {
   return warp_kernel::projectColumn<WarpLanes>(column, samples, runs, runCount, out);
 }
 

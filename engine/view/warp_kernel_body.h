@@ -2,6 +2,8 @@
 /// The kernel itself, over a batch type B that provides float lanes F, integer lanes I and masks M.
 /// Included by the two sources that instantiate it and by nothing else.
 
+#include <cstddef>
+
 #include "engine/view/warp_kernel.h"
 
 namespace acentric::warp_kernel {
@@ -31,15 +33,53 @@ inline typename B::M touches(const ProjectColumn& c, typename B::I x, typename B
          B::greater(y + height, B::seti(c.y0));
 }
 
-/// Splat::small, above the three bits of Splat::spread.
+/// Half of kPlaceBits: eighths of a pixel from a pixel's border to the sample, as told from its centre.
 template <class B>
-inline typename B::I smallBit(const ProjectColumn& c, typename B::I x, typename B::I y, typename B::I width,
-                              typename B::I height) {
-  const auto notAbove = [](typename B::I a, std::int32_t limit) { return B::greater(B::seti(limit + 1), a); };
-  return B::when(notAbove(width, 2) & notAbove(height, 2) & B::greater(x, B::seti(c.x0 - 1)) &
-                     B::greater(y, B::seti(c.y0 - 1)) & notAbove(x + width, c.x1) &
-                     notAbove(y + height, c.y1),
-                 B::seti(8));
+inline typename B::I placeCode(typename B::I fromBorder) {
+  return B::both(B::mini(B::maxi(fromBorder - B::seti(4), B::seti(-8)), B::seti(7)), B::seti(15));
+}
+
+/// Writes the accepted splats one after the other (and whatever it likes behind them), and returns how many.
+template <class B>
+inline int appendSplats(const ProjectColumn& c, typename B::M accepted, typename B::I x, typename B::I y,
+                        typename B::I width, typename B::I height, typename B::I placeX, typename B::I placeY,
+                        typename B::I spread, typename B::F inverseZDepth, typename B::I colour,
+                        std::uint32_t firstIndex, const SplatArrays& out, int written) {
+  using I = typename B::I;
+  const unsigned bits = B::bits(accepted);
+  if (bits == 0) return 0;
+  const auto notAbove = [](I a, std::int32_t limit) { return B::greater(B::seti(limit + 1), a); };
+  const std::int32_t canvasHeight = c.y1 - c.y0;
+  const typename B::M whole = notAbove(width, 2) & notAbove(height, 2) & B::greater(x, B::seti(c.x0 - 1)) &
+                              B::greater(y, B::seti(c.y0 - 1)) & notAbove(x + width, c.x1) &
+                              notAbove(y + height, c.y1) &
+                              B::greater(B::template shiftRight<24>(colour), B::seti(254));
+  I steps = B::seti(kWholeSplat) + B::when(B::greater(width, B::seti(1)), B::seti(canvasHeight)) +
+            B::when(B::greater(height, B::seti(1)), B::seti(1 << 16));
+  I depth = B::asInts(inverseZDepth);
+  if (c.places) {
+    const I left = placeCode<B>(placeX), top = placeCode<B>(placeY);
+    const I right = placeCode<B>(placeX - B::template shiftLeft<3>(width - B::seti(1)));
+    const I bottom = placeCode<B>(placeY - B::template shiftLeft<3>(height - B::seti(1)));
+    depth = B::both(depth, B::seti(~0x7ff)) + left + B::template shiftLeft<4>(top) +
+            B::template shiftLeft<8>(spread);
+    steps = steps + B::template shiftLeft<24>(B::different(left, right)) +
+            B::template shiftLeft<28>(B::different(top, bottom));
+  }
+  const I first = B::times(x - B::seti(c.x0), B::seti(canvasHeight)) + y - B::seti(c.y0);
+  const I word = B::both(colour, B::seti(0xffffff)) + B::seti(static_cast<std::int32_t>(c.slot << 24));
+  const auto kept = B::kept(accepted);
+  B::storePairs(out.pixels + written, B::together(kept, word), B::together(kept, depth));
+  B::storeAll(out.steps + written, B::together(kept, B::when(whole, steps)));
+  B::storeAll(out.firsts + written, B::together(kept, first));
+  B::storeAll(out.corners + written,
+              B::together(kept, B::both(x, B::seti(0xffff)) + B::template shiftLeft<16>(y)));
+  B::storeAll(out.sizes + written,
+              B::together(kept, width + B::template shiftLeft<8>(height) + B::template shiftLeft<16>(placeX) +
+                                    B::template shiftLeft<24>(placeY)));
+  B::storeAll(out.indices + written, B::together(kept, B::counted(static_cast<std::int32_t>(firstIndex)) +
+                                                           B::template shiftLeft<28>(spread)));
+  return __builtin_popcount(bits);
 }
 
 /// The pixels [first, first + size) whose centres lie within `half` of `centre`, at least one; and where
@@ -66,7 +106,8 @@ inline typename B::F slantTangent(typename B::I code) {
 template <class B>
 inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, typename B::F t, typename B::F w,
                             typename B::F u, typename B::F v, typename B::F perDepth,
-                            typename B::I rowAndSlant, std::uint32_t firstIndex, Splat* out) {
+                            typename B::I rowAndSlant, typename B::I colour, std::uint32_t firstIndex,
+                            const SplatArrays& out, int written) {
   using F = typename B::F;
   using I = typename B::I;
   const F across = slantTangent<B>(B::template shiftSigned<24>(B::template shiftLeft<8>(rowAndSlant)));
@@ -86,17 +127,17 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
   span<B>(B::select(accepted, v, B::set(0)), halfY, y, height, placeY);
   // Its shorter side tells how far apart samples lie; the longer one may be due to the slant.
   const I spread = B::floor(B::set(8.5f) - B::set(c.perSpread) / B::min(halfX, halfY));
-  return B::append(accepted & touches<B>(c, x, y, width, height), x, y,
-                   B::pack(width, height, placeX, placeY), firstIndex,
-                   B::mini(B::maxi(spread, B::seti(0)), B::seti(7)) + smallBit<B>(c, x, y, width, height),
-                   w * perDepth, out);
+  return appendSplats<B>(c, accepted & touches<B>(c, x, y, width, height), x, y, width, height, placeX,
+                         placeY, B::mini(B::maxi(spread, B::seti(0)), B::seti(7)), w * perDepth, colour,
+                         firstIndex, out, written);
 }
 
 /// Samples of no role are dropped.
 template <class B>
 [[gnu::always_inline]] inline int projectBatch(const ProjectColumn& c, const float* rowTangent,
-                                               const PackedSample* samples, std::uint32_t firstIndex,
-                                               Splat* out) {
+                                               const PackedSample* samples, typename B::I colour,
+                                               std::uint32_t firstIndex, const SplatArrays& out,
+                                               int written) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
@@ -118,7 +159,9 @@ template <class B>
   const F v = qy * perDepth;
   accepted = accepted & B::less(B::abs(u), B::set(kFarPixel)) & B::less(B::abs(v), B::set(kFarPixel));
 
-  if (c.slanted) return appendRectangles<B>(c, accepted, t, w, u, v, perDepth, rowAndSlant, firstIndex, out);
+  if (c.slanted)
+    return appendRectangles<B>(c, accepted, t, w, u, v, perDepth, rowAndSlant, colour, firstIndex, out,
+                               written);
   // A sample stands for pitch * distance across; seen under an angle off the view axis the picture stretches
   // it.
   const F offX = (u - B::set(c.centreX)) * B::set(c.inverseFocal);
@@ -131,28 +174,33 @@ template <class B>
   const I x = B::floor(B::select(accepted, u, B::set(0)) + half);
   const I y = B::floor(B::select(accepted, v, B::set(0)) + half);
   accepted = accepted & touches<B>(c, x, y, side, side);
-  return B::append(accepted, x, y, B::pack(side, side, B::seti(0), B::seti(0)), firstIndex,
-                   smallBit<B>(c, x, y, side, side), w * perDepth, out);
+  const I none = B::seti(0);
+  return appendSplats<B>(c, accepted, x, y, side, side, none, none, none, w * perDepth, colour, firstIndex,
+                         out, written);
 }
 
 template <class B>
 inline int projectColumn(const ProjectColumn& constants, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, Splat* out) {
+                         int runCount, const SplatArrays& out) {
   const ProjectColumn column = constants;  // a copy that no splat is written over: it stays in registers
+  const SplatArrays to = out;
   const SampleColumn from = samples;
   int written = 0;
   for (int r = 0; r < runCount; ++r) {
     std::uint32_t i = runs[r].first;
     const std::uint32_t end = runs[r].end;
     for (; i + B::kWidth <= end; i += B::kWidth)
-      written += projectBatch<B>(column, from.rowTangent, from.samples + i, i, out + written);
+      written += projectBatch<B>(column, from.rowTangent, from.samples + i,
+                                 B::words(from.colour + 4 * std::size_t(i), B::kWidth), i, to, written);
     if (i == end) continue;
     PackedSample last[B::kWidth];
     for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
       last[lane] = from.samples[i + lane < end ? i + lane : end - 1];
       if (i + lane >= end) last[lane].inverseDistanceAndRoles = 0;
     }
-    written += projectBatch<B>(column, from.rowTangent, last, i, out + written);
+    written += projectBatch<B>(column, from.rowTangent, last,
+                               B::words(from.colour + 4 * std::size_t(i), static_cast<int>(end - i)), i, to,
+                               written);
   }
   return written;
 }

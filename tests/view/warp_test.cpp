@@ -10,6 +10,7 @@
 #include "engine/view/kernels.h"
 #include "engine/view/open_tiles.h"
 #include "engine/view/picture_axes.h"
+#include "engine/view/splat_painter.h"
 #include "tests/support/print_configuration.h"
 #include "tests/view/capture_fixtures.h"
 
@@ -80,12 +81,13 @@ INSTANTIATE_TEST_SUITE_P(Configurations, ListPriority, testing::Values(Configura
 
 TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
   std::mt19937 random(21);
+  int wholes = 0, others = 0;
   const auto uniform = [&](float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(random);
   };
   std::vector<float> tangents(300);
   for (float& t : tangents) t = uniform(-2, 2);
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < 6000; ++round) {
     ProjectColumn column{};
     for (int i = 0; i < 3; ++i)
       column.a[i] = uniform(-300, 300), column.z[i] = uniform(-300, 300), column.b[i] = uniform(-300, 300);
@@ -100,6 +102,8 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     column.roles = round % 4 == 0 ? 0xffu : std::uint32_t(random() % 256);
     column.centreX = 320, column.centreY = 200, column.inverseFocal = 1 / uniform(100, 500);
     column.x0 = 0, column.y0 = 50, column.x1 = 640, column.y1 = 300;
+    column.slot = 1 + random() % kMaxSlots;
+    column.places = round % 8 == 0;
     column.partTest = static_cast<PartTest>(round % 3);
     for (float* p : {column.direction, column.baseline, column.low, column.high})
       p[0] = uniform(-1, 1), p[1] = uniform(-1, 1);
@@ -117,28 +121,121 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     }
     std::vector<SampleRun> runs{{0, std::uint32_t(count)}};
     if (count > 20) runs = {{1, 18}, {19, std::uint32_t(count)}};
-    const auto splats = [&](const Kernels& kernels) {
-      std::vector<Splat> out(static_cast<std::size_t>(count + kSampleRoom));
-      out.resize(static_cast<std::size_t>(kernels.project(column, {tangents.data(), samples.data()},
-                                                          runs.data(), int(runs.size()), out.data())));
-      return out;
+    std::vector<Rgba8> colour;
+    for (int i = 0; i < count; ++i)
+      colour.push_back(
+          colourOf((random() & 0xffffffu) | (i % 5 == 0 ? random() & 0xff000000u : 0xff000000u)));
+    const auto project = [&](const Kernels& kernels, SplatMemory& memory) {
+      const SplatArrays& splats = memory.room(samples.size());
+      return kernels.project(
+          column, {tangents.data(), samples.data(), reinterpret_cast<const unsigned char*>(colour.data())},
+          runs.data(), int(runs.size()), splats);
     };
-    const std::vector<Splat> expected = splats(supportedKernels().front());
-    for (const Splat& a : expected) {
+    SplatMemory expectedMemory;
+    const int expected = project(supportedKernels().front(), expectedMemory);
+    const SplatArrays& e = expectedMemory.room(0);
+    for (int i = 0; i < expected; ++i) {
+      const Splat a = splatAt(e, i);
       ASSERT_NE(rolesOf(samples[a.index]) & column.roles, 0u);
       ASSERT_TRUE(count <= 20 || (a.index != 0 && a.index != 18)) << "in no run";
-      for (int side : {int(a.width), int(a.height)}) {
+      for (int side : {a.width, a.height}) {
         EXPECT_GE(side, 1);
         EXPECT_LE(side, 17);  // a rectangle is as long as it is: it may hold one centre more
       }
+      EXPECT_EQ(static_cast<std::uint32_t>(a.pixel),
+                (wordOf(colour[a.index]) & 0xffffffu) | column.slot << 24);
+      const bool whole = a.width <= 2 && a.height <= 2 && a.x >= column.x0 && a.y >= column.y0 &&
+                         a.x + a.width <= column.x1 && a.y + a.height <= column.y1 &&
+                         colour[a.index].a == 255;
+      ASSERT_EQ(e.steps[i] != 0, whole);
+      wholes += whole;
+      others += !whole;
     }
     for (const Kernels& kernels : supportedKernels().subspan(1)) {
-      const std::vector<Splat> got = splats(kernels);
-      ASSERT_EQ(got.size(), expected.size()) << kernels.name;
-      for (std::size_t i = 0; i < got.size(); ++i)
-        ASSERT_EQ(std::memcmp(&got[i], &expected[i], sizeof(Splat)), 0) << kernels.name << ", splat " << i;
+      SplatMemory memory;
+      ASSERT_EQ(project(kernels, memory), expected) << kernels.name;
+      const SplatArrays& got = memory.room(0);
+      const auto same = [&](const auto* a, const auto* b) { return std::equal(a, a + expected, b); };
+      EXPECT_TRUE(same(got.pixels, e.pixels) && same(got.steps, e.steps) && same(got.firsts, e.firsts) &&
+                  same(got.corners, e.corners) && same(got.sizes, e.sizes) && same(got.indices, e.indices))
+          << kernels.name << ", round " << round;
     }
   }
+  EXPECT_GT(wholes, 300);
+  EXPECT_GT(others, 300);
+}
+
+TEST(PaintSplats, PaintsByCornersWhatItPaintsPixelByPixel) {
+  constexpr int kWidth = 40, kHeight = 30, kCount = 500;
+  std::mt19937 random(8);
+  for (const bool places : {false, true})
+    for (const PaintMode mode : {PaintMode::over, PaintMode::overBlended, PaintMode::nearest,
+                                 PaintMode::blendOnNearest, PaintMode::reflect})
+      for (const std::uint32_t openBelow : {0u, 4u}) {
+        if (mode == PaintMode::reflect && openBelow != 0) continue;
+        Canvas before;
+        before.x0 = 100, before.width = kWidth, before.height = kHeight, before.places = places;
+        for (int i = 0; i < kWidth * kHeight; ++i) {
+          before.pixels.push_back(canvasPixel(std::uint32_t(random() % 6) << 24, float(random() % 100)));
+          before.mirrors.push_back(static_cast<std::uint8_t>(random() % 3));
+        }
+        before.stamps.resize(before.pixels.size());
+        before.blended.resize(before.pixels.size());
+        before.mirrorPixels = before.pixels;
+
+        // Samples straight ahead of a camera that is the eye, one column each.
+        ProjectColumn column{};
+        column.z[1] = -20, column.a[2] = 1;
+        column.maxInverseDistance = 1000, column.maxSide = 4, column.slanted = true, column.roles = 1;
+        column.x0 = 100, column.x1 = 100 + kWidth, column.y1 = kHeight;
+        column.slot = 5, column.places = places;
+        column.downStep = 0.03f, column.perSpread = 4.4f;
+        std::vector<float> tangents;
+        for (int i = 0; i < 64; ++i) tangents.push_back(float(2 - i) / 40);
+        Canvas corners = before, pixels = before;
+        std::uint64_t counts[2] = {};
+        int wholes = 0;
+        for (int round = 0; round < kCount; ++round) {
+          column.a[0] = 98 + float(random() % 4400) / 100;
+          column.across[0] = 0.3f + float(random() % 100) / 100;
+          std::vector<PackedSample> samples;
+          std::vector<Rgba8> colour;
+          std::vector<std::uint8_t> mirror;
+          for (std::uint16_t row = 0; row < 64; row = static_cast<std::uint16_t>(row + random() % 3)) {
+            samples.push_back(packSample(float(random() % 50), 1, row, {}));
+            const bool clear = mode != PaintMode::over && random() % 8 == 0;
+            colour.push_back(
+                colourOf(std::uint32_t(random() & 0xffffffu) | (clear ? 0x80000000u : 0xff000000u)));
+            mirror.push_back(static_cast<std::uint8_t>(random() % 3));
+          }
+          SplatMemory memory;
+          SplatArrays splats = memory.room(samples.size());
+          const SampleRun all{0, std::uint32_t(samples.size())};
+          const int count = projectSamplesScalar(
+              column,
+              {tangents.data(), samples.data(), reinterpret_cast<const unsigned char*>(colour.data())}, &all,
+              1, splats);
+          wholes += int(count - std::count(splats.steps, splats.steps + count, 0u));
+          const bool reversed = round % 2 == 0, pixelByPixel = round % 4 < 2;
+          const auto paint = [&](Canvas& canvas) {
+            const PaintTarget target{&canvas,  colour.data(), samples.data(), mirror.data(), column.slot,
+                                     7,        25.0f,         {0, 100},       100,           120,
+                                     openBelow};
+            return paintSplats(target, mode, splats, 0, count, reversed, pixelByPixel);
+          };
+          counts[0] += paint(corners);
+          std::fill(splats.steps, splats.steps + count, 0u);
+          counts[1] += paint(pixels);
+        }
+        corners.settleMirrors();
+        pixels.settleMirrors();
+        ASSERT_GT(wholes, 1000);
+        EXPECT_GT(counts[0], mode == PaintMode::blendOnNearest ? 10u : 100u);
+        EXPECT_EQ(counts[0], counts[1]);
+        EXPECT_NE(corners.pixels, before.pixels);
+        EXPECT_EQ(corners.pixels, pixels.pixels) << int(mode) << places << openBelow;
+        EXPECT_EQ(corners.mirrors, pixels.mirrors) << int(mode) << places << openBelow;
+      }
 }
 
 TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProcessor) {
@@ -147,6 +244,7 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     return std::uniform_real_distribution<double>(low, high)(random);
   };
   constexpr int kBlocks = 37, kPerBlock = 6, kRows = kBlocks * kPerBlock;
+  const std::vector<Rgba8> colour(kRows);
   std::vector<float> tangents(kRows);
   for (int row = 0; row < kRows; ++row) tangents[std::size_t(row)] = float(std::tan(1.3 - row * 2.6 / kRows));
   int reached = 0, found = 0, hidden = 0;
@@ -219,13 +317,16 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     for (const Kernels& kernels : supportedKernels()) EXPECT_EQ(blocksOf(kernels), got) << kernels.name;
     found += int(got.size());
     const SampleRun all{0, kRows};
-    std::vector<Splat> splats(kRows + kSampleRoom);
-    const int count = projectSamplesScalar(column, {tangents.data(), samples.data()}, &all, 1, splats.data());
-    for (const Splat& splat : std::span(splats).first(std::size_t(count))) {
+    SplatMemory memory;
+    const SplatArrays& splats = memory.room(kRows);
+    const int count = projectSamplesScalar(
+        column, {tangents.data(), samples.data(), reinterpret_cast<const unsigned char*>(colour.data())},
+        &all, 1, splats);
+    for (int i = 0; i < count; ++i) {
+      const Splat splat = splatAt(splats, i);
       bool reaches = test.openTiles == nullptr;
-      for (int x = std::max<int>(splat.x, rect.x0);
-           !reaches && x < std::min<int>(splat.x + splat.width, rect.x1); ++x)
-        for (int y = std::max<int>(splat.y, 0); y < std::min<int>(splat.y + splat.height, rect.y1); ++y)
+      for (int x = std::max(splat.x, rect.x0); !reaches && x < std::min(splat.x + splat.width, rect.x1); ++x)
+        for (int y = std::max(splat.y, 0); y < std::min(splat.y + splat.height, rect.y1); ++y)
           reaches = reaches || cover.at(x, y) == kUncovered;
       const bool kept = std::ranges::binary_search(got, std::uint16_t(splat.index / kPerBlock));
       reached += reaches;
