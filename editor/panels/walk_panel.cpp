@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "editor/commands/setting_edits.h"
+#include "editor/session/mesh_text.h"
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
@@ -49,7 +50,8 @@ const char* helpFor(Renderer renderer) {
     case Renderer::glZbuffer:
       return "The same splats on the graphics card with a depth test, for comparison.";
     case Renderer::glMesh:
-      return "Captures as triangles, within the mesh error: no cracks near walls; built when first seen.";
+      return "Captures as triangles, within the mesh error: no cracks near walls; points until they are "
+             "built.";
   }
   return "";
 }
@@ -90,7 +92,13 @@ EyeHeights eyeHeights(const OpenProject& open) {
 
 }  // namespace
 
-WalkPanel::WalkPanel(int threads, std::function<void()> wake) : renderer_(threads, std::move(wake)) {}
+WalkPanel::WalkPanel(int threads, std::function<void()> wake)
+    : threads_(threads),
+      wake_([this, wake = std::move(wake)] {
+        news_ = true;
+        if (wake) wake();
+      }),
+      renderer_(threads, wake_) {}
 
 void WalkPanel::followProject(PanelContext& context) {
   Session& session = context.session();
@@ -217,6 +225,7 @@ void WalkPanel::requestFrame(PanelContext& context) {
   Session& session = context.session();
   if (!session.walk() || area_.x < 16 || area_.y < 16) return;
   if (onOpenGl(session.project().view.renderer)) return drawWithGl(context);
+  if (gl_) gl_->stopBuildingMeshes();
   const PerspectiveView full = viewAt(context, 1);
   if (requested_ || !stale(context, full)) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
@@ -262,7 +271,10 @@ void WalkPanel::nameSource(const glm::dvec2& pointer) const {
   const PixelSource here = source.at(int(at.x), int(at.y));
   const Layout& layout = *shown_.loaded->walk.layout;
   const SourceRole role = SourceRoles(layout, shown_.view).of(here);
-  ui::tooltip(sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : ""));
+  std::string text = sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : "");
+  for (const MeshCost& cost : shown_.stats.meshes)
+    if (sourceOfCamera(cost.camera) == here) text += "\n" + meshText(cost);
+  ui::tooltip(text);
 }
 
 void WalkPanel::takePicture(PanelContext& context) {
@@ -297,15 +309,26 @@ void WalkPanel::takePicture(PanelContext& context) {
   }
 }
 
+void WalkPanel::openGl() {
+  if (gl_ || !glProblem_.empty()) return;
+  auto created = GlRenderer::create(
+      {.waitForMeshes = false, .backgroundThreads = std::max(1, threads_ / 2), .wake = wake_});
+  if (created)
+    gl_ = std::move(*created);
+  else
+    glProblem_ = created.error().describe();
+}
+
+bool WalkPanel::receiveMeshes(PanelContext& context) {
+  const Result<bool> ready = gl_->receiveMeshes();
+  if (gl_->meshesToReceive()) context.window.pacer().request(1);
+  if (!ready) problem_ = ready.error().describe();
+  return ready && *ready;
+}
+
 void WalkPanel::drawWithGl(PanelContext& context) {
   Session& session = context.session();
-  if (!gl_ && glProblem_.empty()) {
-    auto created = GlRenderer::create();
-    if (created)
-      gl_ = std::move(*created);
-    else
-      glProblem_ = created.error().describe();
-  }
+  openGl();
   if (!gl_) {
     problem_ = "The OpenGL renderer is not available here: " + glProblem_;
     return;
@@ -313,7 +336,8 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   const PerspectiveView full = viewAt(context, 1);
   const WalkLook look = context.state().walkLook;
   const bool plain = look == WalkLook::picture;
-  if (!stale(context, full) && shown_.look == look && showingGl_ == plain) return;
+  const bool newMesh = receiveMeshes(context);
+  if (!newMesh && !stale(context, full) && shown_.look == look && showingGl_ == plain) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
   const PerspectiveView view = viewAt(context, scale);
@@ -323,6 +347,10 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
   problem_ = stats ? "" : stats.error().describe();
   if (!stats) return;
+  if (context.log.on())
+    context.log.event("glframe", fmt::format("{}x{} images {} meshes {} awaited {} points {}", view.width,
+                                             view.height, stats->images, stats->meshes.size(),
+                                             stats->meshesAwaited, stats->pointsForMeshes));
   showingGl_ = true;
   if (plain) return;
   lastFrame_ = gl_->readBack();
@@ -384,6 +412,9 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     y -= 8;
   };
   line(text);
+  if (shown_.valid)
+    for (const std::string& words : {meshSumText(shown_.stats), meshesAwaitedText(shown_.stats)})
+      if (!words.empty()) line(words);
   if (session.walk() && !session.walk()->walk.surfaceLight) line("near geometry unlit until a bake ends");
   if (session.streaming()) line("captures are being read");
   if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
