@@ -4,8 +4,6 @@
 #include <new>
 #include <utility>
 
-#include "engine/base/priority.h"
-
 namespace acentric {
 namespace {
 
@@ -84,7 +82,6 @@ std::optional<MeshTask> MeshBuilder::next(const std::stop_token& stop,
 }
 
 void MeshBuilder::loop(const std::stop_token& stop) {
-  lowerThreadPriority();
   TaskRunner runner(threads_ - 1);
   std::shared_ptr<const DisplayCapture> capture;
   std::stop_token cancelled;

@@ -20,7 +20,8 @@ class MeshBuilder {
     Result<PackedMesh> mesh;
   };
 
-  /// On so many threads of low priority. `wake` is called from another thread whenever a mesh is built.
+  /// On so many threads, of the usual priority: what is drawn waits for it. `wake` is called from another
+  /// thread whenever a mesh is built.
   MeshBuilder(int threads, std::function<void()> wake);
   /// What is being built is given up within milliseconds.
   ~MeshBuilder();

@@ -12,7 +12,7 @@ namespace acentric {
 namespace {
 
 /// Sent to the graphics card by a frame.
-constexpr std::size_t kMostBytesSent = std::size_t(8) << 20;
+constexpr std::size_t kMostBytesSent = std::size_t(16) << 20;
 
 Status checkUpload(const MeshTask& task) {
   return checkGl(fmt::format("uploading the mesh of {}", task.name).c_str());
