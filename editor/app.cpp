@@ -92,6 +92,7 @@ void App::run() {
 void App::update() {
   const double now = ui::Window::seconds();
   if (session_.poll(now)) window_->pacer().request();
+  if (walk_.takeNews()) window_->pacer().request();
   if (options_.exitAfterSeconds > 0 && now >= options_.exitAfterSeconds) window_->close();
   if (state_.quit) window_->close();
 }

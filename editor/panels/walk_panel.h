@@ -1,6 +1,7 @@
 #pragma once
 /// The live walk: the picture at the eye, by the chosen renderer, and what it cost.
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -16,9 +17,12 @@ namespace acentric::editor {
 
 class WalkPanel {
  public:
+  /// `wake` is called from other threads when there is something new to be shown.
   WalkPanel(int threads, std::function<void()> wake);
 
   void draw(PanelContext& context);
+  /// Was there a wake since the last call?
+  bool takeNews() { return news_.exchange(false); }
   /// Moves the eye by what is held and what happened; also while the panel's picture is not under the
   /// pointer.
   void walk(PanelContext& context);
@@ -40,7 +44,10 @@ class WalkPanel {
   bool stale(const PanelContext& context, const PerspectiveView& full) const;
   void requestFrame(PanelContext& context);
   void takePicture(PanelContext& context);
+  void openGl();
   void drawWithGl(PanelContext& context);
+  /// Meshes built in the background; true if there is one that the picture lacks.
+  bool receiveMeshes(PanelContext& context);
   /// The frame as `shown_.look` says.
   void show(const Frame& frame);
   const SourceColours& coloursOf(const std::shared_ptr<const Layout>& layout);
@@ -49,6 +56,9 @@ class WalkPanel {
   void drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size);
   void drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const;
 
+  std::atomic<bool> news_ = false;
+  int threads_;
+  std::function<void()> wake_;
   WalkRenderer renderer_;
   AdaptiveResolution resolution_;
   std::unique_ptr<GlRenderer> gl_;

@@ -83,7 +83,7 @@ Status FrameMaker::openGl() {
   if (shared_->gl) return {};
   auto context = HeadlessContext::create();
   if (!context) return tl::unexpected(context.error());
-  auto gl = GlRenderer::create(&runner_);
+  auto gl = GlRenderer::create({.runner = &runner_});
   if (!gl) return tl::unexpected(gl.error());
   shared_->context = std::move(*context);
   shared_->gl = std::move(*gl);

@@ -8,10 +8,12 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine.h"
+#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
 #include "engine/pipeline/walk_stream.h"
 #include "engine/view/view_cameras.h"
+#include "engine/view_gl/gl_renderer.h"
 
 namespace acentric::cli {
 namespace {
@@ -54,11 +56,43 @@ class TimedPath {
   std::vector<double> at_;
 };
 
+/// Draws with a renderer of either kind; no picture is read back.
+class StreamRenderer {
+ public:
+  static Result<StreamRenderer> open(const ViewSettings& settings, bool waitForMeshes, TaskRunner& runner) {
+    StreamRenderer made(settings, runner);
+    if (!onOpenGl(settings.renderer)) return made;
+    auto context = HeadlessContext::create();
+    if (!context) return tl::unexpected(context.error());
+    auto gl = GlRenderer::create({.waitForMeshes = waitForMeshes, .runner = &runner});
+    if (!gl) return tl::unexpected(gl.error());
+    made.context_ = std::move(*context), made.gl_ = std::move(*gl);
+    return made;
+  }
+  Result<FrameStats> draw(const WalkScene& walk, const PerspectiveView& view) {
+    if (gl_) return gl_->draw(walk, view, settings_);
+    auto frame = renderFrame(walk, view, settings_, *runner_, memory_);
+    if (!frame) return tl::unexpected(frame.error());
+    memory_.frame = std::move(*frame);
+    return memory_.frame.stats;
+  }
+
+ private:
+  StreamRenderer(const ViewSettings& settings, TaskRunner& runner) : settings_(settings), runner_(&runner) {}
+
+  ViewSettings settings_;
+  TaskRunner* runner_;
+  FrameMemory memory_;
+  std::unique_ptr<HeadlessContext> context_;
+  std::unique_ptr<GlRenderer> gl_;  // destroyed before its context
+};
+
 /// What the frames of a walk were like.
 struct WalkTally {
   std::vector<double> frameMs, takeMs;
   int incomplete = 0;  ///< frames with a camera of which nothing was there
   int coarse = 0;      ///< frames with a coarse stand-in
+  int asPoints = 0;    ///< frames with points in place of a mesh
   double firstFullSeconds = -1;
 
   void count(const LoadedWalk& walk, const ViewCameras& needed, double seconds) {
@@ -90,11 +124,10 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
   const auto renderer = parseRenderer(options.renderers.front());
   if (!renderer) return tl::unexpected(renderer.error());
   settings.renderer = *renderer;
-  if (onOpenGl(*renderer))
-    return fail(ErrorKind::unsupported,
-                "--stream walks with renderers of the processor: give --renderers list", "--renderers");
   if (Status applied = apply(options.look, settings); !applied) return tl::unexpected(applied.error());
   const auto runner = common.runner();
+  auto drawing = StreamRenderer::open(settings, options.waitForMeshes, *runner);
+  if (!drawing) return tl::unexpected(drawing.error());
   const std::uint64_t residentBefore = peakResidentBytes();
 
   const Stopwatch clock;
@@ -110,7 +143,7 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
   const double openSeconds = clock.seconds();
 
   WalkTally tally;
-  FrameMemory memory;
+  MeshBudget meshes;
   const Stopwatch walking;
   for (bool last = false; !last;) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
@@ -124,11 +157,12 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
     stream.go({glm::dvec2(view.eye), view.yawRadians, velocity});
     const auto snapshot = stream.walk();
     tally.takeMs.push_back(taking.seconds() * 1e3);
-    auto frame = renderFrame(snapshot->walk, view, settings, *runner, memory);
-    if (!frame) return tl::unexpected(frame.error());
-    memory.frame = std::move(*frame);
+    const auto drawn = drawing->draw(snapshot->walk, view);
+    if (!drawn) return tl::unexpected(drawn.error());
     tally.frameMs.push_back(frameTime.seconds() * 1e3);
     tally.count(*snapshot, camerasOf(*open.layout, view, settings), now);
+    tally.asPoints += drawn->pointsForMeshes > 0 ? 1 : 0;
+    meshes.add(*drawn);
     const double rest = kFrameSeconds - frameTime.seconds();
     if (rest > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest));
   }
@@ -151,6 +185,7 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
                  {"frames", count},
                  {"incompleteFrames", tally.incomplete},
                  {"coarseFrames", tally.coarse},
+                 {"pointFrames", tally.asPoints},
                  {"frameMsMedian", frames.median},
                  {"frameMsP99", frames.p99},
                  {"frameMsMax", frames.max},
@@ -175,6 +210,11 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
       frames.median, frames.p99, frames.max, takes.max, bytesText(stats.peakBytes),
       bytesText(stats.limitBytes), stats.loads, stats.coarseLoads, stats.evictions,
       bytesText(peakResidentBytes()), bytesText(residentBefore));
+  if (settings.renderer == Renderer::glMesh) {
+    report.json["mesh"] = meshes.json();
+    report.text +=
+        meshes.text() + fmt::format("  {} frames with points in place of meshes\n", tally.asPoints);
+  }
   return report;
 }
 

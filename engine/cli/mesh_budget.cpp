@@ -25,11 +25,7 @@ void MeshBudget::add(const FrameStats& stats) {
 
 MeshCost MeshBudget::sum() const {
   MeshCost all;
-  for (const auto& [camera, cost] : meshes_) {
-    all.error = std::max(all.error, cost.error);
-    all.samples += cost.samples, all.triangles += cost.triangles, all.bytes += cost.bytes;
-    all.buildSeconds += cost.buildSeconds;
-  }
+  for (const auto& [camera, cost] : meshes_) all.add(cost);
   return all;
 }
 

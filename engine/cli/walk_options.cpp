@@ -193,6 +193,8 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
   c->add_option("--speed", o.metresPerSecond, "Of --stream, metres per second")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
+  c->add_flag("--wait-for-meshes", o.waitForMeshes,
+              "Of --stream with gl-mesh: frames wait for the meshes they lack instead of drawing points");
 }
 
 void addBenchGrowth(CLI::App& bench, Chosen& chosen) {

@@ -28,6 +28,9 @@ namespace acentric {
 /// Half of the machine's memory.
 std::size_t usualWalkMemory();
 
+/// Coarse renditions made of captures have, as previews do, a quarter of the columns and rows.
+inline constexpr int kCoarseFactor = 4;
+
 struct WalkStreamOptions {
   std::size_t memoryBytes = usualWalkMemory();
   /// That read what the eye's region needs; one more reads ahead, and gives way to all others. 0 = none:
@@ -109,7 +112,6 @@ class WalkStream {
   Read read(const Task& task, const std::stop_token& stop) const;
   void finish(const Task& task, Read read);
   void insert(Detail detail, int camera, CapturePtr capture, bool made);
-  CapturePtr counted(CapturePtr capture) const;
   void follow();
   void guessBytes();
   void show(int camera);

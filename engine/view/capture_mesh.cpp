@@ -5,6 +5,7 @@
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/slant.h"
+#include "engine/view/view_settings.h"
 
 namespace acentric {
 namespace {
@@ -45,7 +46,7 @@ class BandMesher {
  public:
   /// Columns [first, last).
   BandMesher(const DisplayCapture& capture, const MeshBound& bound, int first, int last);
-  CaptureMesh run();
+  CaptureMesh run(const std::stop_token& stop);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -122,9 +123,9 @@ BandMesher::BandMesher(const DisplayCapture& capture, const MeshBound& bound, in
   }
 }
 
-CaptureMesh BandMesher::run() {
+CaptureMesh BandMesher::run(const std::stop_token& stop) {
   CaptureMesh mesh;
-  for (int k = first_; k < last_; ++k)
+  for (int k = first_; k < last_ && !stop.stop_requested(); ++k)
     for (std::uint32_t i = capture_.columnStart[std::size_t(k)]; i < capture_.columnStart[std::size_t(k) + 1];
          ++i)
       if (opaque(i) && !taken(i)) {
@@ -325,12 +326,14 @@ std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch&
   return {glm::dvec3(low, top), glm::dvec3(high, top), glm::dvec3(low, bottom), glm::dvec3(high, bottom)};
 }
 
-CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner) {
+CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner,
+                             const std::stop_token& stop) {
   const int columns = capture.camera.columns;
   std::vector<CaptureMesh> bands(std::size_t((columns + kBandColumns - 1) / kBandColumns));
   runner.parallelFor(bands.size(), [&](std::size_t band) {
+    if (stop.stop_requested()) return;
     const int first = int(band) * kBandColumns;
-    bands[band] = BandMesher(capture, bound, first, std::min(first + kBandColumns, columns)).run();
+    bands[band] = BandMesher(capture, bound, first, std::min(first + kBandColumns, columns)).run(stop);
   });
   CaptureMesh mesh;
   for (CaptureMesh& band : bands) {
@@ -342,6 +345,20 @@ CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bou
     band = {};
   }
   return mesh;
+}
+
+LimitedMesh buildLimitedMesh(const DisplayCapture& capture, double error, double reach, int maxTriangles,
+                             TaskRunner& runner, const std::stop_token& stop) {
+  LimitedMesh built;
+  const auto build = [&](double within) {
+    built.bound = meshBound(capture.camera, within, reach);
+    built.mesh = buildCaptureMesh(capture, built.bound, runner, stop);
+  };
+  build(error);
+  while (maxTriangles > 0 && built.mesh.triangleCount() > std::size_t(maxTriangles) &&
+         built.bound.error < kLargestMeshError && !stop.stop_requested())
+    build(std::min(2 * built.bound.error, kLargestMeshError));
+  return built;
 }
 
 }  // namespace acentric

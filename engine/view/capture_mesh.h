@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "engine/base/large_vector.h"
@@ -76,7 +77,18 @@ inline double fringeOf(std::uint8_t fringes, MeshSide side, const MeshBound& bou
 std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch& patch,
                                     const MeshBound& bound);
 
-/// Does not depend on the number of threads.
-CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner);
+/// Does not depend on the number of threads. Stopped, it returns soon, with a mesh that is not whole.
+CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner,
+                             const std::stop_token& stop = {});
+
+struct LimitedMesh {
+  CaptureMesh mesh;
+  MeshBound bound;  ///< that it was built for
+};
+/// Of at most `maxTriangles` (0 = any number): for `error` samples or, where that takes more, for two,
+/// four... times as many, at most kLargestMeshError. `reach` as for meshBound; stopped as buildCaptureMesh
+/// is.
+LimitedMesh buildLimitedMesh(const DisplayCapture& capture, double error, double reach, int maxTriangles,
+                             TaskRunner& runner, const std::stop_token& stop = {});
 
 }  // namespace acentric

@@ -9,6 +9,18 @@ bool isOpen(PixelSource source) { return source == kSourceHole || source == kSou
 
 }  // namespace
 
+void MeshCost::add(const MeshCost& other) {
+  samples += other.samples, triangles += other.triangles, bytes += other.bytes;
+  error = std::max(error, other.error);
+  buildSeconds += other.buildSeconds;
+}
+
+MeshCost FrameStats::meshSum() const {
+  MeshCost sum;
+  for (const MeshCost& cost : meshes) sum.add(cost);
+  return sum;
+}
+
 std::size_t Frame::holeCount() const {
   return static_cast<std::size_t>(std::count_if(source.pixels.begin(), source.pixels.end(), isOpen));
 }

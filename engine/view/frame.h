@@ -31,6 +31,9 @@ struct MeshCost {
   std::uint64_t bytes = 0;      ///< of buffers
   double error = 0;             ///< samples; more than was asked for where triangles are limited
   double buildSeconds = 0;      ///< once
+
+  /// Of both together; the error is the larger.
+  void add(const MeshCost& other);
 };
 
 struct FrameStats {
@@ -40,12 +43,17 @@ struct FrameStats {
   std::uint64_t samplesDrawn = 0;   ///< that fell on the picture
   std::uint64_t meshTriangles = 0;  ///< submitted: those of columns in sight and of roles that are needed
   std::vector<MeshCost> meshes;     ///< of the captures drawn, by camera
+  int meshesAwaited = 0;            ///< captures drawn whose mesh for these settings is not ready yet
+  int pointsForMeshes = 0;          ///< of these: drawn as points; the others as the mesh that they had
   std::uint64_t localTriangles = 0;
   double planSeconds = 0;  ///< choosing pieces and columns
   double warpSeconds = 0;  ///< the background, from captures to pixels
   double localSeconds = 0;
   double fillSeconds = 0;
   double totalSeconds = 0;
+
+  /// Of all captures drawn as meshes together.
+  MeshCost meshSum() const;
 };
 
 struct Frame {

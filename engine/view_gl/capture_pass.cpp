@@ -1,12 +1,11 @@
 #include "engine/view_gl/capture_pass.h"
 
 #include <algorithm>
-#include <set>
 
 namespace acentric {
 
 CapturePass::CapturePass(ProgramCache& programs, CaptureResidency& captures, MeshResidency& meshes)
-    : points_(programs, captures), meshes_(programs, meshes) {}
+    : residency_(meshes), points_(programs, captures), meshes_(programs) {}
 
 Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                          const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
@@ -17,8 +16,8 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
   const bool anyMirror = !plan.reflections.empty();
   const bool filtered = settings.reconstruction == Reconstruction::filtered;
   if (Status ready = target.beginPieces(anyMirror, filtered); !ready) return ready;
-  std::set<int> images;
-  for (const PieceDraw& piece : plan.backgrounds) images.insert(piece.camera);
+  Cameras cameras;
+  for (const PieceDraw& piece : plan.backgrounds) cameras.all.insert(piece.camera);
   const bool depthTest = depthTested(settings.renderer);
   struct Step {
     const PieceDraw& piece;
@@ -46,15 +45,29 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
                          planned.secondary ? FrameTarget::Cover::behind : FrameTarget::Cover::inFront);
     target.bindForPieces();
     const CapturePiece piece{planned, capture, view, settings, anyMirror ? Mirrors::mark : Mirrors::none};
-    images.insert(planned.camera);
+    cameras.all.insert(planned.camera);
     const bool asMesh = settings.renderer == Renderer::glMesh && samples == Samples::opaque;
-    const Status drawn =
-        asMesh ? meshes_.draw(piece, *scene.layout, stats) : points_.draw(piece, samples, target, stats);
+    const Status drawn = asMesh ? drawAsMesh(piece, *scene.layout, target, cameras, stats)
+                                : points_.draw(piece, samples, target, stats);
     if (!drawn) return drawn;
   }
-  stats.images = int(images.size());
+  stats.images = int(cameras.all.size());
+  stats.meshesAwaited = int(cameras.awaited.size());
+  stats.pointsForMeshes = int(cameras.points.size());
   target.endPainting();
   return {};
+}
+
+Status CapturePass::drawAsMesh(const CapturePiece& piece, const Layout& layout, FrameTarget& target,
+                               Cameras& cameras, FrameStats& stats) {
+  const int camera = piece.plan.camera;
+  const Result<MeshBuffers*> mesh =
+      residency_.get(piece.capture, piece.name(), layout, camera, piece.settings);
+  if (!mesh) return tl::unexpected(mesh.error());
+  if (*mesh == nullptr || !(*mesh)->task.isFor(piece.settings)) cameras.awaited.insert(camera);
+  if (*mesh != nullptr) return meshes_.draw(piece, **mesh, stats);
+  cameras.points.insert(camera);
+  return points_.draw(piece, Samples::opaque, target, stats);
 }
 
 Status CapturePass::drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,

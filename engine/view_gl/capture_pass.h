@@ -1,10 +1,14 @@
 #pragma once
 /// Draws what a view plan takes from captures: the pieces of the first cover, those of the second where
 /// nothing of the first lies; then what mirrors show. As points in order, as points with a depth test, or
-/// opaque samples as meshes with one; samples that blend, and what mirrors show, are points always.
+/// opaque samples as meshes with one; samples that blend, and what mirrors show, are points always, and so
+/// are captures whose meshes are not ready.
+
+#include <set>
 
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/mesh_pass.h"
+#include "engine/view_gl/mesh_residency.h"
 #include "engine/view_gl/point_pass.h"
 
 namespace acentric {
@@ -23,6 +27,13 @@ class CapturePass {
                          FrameStats& stats);
 
  private:
+  struct Cameras {  ///< of the captures drawn
+    std::set<int> all, awaited, points;
+  };
+  Status drawAsMesh(const CapturePiece& piece, const Layout& layout, FrameTarget& target, Cameras& cameras,
+                    FrameStats& stats);
+
+  MeshResidency& residency_;
   PointPass points_;
   MeshPass meshes_;
 };

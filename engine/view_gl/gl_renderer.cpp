@@ -54,13 +54,16 @@ double secondsBetween(const GlQuery& first, const GlQuery& second) {
 }  // namespace
 
 struct GlRenderer::Impl {
-  explicit Impl(TaskRunner* given) : runner(given != nullptr ? *given : own) {}
+  explicit Impl(GlRendererOptions options)
+      : meshes(options.runner != nullptr ? *options.runner : own,
+               options.waitForMeshes
+                   ? nullptr
+                   : std::make_unique<MeshBuilder>(options.backgroundThreads, std::move(options.wake))) {}
 
   TaskRunner own;  // this thread alone
-  TaskRunner& runner;
   ProgramCache programs;
   CaptureResidency captures;
-  MeshResidency meshes{runner};
+  MeshResidency meshes;
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
@@ -96,13 +99,14 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   stats = {};
   stats.missingImages = plan->missingImages;
   captures.dropGone(scene);
-  meshes.dropGone(scene);
   locals.dropGone(scene);
   textures.dropGone();
   if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
+  if (Status received = meshes.begin(scene, settings); !received) return tl::unexpected(received.error());
   glQueryCounter(begun.name(), GL_TIMESTAMP);
   if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return tl::unexpected(drawn.error());
   glQueryCounter(done.name(), GL_TIMESTAMP);
+  meshes.end();
   captures.trim(kCaptureBudgetBytes);
   meshes.trim(kCaptureBudgetBytes);
   stats.totalSeconds = secondsOfDrawing(start);
@@ -180,7 +184,7 @@ Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewP
 GlRenderer::GlRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GlRenderer::~GlRenderer() = default;
 
-Result<std::unique_ptr<GlRenderer>> GlRenderer::create(TaskRunner* runner) {
+Result<std::unique_ptr<GlRenderer>> GlRenderer::create(GlRendererOptions options) {
   const int version = epoxy_gl_version();
   if (version < 43 || !epoxy_is_desktop_gl())
     return fail(
@@ -204,7 +208,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(TaskRunner* runner) {
         "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
-  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(runner)));
+  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(std::move(options))));
   // The variant that every walk needs: a driver that refuses our shaders says so now, not in the first frame.
   const Result<GlProgram*> program = renderer->impl_->programs.get("points.vert", "points.frag", {"SPLAT"});
   if (!program) return tl::unexpected(program.error());
@@ -221,6 +225,16 @@ Result<FrameStats> GlRenderer::draw(const WalkScene& scene, const PerspectiveVie
                 "view");
   }
 }
+
+Result<bool> GlRenderer::receiveMeshes() {
+  const GlStateGuard guard;
+  forgetGlErrors();
+  return impl_->meshes.receive();
+}
+
+bool GlRenderer::meshesToReceive() const { return impl_->meshes.anyToReceive(); }
+
+void GlRenderer::stopBuildingMeshes() { impl_->meshes.stopBuilding(); }
 
 double GlRenderer::cardSeconds() const { return impl_->cardSeconds; }
 

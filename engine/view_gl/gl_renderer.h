@@ -4,6 +4,7 @@
 /// with one; or as adaptive meshes with one, built when a capture is first drawn), then local geometry with
 /// one.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,12 +18,21 @@
 
 namespace acentric {
 
+struct GlRendererOptions {
+  /// Does a frame wait until the meshes that it lacks are built? Otherwise no frame does: they are built in
+  /// the background, and until its mesh is ready a capture is drawn as points with a depth test or, where
+  /// settings have changed, as the mesh that it had.
+  bool waitForMeshes = true;
+  TaskRunner* runner = nullptr;  ///< builds the meshes waited for; outlives the renderer; null: this thread
+  int backgroundThreads = 1;     ///< that build those not waited for
+  std::function<void()> wake = {};  ///< called from another thread when there is something for receiveMeshes
+};
+
 class GlRenderer {
  public:
   /// With the context current, as in every call and for destruction. Compiles the shaders that every walk
-  /// needs; the others when first used. Meshes are built with `runner`, which must outlive the renderer;
-  /// null: on the calling thread.
-  static Result<std::unique_ptr<GlRenderer>> create(TaskRunner* runner = nullptr);
+  /// needs; the others when first used.
+  static Result<std::unique_ptr<GlRenderer>> create(GlRendererOptions options = {});
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;
@@ -32,6 +42,13 @@ class GlRenderer {
   /// whatever it was. Waits until all is drawn, so that the times in the statistics are true; samplesDrawn
   /// counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  /// Of the meshes built in the background: sends a piece of those that are done to the graphics card, as
+  /// each draw does. True if a picture drawn now would show one that the last could not.
+  Result<bool> receiveMeshes();
+  /// Is there more for receiveMeshes to do at once?
+  bool meshesToReceive() const;
+  /// For when other renderers draw: what is built in the background is given up until the next draw.
+  void stopBuildingMeshes();
   /// Seconds from the first to the last command of the last draw by the graphics card's own clock; 0 before
   /// it.
   double cardSeconds() const;

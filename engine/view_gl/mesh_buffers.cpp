@@ -1,82 +1,10 @@
 #include "engine/view_gl/mesh_buffers.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <bit>
 
-#include "engine/base/stopwatch.h"
 #include "engine/view_gl/capture_buffers.h"
-#include "engine/view_gl/gl_check.h"
 
 namespace acentric {
-namespace {
-
-/// Opaque samples need no alpha: fringes lie there.
-std::vector<glm::uvec2> packTexels(const DisplayCapture& capture, const CaptureMesh& mesh, std::size_t first,
-                                   std::size_t last) {
-  std::vector<glm::uvec2> texels;
-  texels.reserve(last - first);
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint32_t sample = mesh.samples[i];
-    Rgba8 colour = capture.colour[sample];
-    colour.a = mesh.fringes[i];
-    texels.emplace_back(capture.samples[sample].inverseDistanceAndRoles,
-                        std::bit_cast<std::uint32_t>(colour));
-  }
-  return texels;
-}
-
-/// Whole words, as the shader reads them.
-std::vector<std::uint8_t> packMirrors(const DisplayCapture& capture, const CaptureMesh& mesh,
-                                      std::size_t first, std::size_t last) {
-  std::vector<std::uint8_t> mirrors;
-  for (std::size_t i = first; i < last; ++i) mirrors.push_back(capture.mirror[mesh.samples[i]]);
-  mirrors.resize((mirrors.size() + 3) / 4 * 4, 0);
-  return mirrors;
-}
-
-std::vector<float> packBorders(const ColumnCamera& camera) {
-  std::vector<float> borders;
-  for (int k = 0; k <= camera.columns; ++k) {
-    const glm::vec2 direction(camera.directionAt(k));
-    borders.insert(borders.end(), {direction.x, direction.y});
-  }
-  for (int r = 0; r <= camera.rows; ++r) borders.push_back(float(camera.tangentAt(r)));
-  return borders;
-}
-
-MeshBuffers upload(const DisplayCapture& capture, const CaptureMesh& mesh, std::size_t limit) {
-  MeshBuffers buffers;
-  const std::size_t mostTexels = limit / sizeof(glm::uvec2), mostPatches = limit / sizeof(MeshPatch);
-  const auto samplesBefore = [&](std::size_t patch) {
-    return patch < mesh.patches.size() ? std::size_t(mesh.patches[patch].firstSample) : mesh.samples.size();
-  };
-  for (std::size_t first = 0; first < mesh.patches.size();) {
-    std::size_t last = first + 1;
-    while (last < mesh.patches.size() && last - first < mostPatches &&
-           samplesBefore(last + 1) - samplesBefore(first) <= mostTexels)
-      ++last;
-    const std::size_t firstSample = samplesBefore(first), lastSample = samplesBefore(last);
-    MeshChunk chunk;
-    chunk.patches.assign(mesh.patches.begin() + std::ptrdiff_t(first),
-                         mesh.patches.begin() + std::ptrdiff_t(last));
-    for (MeshPatch& patch : chunk.patches) {
-      patch.firstSample -= std::uint32_t(firstSample);
-      buffers.widestPatch = std::max(buffers.widestPatch, int(patch.columns));
-    }
-    chunk.patchBuffer = makeStorage(chunk.patches, buffers.bytes);
-    chunk.texels = makeStorage(packTexels(capture, mesh, firstSample, lastSample), buffers.bytes);
-    if (!capture.mirror.empty())
-      chunk.mirrors = makeStorage(packMirrors(capture, mesh, firstSample, lastSample), buffers.bytes);
-    buffers.chunks.push_back(std::move(chunk));
-    first = last;
-  }
-  buffers.borders = makeStorage(packBorders(capture.camera), buffers.bytes);
-  return buffers;
-}
-
-}  // namespace
 
 const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, MeshBuffers& buffers) {
   const auto known = chunk.lists.find(roles);
@@ -95,32 +23,46 @@ const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, M
   return chunk.lists.emplace(roles, std::move(list)).first->second;
 }
 
-Result<MeshBuffers*> MeshResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
-                                        const char* name, const Layout& layout, int camera,
-                                        const ViewSettings& settings) {
-  MeshBuffers* resident = find(capture);
-  if (resident != nullptr && resident->errorSet == settings.meshError &&
-      resident->trianglesSet == settings.maxMeshTriangles)
-    return resident;
-  if (Status sound = checkArrays(*capture, name); !sound) return tl::unexpected(sound.error());
-  const Stopwatch watch;
-  const double reach = eyeReach(layout, camera);
-  MeshBound bound = meshBound(capture->camera, settings.meshError, reach);
-  CaptureMesh mesh = buildCaptureMesh(*capture, bound, runner_);
-  while (settings.maxMeshTriangles > 0 && mesh.triangleCount() > std::size_t(settings.maxMeshTriangles) &&
-         bound.error < kLargestMeshError) {
-    bound = meshBound(capture->camera, std::min(2 * bound.error, kLargestMeshError), reach);
-    mesh = buildCaptureMesh(*capture, bound, runner_);
+MeshUpload::MeshUpload(MeshTask task, PackedMesh mesh) : mesh_(std::move(mesh)) {
+  buffers_.task = std::move(task);
+  buffers_.bound = mesh_.bound;
+  buffers_.widestPatch = mesh_.widestPatch;
+  buffers_.cost = mesh_.cost;
+  for (PackedChunk& packed : mesh_.chunks) {
+    MeshChunk& chunk = buffers_.chunks.emplace_back();
+    chunk.patches = std::move(packed.patches);
+    chunk.patchBuffer = make(chunk.patches);
+    chunk.texels = make(packed.texels);
+    if (!packed.mirrors.empty()) chunk.mirrors = make(packed.mirrors);
   }
-  const double buildSeconds = watch.seconds();
-  MeshBuffers buffers = upload(*capture, mesh, storageLimit(largestBuffer_));
-  if (Status uploaded = checkGl(fmt::format("uploading the mesh of {}", name).c_str()); !uploaded)
-    return tl::unexpected(uploaded.error());
-  buffers.bound = bound;
-  buffers.errorSet = settings.meshError;
-  buffers.trianglesSet = settings.maxMeshTriangles;
-  buffers.cost = {camera, mesh.samples.size(), mesh.triangleCount(), 0, bound.error, buildSeconds};
-  return &put(capture, std::move(buffers));
+  buffers_.borders = make(mesh_.borders);
+}
+
+/// Room for the values, which are to be sent.
+template <class Value>
+GlBuffer MeshUpload::make(const std::vector<Value>& values) {
+  GlBuffer buffer = GlBuffer::make();
+  const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(bytes.size()), nullptr, GL_STATIC_DRAW);
+  buffers_.bytes += bytes.size();
+  parts_.push_back({buffer.name(), bytes});
+  return buffer;
+}
+
+std::size_t MeshUpload::send(std::size_t most) {
+  std::size_t sent = 0;
+  while (!done() && sent < most) {
+    const Part& part = parts_[next_];
+    const std::size_t count = std::min(part.bytes.size() - sentOfNext_, most - sent);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, part.buffer);
+    glBufferSubData(GL_SHADER_STORAGE_BUFFER, GLintptr(sentOfNext_), GLsizeiptr(count),
+                    part.bytes.data() + sentOfNext_);
+    sent += count, sentOfNext_ += count;
+    if (sentOfNext_ < part.bytes.size()) continue;
+    ++next_, sentOfNext_ = 0;
+  }
+  return sent;
 }
 
 }  // namespace acentric

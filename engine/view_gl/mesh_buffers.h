@@ -5,14 +5,11 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "engine/base/result.h"
-#include "engine/view/capture_mesh.h"
-#include "engine/view/frame.h"
-#include "engine/view/view_settings.h"
 #include "engine/view_gl/gl_object.h"
-#include "engine/view_gl/residency.h"
+#include "engine/view_gl/packed_mesh.h"
 
 namespace acentric {
 
@@ -23,20 +20,19 @@ struct PatchList {
 };
 
 struct MeshChunk {
-  std::vector<MeshPatch> patches;           ///< first samples count from the chunk's texels
+  std::vector<MeshPatch> patches;           ///< as PackedChunk has them
   GlBuffer patchBuffer;                     ///< the same
-  GlBuffer texels;                          ///< 8 bytes a sample: inverse distance | roles, colour | fringes
+  GlBuffer texels;                          ///< 8 bytes a sample
   GlBuffer mirrors;                         ///< a byte each; none without mirrors
   std::map<std::uint8_t, PatchList> lists;  ///< by roles
 };
 
 struct MeshBuffers {
   std::weak_ptr<const DisplayCapture> owner;
+  MeshTask task;  ///< that it was built for
   std::vector<MeshChunk> chunks;
-  GlBuffer borders;  ///< two floats a column border (direction), one a row border (tangent)
+  GlBuffer borders;  ///< as PackedMesh has them
   MeshBound bound;
-  double errorSet = 0;  ///< ViewSettings that it was built for
-  int trianglesSet = 0;
   int widestPatch = 0;  ///< columns
   MeshCost cost;
   std::size_t bytes = 0;
@@ -46,19 +42,29 @@ struct MeshBuffers {
 /// The chunk's patches that `roles` need, made when first asked for.
 const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, MeshBuffers& buffers);
 
-class MeshResidency : public Residency<MeshBuffers> {
+/// A mesh on its way to the graphics card, piece by piece.
+class MeshUpload {
  public:
-  /// Meshes are built with `runner`.
-  explicit MeshResidency(TaskRunner& runner, std::size_t largestBuffer = 0)
-      : runner_(runner), largestBuffer_(largestBuffer) {}
-  /// The mesh of a camera's capture for the error and the triangles that are set, built now if there is none
-  /// or it was built for others. Valid until the next call of dropGone or trim.
-  Result<MeshBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture, const char* name,
-                           const Layout& layout, int camera, const ViewSettings& settings);
+  MeshUpload(MeshTask task, PackedMesh mesh);
+  const MeshTask& task() const { return buffers_.task; }
+  /// Sends at most so many bytes more, or all that are left; returns how many.
+  std::size_t send(std::size_t most);
+  bool done() const { return next_ == parts_.size(); }
+  /// Once it is done.
+  MeshBuffers take() { return std::move(buffers_); }
 
  private:
-  TaskRunner& runner_;
-  std::size_t largestBuffer_ = 0;
+  struct Part {
+    GLuint buffer = 0;
+    std::span<const std::byte> bytes;  ///< of mesh_, or of the patches of buffers_
+  };
+  template <class Value>
+  GlBuffer make(const std::vector<Value>& values);
+
+  PackedMesh mesh_;
+  MeshBuffers buffers_;
+  std::vector<Part> parts_;
+  std::size_t next_ = 0, sentOfNext_ = 0;
 };
 
 }  // namespace acentric

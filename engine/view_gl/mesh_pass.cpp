@@ -32,8 +32,8 @@ std::vector<Columns> columnsInSight(const std::vector<ColumnRun>& runs) {
 
 }  // namespace
 
-MeshPass::MeshPass(ProgramCache& programs, MeshResidency& meshes)
-    : programs_(programs), meshes_(meshes), noAttributes_(GlVertexArray::make()), limits_(GlBuffer::make()) {}
+MeshPass::MeshPass(ProgramCache& programs)
+    : programs_(programs), noAttributes_(GlVertexArray::make()), limits_(GlBuffer::make()) {}
 
 Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffers& mesh) {
   Defines defines;
@@ -70,12 +70,9 @@ Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffer
   return found;
 }
 
-Status MeshPass::draw(const CapturePiece& piece, const Layout& layout, FrameStats& stats) {
+Status MeshPass::draw(const CapturePiece& piece, MeshBuffers& mesh, FrameStats& stats) {
   const DisplayCapture& capture = *piece.capture;
-  const Result<MeshBuffers*> mesh =
-      meshes_.get(piece.capture, piece.name().c_str(), layout, piece.plan.camera, piece.settings);
-  if (!mesh) return tl::unexpected(mesh.error());
-  const Result<GlProgram*> ready = program(piece, **mesh);
+  const Result<GlProgram*> ready = program(piece, mesh);
   if (!ready) return tl::unexpected(ready.error());
 
   std::vector<glm::vec2> limits;
@@ -86,11 +83,11 @@ Status MeshPass::draw(const CapturePiece& piece, const Layout& layout, FrameStat
   glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(limits.size() * sizeof limits[0]), limits.data(),
                GL_STREAM_DRAW);
   glBindVertexArray(noAttributes_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, (*mesh)->borders.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, mesh.borders.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, limits_.name());
-  for (MeshChunk& chunk : (*mesh)->chunks) drawChunk(piece, chunk, **mesh, stats);
-  MeshCost cost = (*mesh)->cost;
-  cost.bytes = (*mesh)->bytes;  // lists of patches included
+  for (MeshChunk& chunk : mesh.chunks) drawChunk(piece, chunk, mesh, stats);
+  MeshCost cost = mesh.cost;
+  cost.bytes = mesh.bytes;  // lists of patches included
   const auto known = std::ranges::find(stats.meshes, cost.camera, &MeshCost::camera);
   known == stats.meshes.end() ? stats.meshes.push_back(cost) : void(*known = cost);
   return checkGl("drawing meshes");

@@ -9,16 +9,16 @@ namespace acentric {
 
 class MeshPass {
  public:
-  MeshPass(ProgramCache& programs, MeshResidency& meshes);
-  /// Into what is bound, ready for painting with a depth test. Counts triangles in `stats`.
-  Status draw(const CapturePiece& piece, const Layout& layout, FrameStats& stats);
+  explicit MeshPass(ProgramCache& programs);
+  /// `mesh` is that of the piece's capture. Into what is bound, ready for painting with a depth test. Counts
+  /// triangles in `stats`.
+  Status draw(const CapturePiece& piece, MeshBuffers& mesh, FrameStats& stats);
 
  private:
   Result<GlProgram*> program(const CapturePiece& piece, const MeshBuffers& mesh);
   void drawChunk(const CapturePiece& piece, MeshChunk& chunk, MeshBuffers& mesh, FrameStats& stats);
 
   ProgramCache& programs_;
-  MeshResidency& meshes_;
   GlVertexArray noAttributes_;  ///< triangles pull their data from buffers
   GlBuffer limits_;
 };

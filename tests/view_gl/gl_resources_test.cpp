@@ -105,7 +105,7 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
     ProgramCache programs;
     CaptureResidency captures(largestBuffer);
     TaskRunner runner(0);
-    MeshResidency meshes(runner, largestBuffer);
+    MeshResidency meshes(runner, nullptr, largestBuffer);
     CapturePass pass(programs, captures, meshes);
     FrameTarget target;
     FrameStats stats;
@@ -121,7 +121,7 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
   EXPECT_GT(uploadCapture(*first, "cut", CaptureParts::samples, someColumns)->chunks.size(), 4u);
   TaskRunner runner(0);
-  MeshResidency meshes(runner, someColumns);
+  MeshResidency meshes(runner, nullptr, someColumns);
   EXPECT_GT((*meshes.get(first, "cut", *layout, plan->pieces[0].camera, {}))->chunks.size(), 2u);
   for (const Renderer renderer : {Renderer::gl, Renderer::glMesh})
     EXPECT_EQ(drawnWith(someColumns, renderer).colour.pixels, drawnWith(0, renderer).colour.pixels);

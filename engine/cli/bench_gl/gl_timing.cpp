@@ -37,7 +37,7 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
   auto context = HeadlessContext::create();
   if (!context) return tl::unexpected(context.error());
   TaskRunner runner(int(std::max(1U, std::thread::hardware_concurrency())) - 1);  // for building meshes
-  const auto renderer = GlRenderer::create(&runner);
+  const auto renderer = GlRenderer::create({.runner = &runner});
   if (!renderer) return tl::unexpected(renderer.error());
   const std::vector<PerspectiveView> views = viewsOf(packed, options);
   std::vector<Times> times(options.modes.size());

@@ -1,0 +1,42 @@
+#include "engine/pipeline/counted_capture.h"
+
+namespace acentric {
+namespace {
+
+template <class T, class Allocator>
+std::size_t bytesOf(const std::vector<T, Allocator>& values) {
+  return values.size() * sizeof(T);
+}
+
+std::size_t bytesOf(const SampleBlocks& b) {
+  return bytesOf(b.leastInverse) + bytesOf(b.mostInverse) + bytesOf(b.lowTangent) + bytesOf(b.highTangent) +
+         bytesOf(b.roles);
+}
+
+struct Counted {
+  std::shared_ptr<MemoryBudget> budget;
+  MemoryBudget::Share share;
+  std::shared_ptr<const DisplayCapture> capture;
+};
+
+}  // namespace
+
+std::size_t bytesOf(const DisplayCapture& c) {
+  const DisplayBackground& b = c.background;
+  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.samples) + bytesOf(c.colour) +
+         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.blocks) +
+         bytesOf(c.columnBlock) + bytesOf(c.mirror) + b.runs.bytes() + bytesOf(b.columnBorder) +
+         bytesOf(b.rowBorder) + (c.reflections ? bytesOf(*c.reflections) : 0);
+}
+
+std::shared_ptr<const DisplayCapture> counted(std::shared_ptr<const DisplayCapture> capture,
+                                              std::shared_ptr<MemoryBudget> budget) {
+  auto counted = std::make_shared<Counted>();
+  counted->budget = std::move(budget);
+  counted->share = MemoryBudget::Share(*counted->budget);
+  counted->share.set(bytesOf(*capture));
+  counted->capture = std::move(capture);
+  return {counted, counted->capture.get()};
+}
+
+}  // namespace acentric

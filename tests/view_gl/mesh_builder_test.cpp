@@ -1,0 +1,146 @@
+#include "engine/view_gl/mesh_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <semaphore>
+
+#include "tests/view/capture_fixtures.h"
+
+namespace acentric {
+namespace {
+
+using CapturePtr = std::shared_ptr<const DisplayCapture>;
+
+CapturePtr captureOf(unsigned seed, int columns = 60, int rows = 80) {
+  const Capture made =
+      test::capture(test::randomBoxes(seed, 40, 2), test::cameraAt({0, 0, 1.6}, 20, columns, rows), nullptr);
+  return std::make_shared<const DisplayCapture>(prepareForDisplay(made, 1));
+}
+
+MeshTask taskOf(const CapturePtr& capture, int camera, double error = 0.25) {
+  return {capture, camera, "capture of camera " + std::to_string(camera), 2, error, 0, std::size_t(1) << 27};
+}
+
+/// What is built, once there is so much.
+std::vector<MeshBuilder::Built> take(MeshBuilder& builder, std::size_t count) {
+  std::vector<MeshBuilder::Built> all;
+  for (int i = 0; i < 60'000 && all.size() < count; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (MeshBuilder::Built& built : builder.takeBuilt()) all.push_back(std::move(built));
+  }
+  EXPECT_EQ(all.size(), count);
+  return all;
+}
+
+/// Until a build that is running now has begun and is given up, or is done: its capture is let go of.
+bool isLetGoOf(const std::weak_ptr<const DisplayCapture>& capture) {
+  for (int i = 0; i < 60'000 && !capture.expired(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return capture.expired();
+}
+
+TEST(MeshBuilder, BuildsWhatIsWantedInOrderAsItIsBuiltWithoutWaiting) {
+  std::counting_semaphore<> wakes{0};
+  MeshBuilder builder(1, [&] { wakes.release(); });
+  const std::vector<CapturePtr> captures = {captureOf(1), captureOf(2), captureOf(3)};
+  builder.want({taskOf(captures[0], 4), taskOf(captures[1], 7, 2), taskOf(captures[2], 9)});
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(wakes.try_acquire_for(std::chrono::seconds(60)));
+  const std::vector<MeshBuilder::Built> built = builder.takeBuilt();
+  ASSERT_EQ(built.size(), 3u);
+  EXPECT_FALSE(builder.anyBuilt());
+  TaskRunner runner(0);
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    ASSERT_TRUE(built[i].mesh);
+    EXPECT_EQ(built[i].task.capture.lock(), captures[i]);
+    const auto expected = packMesh(*captures[i], built[i].task, runner);
+    ASSERT_TRUE(expected);
+    const PackedMesh& mesh = *built[i].mesh;
+    EXPECT_EQ(mesh.cost.camera, built[i].task.camera);
+    EXPECT_EQ(mesh.cost.error, i == 1 ? 2 : 0.25);
+    EXPECT_GT(mesh.cost.triangles, 10u);
+    EXPECT_EQ(mesh.cost.triangles, expected->cost.triangles);
+    ASSERT_EQ(mesh.chunks.size(), expected->chunks.size());
+    EXPECT_EQ(mesh.chunks[0].texels, expected->chunks[0].texels);
+  }
+}
+
+TEST(MeshBuilder, BuildsNothingTwiceThatIsWantedAgain) {
+  MeshBuilder builder(1, {});
+  const CapturePtr first = captureOf(1), second = captureOf(2);
+  for (int i = 0; i < 50; ++i) builder.want({taskOf(first, 0), taskOf(second, 1)});
+  take(builder, 2);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(builder.anyBuilt());
+  builder.want({taskOf(first, 0, 1)});  // another mesh
+  EXPECT_EQ(take(builder, 1).at(0).mesh->cost.error, 1);
+}
+
+TEST(MeshBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
+  MeshBuilder builder(1, {});
+  CapturePtr large = captureOf(3, 700, 700);
+  const std::weak_ptr<const DisplayCapture> watched = large;
+  const CapturePtr small = captureOf(4);
+  for (int round = 0; round < 5; ++round) {
+    builder.want({taskOf(large, 0), taskOf(small, 1)});
+    std::this_thread::sleep_for(std::chrono::milliseconds(3 * round));
+    builder.keepOnly([&](const MeshTask& task) { return task.camera == 1; });
+    EXPECT_EQ(take(builder, 1).at(0).task.camera, 1) << round;
+  }
+  builder.want({taskOf(large, 0)});
+  EXPECT_EQ(take(builder, 1).at(0).task.camera, 0);
+  builder.want({taskOf(large, 0, 3)});
+  large.reset();
+  builder.keepOnly([](const MeshTask&) { return false; });
+  EXPECT_TRUE(isLetGoOf(watched));
+  EXPECT_FALSE(builder.anyBuilt());
+}
+
+TEST(MeshBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
+  MeshBuilder builder(1, {});
+  CapturePtr large = captureOf(3, 700, 700), waiting = captureOf(4);
+  const std::weak_ptr<const DisplayCapture> evicted = waiting;
+  const CapturePtr last = captureOf(5);
+  builder.want({taskOf(large, 0), taskOf(waiting, 1), taskOf(last, 2)});
+  waiting.reset();
+  EXPECT_TRUE(isLetGoOf(evicted));
+  for (const MeshBuilder::Built& built : take(builder, 2)) EXPECT_NE(built.task.camera, 1);
+}
+
+TEST(MeshBuilder, IsDestroyedWhileItBuilds) {
+  const CapturePtr large = captureOf(3, 700, 700), other = captureOf(4, 700, 700);
+  for (int round = 0; round < 6; ++round) {
+    std::atomic<int> wakes = 0;
+    MeshBuilder builder(1 + round % 2, [&] { ++wakes; });
+    builder.want({taskOf(large, 0), taskOf(other, 1)});
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * round));
+  }
+  EXPECT_EQ(large.use_count(), 1);
+  EXPECT_EQ(other.use_count(), 1);
+}
+
+TEST(MeshBuilder, TellsWhatIsWrongWithACapture) {
+  MeshBuilder builder(1, {});
+  auto spoilt = std::make_shared<DisplayCapture>(*captureOf(1));
+  spoilt->colour.pop_back();
+  builder.want({taskOf(spoilt, 3)});
+  const auto built = take(builder, 1);
+  ASSERT_FALSE(built.at(0).mesh);
+  EXPECT_EQ(built[0].mesh.error().kind, ErrorKind::malformed);
+  EXPECT_EQ(built[0].mesh.error().where, "capture of camera 3");
+}
+
+TEST(PackedMesh, IsNotMadeOnceStopped) {
+  const CapturePtr capture = captureOf(1);
+  std::stop_source stop;
+  stop.request_stop();
+  TaskRunner runner(0);
+  const auto packed = packMesh(*capture, taskOf(capture, 0), runner, stop.get_token());
+  ASSERT_FALSE(packed);
+  EXPECT_EQ(packed.error().kind, ErrorKind::cancelled);
+  EXPECT_TRUE(buildLimitedMesh(*capture, 0.25, 2, 1, runner, stop.get_token()).mesh.patches.empty());
+}
+
+}  // namespace
+}  // namespace acentric
