@@ -31,16 +31,11 @@ std::vector<glm::dvec3> RegionSight::eyes() const {
   return eyes;
 }
 
-RegionSight::Side RegionSight::sees(std::size_t role, const glm::dvec3& point, const glm::dvec3& normal,
-                                    double tolerance, Hints& hints, RayCounts& rays) const {
-  const auto seenFrom = [&](Side side) {
-    return any(role, hints, [&](const EyeView& view) {
-      const bool onNormal = glm::dot(normal, view.eye() - point) >= 0;
-      return onNormal == (side == Side::normal) && seesPoint(*scene_, view, point, tolerance, rays);
-    });
-  };
-  if (seenFrom(Side::normal)) return Side::normal;
-  return seenFrom(Side::other) ? Side::other : Side::none;
+Side RegionSight::sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
+                       RayCounts& rays) const {
+  return sideSeen(
+      role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
+      [&](const EyeView& view) { return seesPoint(*scene_, view, surface.point(), tolerance, rays); });
 }
 
 bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,
