@@ -86,10 +86,11 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
       if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
+      if (!skies_) skies_ = std::make_unique<RegionSkies>(scene_, settings_, budget_);
       const Stopwatch watch;
       const int before = views_->traced();
-      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, settings_, *views_, runner,
-                                counts.rays, stop);
+      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, settings_, *views_, *skies_,
+                                runner, counts.rays, stop);
       if (!sight) return stopped();
       counts.eyeViews += views_->traced() - before;
       counts.eyeViewSeconds += watch.seconds();

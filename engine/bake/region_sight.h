@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/bake/eye_views.h"
+#include "engine/bake/region_sky.h"
 #include "engine/bake/surface_side.h"
 #include "engine/layout/layout.h"
 
@@ -16,8 +17,8 @@ class RegionSight {
  public:
   /// Nothing when stopped.
   static std::optional<RegionSight> look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                                         const BakeSettings& settings, EyeViews& views, TaskRunner& runner,
-                                         RayCounts& rays, const std::stop_token& stop);
+                                         const BakeSettings& settings, EyeViews& views, RegionSkies& skies,
+                                         TaskRunner& runner, RayCounts& rays, const std::stop_token& stop);
 
   /// Of one thread: which eye answered last, tried first the next time.
   struct Hints {
@@ -69,6 +70,7 @@ class RegionSight {
   const RayScene* scene_ = nullptr;
   std::vector<std::size_t> region_;  ///< of each role, into eyes_
   std::vector<std::vector<std::shared_ptr<const EyeView>>> eyes_;
+  std::vector<std::shared_ptr<const RegionSky>> skies_;  ///< by region
 };
 
 }  // namespace acentric
