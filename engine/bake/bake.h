@@ -23,6 +23,7 @@ namespace acentric {
 
 class EyeViews;
 class FlatMirrors;
+class RegionSkies;
 class Shader;
 
 /// The column camera by which a layout camera is baked: columns and rows from the settings; elevations from
@@ -86,6 +87,7 @@ class CameraBaker {
   std::stop_token shaderStop_;
   std::unique_ptr<FlatMirrors> mirrors_;
   std::unique_ptr<EyeViews> views_;
+  std::unique_ptr<RegionSkies> skies_;
 };
 
 /// Traces the first ray of every pixel of a capture and does nothing with what it hits: what the ray tracer

@@ -6,6 +6,15 @@
 
 namespace acentric {
 
+std::uint8_t give(std::span<RoleOnRay* const> roles) {
+  std::uint8_t mask = 0;
+  for (RoleOnRay* having : roles) {
+    mask |= having->role->bit;
+    ++having->samples;
+  }
+  return mask;
+}
+
 std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction) {
   std::vector<ColumnRole> roles;
   for (std::size_t i = 0; i < camera.roles.size(); ++i) {

@@ -2,6 +2,7 @@
 /// The roles of a camera along one of its columns: which it has samples for, from where on.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/layout/layout.h"
@@ -21,6 +22,17 @@ struct ColumnRole {
   const Clip* clip = nullptr;
   bool holdsBackground = true;  ///< the part holds what is infinitely far along the column
 };
+
+/// What a role has been given along one ray.
+struct RoleOnRay {
+  const ColumnRole* role = nullptr;
+  int samples = 0;
+  /// How far its last opaque surface is, as the march counts. What lies right behind it, as the backs of
+  /// panels and mouldings, would pass for it before the test eyes, and show in its cracks.
+  double opaqueAt = 0;
+};
+/// Counts a sample to each; returns their bits.
+std::uint8_t give(std::span<RoleOnRay* const> roles);
 
 /// By rising exit.
 std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction);

@@ -16,7 +16,6 @@ namespace {
 constexpr double kBehind = 1e-2;
 /// Four rays show one plane when they depart from it by no more than this share.
 constexpr double kFlat = 4e-3;
-constexpr int kFaces = 6;
 /// Of the limit: one part in so many.
 constexpr std::size_t kSightShare = 3;
 
@@ -64,23 +63,10 @@ std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, cons
   return eyes;
 }
 
-std::size_t EyeView::bytesOf(int texelsPerEdge) {
-  const std::size_t samples = std::size_t(texelsPerEdge) + 1;
-  return kFaces * samples * samples * sizeof(float);
-}
+std::size_t EyeView::bytesOf(int texelsPerEdge) { return CubeLattice(texelsPerEdge).size() * sizeof(float); }
 
 EyeView::EyeView(const glm::dvec3& eye, int texelsPerEdge)
-    : eye_(eye), side_(texelsPerEdge), inverseZ_(bytesOf(texelsPerEdge) / sizeof(float), -1.0f) {}
-
-/// Face 2a + s: axis a, s = 0 its positive half. Its columns run along axis a + 1, its rows along a + 2.
-glm::dvec3 EyeView::directionOf(int face, int column, int row) const {
-  const int axis = face / 2;
-  glm::dvec3 direction;
-  direction[axis] = face % 2 == 0 ? 1 : -1;
-  direction[(axis + 1) % 3] = 2.0 * column / side_ - 1;
-  direction[(axis + 2) % 3] = 2.0 * row / side_ - 1;
-  return direction;
-}
+    : eye_(eye), lattice_(texelsPerEdge), inverseZ_(lattice_.size(), -1.0f) {}
 
 std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
@@ -91,10 +77,10 @@ std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::
     view->share_ = MemoryBudget::Share(*budget);
     view->share_.set(view->bytes());
   }
-  const int samples = texelsPerEdge + 1;
+  const int samples = view->lattice_.cornersPerEdge();
   const double low = std::sin(elevations.bottom), high = std::sin(elevations.top);
   std::atomic<std::uint64_t> traced = 0;
-  runner.parallelFor(std::size_t(kFaces * samples), [&](std::size_t line) {
+  runner.parallelFor(std::size_t(CubeLattice::kFaces * samples), [&](std::size_t line) {
     if (stop.stop_requested()) return;
     const FlushDenormals flush;
     const int face = int(line) / samples, row = int(line) % samples;
@@ -112,7 +98,7 @@ std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::
       packet.count = 0;
     };
     for (int column = 0; column < samples; ++column) {
-      const glm::dvec3 way = view->directionOf(face, column, row);
+      const glm::dvec3 way = view->lattice_.direction(face, column, row);
       const double length = glm::length(way), up = way.z / length;
       if (up < low || up > high) continue;
       const auto n = std::size_t(packet.count++);
@@ -128,40 +114,26 @@ std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::
   return view;
 }
 
-/// `far`: one over the distance along the axis of `way`, per unit of that axis of it.
-EyeView::Sees EyeView::look(const glm::dvec3& way, double far) const {
-  const glm::dvec3 size = glm::abs(way);
-  const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-  if (!(size[axis] > 0)) return Sees::yes;  // the eye itself
-  const double inverse = far / size[axis];
-  const auto cell = [&](int other) {
-    return std::clamp((way[other] / size[axis] + 1) * 0.5 * side_, 0.0, double(side_));
-  };
-  const double x = cell((axis + 1) % 3), y = cell((axis + 2) % 3);
-  const int column = std::min(int(x), side_ - 1), row = std::min(int(y), side_ - 1);
-  const std::size_t samples = std::size_t(side_) + 1;
-  const float* at =
-      inverseZ_.data() +
-      ((std::size_t(2 * axis + (way[axis] < 0 ? 1 : 0)) * samples + std::size_t(row)) * samples +
-       std::size_t(column));
-  const double a = double(at[0]), b = double(at[1]), c = double(at[samples]), d = double(at[samples + 1]);
+EyeView::Sees EyeView::looksAt(const glm::dvec3& point) const {
+  const glm::dvec3 way = point - eye_;
+  if (way == glm::dvec3(0)) return Sees::yes;  // the eye itself
+  const CubeLattice::Place place = lattice_.placeOf(way);
+  const double inverse = 1 / place.size;
+  const auto [first, right, up, both] = lattice_.cornersOf(place);
+  const double a = double(inverseZ_[first]), b = double(inverseZ_[right]), c = double(inverseZ_[up]),
+               d = double(inverseZ_[both]);
   const double least = std::min({a, b, c, d}), most = std::max({a, b, c, d});
   if (least < 0) return Sees::unsure;
-  if (far == 0) return least == 0 ? Sees::yes : Sees::no;
   if (inverse >= most * (1 - kSameSurface)) return Sees::yes;
   if (inverse < least * (1 - kBehind)) return Sees::no;
   if (least > 0.5 * most && std::abs(a + d - b - c) <= kFlat * most) {
-    const double u = x - column, v = y - row;
+    const double u = place.within.x, v = place.within.y;
     const double surface = (a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v;
     if (inverse >= surface * (1 - kSameSurface)) return Sees::yes;
     if (inverse < surface * (1 - kBehind)) return Sees::no;
   }
   return Sees::unsure;
 }
-
-EyeView::Sees EyeView::looksAt(const glm::dvec3& point) const { return look(point - eye_, 1); }
-
-EyeView::Sees EyeView::looksAlong(const glm::dvec3& direction) const { return look(direction, 0); }
 
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays) {
@@ -173,13 +145,6 @@ bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& poi
   ++rays.visibility;
   return !(double(scene.occluderDistance(
                {glm::vec3(view.eye()), glm::vec3(way / distance), 0, float(farthest)})) < farthest);
-}
-
-bool seesAlong(const RayScene& scene, const EyeView& view, const glm::dvec3& direction, RayCounts& rays) {
-  const EyeView::Sees shown = view.looksAlong(direction);
-  if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
-  ++rays.visibility;
-  return !std::isfinite(scene.occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
 }
 
 EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/bake/bake_settings.h"
+#include "engine/bake/cube_lattice.h"
 #include "engine/bake/ray_scene.h"
 #include "engine/base/memory_budget.h"
 #include "engine/base/task_runner.h"
@@ -45,25 +46,26 @@ class EyeView {
                                               RayCounts& rays, const std::stop_token& stop,
                                               MemoryBudget* budget = nullptr);
 
-  enum class Sees { no, yes, unsure };
+  enum class Sees : std::uint8_t { no, yes, unsure };
   /// Does the map show the point? Unsure along edges, and in directions that were not looked at.
   Sees looksAt(const glm::dvec3& point) const;
-  /// The same for what lies infinitely far in a direction. Along its edges yes: eyes between the test eyes
-  /// see them elsewhere, and a pixel of background costs nothing.
-  Sees looksAlong(const glm::dvec3& direction) const;
+  /// Is nothing but the background along the direction of a corner of the lattice? Unsure where it was not
+  /// looked at.
+  Sees backgroundAt(std::size_t corner) const {
+    return inverseZ_[corner] < 0 ? Sees::unsure : inverseZ_[corner] > 0 ? Sees::no : Sees::yes;
+  }
 
   const glm::dvec3& eye() const { return eye_; }
-  std::size_t bytes() const { return bytesOf(side_); }
+  const CubeLattice& lattice() const { return lattice_; }
+  std::size_t bytes() const { return bytesOf(lattice_.side()); }
   static std::size_t bytesOf(int texelsPerEdge);
 
  private:
   EyeView(const glm::dvec3& eye, int texelsPerEdge);
-  glm::dvec3 directionOf(int face, int column, int row) const;
-  Sees look(const glm::dvec3& way, double far) const;
 
   glm::dvec3 eye_;
-  int side_;  ///< texels along a face's edge; samples lie at their corners
-  /// By face, row, column: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
+  CubeLattice lattice_;
+  /// By corner: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
   std::vector<float> inverseZ_;
   MemoryBudget::Share share_;
 };
@@ -72,7 +74,6 @@ class EyeView {
 /// `tolerance` metres.
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays);
-bool seesAlong(const RayScene& scene, const EyeView& view, const glm::dvec3& direction, RayCounts& rays);
 
 /// Views by eye. Before they take more than a third of the budget's limit, those used longest ago are
 /// dropped; they are counted until nobody uses them any more. Not safe from several threads.

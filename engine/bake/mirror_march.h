@@ -5,8 +5,9 @@
 /// The camera sees the virtual scene through the mirror as through a window, the eyes look in at other
 /// angles. So the march starts at the mirror's plane even where the ray meets it beside the mirror, or where
 /// something hides it, and goes on behind what is reflected first. Kept is what a test eye of any role sees
-/// in the mirror, for all roles whose part holds it.
+/// in the mirror, for all roles whose part holds it; of a surface the sides that they see (surface_side.h).
 
+#include <optional>
 #include <span>
 #include <stop_token>
 
@@ -20,6 +21,7 @@ struct ShownInMirror {
   double distance = 0;  ///< metres along the camera's ray; infinity: the sky
   HalfColour colour{0};
   std::uint8_t roles = 0, mirror = 0;
+  Hit surface;  ///< not found: the sky
   bool isSky() const { return !(distance < std::numeric_limits<double>::infinity()); }
 };
 
@@ -41,18 +43,23 @@ class MirrorMarch {
            const std::stop_token& stop);
 
  private:
-  struct Wanting {
-    const ColumnRole* role = nullptr;
-    int stored = 0;
-    double opaqueAt = 0;  ///< metres along the ray
+  /// Something on the way of the mirrored ray.
+  struct Met {
+    Hit hit;              ///< not found: the sky
+    double distance = 0;  ///< metres along the camera's ray
+    std::optional<MetSurface> surface;
   };
+  Met metAt(const Pixel& pixel, const FlatMirror& mirror, const Hit& hit, double distance) const;
   void follow(const Pixel& pixel, const MirrorSight::Span& span, std::vector<ShownInMirror>& shown,
               RayCounts& rays, const std::stop_token& stop);
   double addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror, std::vector<ShownInMirror>& shown,
                          RayCounts& rays);
-  std::uint8_t wantedBy(const Pixel& pixel, const FlatMirror& mirror, double distance, bool isSeen,
-                        RayCounts& rays);
-  bool isFull(const Wanting& w) const { return w.stored >= maxLayers_; }
+  void addMet(const FlatMirror& mirror, const Met& met, const Ray& ray, std::vector<ShownInMirror>& shown,
+              RayCounts& rays);
+  void addOther(const FlatMirror& mirror, const Met& met, std::vector<ShownInMirror>& shown, RayCounts& rays);
+  void ask(const Pixel& pixel, const FlatMirror& mirror, const Met& met, bool isKnown, RayCounts& rays);
+  std::uint8_t giveTo(std::span<RoleOnRay* const> roles, double distance) const;
+  bool isFull(const RoleOnRay& role) const { return role.samples >= maxLayers_; }
 
   const Shader& shader_;
   const MirrorSight& sight_;
@@ -60,9 +67,11 @@ class MirrorMarch {
   double sameDepth_, rightBehind_;
   MirrorSight::Hints hints_;
   std::vector<MirrorSight::Span> spans_;
-  std::vector<Wanting> wanting_;  ///< by role of the pixel
-  std::vector<Wanting*> candidates_;
-  MirrorSight::Seen seen_;  ///< by the last eye that wantedBy found
+  std::vector<RoleOnRay> roles_;  ///< of the pixel
+  // What ask() found:
+  SeenSides sides_;
+  std::vector<RoleOnRay*> unseen_;     ///< may have it, and see neither side
+  MirrorSight::Seen byMet_, byOther_;  ///< eyes that see the side
 };
 
 }  // namespace acentric

@@ -32,6 +32,12 @@ std::pair<double, double> clipped(const FlatMirror& mirror, const glm::dvec2& a,
   return {from, to};
 }
 
+/// From where an eye sees surfaces that a mirror shows it.
+struct ImageIn {
+  const FlatMirror& mirror;
+  glm::dvec3 operator()(const EyeView& view) const { return mirror.imageOf(view.eye()); }
+};
+
 }  // namespace
 
 MirrorSight::MirrorSight(const RayScene& scene, const FlatMirrors& mirrors, const RegionSight& sight)
@@ -101,24 +107,31 @@ std::optional<MirrorSight::Seen> MirrorSight::meets(const EyeView& view, const F
 }
 
 std::optional<MirrorSight::Seen> MirrorSight::sees(std::size_t role, const FlatMirror& mirror,
-                                                   const glm::dvec3& place, double tolerance, Hints& hints,
+                                                   const MetSurface& surface, double tolerance, Hints& hints,
                                                    RayCounts& rays) const {
-  const double depth = -mirror.height(place);
+  const double depth = mirror.height(surface.point());
   const double lift = 2 * double(mirrors_->slack());
   if (!(depth > lift)) return std::nullopt;
-  const glm::dvec3 original = mirror.imageOf(place);
+  const glm::dvec3 place = mirror.imageOf(surface.point());
   std::optional<Seen> seen;
-  sight_->any(role, hints, [&](const EyeView& view) {
+  const auto seesIt = [&](const EyeView& view) {
     const double height = mirror.height(view.eye());
     if (!(height > lift)) return false;
     const glm::dvec3 at = view.eye() + height / (height + depth) * (place - view.eye());
-    const glm::dvec3 from = at + lift * mirror.normal, way = original - from;
+    const glm::dvec3 from = at + lift * mirror.normal, way = surface.point() - from;
     const double distance = glm::length(way);
     seen = meets(view, mirror, at,
                  {glm::vec3(from), glm::vec3(way / distance), 0, float(distance - tolerance)}, rays);
     return seen.has_value();
-  });
+  };
+  const Side side = sight_->sideSeen(role, surface, hints, ImageIn{mirror}, seesIt);
+  if (seen) seen->side = side;
   return seen;
+}
+
+bool MirrorSight::isOn(Side side, std::size_t role, const FlatMirror& mirror,
+                       const MetSurface& surface) const {
+  return sight_->isOn(side, role, surface, ImageIn{mirror});
 }
 
 std::optional<MirrorSight::Seen> MirrorSight::seesAlong(std::size_t role, const FlatMirror& mirror,

@@ -28,17 +28,21 @@ class MirrorSight {
   using Hints = RegionSight::Hints;
   Hints hints() const { return sight_->hints(); }
 
-  /// Where an eye meets the mirror.
+  /// Where an eye meets the mirror, and the side that it sees of what is shown there.
   struct Seen {
     Hit mirror;
     glm::vec3 toEye{0};  ///< unit
+    Side side = Side::met;
   };
-  /// Does the region of role `role` see a virtual place, give or take `tolerance` metres of depth?
-  std::optional<Seen> sees(std::size_t role, const FlatMirror& mirror, const glm::dvec3& place,
+  /// Which side of a surface before the mirror the region of role `role` sees in it, give or take `tolerance`
+  /// metres of depth.
+  std::optional<Seen> sees(std::size_t role, const FlatMirror& mirror, const MetSurface& surface,
                            double tolerance, Hints& hints, RayCounts& rays) const;
   /// The same for what lies infinitely far in a virtual direction (unit).
   std::optional<Seen> seesAlong(std::size_t role, const FlatMirror& mirror, const glm::dvec3& direction,
                                 Hints& hints, RayCounts& rays) const;
+  /// Is one of the region's eyes on a side of the surface, as the mirror shows it, whether or not it sees it?
+  bool isOn(Side side, std::size_t role, const FlatMirror& mirror, const MetSurface& surface) const;
 
  private:
   struct EyeBefore {

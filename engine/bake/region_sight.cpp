@@ -4,7 +4,7 @@ namespace acentric {
 
 std::optional<RegionSight> RegionSight::look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
                                              const BakeSettings& settings, EyeViews& views,
-                                             TaskRunner& runner, RayCounts& rays,
+                                             RegionSkies& skies, TaskRunner& runner, RayCounts& rays,
                                              const std::stop_token& stop) {
   RegionSight sight;
   sight.scene_ = &scene;
@@ -17,6 +17,12 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
         if (!view) return std::nullopt;
         sight.eyes_.back().push_back(std::move(view));
       }
+      std::shared_ptr<const RegionSky> sky;  // of no eyes: none
+      if (const auto& eyes = sight.eyes_.back(); !eyes.empty()) {
+        sky = skies.at(role.polygon, eyeZ, eyes, runner, rays, stop);
+        if (!sky) return std::nullopt;
+      }
+      sight.skies_.push_back(std::move(sky));
     }
     sight.region_.push_back(sight.eyes_.size() - 1);
     former = &role;
@@ -31,22 +37,23 @@ std::vector<glm::dvec3> RegionSight::eyes() const {
   return eyes;
 }
 
-RegionSight::Side RegionSight::sees(std::size_t role, const glm::dvec3& point, const glm::dvec3& normal,
-                                    double tolerance, Hints& hints, RayCounts& rays) const {
-  const auto seenFrom = [&](Side side) {
-    return any(role, hints, [&](const EyeView& view) {
-      const bool onNormal = glm::dot(normal, view.eye() - point) >= 0;
-      return onNormal == (side == Side::normal) && seesPoint(*scene_, view, point, tolerance, rays);
-    });
-  };
-  if (seenFrom(Side::normal)) return Side::normal;
-  return seenFrom(Side::other) ? Side::other : Side::none;
+Side RegionSight::sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
+                       RayCounts& rays) const {
+  return sideSeen(
+      role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
+      [&](const EyeView& view) { return seesPoint(*scene_, view, surface.point(), tolerance, rays); });
 }
 
 bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,
                             RayCounts& rays) const {
-  return any(role, hints,
-             [&](const EyeView& view) { return acentric::seesAlong(*scene_, view, direction, rays); });
+  const RegionSky* sky = skies_[region_[role]].get();
+  if (sky == nullptr) return false;
+  const EyeView::Sees shown = sky->looksAlong(direction);
+  if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
+  return any(role, hints, [&](const EyeView& view) {
+    ++rays.visibility;
+    return !std::isfinite(scene_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
+  });
 }
 
 }  // namespace acentric

@@ -1,11 +1,14 @@
 #pragma once
 /// Which roles of a camera see a point, from any of the test eyes of their regions (apv.md section 5).
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "engine/bake/eye_views.h"
+#include "engine/bake/region_sky.h"
+#include "engine/bake/surface_side.h"
 #include "engine/layout/layout.h"
 
 namespace acentric {
@@ -14,8 +17,8 @@ class RegionSight {
  public:
   /// Nothing when stopped.
   static std::optional<RegionSight> look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                                         const BakeSettings& settings, EyeViews& views, TaskRunner& runner,
-                                         RayCounts& rays, const std::stop_token& stop);
+                                         const BakeSettings& settings, EyeViews& views, RegionSkies& skies,
+                                         TaskRunner& runner, RayCounts& rays, const std::stop_token& stop);
 
   /// Of one thread: which eye answered last, tried first the next time.
   struct Hints {
@@ -23,11 +26,9 @@ class RegionSight {
   };
   Hints hints() const { return {std::vector<std::size_t>(eyes_.size(), 0)}; }
 
-  /// Which side of a surface the region of role `role` sees at a point, give or take `tolerance` metres of
-  /// depth: the one that `normal` is on if any of its eyes does, else the other.
-  enum class Side : std::uint8_t { none, normal, other };
-  Side sees(std::size_t role, const glm::dvec3& point, const glm::dvec3& normal, double tolerance,
-            Hints& hints, RayCounts& rays) const;
+  /// Which side of a surface the region of role `role` sees, give or take `tolerance` metres of depth.
+  Side sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
+            RayCounts& rays) const;
   /// The same for what lies infinitely far in a direction (unit).
   bool seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints, RayCounts& rays) const;
 
@@ -45,6 +46,23 @@ class RegionSight {
       }
     return false;
   }
+  /// The side of a surface that the eyes of a role's region see: the one that the ray meets if any of them
+  /// does, else the other. `from(view)`: where an eye sees it from; `sees(view)`: does it see it from there?
+  template <class From, class Sees>
+  Side sideSeen(std::size_t role, const MetSurface& surface, Hints& hints, const From& from,
+                const Sees& sees) const {
+    for (const Side side : {Side::met, Side::other})
+      if (any(role, hints,
+              [&](const EyeView& view) { return surface.sideOf(from(view)) == side && sees(view); }))
+        return side;
+    return Side::none;
+  }
+  /// Is one of the eyes of a role's region on a side of a surface, whether or not it sees it?
+  template <class From>
+  bool isOn(Side side, std::size_t role, const MetSurface& surface, const From& from) const {
+    return std::ranges::any_of(eyes_[region_[role]],
+                               [&](const auto& view) { return surface.sideOf(from(*view)) == side; });
+  }
   /// Of all regions.
   std::vector<glm::dvec3> eyes() const;
 
@@ -52,6 +70,7 @@ class RegionSight {
   const RayScene* scene_ = nullptr;
   std::vector<std::size_t> region_;  ///< of each role, into eyes_
   std::vector<std::vector<std::shared_ptr<const EyeView>>> eyes_;
+  std::vector<std::shared_ptr<const RegionSky>> skies_;  ///< by region
 };
 
 }  // namespace acentric

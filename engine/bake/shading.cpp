@@ -192,7 +192,7 @@ Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toView
   const Surface surface = flatMirrorAt(hit, toViewer);
   const glm::vec3 mirrored = glm::reflect(-toViewer, surface.geometricNormal);
   const Seen seen = seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true);
-  return {mirrorUnder(seen.radiance, surface), seen.opaqueDistance};
+  return {mirrorUnder(seen.radiance, surface), seen.opaque};
 }
 
 Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
@@ -212,7 +212,7 @@ Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter
     if (alpha > 0) seen.radiance += (passing * alpha) * shaded.radiance();
     passing *= 1 - alpha;
     if (alpha >= 1) {
-      seen.opaqueDistance = hit.distance;
+      seen.opaque = hit;
       return seen;
     }
     rest.nearest = justBehind(hit.distance);

@@ -60,18 +60,17 @@ class Shader {
 
   struct Seen {
     glm::vec3 radiance{0};
-    float opaqueDistance = std::numeric_limits<float>::infinity();  ///< metres along the ray
+    Hit opaque;  ///< what ends the ray; not found: the sky
   };
   /// What a ray sees: blended layers composed front to back in linear light. Each ray is counted in
   /// `counter`.
   Seen seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                  bool seenInMirror = false) const;
 
-  /// What a plane mirror is seen to show: light that arrives by the mirrored ray, and from how far along it
-  /// (metres; infinity: the sky).
+  /// What a plane mirror is seen to show: light that arrives by the mirrored ray, and what ends that.
   struct Mirrored {
     Shaded surface;
-    float distance = std::numeric_limits<float>::infinity();
+    Hit shown;  ///< not found: the sky
   };
   /// A hit on a mirror of FlatMirrors; the same radiance as shade() gives.
   Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const;

@@ -61,11 +61,12 @@ TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const
           const auto seen = shader.seenAlong(camera.through(x + (i + 0.5) / grid, y + (j + 0.5) / grid),
                                              &RayCounts::primary, rays);
           sum += seen.radiance;
-          if (grid % 2 == 1 && i == grid / 2 && j == grid / 2) distance = seen.opaqueDistance, centred = true;
+          if (grid % 2 == 1 && i == grid / 2 && j == grid / 2)
+            distance = seen.opaque.distance, centred = true;
         }
       if (!centred)
         distance =
-            shader.seenAlong(camera.through(x + 0.5, y + 0.5), &RayCounts::primary, rays).opaqueDistance;
+            shader.seenAlong(camera.through(x + 0.5, y + 0.5), &RayCounts::primary, rays).opaque.distance;
       frame.colour.at(x, y) = encodeForDisplay(sum / float(samplesPerPixel), exposure);
       frame.rayDistance.at(x, y) = distance;
     }

@@ -383,6 +383,57 @@ TEST(BakeCamera, KeepsTheBackgroundThatIsSeenBehindTheLastLayer) {
   EXPECT_FALSE(showsSky(4)) << "nobody sees past the screens";
 }
 
+/// Seen through a window the sky fills other directions from each place. The reference traces rays from eyes
+/// that no bake asks.
+TEST(BakeCamera, KeepsTheSkyThatAnyEyeOfTheRegionSeesThroughAHighWindow) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  builder.sky(glm::vec3(1)).floor(white, 6);
+  builder.quad(white, {-6, -6, 4}, {-6, 6, 4}, {6, 6, 4}, {6, -6, 4});
+  for (const float y : {-6.0f, 6.0f}) builder.quad(white, {-6, y, 0}, {6, y, 0}, {6, y, 4}, {-6, y, 4});
+  const auto wall = [&](float y0, float y1, float z0, float z1) {
+    builder.quad(white, {6, y0, z0}, {6, y1, z0}, {6, y1, z1}, {6, y0, z1});
+  };
+  wall(-6, 6, 0, 3), wall(-6, 6, 3.5f, 4), wall(-6, -0.5f, 3, 3.5f), wall(0.5f, 6, 3, 3.5f);
+  for (const float y : {-0.25f, 0.0f, 0.25f}) wall(y - 0.02f, y + 0.02f, 3, 3.5f);  // its bars
+  const auto scene = builder.rays();
+  const Baked baked = bakeFrom(scene, cameraAt({2, 0}, {square(2)}));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-2, 2), height(-0.15, 0.15), window(-0.5, 0.5);
+  const auto seesSky = [&](const glm::dvec3& eye, const glm::dvec3& direction) {
+    return std::isinf(scene->occluderDistance({glm::vec3(eye), glm::vec3(direction)}));
+  };
+  int seen = 0, missing = 0;
+  while (seen < 3000) {
+    const glm::dvec3 eye(place(random), place(random), kEyeZ + height(random));
+    const glm::dvec3 direction =
+        glm::normalize(glm::dvec3(6, window(random), 3.25 + 0.5 * window(random)) - eye);
+    const double azimuth = std::atan2(direction.y, direction.x);
+    if (std::abs(azimuth) > radians(29) || !seesSky(eye, direction)) continue;
+    ++seen;
+    const auto pixel = baked.pixel(azimuth, std::asin(direction.z));
+    missing += std::ranges::any_of(pixel, [](const Baked::Sample& s) { return s.w == 0; }) ? 0 : 1;
+  }
+  EXPECT_LE(missing, seen / 25) << "of " << seen << "; half of them with the test eyes alone";
+  // Nothing but what an eye sees, there or less than two texels of the eyes' maps beside.
+  const double texel = radians(1);
+  for (int k = 0; k < baked.columns.columns; k += 3)
+    for (int r = 0; r < baked.columns.rows; r += 3) {
+      const auto pixel = baked.pixelAt(k, r);
+      if (std::ranges::none_of(pixel, [](const Baked::Sample& s) { return s.w == 0; })) continue;
+      const double elevation = baked.columns.elevationAt(r + 0.5), azimuth = baked.columns.azimuthAt(k + 0.5);
+      bool found = false;
+      for (double x = -2; x <= 2; x += 0.1)
+        for (double y = -2; y <= 2; y += 0.1) {
+          // Where the direction from there meets the wall.
+          const double along = (6 - x) / std::cos(azimuth), slack = 2 * texel * along;
+          const double atY = y + along * std::sin(azimuth), atZ = kEyeZ + along * std::tan(elevation);
+          found = found || (std::abs(atY) < 0.5 + slack && std::abs(atZ - 3.25) < 0.25 + 0.15 + slack);
+        }
+      ASSERT_TRUE(found) << "column " << k << " row " << r;
+    }
+}
+
 TEST(BakeCamera, ACameraThatServesNoRegionHasNoSamples) {
   const Baked baked = bakeFrom(room().rays(), cameraAt({0, 0}, {}));
   EXPECT_EQ(baked.capture.sampleCount(), 0u);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/bake/region_sky.h"
 #include "engine/geometry/conventions.h"
 #include "tests/bake/layout_builder.h"
 #include "tests/bake/scene_builder.h"
@@ -100,12 +101,14 @@ TEST(EyeView, IsUnsureWhereItDidNotLook) {
   const auto scene = builder.rays();
   TaskRunner runner;
   RayCounts rays;
-  const auto view = EyeView::trace(*scene, {0.5, 0, 2}, 90, {radians(-30), radians(20)}, runner, rays, {});
-  EXPECT_EQ(view->looksAlong({1, 0, 0.1}), EyeView::Sees::yes) << "the sky";
-  EXPECT_EQ(view->looksAlong({1, 0, -0.3}), EyeView::Sees::no) << "the floor";
-  EXPECT_EQ(view->looksAlong({1, 0, -0.08}), EyeView::Sees::yes) << "along the sky's edge too";
-  EXPECT_EQ(view->looksAlong({0.1, 0, 1}), EyeView::Sees::unsure);
-  EXPECT_TRUE(seesAlong(*scene, *view, glm::normalize(glm::dvec3(0.1, 0, 1)), rays));
+  const std::vector views{
+      EyeView::trace(*scene, {0.5, 0, 2}, 90, {radians(-30), radians(20)}, runner, rays, {})};
+  const auto sky = RegionSky::trace(*scene, views, {{0.5, 0, 2}}, runner, rays, {});
+  EXPECT_EQ(sky->looksAlong({1, 0, 0.1}), EyeView::Sees::yes) << "the sky";
+  EXPECT_EQ(sky->looksAlong({1, 0, -0.3}), EyeView::Sees::no) << "the floor";
+  EXPECT_EQ(sky->looksAlong({1, 0, -0.08}), EyeView::Sees::yes) << "along the sky's edge too";
+  EXPECT_EQ(sky->looksAlong({0.1, 0, 1}), EyeView::Sees::unsure);
+  const auto& view = views.front();
   EXPECT_EQ(view->looksAt({0, 0, 0}), EyeView::Sees::unsure);
   EXPECT_TRUE(seesPoint(*scene, *view, {0, 0, 0}, 1e-3, rays));
   EXPECT_FALSE(seesPoint(*scene, *view, {0, 0, -1}, 1e-3, rays));

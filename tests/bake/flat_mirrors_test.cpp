@@ -410,6 +410,79 @@ TEST(BakeMirrors, KeepWhatIsHiddenBehindWhatTheyShowFirst) {
   EXPECT_GT(behind, 50) << "the wall behind the pillar";
 }
 
+/// What is shown of a place: the original's position, and the colour without the mirror's tint.
+struct ShownPlace {
+  glm::dvec3 original{0};
+  glm::vec3 colour{0};
+  int roles = 0;
+};
+/// All that is shown above the floor of the plane y = 0 between two x.
+std::vector<ShownPlace> shownAtTheMiddle(const MirrorRoom& room, const Capture& capture, double fromX,
+                                         double toX) {
+  std::vector<ShownPlace> places;
+  const CaptureSamples& shown = capture.reflections;
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+      if (shown.inverseDistance[i] == 0) continue;
+      glm::dvec3 place = placeOf(capture, shown, k, i);
+      place.x = 2 * double(MirrorRoom::kMirrorX) - place.x;
+      const double slack = roundingAt(capture, shown.inverseDistance[i]);
+      if (std::abs(place.y) < slack && place.z > 0.1 && place.x > fromX + slack && place.x < toX - slack)
+        places.push_back({place, glm::vec3(unpackColour(shown.colour[i])) / room.tint, shown.roles[i]});
+    }
+  return places;
+}
+constexpr float kSunOnSide = 10;
+/// Sunlight that falls on what faces +y, and not on what faces -y.
+void lightFromPositiveY(MirrorRoom& room) { room.builder.sun({0, -1, -1}, kSunOnSide).sky(glm::vec3(1e-6f)); }
+const float kLit = kSunOnSide * std::sqrt(0.5f) / float(kPi);  ///< at least, of white
+
+/// The mirrored ray leaves a cupboard by a side that it only meets from within, and the region sees that side
+/// from without.
+TEST(BakeMirrors, ShadeTheSideThatIsSeenInThemAndNotTheOneTheMirroredRayMeets) {
+  MirrorRoom room;
+  lightFromPositiveY(room);
+  room.builder.box(room.builder.material(test::matte()), {3, -0.4f, 0}, {4.5f, 0, 3});
+  const auto scene = room.builder.rays();
+  const Baked baked = bakeFrom(scene, cameraAt({1.5, -1}, {square(1.5, {0.5, 0.1})}), true);
+  const auto places = shownAtTheMiddle(room, baked.capture, 3, 4.5);
+  EXPECT_GT(places.size(), 100u);
+  for (const ShownPlace& place : places) ASSERT_GT(place.colour.r, 0.99f * kLit) << place.original.x;
+  for (const ShownPlace& place :
+       shownAtTheMiddle(room, bakeFrom(scene, cameraAt({1.5, -1}, {square(1)})).capture, 3, 4.5))
+    ADD_FAILURE() << "the camera itself does not see it: " << place.original.x;
+}
+
+TEST(BakeMirrors, KeepASampleOfEachSideThatDifferentRolesSeeInThem) {
+  MirrorRoom room;
+  lightFromPositiveY(room);
+  room.builder.quad(room.builder.material(test::matte()), {3, 0, 0}, {5, 0, 0}, {5, 0, 3}, {3, 0, 3});
+  const auto scene = room.builder.rays();
+  // A sheet along the way to the mirror, and a region to its left and to its right.
+  const ConvexPolygon right = square(0.5, {1.5, -1}), left = square(0.5, {1.5, 1});
+  for (const bool rightFirst : {true, false}) {
+    const LayoutCamera camera =
+        cameraAt({1.5, -1}, rightFirst ? std::vector{right, left} : std::vector{left, right});
+    const Capture capture = bakeFrom(scene, camera, true).capture;
+    std::array<int, 2> found{};
+    for (const ShownPlace& place : shownAtTheMiddle(room, capture, 3, 5)) {
+      const bool lit = place.colour.r > 0.99f * kLit;
+      if (!lit) {
+        ASSERT_LT(place.colour.r, 0.6f * kLit);
+      }
+      ASSERT_EQ(place.roles, lit == rightFirst ? 2 : 1) << place.original.x << (lit ? " lit" : " dark");
+      ++found[lit ? 1 : 0];
+    }
+    EXPECT_GT(found[0], 100);
+    EXPECT_GT(found[1], 100);
+  }
+  // One that sees it from the left only: no sample of the side that the camera itself sees.
+  const auto places =
+      shownAtTheMiddle(room, bakeFrom(scene, cameraAt({1.5, -1}, {left}), true).capture, 3, 5);
+  EXPECT_GT(places.size(), 100u);
+  for (const ShownPlace& place : places) ASSERT_GT(place.colour.r, 0.99f * kLit);
+}
+
 TEST(BakeMirrors, CostNoRaysWhereNoneCanBeSeen) {
   const MirrorRoom room;
   auto camera = cameraAt({0.5, 0.2}, {square(1)});

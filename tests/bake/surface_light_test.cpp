@@ -51,7 +51,7 @@ TEST(SurfaceLight, TimesBaseColourPlusEmissionIsWhatARaySees) {
     const glm::vec3 from = at + 0.05f * (m.normals[0] + 0.3f * glm::vec3(0.1f, 0.2f, 0.15f));
     const glm::vec3 direction = glm::normalize(at - from);
     const auto seen = shader.seenAlong({from, direction}, &RayCounts::primary, rays);
-    if (std::abs(seen.opaqueDistance - glm::length(at - from)) > 1e-4f) continue;
+    if (std::abs(seen.opaque.distance - glm::length(at - from)) > 1e-4f) continue;
     const Material& material = scene->scene().materials[std::size_t(m.material)];
     const glm::vec3 baked =
         glm::vec3(material.baseColour) *

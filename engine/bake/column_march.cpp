@@ -1,0 +1,227 @@
+#include "engine/bake/column_march.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace acentric {
+namespace {
+
+/// Of a sample's footprint: what lies nearer behind it than this is still the same surface.
+constexpr double kSameDepth = 0.5;
+
+}  // namespace
+
+ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
+    : setting_(setting),
+      out_(out),
+      sameDepth_(kSameDepth * setting.columns.rowPitch()),
+      rightBehind_(std::max(sameDepth_, kSameSurface)) {
+  if (setting.sight != nullptr) hints_ = setting.sight->hints();
+  if (setting.beyond != nullptr)
+    mirrorMarch_.emplace(setting.shader, *setting.beyond, setting.settings.maxLayers, sameDepth_,
+                         rightBehind_);
+}
+
+bool ColumnMarch::run(int column, const std::stop_token& stop) {
+  direction_ = setting_.columns.directionAt(column + 0.5);
+  roles_ = rolesAlong(setting_.camera, direction_);
+  having_.clear();
+  for (const ColumnRole& role : roles_) having_.push_back({&role});
+  alone_ = roles_.size() == 1 && roles_.front().clip == nullptr && setting_.sight == nullptr &&
+           setting_.mirrors == nullptr && setting_.settings.maxLayers == 1;
+  const std::size_t before = out_.row.size(), shownBefore = out_.reflections.row.size();
+  for (int row = 0; row < setting_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
+    if (stop.stop_requested()) return false;
+    runRows(row, std::min(row + RayPacket::kSize, setting_.columns.rows), stop);
+  }
+  out_.perColumn.push_back(std::uint32_t(out_.row.size() - before));
+  out_.background.closeColumn();
+  if (setting_.mirrors != nullptr)
+    out_.reflections.perColumn.push_back(std::uint32_t(out_.reflections.row.size() - shownBefore));
+  return true;
+}
+
+void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
+  const RayPacket packet =
+      firstRays(setting_.columns, setting_.rows, direction_, first, last, roles_.front().exit);
+  setting_.shader.scene().trace(packet, hits_);
+  out_.counts.rays.primary += std::uint64_t(packet.count);
+  for (int row = first; row < last; ++row) {
+    const auto n = std::size_t(row - first);
+    if (alone_ && addAlone(row, packet.direction[n], hits_[n])) continue;
+    beginPixel(row);
+    if (const ColumnRole* next = addHit(packet.direction[n], hits_[n]))
+      runPixel(packet.direction[n], hits_[n].distance, next, stop);
+    addBackgroundAlong(packet.direction[n]);
+    if (mirrorMarch_)
+      mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), flat_, roles_},
+                        shown_, out_.counts.rays, stop);
+    if (!shown_.empty()) addShown();
+  }
+}
+
+/// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
+/// surface does not hide what is behind it.
+bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) {
+  const std::uint8_t mask = roles_.front().bit;
+  if (!hit.found()) {
+    addBackground(row, mask);
+    return true;
+  }
+  const double horizontal = double(hit.distance) * setting_.rows.cosine[std::size_t(row)];
+  const float stored = storedInverseDistance(1 / horizontal, setting_.distanceStep);
+  if (const auto& even = setting_.shader.evenColours(); !even.empty()) {
+    out_.add(row, stored, even[hit.mesh], mask);
+  } else {
+    const Shaded shaded = setting_.shader.shade(hit, -direction, out_.counts.rays);
+    if (shaded.alpha < kOpaqueAlpha) return false;
+    out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
+  }
+  ++out_.counts.samples.kept[0];
+  return true;
+}
+
+void ColumnMarch::beginPixel(int row) {
+  row_ = row;
+  flat_ = setting_.rows.cosine[std::size_t(row)];
+  layer_ = 0;
+  reachedBackground_ = false;
+  for (RoleOnRay& having : having_) having = {having.role};
+}
+
+/// What is behind the pixel's first hit: from surface to surface, until every role has all it may have, or
+/// nothing is left that it could see.
+void ColumnMarch::runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,
+                           const std::stop_token& stop) {
+  Ray ray{glm::vec3(setting_.columns.centreOfProjection), direction};
+  for (int step = 1; step < kMaxMarch && next != nullptr && !stop.stop_requested(); ++step) {
+    ray.nearest = std::max(justBehind(distance), float(next->exit / flat_));
+    ++out_.counts.rays.primary;
+    const Hit hit = setting_.shader.scene().trace(ray);
+    next = addHit(direction, hit);
+    distance = hit.distance;
+  }
+}
+
+/// The next role that may still have samples behind the hit: ahead of its exit nobody needs anything. None if
+/// the pixel is done.
+const ColumnRole* ColumnMarch::addHit(const glm::vec3& direction, const Hit& hit) {
+  if (!hit.found()) {
+    reachedBackground_ = true;
+    return nullptr;
+  }
+  addSurface(direction, hit);
+  const auto next = std::ranges::find_if(having_, [&](const RoleOnRay& r) { return !isFull(r); });
+  return next == having_.end() ? nullptr : next->role;
+}
+
+void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
+  const double horizontal = double(hit.distance) * flat_;
+  const glm::dvec3 point = setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
+  const double tolerance = sameDepth_ * double(hit.distance);
+  const MetSurface surface(hit, point, direction);
+  const std::uint8_t mirror =
+      setting_.mirrors == nullptr ? 0 : setting_.mirrors->at(hit.mesh, hit.triangle, -direction);
+  sides_.clear();
+  facing_.clear();
+  bool limited = false;
+  for (RoleOnRay& having : having_) {
+    const ColumnRole& role = *having.role;
+    if (role.exit > horizontal * (1 + kBorderSlack)) break;
+    const bool inPart = role.clip == nullptr || role.clip->holds(glm::dvec2(point));
+    if (!inPart && mirror == 0) continue;
+    if (isFull(having)) {
+      limited = limited || inPart;
+      continue;
+    }
+    Side side = Side::met;
+    if (setting_.sight != nullptr) {
+      if (!(horizontal * (1 - rightBehind_) > having.opaqueAt)) continue;
+      side = setting_.sight->sees(role.index, surface, tolerance, hints_, out_.counts.rays);
+      if (side == Side::none) continue;
+    }
+    if (inPart) sides_.of(side).push_back(&having);
+    if (mirror != 0 && side == Side::met) facing_.push_back(&role);
+  }
+  if (sides_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+  if (!sides_.met.empty() || !facing_.empty())
+    addSide(sides_.met,
+            mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
+                        : setting_.shader.shade(hit, surface.toViewer(Side::met), out_.counts.rays),
+            horizontal, mirror);
+  if (!sides_.other.empty())
+    addSide(sides_.other, setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays),
+            horizontal, 0);
+}
+
+/// A sample of one side of a surface for the roles that see it.
+void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, const Shaded& shaded, double horizontal,
+                          std::uint8_t mirror) {
+  const bool opaque = shaded.alpha >= kOpaqueAlpha;
+  if (needed.empty() || shaded.alpha < kInvisibleAlpha) return;
+  // The last place is kept for an opaque surface: there is always something behind glass.
+  if (!opaque)
+    std::erase_if(
+        needed, [&](const RoleOnRay* having) { return having->samples + 1 >= setting_.settings.maxLayers; });
+  if (needed.empty()) {
+    ++out_.counts.samples.overLimit;
+    return;
+  }
+  if (opaque)
+    for (RoleOnRay* having : needed) having->opaqueAt = horizontal;
+  out_.add(row_, storedInverseDistance(1 / horizontal, setting_.distanceStep),
+           packColour({shaded.radiance(), opaque ? 1 : shaded.alpha}), give(needed));
+  if (setting_.mirrors != nullptr) out_.mirror.push_back(mirror);
+  ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
+}
+
+/// The surface of a plane mirror; what it shows is kept for the roles in facing_ whose part holds its virtual
+/// place, which may be another part than the mirror's own.
+Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal,
+                                  std::uint8_t mirror) {
+  const Shader::Mirrored mirrored = setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays);
+  const bool sky = !mirrored.shown.found();
+  const double reach = horizontal * (1 + double(mirrored.shown.distance) / double(hit.distance));
+  const glm::dvec2 place = setting_.camera.position + reach * direction_;
+  std::uint8_t mask = 0;
+  for (const ColumnRole* role : facing_)
+    if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
+  if (mask != 0)
+    shown_.push_back(
+        {reach / flat_, packColour({mirrored.surface.radiance(), 1}), mask, mirror, mirrored.shown});
+  return mirrored.surface;
+}
+
+/// What the mirrors of the pixel show, nearest first.
+void ColumnMarch::addShown() {
+  std::ranges::stable_sort(shown_, {}, &ShownInMirror::distance);
+  for (const ShownInMirror& s : shown_) {
+    const float w = s.isSky() ? 0 : storedInverseDistance(1 / (s.distance * flat_), setting_.distanceStep);
+    out_.reflections.add(row_, w, s.colour, s.roles);
+    out_.reflections.mirror.push_back(s.mirror);
+  }
+  out_.counts.reflections += shown_.size();
+  shown_.clear();
+}
+
+/// For the roles that see it, whatever the march met before, or how many samples they have: behind all
+/// surfaces there is the background, and it takes none.
+void ColumnMarch::addBackgroundAlong(const glm::vec3& direction) {
+  std::uint8_t mask = 0;
+  for (const RoleOnRay& having : having_) {
+    const ColumnRole& role = *having.role;
+    if (role.holdsBackground &&
+        (setting_.sight == nullptr
+             ? reachedBackground_ && !isFull(having)
+             : setting_.sight->seesAlong(role.index, glm::dvec3(direction), hints_, out_.counts.rays)))
+      mask |= role.bit;
+  }
+  if (mask != 0) addBackground(row_, mask);
+}
+
+void ColumnMarch::addBackground(int row, std::uint8_t mask) {
+  out_.background.add(row, mask);
+  ++out_.counts.samples.background;
+}
+
+}  // namespace acentric
