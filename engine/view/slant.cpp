@@ -12,6 +12,10 @@ constexpr float kConnected = 3;
 /// Inverse distances that differ by more than this part belong to different surfaces, whatever the pitch.
 constexpr float kBroken = 0.25f;
 
+/// Where the two sides of a round body run together they lie farther apart by more than this a pixel further
+/// in.
+constexpr float kRunsTogether = 1.2f;
+
 /// Samples of one pixel, [first, last).
 struct Pixel {
   std::uint32_t first = 0, last = 0;
@@ -61,6 +65,40 @@ std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch)
   return std::abs(step) < kBroken * inverse ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
 }
 
+/// At the rim of a round body, which rays enter and leave again near by: how much nearer its other side is,
+/// of the same pixel. Else 0. `inner`, `outer`: the pixels beside it, with the body on and off it.
+float toOtherSide(std::span<const float> inverseDistance, const Pixel& here, const Pixel& inner,
+                  const Pixel& outer, std::uint32_t sample) {
+  const float own = inverseDistance[sample];
+  float other = 0;
+  for (std::uint32_t i = here.first; i < here.last; ++i)
+    if (i != sample && std::abs(inverseDistance[i] - own) < std::abs(other - own)) other = inverseDistance[i];
+  const float gap = other - own;
+  if (!(std::abs(gap) < kBroken * own)) return 0;
+  const auto goesOn = [&](float inverse) {
+    return std::abs(stepFrom(inverseDistance, outer, inverse)) <= std::abs(gap);
+  };
+  if (goesOn(own) || goesOn(other)) return 0;
+  const auto furtherIn = [&](float inverse) { return inverse - stepFrom(inverseDistance, inner, inverse); };
+  const float before = furtherIn(other) - furtherIn(own);
+  return before * gap > 0 && std::abs(before) > kRunsTogether * std::abs(gap) &&
+                 std::abs(before) < kBroken * own
+             ? gap
+             : 0;
+}
+
+/// The slant of a sample along one axis, `before` and `after` being the pixels beside it.
+std::int8_t slantAlong(std::span<const float> inverseDistance, const Pixel& before, const Pixel& here,
+                       const Pixel& after, std::uint32_t sample, float pitch) {
+  const float own = inverseDistance[sample];
+  if (here.last - here.first > 1) {
+    const float forwards = toOtherSide(inverseDistance, here, before, after, sample);
+    const float step = forwards != 0 ? forwards : -toOtherSide(inverseDistance, here, after, before, sample);
+    if (step != 0) return codeOf(step / (own * pitch));
+  }
+  return leaning(stepFrom(inverseDistance, before, own), -stepFrom(inverseDistance, after, own), own, pitch);
+}
+
 }  // namespace
 
 std::int8_t slantCode(double tangent) { return codeOf(static_cast<float>(tangent)); }
@@ -85,12 +123,9 @@ std::vector<Slant> slantsOf(const ColumnCamera& camera, std::span<const std::uin
       if (rowAbove != r - 1) above = {};
       const Pixel beforeIt = left.pixel(r), afterIt = right.pixel(r);
       for (std::uint32_t i = here.first; i < here.last; ++i) {
-        const float w = inverseDistance[i];
-        if (!(w > 0)) continue;
-        slants[i] = {
-            leaning(stepFrom(inverseDistance, beforeIt, w), -stepFrom(inverseDistance, afterIt, w), w,
-                    columnPitch),
-            leaning(stepFrom(inverseDistance, above, w), -stepFrom(inverseDistance, below, w), w, rowPitch)};
+        if (!(inverseDistance[i] > 0)) continue;
+        slants[i] = {slantAlong(inverseDistance, beforeIt, here, afterIt, i, columnPitch),
+                     slantAlong(inverseDistance, above, here, below, i, rowPitch)};
       }
       above = here;
       rowAbove = r;

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
+#include <type_traits>
+#include <vector>
 
+#include "engine/geometry/conventions.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {
@@ -23,7 +28,7 @@ TEST(SlantCode, IsNearEveryTangentAndOdd) {
   EXPECT_EQ(slantCode(-std::numeric_limits<double>::infinity()), -kLargestSlantCode);
 }
 
-/// One layer: the inverse distance of each pixel, 0 = sky.
+/// The inverse distances of each pixel (or the only one), 0 = sky.
 struct Grid {
   ColumnCamera camera = test::cameraAt({0, 0, 1.6}, 0, 60, 90);
   std::vector<std::uint32_t> columnStart{0};
@@ -34,9 +39,15 @@ struct Grid {
   explicit Grid(const Inverse& inverse) {
     for (int k = 0; k < camera.columns; ++k) {
       for (int r = 0; r < camera.rows; ++r) {
-        row.push_back(static_cast<std::uint16_t>(r));
-        inverseDistance.push_back(
-            static_cast<float>(inverse(camera.directionAt(k + 0.5), camera.tangentAt(r + 0.5))));
+        const auto add = [&](double w) {
+          row.push_back(static_cast<std::uint16_t>(r));
+          inverseDistance.push_back(static_cast<float>(w));
+        };
+        const auto found = inverse(camera.directionAt(k + 0.5), camera.tangentAt(r + 0.5));
+        if constexpr (std::is_convertible_v<decltype(found), double>)
+          add(double(found));
+        else
+          for (const double w : found) add(w);
       }
       columnStart.push_back(static_cast<std::uint32_t>(row.size()));
     }
@@ -93,51 +104,147 @@ TEST(Slants, AreNoneWhereASurfaceTurnsAwayAtItsEdge) {
   EXPECT_GT(std::abs(slantTangent(slants[at(first + 1)].across)), 0.5) << "beside it";
 }
 
-TEST(Slants, AreThoseOfASlowSearchThroughLayers) {
+/// Where a ray enters and leaves a round tower: its inverse distances, none beside it.
+std::vector<double> throughTower(const glm::dvec2& centre, double radius, const glm::dvec2& c) {
+  const double along = glm::dot(c, centre), beside = c.x * centre.y - c.y * centre.x;
+  const double half = radius * radius - beside * beside;
+  if (half < 0) return {};
+  return {1 / (along - std::sqrt(half)), 1 / (along + std::sqrt(half))};
+}
+
+TEST(Slants, ReachAroundTheRimOfARoundBody) {
+  // Before a wall. The two outermost samples on either side are each other's neighbours, around the rim.
+  const glm::dvec2 centre(8, 0);
+  const Grid grid([&](const glm::dvec2& c, double) {
+    std::vector<double> found = throughTower(centre, 0.6, c);
+    found.push_back(c.x / 12);
+    return found;
+  });
+  const std::vector<Slant> slants = grid.slants();
+  int rims = 0;
+  for (int k = 1; k + 1 < grid.camera.columns; ++k) {
+    const auto towerAt = [&](int column) {
+      return throughTower(centre, 0.6, grid.camera.directionAt(column + 0.5));
+    };
+    const std::vector<double> here = towerAt(k);
+    if (here.empty()) continue;
+    const bool atRim = towerAt(k - 1).empty() || towerAt(k + 1).empty();
+    const std::size_t first = grid.columnStart[static_cast<std::size_t>(k)] + 3 * 45;
+    for (const int side : {0, 1}) {
+      const double reach = slantTangent(slants[first + std::size_t(side)].across) *
+                           grid.camera.columnPitch() * here[std::size_t(side)];
+      const double gap = here[0] - here[1];
+      const double towards = towerAt(k - 1).empty() ? (side == 0 ? 1 : -1) : (side == 0 ? -1 : 1);
+      if (atRim) {
+        EXPECT_NEAR(reach * towards, gap, 0.1 * gap) << k << ", side " << side;
+      } else {
+        EXPECT_LT(std::abs(reach), 0.7 * gap) << k << ", side " << side;
+      }
+    }
+    EXPECT_LT(std::abs(slantTangent(slants[first + 2].across)), 0.5) << "the wall";
+    rims += atRim;
+  }
+  EXPECT_EQ(rims, 2);
+}
+
+TEST(Slants, DoNotReachFromAPostToTheWallBehindIt) {
+  const Grid grid([&](const glm::dvec2& c, double) {
+    return std::abs(c.y) < 0.1 * c.x ? std::vector{c.x / 5.0, c.x / 5.5} : std::vector{c.x / 5.5};
+  });
+  for (const Slant& slant : grid.slants()) EXPECT_LT(std::abs(slantTangent(slant.across)), 1.5);
+}
+
+/// Compares with a search through all samples; returns how many samples at rims were met.
+int compareWithSlowSearch(const ColumnCamera& camera, const std::vector<std::uint32_t>& columnStart,
+                          const std::vector<std::uint16_t>& row, const std::vector<float>& inverseDistance) {
   std::mt19937 random(5);
-  const ColumnCamera camera = test::cameraAt({0, 0, 1.6}, 0, 40, 50);
-  const Capture capture = test::capture(test::randomBoxes(8, 60, 1.5), camera, nullptr, 4);
-  const std::vector<Slant> slants =
-      slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
-  ASSERT_GT(capture.maxLayers(), 2);
-  const auto columnOf = [&](std::size_t i) {
-    int k = 0;
-    while (capture.columnStart[static_cast<std::size_t>(k) + 1] <= i) ++k;
-    return k;
-  };
-  const auto stepTo = [&](std::size_t i, int column, int row) {  // to the nearest in depth of that pixel
+  const std::vector<Slant> slants = slantsOf(camera, columnStart, row, inverseDistance);
+  int rims = 0;
+  std::vector<int> columns;
+  for (std::size_t k = 0; k + 1 < columnStart.size(); ++k) columns.resize(columnStart[k + 1], int(k));
+  const auto columnOf = [&](std::size_t i) { return columns[i]; };
+  const auto stepTo = [&](std::size_t i, int column, int wantedRow) {  // to the nearest in depth of that pixel
     float best = std::numeric_limits<float>::infinity();
-    for (std::size_t j = 0; j < capture.sampleCount(); ++j)
-      if (capture.row[j] == row && columnOf(j) == column)
-        if (const float step = capture.inverseDistance[j] - capture.inverseDistance[i];
-            std::abs(step) < std::abs(best))
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (row[j] == wantedRow && columnOf(j) == column)
+        if (const float step = inverseDistance[j] - inverseDistance[i]; std::abs(step) < std::abs(best))
           best = step;
     return best;
   };
-  const auto expected = [&](std::size_t i, float before, float after, double pitch) {
-    const double w = double(capture.inverseDistance[i]);
+  // Of a pixel beside i's, at (dk, dr), with the body on it, and the one opposite with the body off it.
+  const auto aroundRim = [&](std::size_t i, int dk, int dr) {
+    const int k = columnOf(i), r = row[i];
+    const auto w = [&](std::size_t j) { return inverseDistance[j]; };
+    std::size_t other = i;
+    for (std::size_t j = 0; j < row.size(); ++j)
+      if (j != i && columnOf(j) == k && row[j] == r &&
+          (other == i || std::abs(w(j) - w(i)) < std::abs(w(other) - w(i))))
+        other = j;
+    const float gap = w(other) - w(i);
+    if (other == i || std::abs(gap) >= 0.25f * w(i)) return 0.0f;
+    for (const std::size_t j : {i, other})
+      if (std::abs(stepTo(j, k - dk, r - dr)) <= std::abs(gap)) return 0.0f;
+    const float inner = w(other) + stepTo(other, k + dk, r + dr) - w(i) - stepTo(i, k + dk, r + dr);
+    return inner / gap > 1.2f && std::abs(inner) < 0.25f * w(i) ? gap : 0.0f;
+  };
+  const auto expected = [&](std::size_t i, int dk, int dr, double pitch) {
+    const float before = stepTo(i, columnOf(i) - dk, row[i] - dr),
+                after = stepTo(i, columnOf(i) + dk, row[i] + dr);
+    const double w = double(inverseDistance[i]);
+    const float forwards = aroundRim(i, -dk, -dr), backwards = aroundRim(i, dk, dr);
+    rims += forwards != 0 || backwards != 0;
+    if (forwards != 0) return double(forwards) / (w * pitch);
+    if (backwards != 0) return -double(backwards) / (w * pitch);
     const double a = double(-before), b = double(after);
     const double steeper = std::abs(a) > std::abs(b) ? a : b, flatter = std::abs(a) > std::abs(b) ? b : a;
     if (!(std::abs(steeper) < 0.25 * w) && !(std::abs(flatter) < 3 * w * pitch)) return 0.0;
     const double step = std::abs(steeper) < 3 * w * pitch ? steeper : flatter;
     return std::abs(step) < 0.25 * w ? step / (w * pitch) : 0;
   };
-  std::uniform_int_distribution<std::size_t> any(0, capture.sampleCount() - 1);
+  std::uniform_int_distribution<std::size_t> any(0, row.size() - 1);
   int leaning = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 600; ++round) {
     const std::size_t i = any(random);
-    const int k = columnOf(i), r = capture.row[i];
-    if (capture.inverseDistance[i] == 0) {
+    if (inverseDistance[i] == 0) {
       EXPECT_EQ(slants[i], Slant{});
       continue;
     }
-    const double across = expected(i, stepTo(i, k - 1, r), stepTo(i, k + 1, r), camera.columnPitch()),
-                 down = expected(i, stepTo(i, k, r - 1), stepTo(i, k, r + 1), camera.rowPitch());
+    const double across = expected(i, 1, 0, camera.columnPitch()),
+                 down = expected(i, 0, 1, camera.rowPitch());
     EXPECT_NEAR(slants[i].across, slantCode(across), 1) << i;  // float against double
     EXPECT_NEAR(slants[i].down, slantCode(down), 1) << i;
     leaning += slants[i] != Slant{};
   }
   EXPECT_GT(leaning, 50);
+  return rims;
+}
+
+TEST(Slants, AreThoseOfASlowSearchThroughLayers) {
+  const ColumnCamera camera = test::cameraAt({0, 0, 1.6}, 0, 40, 50);
+  const Capture boxes = test::capture(test::randomBoxes(8, 60, 1.5), camera, nullptr, 4);
+  ASSERT_GT(boxes.maxLayers(), 2);
+  compareWithSlowSearch(camera, boxes.columnStart, boxes.row, boxes.inverseDistance);
+
+  std::mt19937 random(9);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  struct Tower {
+    glm::dvec2 centre;
+    double radius, top;
+  };
+  std::vector<Tower> towers;
+  for (int i = 0; i < 12; ++i)
+    towers.push_back({uniform(3, 9) * directionOf(uniform(-0.5, 0.5)), uniform(0.1, 0.6), uniform(-0.5, 1)});
+  const Grid grid([&](const glm::dvec2& c, double t) {
+    std::vector<double> found;
+    for (const Tower& tower : towers)
+      if (t < tower.top)
+        for (const double w : throughTower(tower.centre, tower.radius, c)) found.push_back(w);
+    std::ranges::sort(found, std::greater());
+    return found;
+  });
+  EXPECT_GT(compareWithSlowSearch(grid.camera, grid.columnStart, grid.row, grid.inverseDistance), 10);
 }
 
 }  // namespace
