@@ -135,16 +135,29 @@ EyeView::Sees EyeView::looksAt(const glm::dvec3& point) const {
   return Sees::unsure;
 }
 
-bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
-               RayCounts& rays) {
-  const EyeView::Sees shown = view.looksAt(point);
-  if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
+namespace {
+
+bool nothingBefore(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
+                   RayCounts& rays) {
   const glm::dvec3 way = point - view.eye();
   const double distance = glm::length(way), farthest = distance - tolerance;
   if (!(farthest > 0)) return true;
   ++rays.visibility;
   return !(double(scene.occluderDistance(
                {glm::vec3(view.eye()), glm::vec3(way / distance), 0, float(farthest)})) < farthest);
+}
+
+}  // namespace
+
+bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
+               RayCounts& rays) {
+  const EyeView::Sees shown = view.looksAt(point);
+  if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
+  return nothingBefore(scene, view, point, tolerance, rays);
+}
+
+bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays) {
+  return nothingBefore(scene, view, point, kRounding * glm::length(point - view.eye()), rays);
 }
 
 EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,

@@ -74,6 +74,10 @@ class EyeView {
 /// `tolerance` metres.
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays);
+/// The same by a ray that nothing may stop but rounding.
+bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays);
+/// Parts of a distance that rounding may take.
+inline constexpr double kRounding = 3e-5;
 
 /// Views by eye. Before they take more than a third of the budget's limit, those used longest ago are
 /// dropped; they are counted until nobody uses them any more. Not safe from several threads.

@@ -114,14 +114,16 @@ std::optional<MirrorSight::Seen> MirrorSight::sees(std::size_t role, const FlatM
   if (!(depth > lift)) return std::nullopt;
   const glm::dvec3 place = mirror.imageOf(surface.point());
   std::optional<Seen> seen;
-  const auto seesIt = [&](const EyeView& view) {
+  const auto seesIt = [&](const EyeView& view, bool closely) {
     const double height = mirror.height(view.eye());
     if (!(height > lift)) return false;
     const glm::dvec3 at = view.eye() + height / (height + depth) * (place - view.eye());
     const glm::dvec3 from = at + lift * mirror.normal, way = surface.point() - from;
     const double distance = glm::length(way);
     seen = meets(view, mirror, at,
-                 {glm::vec3(from), glm::vec3(way / distance), 0, float(distance - tolerance)}, rays);
+                 {glm::vec3(from), glm::vec3(way / distance), 0,
+                  float(distance - (closely ? kRounding * distance : tolerance))},
+                 rays);
     return seen.has_value();
   };
   const Side side = sight_->sideSeen(role, surface, hints, ImageIn{mirror}, seesIt);

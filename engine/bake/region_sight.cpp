@@ -41,7 +41,10 @@ Side RegionSight::sees(std::size_t role, const MetSurface& surface, double toler
                        RayCounts& rays) const {
   return sideSeen(
       role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
-      [&](const EyeView& view) { return seesPoint(*scene_, view, surface.point(), tolerance, rays); });
+      [&](const EyeView& view, bool closely) {
+        return seesPoint(*scene_, view, surface.point(), tolerance, rays) &&
+               (!closely || seesClosely(*scene_, view, surface.point(), rays));
+      });
 }
 
 bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,

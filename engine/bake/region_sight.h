@@ -47,13 +47,17 @@ class RegionSight {
     return false;
   }
   /// The side of a surface that the eyes of a role's region see: the one that the ray meets if any of them
-  /// does, else the other. `from(view)`: where an eye sees it from; `sees(view)`: does it see it from there?
+  /// does, else the other. `from(view)`: where an eye sees it from; `sees(view, closely)`: does it see it
+  /// from there, and if asked to look closely not just what lies right before it? Else eyes would see the
+  /// inner side of a body's thin parts, which is dark, through the outer one.
   template <class From, class Sees>
   Side sideSeen(std::size_t role, const MetSurface& surface, Hints& hints, const From& from,
                 const Sees& sees) const {
     for (const Side side : {Side::met, Side::other})
-      if (any(role, hints,
-              [&](const EyeView& view) { return surface.sideOf(from(view)) == side && sees(view); }))
+      if (any(role, hints, [&](const EyeView& view) {
+            const bool closely = side == Side::met && surface.fromWithin();
+            return surface.sideOf(from(view)) == side && sees(view, closely);
+          }))
         return side;
     return Side::none;
   }

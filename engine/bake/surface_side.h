@@ -19,10 +19,13 @@ class MetSurface {
   /// The hit lies at `point`; `direction` is the ray's (unit).
   MetSurface(const Hit& hit, const glm::dvec3& point, const glm::vec3& direction)
       : point_(point), toViewer_(-direction), normal_(hit.geometricNormal()) {
-    if (glm::dot(normal_, direction) > 0) normal_ = -normal_;
+    fromWithin_ = glm::dot(normal_, direction) > 0;
+    if (fromWithin_) normal_ = -normal_;
   }
 
   const glm::dvec3& point() const { return point_; }
+  /// Does the ray meet its back, as where it leaves a body?
+  bool fromWithin() const { return fromWithin_; }
   /// Which side an eye is on.
   Side sideOf(const glm::dvec3& eye) const {
     return glm::dot(glm::dvec3(normal_), eye - point_) >= 0 ? Side::met : Side::other;
@@ -35,6 +38,7 @@ class MetSurface {
  private:
   glm::dvec3 point_;
   glm::vec3 toViewer_, normal_;
+  bool fromWithin_ = false;
 };
 
 /// The roles that a surface is kept for, by the side that they see.

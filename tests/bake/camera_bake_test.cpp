@@ -223,6 +223,24 @@ TEST(BakeCamera, ShadesTheSideThatIsSeenAndNotTheOneTheCameraLooksAt) {
   EXPECT_LT(sideAhead(unpruned), 1e-3) << "nobody is asked who sees it";
 }
 
+/// A sheet of metal, 5 mm thick, that the camera's rays cross at a slant. Its far side, met from within, lies
+/// so near behind the other that eyes on this side take both for one place; what those on the far side see is
+/// not its dark inside.
+TEST(BakeCamera, KeepsNoInnerSideOfAThinBody) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {3, 0.5, 0}, {7, 0.505f, 3}).sky(glm::vec3(1));
+  const auto scene = builder.rays();
+  const Baked baked = bakeFrom(scene, cameraAt({0, 0}, {square(2)}));
+  int far = 0;
+  for (const double x : {4.0, 4.5, 5.0, 5.5, 6.0})
+    for (const auto& sample : baked.pixel(0.5025 / x, 0.01)) {
+      if (sample.w == 0) continue;
+      EXPECT_GT(sample.colour.r, 0.1f) << "at " << 1 / sample.w << " m, by " << x;
+      ++far;
+    }
+  EXPECT_GE(far, 8) << "both sides are seen";
+}
+
 TEST(BakeCamera, DropsAFirstSurfaceThatNoRegionSees) {
   // The camera stands outside its region, in the next room.
   SceneBuilder builder;
