@@ -179,6 +179,9 @@ template <class B>
                          out, written);
 }
 
+/// Samples are asked for so many ahead of their use.
+inline constexpr std::uint32_t kAhead = 160;
+
 template <class B>
 inline int projectColumn(const ProjectColumn& constants, const SampleColumn& samples, const SampleRun* runs,
                          int runCount, const SplatArrays& out) {
@@ -189,9 +192,13 @@ inline int projectColumn(const ProjectColumn& constants, const SampleColumn& sam
   for (int r = 0; r < runCount; ++r) {
     std::uint32_t i = runs[r].first;
     const std::uint32_t end = runs[r].end;
-    for (; i + B::kWidth <= end; i += B::kWidth)
+    for (; i + B::kWidth <= end; i += B::kWidth) {
+      __builtin_prefetch(from.samples + i + kAhead);
+      __builtin_prefetch(from.samples + i + kAhead + 8);
+      __builtin_prefetch(from.colour + 4 * std::size_t(i + kAhead));
       written += projectBatch<B>(column, from.rowTangent, from.samples + i,
                                  B::words(from.colour + 4 * std::size_t(i), B::kWidth), i, to, written);
+    }
     if (i == end) continue;
     PackedSample last[B::kWidth];
     for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
