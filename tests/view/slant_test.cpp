@@ -163,7 +163,8 @@ int compareWithSlowSearch(const ColumnCamera& camera, const std::vector<std::uin
   std::vector<int> columns;
   for (std::size_t k = 0; k + 1 < columnStart.size(); ++k) columns.resize(columnStart[k + 1], int(k));
   const auto columnOf = [&](std::size_t i) { return columns[i]; };
-  const auto stepTo = [&](std::size_t i, int column, int wantedRow) {  // to the nearest in depth of that pixel
+  const auto stepTo = [&](std::size_t i, int column,
+                          int wantedRow) {  // to the nearest in depth of that pixel
     float best = std::numeric_limits<float>::infinity();
     for (std::size_t j = 0; j < row.size(); ++j)
       if (row[j] == wantedRow && columnOf(j) == column)
