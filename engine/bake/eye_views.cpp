@@ -157,7 +157,8 @@ bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& poi
 }
 
 bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays) {
-  return nothingBefore(scene, view, point, kRounding * glm::length(point - view.eye()), rays);
+  return view.looksAt(point) != EyeView::Sees::no &&
+         nothingBefore(scene, view, point, kRounding * glm::length(point - view.eye()), rays);
 }
 
 EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,

@@ -74,7 +74,7 @@ class EyeView {
 /// `tolerance` metres.
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays);
-/// The same by a ray that nothing may stop but rounding.
+/// The same, with no more tolerance than rounding takes: what the map shows is asked of a ray too.
 bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays);
 /// Parts of a distance that rounding may take.
 inline constexpr double kRounding = 3e-5;

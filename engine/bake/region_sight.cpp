@@ -42,8 +42,8 @@ Side RegionSight::sees(std::size_t role, const MetSurface& surface, double toler
   return sideSeen(
       role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
       [&](const EyeView& view, bool closely) {
-        return seesPoint(*scene_, view, surface.point(), tolerance, rays) &&
-               (!closely || seesClosely(*scene_, view, surface.point(), rays));
+        return closely ? seesClosely(*scene_, view, surface.point(), rays)
+                       : seesPoint(*scene_, view, surface.point(), tolerance, rays);
       });
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// What kernels write, and its memory.
 
-#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -18,10 +17,11 @@ struct Splat {
   std::uint32_t index = 0;     ///< of its sample
   std::uint32_t spread = 0;    ///< SplatArrays::indices
   CanvasPixel pixel = 0;       ///< SplatArrays::pixels
-  bool operator==(const Splat&) const = default;
 };
 
-inline std::uint32_t sampleOf(const SplatArrays& splats, int i) { return splats.indices[i] & 0xfffffffu; }
+/// Of a word of SplatArrays::indices.
+inline std::uint32_t sampleOf(std::uint32_t index) { return index & 0xfffffffu; }
+inline std::uint32_t sampleOf(const SplatArrays& splats, int i) { return sampleOf(splats.indices[i]); }
 inline int columnOf(const SplatArrays& splats, int i) {
   return static_cast<std::int16_t>(splats.corners[i] & 0xffffu);
 }
@@ -36,6 +36,11 @@ inline Splat splatAt(const SplatArrays& splats, int i) {
           sampleOf(splats, i),
           splats.indices[i] >> 28,
           splats.pixels[i]};
+}
+
+/// `samples` and their colours.
+inline SampleColumn sampleColumn(const float* rowTangent, const PackedSample* samples, const Rgba8* colour) {
+  return {rowTangent, samples, reinterpret_cast<const unsigned char*>(colour)};
 }
 
 class SplatMemory {

@@ -225,8 +225,8 @@ class CanvasWarp {
     const std::size_t start = capture.columnStart[k];
     const PackedSample* const samples = capture.samples.data() + start;
     const SplatArrays& splats = splats_.room(chosen);
-    const SampleColumn column{capture.rowTangent.data(), samples,
-                              reinterpret_cast<const unsigned char*>(capture.colour.data() + start)};
+    const SampleColumn column =
+        sampleColumn(capture.rowTangent.data(), samples, capture.colour.data() + start);
     const int count =
         options_.project(constants_, column, runs_.data(), static_cast<int>(runs_.size()), splats);
     if (count == 0) return;
@@ -245,7 +245,7 @@ class CanvasWarp {
                              openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const auto isAbove = [&](std::uint32_t index) {
-      return capture.rowTangent[samples[index & 0xfffffffu].row] > order.pivotTangent;
+      return capture.rowTangent[samples[sampleOf(index)].row] > order.pivotTangent;
     };
     const int above = static_cast<int>(std::partition_point(splats.indices, splats.indices + count, isAbove) -
                                        splats.indices);

@@ -1,6 +1,6 @@
 #pragma once
 /// The kernel itself, over a batch type B that provides float lanes F, integer lanes I and masks M.
-/// Included by the two sources that instantiate it and by nothing else.
+/// Included by the three sources that instantiate it and by nothing else.
 
 #include <cstddef>
 

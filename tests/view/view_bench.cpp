@@ -82,8 +82,7 @@ void timeProjecting() {
             kept[thread] = 0;
             for (std::size_t c = thread * columns / threads; c < (thread + 1) * columns / threads; ++c) {
               const std::size_t first = c * kPerColumn;
-              const SampleColumn from{tangents.data(), &packed[first],
-                                      reinterpret_cast<const unsigned char*>(&colour[first])};
+              const SampleColumn from = sampleColumn(tangents.data(), &packed[first], &colour[first]);
               kept[thread] += static_cast<std::size_t>(
                   kernels.project(column, from, &run, 1, memory[thread].room(kPerColumn)));
             }
