@@ -98,14 +98,22 @@ TEST(MeshBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
 }
 
 TEST(MeshBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
-  MeshBuilder builder(1, {});
-  CapturePtr large = captureOf(3, 700, 700), waiting = captureOf(4);
+  std::binary_semaphore goOn{0};
+  std::atomic<bool> held = true;
+  const auto holdTheFirst = [&] {
+    if (held.exchange(false)) goOn.acquire();
+  };
+  MeshBuilder builder(1, holdTheFirst);
+  const CapturePtr first = captureOf(3), last = captureOf(5);
+  CapturePtr waiting = captureOf(4);
   const std::weak_ptr<const DisplayCapture> evicted = waiting;
-  const CapturePtr last = captureOf(5);
-  builder.want({taskOf(large, 0), taskOf(waiting, 1), taskOf(last, 2)});
+  builder.want({taskOf(first, 0)});
+  EXPECT_EQ(take(builder, 1).at(0).task.camera, 0);  // it is held, or about to be: it can begin nothing more
+  builder.want({taskOf(waiting, 1), taskOf(last, 2)});
   waiting.reset();
-  EXPECT_TRUE(isLetGoOf(evicted));
-  for (const MeshBuilder::Built& built : take(builder, 2)) EXPECT_NE(built.task.camera, 1);
+  EXPECT_TRUE(evicted.expired());
+  goOn.release();
+  EXPECT_EQ(take(builder, 1).at(0).task.camera, 2);
 }
 
 TEST(MeshBuilder, IsDestroyedWhileItBuilds) {
