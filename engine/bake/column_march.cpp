@@ -136,26 +136,26 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     }
     Side side = Side::met;
     if (setting_.sight != nullptr) {
-      if (!(horizontal * (1 - rightBehind_) > having.opaqueAt)) continue;
       side = setting_.sight->sees(role.index, surface, tolerance, hints_, out_.counts.rays);
-      if (side == Side::none) continue;
+      const bool rightBehind = !(horizontal * (1 - rightBehind_) > having.opaqueAt);
+      if (side == Side::none || (rightBehind && side == having.opaqueSide)) continue;
     }
     if (inPart) sides_.of(side).push_back(&having);
     if (mirror != 0 && side == Side::met) facing_.push_back(&role);
   }
   if (sides_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (!sides_.met.empty() || !facing_.empty())
-    addSide(sides_.met,
+    addSide(sides_.met, Side::met,
             mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
                         : setting_.shader.shade(hit, surface.toViewer(Side::met), out_.counts.rays),
             horizontal, mirror);
   if (!sides_.other.empty())
-    addSide(sides_.other, setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays),
+    addSide(sides_.other, Side::other, setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays),
             horizontal, 0);
 }
 
 /// A sample of one side of a surface for the roles that see it.
-void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, const Shaded& shaded, double horizontal,
+void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shaded& shaded, double horizontal,
                           std::uint8_t mirror) {
   const bool opaque = shaded.alpha >= kOpaqueAlpha;
   if (needed.empty() || shaded.alpha < kInvisibleAlpha) return;
@@ -168,7 +168,7 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, const Shaded& shaded,
     return;
   }
   if (opaque)
-    for (RoleOnRay* having : needed) having->opaqueAt = horizontal;
+    for (RoleOnRay* having : needed) having->opaqueAt = horizontal, having->opaqueSide = side;
   out_.add(row_, storedInverseDistance(1 / horizontal, setting_.distanceStep),
            packColour({shaded.radiance(), opaque ? 1 : shaded.alpha}), give(needed));
   if (setting_.mirrors != nullptr) out_.mirror.push_back(mirror);

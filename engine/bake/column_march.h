@@ -45,7 +45,8 @@ class ColumnMarch {
                 const std::stop_token& stop);
   const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit);
   void addSurface(const glm::vec3& direction, const Hit& hit);
-  void addSide(std::vector<RoleOnRay*>& needed, const Shaded& shaded, double horizontal, std::uint8_t mirror);
+  void addSide(std::vector<RoleOnRay*>& needed, Side side, const Shaded& shaded, double horizontal,
+               std::uint8_t mirror);
   Shaded mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal, std::uint8_t mirror);
   void addShown();
   void addBackgroundAlong(const glm::vec3& direction);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/bake/surface_side.h"
 #include "engine/layout/layout.h"
 
 namespace acentric {
@@ -30,9 +31,19 @@ struct RoleOnRay {
   /// How far its last opaque surface is, as the march counts. What lies right behind it, as the backs of
   /// panels and mouldings, would pass for it before the test eyes, and show in its cracks.
   double opaqueAt = 0;
+  Side opaqueSide = Side::none;  ///< its side that eyes see: the other one, as of a thin panel, is kept too
 };
 /// Counts a sample to each; returns their bits.
 std::uint8_t give(std::span<RoleOnRay* const> roles);
+
+/// The roles that a surface is kept for, by the side that they see.
+struct SeenSides {
+  std::vector<RoleOnRay*> met, other;
+
+  bool empty() const { return met.empty() && other.empty(); }
+  void clear() { met.clear(), other.clear(); }
+  std::vector<RoleOnRay*>& of(Side side) { return side == Side::met ? met : other; }
+};
 
 /// By rising exit.
 std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction);

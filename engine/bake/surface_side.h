@@ -5,9 +5,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <vector>
 
-#include "engine/bake/column_roles.h"
 #include "engine/bake/ray_scene.h"
 
 namespace acentric {
@@ -39,15 +37,6 @@ class MetSurface {
   glm::dvec3 point_;
   glm::vec3 toViewer_, normal_;
   bool fromWithin_ = false;
-};
-
-/// The roles that a surface is kept for, by the side that they see.
-struct SeenSides {
-  std::vector<RoleOnRay*> met, other;
-
-  bool empty() const { return met.empty() && other.empty(); }
-  void clear() { met.clear(), other.clear(); }
-  std::vector<RoleOnRay*>& of(Side side) { return side == Side::met ? met : other; }
 };
 
 }  // namespace acentric

@@ -170,8 +170,8 @@ void readImport(const Json& json, ImportOptions& options) {
 }
 
 void readView(const Json& json, Project& project) {
-  project.view.renderer = *parseRenderer(json.value("renderer", "list"));
-  project.view.reconstruction = *parseReconstruction(json.value("reconstruction", "splat"));
+  project.view.renderer = *parseRenderer(json.value("renderer", nameOf(project.view.renderer)));
+  project.view.reconstruction = *parseReconstruction(json.value("reconstruction", nameOf(project.view.reconstruction)));
   read(json, "maxSplatPixels", project.view.maxSplatPixels);
   read(json, "meshError", project.view.meshError);
   read(json, "maxMeshTriangles", project.view.maxMeshTriangles);
