@@ -21,6 +21,7 @@ struct CapturePiece {
   const PerspectiveView& view;
   const ViewSettings& settings;
   Mirrors mirrors = Mirrors::none;
+  GLuint leastDepths = 0;  ///< of the second cover: CrackPass::leastDepths
 
   /// For messages.
   std::string name() const;
@@ -31,6 +32,8 @@ glm::dmat3 pictureMatrix(const PerspectiveView& view);
 
 void setUniform(GlProgram& program, const char* name, const glm::vec2& value);
 void setUniform(GlProgram& program, const char* name, const glm::vec3& value);
+/// That of shaders/cracks.glsl, at unit 0; for a program with IN_CRACKS that is in use.
+void setCracks(GlProgram& program, GLuint leastDepths);
 /// Those of shaders/part.glsl.
 void setPart(GlProgram& program, const PieceDraw& piece);
 
