@@ -18,6 +18,9 @@ namespace {
 constexpr int kColumnsPerChunk = 4;
 /// Of a sample's spacing: how far the picture may shift by the rounding of a distance.
 constexpr double kShiftByRounding = 0.1;
+/// Of a region, for what mirrors show: through a mirror, as through a window, places are seen from parts of a
+/// region that lie between the test eyes.
+constexpr int kEyesBeforeMirrors = 16;
 
 /// The largest step of inverse distances that shifts no picture from a served region by more than a share of
 /// a sample: a sample off by dw is seen off by dw times the eye's distance from the camera.
@@ -96,8 +99,13 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       counts.eyeViewSeconds += watch.seconds();
     }
     const FlatMirrors* mirrors = mirrors_->any() ? mirrors_.get() : nullptr;
+    std::optional<RegionSight> intoMirrors;
     std::optional<MirrorSight> beyond;
-    if (sight && mirrors != nullptr) beyond.emplace(scene_, *mirrors, *sight);
+    if (sight && mirrors != nullptr) {
+      intoMirrors = sight->withEyes(std::max(kEyesBeforeMirrors, settings_.testEyes), camera,
+                                    columns.centreOfProjection.z, settings_);
+      beyond.emplace(scene_, *mirrors, *intoMirrors);
+    }
     const RowAngles rows(columns);
     const ColumnMarch::Setting setting{*shader_,
                                        camera,

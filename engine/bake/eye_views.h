@@ -46,6 +46,11 @@ class EyeView {
                                               RayCounts& rays, const std::stop_token& stop,
                                               MemoryBudget* budget = nullptr);
 
+  /// Without a map: every point is asked of a ray.
+  static std::shared_ptr<const EyeView> untraced(const glm::dvec3& eye) {
+    return std::shared_ptr<const EyeView>(new EyeView(eye, 1));
+  }
+
   enum class Sees : std::uint8_t { no, yes, unsure };
   /// Does the map show the point? Unsure along edges, and in directions that were not looked at.
   Sees looksAt(const glm::dvec3& point) const;

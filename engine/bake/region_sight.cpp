@@ -30,6 +30,18 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
   return sight;
 }
 
+RegionSight RegionSight::withEyes(int count, const LayoutCamera& camera, double eyeZ,
+                                  BakeSettings settings) const {
+  RegionSight more = *this;
+  settings.testEyes = count;
+  for (std::size_t role = 0; role < camera.roles.size(); ++role) {
+    auto& views = more.eyes_[region_[role]];
+    const std::vector<glm::dvec3> eyes = testEyes(camera.roles[role].polygon, eyeZ, settings);
+    for (std::size_t i = views.size(); i < eyes.size(); ++i) views.push_back(EyeView::untraced(eyes[i]));
+  }
+  return more;
+}
+
 std::vector<glm::dvec3> RegionSight::eyes() const {
   std::vector<glm::dvec3> eyes;
   for (const auto& region : eyes_)

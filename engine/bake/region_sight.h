@@ -20,6 +20,9 @@ class RegionSight {
                                          const BakeSettings& settings, EyeViews& views, RegionSkies& skies,
                                          TaskRunner& runner, RayCounts& rays, const std::stop_token& stop);
 
+  /// With more eyes, without maps: `count` a region. `camera` and `eyeZ` as before.
+  RegionSight withEyes(int count, const LayoutCamera& camera, double eyeZ, BakeSettings settings) const;
+
   /// Of one thread: which eye answered last, tried first the next time.
   struct Hints {
     std::vector<std::size_t> eye;  ///< by region
