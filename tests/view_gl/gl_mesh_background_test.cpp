@@ -32,7 +32,7 @@ class GlMeshBackground : public test::WithGl {
   void SetUp() override {
     WithGl::SetUp();
     if (!renderer_) return;
-    auto live = GlRenderer::create({.waitForMeshes = false});
+    auto live = GlRenderer::create({.waitForCaptures = false});
     ASSERT_TRUE(live) << live.error().describe();
     live_ = std::move(*live);
   }
@@ -55,12 +55,12 @@ class GlMeshBackground : public test::WithGl {
   /// As the editor does: a new frame when there is a mesh to be shown.
   Frame liveWhenReady(const WalkScene& scene, const PerspectiveView& view) {
     Frame frame = live(scene, view);
-    for (int i = 0; i < 60'000 && frame.stats.meshesAwaited > 0; ++i) {
-      const auto ready = live_->receiveMeshes();
+    for (int i = 0; i < 60'000 && frame.stats.meshesAwaited + frame.stats.capturesAwaited > 0; ++i) {
+      const auto ready = live_->receive();
       EXPECT_TRUE(ready);
       if (*ready)
         frame = live(scene, view);
-      else if (!live_->meshesToReceive())
+      else if (!live_->anyToReceive())
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(frame.stats.meshesAwaited, 0);
@@ -90,7 +90,7 @@ TEST_F(GlMeshBackground, PointsAreDrawnUntilMeshesAreReadyAndThenThePictureOfTho
     if (glass) surfaces.boxes.push_back({{3.5, -1, 0.8}, {3.51, 1, 1.9}, {0.1f, 0.2f, 0.6f, 0.4f}});
     const WalkScene scene = test::walkScene(surfaces, layout_, region_, 4, 2);
     for (const Reconstruction reconstruction : {Reconstruction::surface, Reconstruction::filtered}) {
-      live_ = std::move(*GlRenderer::create({.waitForMeshes = false}));
+      live_ = std::move(*GlRenderer::create({.waitForCaptures = false}));
       settings_.reconstruction = reconstruction;
       PerspectiveView view = nextView();
       if (glass) view.yawRadians = 0, view.pitchRadians = 0;
@@ -198,10 +198,10 @@ TEST_F(GlMeshBackground, OtherRenderersEndTheBuilding) {
   ViewSettings other = settings_;
   other.renderer = Renderer::gl;
   ASSERT_TRUE(live_->draw(scene, view, other));
-  EXPECT_FALSE(live_->meshesToReceive());
+  EXPECT_FALSE(live_->anyToReceive());
   EXPECT_EQ(live(scene, view).stats.meshes.size(), 0u);
-  live_->stopBuildingMeshes();
-  EXPECT_FALSE(live_->meshesToReceive());
+  live_->stopBuilding();
+  EXPECT_FALSE(live_->anyToReceive());
   expectSame(liveWhenReady(scene, view), onGl(scene, view, settings_));
 }
 
@@ -209,7 +209,7 @@ TEST_F(GlMeshBackground, IsDestroyedWhileItBuilds) {
   const WalkScene scene = boxes(3, 4);
   for (int i = 0; i < 4; ++i) {
     live(scene, nextView());
-    live_ = std::move(*GlRenderer::create({.waitForMeshes = false, .backgroundThreads = 2}));
+    live_ = std::move(*GlRenderer::create({.waitForCaptures = false, .backgroundThreads = 2}));
   }
   live_.reset();
   for (const auto& capture : scene.captures) EXPECT_LE(capture.use_count(), 1);

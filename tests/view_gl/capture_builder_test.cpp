@@ -1,4 +1,4 @@
-#include "engine/view_gl/mesh_builder.h"
+#include "engine/view_gl/capture_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,13 @@
 #include <chrono>
 #include <semaphore>
 
+#include "engine/view_gl/packed_mesh.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {
 namespace {
 
+using MeshBuilder = CaptureBuilder<MeshTask, PackedMesh>;
 using CapturePtr = std::shared_ptr<const DisplayCapture>;
 
 CapturePtr captureOf(unsigned seed, int columns = 60, int rows = 80) {
@@ -28,7 +30,7 @@ std::vector<MeshBuilder::Built> take(MeshBuilder& builder, std::size_t count) {
   std::vector<MeshBuilder::Built> all;
   for (int i = 0; i < 60'000 && all.size() < count; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    for (MeshBuilder::Built& built : builder.takeBuilt()) all.push_back(std::move(built));
+    while (auto built = builder.takeBuilt()) all.push_back(std::move(*built));
   }
   EXPECT_EQ(all.size(), count);
   return all;
@@ -41,22 +43,21 @@ bool isLetGoOf(const std::weak_ptr<const DisplayCapture>& capture) {
   return capture.expired();
 }
 
-TEST(MeshBuilder, BuildsWhatIsWantedInOrderAsItIsBuiltWithoutWaiting) {
+TEST(CaptureBuilder, BuildsWhatIsWantedInOrderAsItIsBuiltWithoutWaiting) {
   std::counting_semaphore<> wakes{0};
-  MeshBuilder builder(1, [&] { wakes.release(); });
+  MeshBuilder builder(packMesh, 1, [&] { wakes.release(); });
   const std::vector<CapturePtr> captures = {captureOf(1), captureOf(2), captureOf(3)};
   builder.want({taskOf(captures[0], 4), taskOf(captures[1], 7, 2), taskOf(captures[2], 9)});
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(wakes.try_acquire_for(std::chrono::seconds(60)));
-  const std::vector<MeshBuilder::Built> built = builder.takeBuilt();
-  ASSERT_EQ(built.size(), 3u);
+  const std::vector<MeshBuilder::Built> built = take(builder, 3);
   EXPECT_FALSE(builder.anyBuilt());
   TaskRunner runner(0);
   for (std::size_t i = 0; i < built.size(); ++i) {
-    ASSERT_TRUE(built[i].mesh);
+    ASSERT_TRUE(built[i].packed);
     EXPECT_EQ(built[i].task.capture.lock(), captures[i]);
     const auto expected = packMesh(*captures[i], built[i].task, runner);
     ASSERT_TRUE(expected);
-    const PackedMesh& mesh = *built[i].mesh;
+    const PackedMesh& mesh = *built[i].packed;
     EXPECT_EQ(mesh.cost.camera, built[i].task.camera);
     EXPECT_EQ(mesh.cost.error, i == 1 ? 2 : 0.25);
     EXPECT_GT(mesh.cost.triangles, 10u);
@@ -66,19 +67,19 @@ TEST(MeshBuilder, BuildsWhatIsWantedInOrderAsItIsBuiltWithoutWaiting) {
   }
 }
 
-TEST(MeshBuilder, BuildsNothingTwiceThatIsWantedAgain) {
-  MeshBuilder builder(1, {});
+TEST(CaptureBuilder, BuildsNothingTwiceThatIsWantedAgain) {
+  MeshBuilder builder(packMesh, 1, {});
   const CapturePtr first = captureOf(1), second = captureOf(2);
   for (int i = 0; i < 50; ++i) builder.want({taskOf(first, 0), taskOf(second, 1)});
   take(builder, 2);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(builder.anyBuilt());
   builder.want({taskOf(first, 0, 1)});  // another mesh
-  EXPECT_EQ(take(builder, 1).at(0).mesh->cost.error, 1);
+  EXPECT_EQ(take(builder, 1).at(0).packed->cost.error, 1);
 }
 
-TEST(MeshBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
-  MeshBuilder builder(1, {});
+TEST(CaptureBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
+  MeshBuilder builder(packMesh, 1, {});
   CapturePtr large = captureOf(3, 700, 700);
   const std::weak_ptr<const DisplayCapture> watched = large;
   const CapturePtr small = captureOf(4);
@@ -97,13 +98,13 @@ TEST(MeshBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
   EXPECT_FALSE(builder.anyBuilt());
 }
 
-TEST(MeshBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
+TEST(CaptureBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
   std::binary_semaphore goOn{0};
   std::atomic<bool> held = true;
   const auto holdTheFirst = [&] {
     if (held.exchange(false)) goOn.acquire();
   };
-  MeshBuilder builder(1, holdTheFirst);
+  MeshBuilder builder(packMesh, 1, holdTheFirst);
   const CapturePtr first = captureOf(3), last = captureOf(5);
   CapturePtr waiting = captureOf(4);
   const std::weak_ptr<const DisplayCapture> evicted = waiting;
@@ -116,11 +117,11 @@ TEST(MeshBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
   EXPECT_EQ(take(builder, 1).at(0).task.camera, 2);
 }
 
-TEST(MeshBuilder, IsDestroyedWhileItBuilds) {
+TEST(CaptureBuilder, IsDestroyedWhileItBuilds) {
   const CapturePtr large = captureOf(3, 700, 700), other = captureOf(4, 700, 700);
   for (int round = 0; round < 6; ++round) {
     std::atomic<int> wakes = 0;
-    MeshBuilder builder(1 + round % 2, [&] { ++wakes; });
+    MeshBuilder builder(packMesh, 1 + round % 2, [&] { ++wakes; });
     builder.want({taskOf(large, 0), taskOf(other, 1)});
     std::this_thread::sleep_for(std::chrono::milliseconds(2 * round));
   }
@@ -128,15 +129,15 @@ TEST(MeshBuilder, IsDestroyedWhileItBuilds) {
   EXPECT_EQ(other.use_count(), 1);
 }
 
-TEST(MeshBuilder, TellsWhatIsWrongWithACapture) {
-  MeshBuilder builder(1, {});
+TEST(CaptureBuilder, TellsWhatIsWrongWithACapture) {
+  MeshBuilder builder(packMesh, 1, {});
   auto spoilt = std::make_shared<DisplayCapture>(*captureOf(1));
   spoilt->colour.pop_back();
   builder.want({taskOf(spoilt, 3)});
   const auto built = take(builder, 1);
-  ASSERT_FALSE(built.at(0).mesh);
-  EXPECT_EQ(built[0].mesh.error().kind, ErrorKind::malformed);
-  EXPECT_EQ(built[0].mesh.error().where, "capture of camera 3");
+  ASSERT_FALSE(built.at(0).packed);
+  EXPECT_EQ(built[0].packed.error().kind, ErrorKind::malformed);
+  EXPECT_EQ(built[0].packed.error().where, "capture of camera 3");
 }
 
 TEST(PackedMesh, IsNotMadeOnceStopped) {
