@@ -43,7 +43,7 @@ struct FrameStats {
   std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
   int capturesAwaited = 0;         ///< captures that are loaded and not on the graphics card yet
   int standIns = 0;             ///< of these: drawn as what their camera had before; the others are missing
-  std::uint64_t bytesSent = 0;  ///< of captures and meshes, to the graphics card
+  std::uint64_t bytesSent = 0;  ///< of captures and meshes, to the graphics card since the frame before
   std::uint64_t meshTriangles = 0;  ///< submitted: those of columns in sight and of roles that are needed
   std::vector<MeshCost> meshes;     ///< of the captures drawn, by camera
   int meshesAwaited = 0;            ///< captures drawn whose mesh for these settings is not ready yet

@@ -35,8 +35,8 @@ class BuiltResidency : public Residency<Buffers> {
  public:
   using Builder = CaptureBuilder<Task, Packed>;
 
-  /// Sends what is packed, as far as the limit allows. True if something is now ready that was not, or cannot
-  /// be.
+  /// Sends what is packed, as far as the limit allows. True if something is now ready, or cannot be, that the
+  /// last frame lacked.
   Result<bool> receive(SendLimit& limit) {
     if (!builder_) return false;
     const Stopwatch watch;
@@ -53,7 +53,7 @@ class BuiltResidency : public Residency<Buffers> {
       if (!upload_->done()) continue;
       if (const auto capture = task.capture.lock()) {
         this->put(capture, upload_->take());
-        news = true;
+        news = news || isAwaited(task);
       }
       upload_.reset();
     }
@@ -84,18 +84,20 @@ class BuiltResidency : public Residency<Buffers> {
   template <class Useful>
   void keepOnly(const Useful& useful) {
     wanted_.clear();
+    awaited_.clear();
     if (!builder_) return;
     builder_->keepOnly(useful);
     if (upload_ && !useful(upload_->task())) upload_.reset();
     std::erase_if(failed_, [&](const auto& failed) { return !useful(failed.first); });
   }
-  /// Is to be packed, after what was asked for before it. Fails if it could not be.
-  Status want(Task task) {
+  /// Is to be packed, after what was asked for before it. `lacked`: by this frame; otherwise it is for those
+  /// to come. Fails if it could not be.
+  Status want(const Task& task, bool lacked = true) {
     const auto same = [&](const Task& other) { return task.sameAs(other); };
+    if (lacked) awaited_.push_back(task);
     for (const auto& [failed, error] : failed_)
       if (same(failed)) return tl::unexpected(error);
-    if (std::ranges::none_of(wanted_, same) && !(upload_ && same(upload_->task())))
-      wanted_.push_back(std::move(task));
+    if (std::ranges::none_of(wanted_, same) && !(upload_ && same(upload_->task()))) wanted_.push_back(task);
     return {};
   }
   void beginWanted() {
@@ -119,6 +121,9 @@ class BuiltResidency : public Residency<Buffers> {
   static Status checkSent(const Task& task) {
     return checkGl(fmt::format("uploading {}", task.name).c_str());
   }
+  bool isAwaited(const Task& task) const {
+    return std::ranges::any_of(awaited_, [&](const Task& other) { return task.sameAs(other); });
+  }
   /// The next to be sent; keeps what failed.
   bool takeBuilt(bool& news) {
     while (std::optional<typename Builder::Built> built = builder_->takeBuilt()) {
@@ -126,8 +131,8 @@ class BuiltResidency : public Residency<Buffers> {
         upload_.emplace(std::move(built->task), std::move(*built->packed));
         return true;
       }
+      news = news || isAwaited(built->task);
       failed_.emplace_back(std::move(built->task), built->packed.error());
-      news = true;
     }
     return false;
   }
@@ -137,6 +142,7 @@ class BuiltResidency : public Residency<Buffers> {
   std::unique_ptr<Builder> builder_;
   std::optional<Upload> upload_;
   std::vector<std::pair<Task, Error>> failed_;
+  std::vector<Task> awaited_;
   Sent sent_;
 };
 

@@ -36,8 +36,9 @@ Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const 
   return build(capture, taskOf(capture, name, parts));
 }
 
-Status CaptureResidency::ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name) {
-  return want(taskOf(capture, name, CaptureParts::samples));
+Status CaptureResidency::ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name,
+                             bool lacked) {
+  return want(taskOf(capture, name, CaptureParts::samples), lacked);
 }
 
 CaptureTask CaptureResidency::taskOf(const std::shared_ptr<const DisplayCapture>& capture,

@@ -26,8 +26,10 @@ class CaptureResidency : public BuiltResidency<CaptureTask, PackedCapture, Captu
   /// receive, dropGone or trim.
   Result<const CaptureBuffers*> get(const std::shared_ptr<const DisplayCapture>& capture,
                                     const std::string& name, CaptureParts parts = CaptureParts::samples);
-  /// Is to be packed in the background, after what this frame asked for before it. Fails if it could not be.
-  Status ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name);
+  /// Is to be packed in the background, after what this frame asked for before it. `lacked`: by this frame;
+  /// otherwise it is for those to come. Fails if it could not be.
+  Status ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name,
+             bool lacked = true);
   /// After a frame: what it asked for is packed next.
   void end() { beginWanted(); }
 

@@ -70,7 +70,7 @@ struct GlRenderer::Impl {
   ProgramCache programs;
   CaptureResidency captures;
   MeshResidency meshes;
-  LiveCaptures live{captures, meshes};
+  LiveCaptures live{captures, meshes, kCaptureBudgetBytes};
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;

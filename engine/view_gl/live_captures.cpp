@@ -5,10 +5,16 @@
 #include <utility>
 
 #include "engine/view/view_cameras.h"
-#include "engine/view_gl/capture_piece.h"
 
 namespace acentric {
 namespace {
+
+/// Captures around the eye that are sent before they are seen.
+constexpr std::size_t kMostAhead = 64;
+
+std::size_t bytesOfAll(const DisplayCapture& capture) {
+  return packedBytes(capture) + (capture.reflections ? packedBytes(*capture.reflections) : 0);
+}
 
 /// The first cover, which is in front, comes first.
 std::vector<int> camerasInView(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {
@@ -35,18 +41,50 @@ bool sameView(const ColumnCamera& a, const ColumnCamera& b) {
 
 /// That must be there before the camera is drawn. Of a mesh only what blends is points; the runs of its
 /// background are few enough to be sent when they are drawn.
-std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture, int camera,
+std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture,
                                                       const ViewSettings& settings) {
   std::vector<Part> parts;
   if (settings.renderer != Renderer::glMesh || capture->blended || meshes_.find(capture) == nullptr)
-    parts.push_back({capture, captureName(camera, Mirrors::none)});
-  if (capture->reflections) parts.push_back({capture->reflections, captureName(camera, Mirrors::reflect)});
+    parts.push_back({capture, Mirrors::none});
+  if (capture->reflections) parts.push_back({capture->reflections, Mirrors::reflect});
   return parts;
 }
 
-bool LiveCaptures::ready(const CapturePtr& capture, int camera, const ViewSettings& settings) {
-  return std::ranges::all_of(partsOf(capture, camera, settings),
+bool LiveCaptures::ready(const CapturePtr& capture, const ViewSettings& settings) {
+  return std::ranges::all_of(partsOf(capture, settings),
                              [&](const Part& part) { return captures_.ready(part.capture); });
+}
+
+Status LiveCaptures::ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked) {
+  for (const Part& part : partsOf(capture, settings))
+    if (!captures_.ready(part.capture))
+      if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), lacked); !asked)
+        return asked;
+  return {};
+}
+
+/// The nearest first, as many as there is memory for beside those in view; those that are there are used, so
+/// that they stay.
+void LiveCaptures::askAhead(const WalkScene& scene, const glm::dvec3& eye, const ViewSettings& settings,
+                            const std::vector<int>& inView) {
+  std::size_t bytes = 0;
+  for (const int camera : inView) bytes += bytesOfAll(*scene.captures[std::size_t(camera)]);
+  std::vector<std::pair<double, int>> others;
+  for (std::size_t i = 0; i < scene.captures.size(); ++i)
+    if (scene.captures[i] && std::ranges::find(inView, int(i)) == inView.end())
+      others.emplace_back(glm::distance(scene.captures[i]->camera.centreOfProjection, eye), int(i));
+  const std::size_t nearest = std::min(others.size(), kMostAhead);
+  std::ranges::partial_sort(others, others.begin() + std::ptrdiff_t(nearest));
+  others.resize(nearest);
+  for (const auto& [distance, camera] : others) {
+    const CapturePtr& now = scene.captures[std::size_t(camera)];
+    bytes += bytesOfAll(*now);
+    if (bytes > memoryBytes_) return;
+    if (ready(now, settings))
+      drawn_[std::size_t(camera)] = now;
+    else
+      (void)ask(now, camera, settings, false);  // what is wrong with it is told when it is seen
+  }
 }
 
 /// Of what stands in no longer. Out of sight nothing does that keeps more memory from the walk than what it
@@ -66,13 +104,12 @@ void LiveCaptures::letGo(const WalkScene& scene, const std::vector<int>& inView)
 
 Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const ViewSettings& settings,
                                SendLimit& limit) {
-  const std::vector<Part> parts = partsOf(capture, camera, settings);
-  std::size_t bytes = 0;
-  for (const Part& part : parts) bytes += packedBytes(*part.capture);
+  const std::size_t bytes = bytesOfAll(*capture);
   if (bytes > limit.left()) return {};
   limit.sent(bytes);
-  for (const Part& part : parts)
-    if (const auto sent = captures_.get(part.capture, part.name); !sent) return tl::unexpected(sent.error());
+  for (const Part& part : partsOf(capture, settings))
+    if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors)); !sent)
+      return tl::unexpected(sent.error());
   return {};
 }
 
@@ -85,8 +122,8 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];
     CapturePtr& drawn = drawn_[std::size_t(camera)];
-    if (drawn && !ready(drawn, camera, settings)) drawn.reset();  // it had to leave the graphics card
-    if (!drawn && !ready(now, camera, settings))
+    if (drawn && !ready(drawn, settings)) drawn.reset();  // it had to leave the graphics card
+    if (!drawn && !ready(now, settings))
       if (Status sent = sendSmall(now, camera, settings, limit); !sent) return tl::unexpected(sent.error());
   }
   if (const auto received = captures_.receive(limit); !received) return tl::unexpected(received.error());
@@ -96,18 +133,16 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];
     CapturePtr& drawn = drawn_[std::size_t(camera)];
-    if (ready(now, camera, settings)) {
+    if (ready(now, settings)) {
       drawn = now;
       continue;
     }
-    for (const Part& part : partsOf(now, camera, settings))
-      if (!captures_.ready(part.capture))
-        if (Status asked = captures_.ask(part.capture, part.name); !asked)
-          return tl::unexpected(asked.error());
+    if (Status asked = ask(now, camera, settings, true); !asked) return tl::unexpected(asked.error());
     instead.emplace_back(camera, drawn);
     ++stats.capturesAwaited;
     stats.standIns += drawn ? 1 : 0;
   }
+  askAhead(scene, view.eye, settings, cameras);
   if (instead.empty()) return &scene;
   planned_ = scene;
   for (auto& [camera, capture] : instead) planned_.captures[std::size_t(camera)] = std::move(capture);

@@ -7,6 +7,7 @@
 #include <semaphore>
 
 #include "engine/view_gl/packed_mesh.h"
+#include "gl_fixture.h"
 #include "tests/view/capture_fixtures.h"
 
 namespace acentric {
@@ -34,13 +35,6 @@ std::vector<MeshBuilder::Built> take(MeshBuilder& builder, std::size_t count) {
   }
   EXPECT_EQ(all.size(), count);
   return all;
-}
-
-/// Until a build that is running now has begun and is given up, or is done: its capture is let go of.
-bool isLetGoOf(const std::weak_ptr<const DisplayCapture>& capture) {
-  for (int i = 0; i < 60'000 && !capture.expired(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  return capture.expired();
 }
 
 TEST(CaptureBuilder, BuildsWhatIsWantedInOrderAsItIsBuiltWithoutWaiting) {
@@ -94,7 +88,7 @@ TEST(CaptureBuilder, GivesUpWhatIsOfNoUseAndBuildsItWhenItIsAgain) {
   builder.want({taskOf(large, 0, 3)});
   large.reset();
   builder.keepOnly([](const MeshTask&) { return false; });
-  EXPECT_TRUE(isLetGoOf(watched));
+  EXPECT_TRUE(test::isLetGoOf(watched));
   EXPECT_FALSE(builder.anyBuilt());
 }
 
