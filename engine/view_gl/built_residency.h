@@ -22,6 +22,9 @@ namespace acentric {
 /// So much is sent before a frame looks at the clock.
 inline constexpr std::size_t kBytesAtOnce = std::size_t(1) << 20;
 
+/// Of what is built: what the last frame lacked, or also what is for those to come.
+enum class Which { lacked, all };
+
 /// To the graphics card, packed for it by the frame itself included.
 struct Sent {
   std::size_t bytes = 0;
@@ -37,11 +40,12 @@ class BuiltResidency : public Residency<Buffers> {
 
   /// Sends what is packed, as far as the limit allows. True if something is now ready, or cannot be, that the
   /// last frame lacked.
-  Result<bool> receive(SendLimit& limit) {
+  Result<bool> receive(SendLimit& limit, Which which = Which::all) {
     if (!builder_) return false;
     const Stopwatch watch;
     bool news = false;
-    while (limit.left() > 0 && (upload_ || takeBuilt(news))) {
+    while (limit.left() > 0 && (upload_ || takeBuilt(Which::lacked, news) || takeBuilt(which, news))) {
+      if (which == Which::lacked && !isAwaited(upload_->task())) break;
       const std::size_t sentNow = upload_->send(std::min(limit.left(), kBytesAtOnce));
       limit.sent(sentNow);
       sent_.bytes += sentNow;
@@ -84,7 +88,7 @@ class BuiltResidency : public Residency<Buffers> {
   template <class Useful>
   void keepOnly(const Useful& useful) {
     wanted_.clear();
-    awaited_.clear();
+    lacked_.clear();
     if (!builder_) return;
     builder_->keepOnly(useful);
     if (upload_ && !useful(upload_->task())) upload_.reset();
@@ -94,13 +98,14 @@ class BuiltResidency : public Residency<Buffers> {
   /// to come. Fails if it could not be.
   Status want(const Task& task, bool lacked = true) {
     const auto same = [&](const Task& other) { return task.sameAs(other); };
-    if (lacked) awaited_.push_back(task);
+    if (lacked) lacked_.push_back(task);
     for (const auto& [failed, error] : failed_)
       if (same(failed)) return tl::unexpected(error);
     if (std::ranges::none_of(wanted_, same) && !(upload_ && same(upload_->task()))) wanted_.push_back(task);
     return {};
   }
   void beginWanted() {
+    awaited_ = std::exchange(lacked_, {});
     if (builder_) builder_->want(std::exchange(wanted_, {}));
   }
   /// Packs and sends it here and now.
@@ -125,8 +130,9 @@ class BuiltResidency : public Residency<Buffers> {
     return std::ranges::any_of(awaited_, [&](const Task& other) { return task.sameAs(other); });
   }
   /// The next to be sent; keeps what failed.
-  bool takeBuilt(bool& news) {
-    while (std::optional<typename Builder::Built> built = builder_->takeBuilt()) {
+  bool takeBuilt(Which which, bool& news) {
+    const auto wanted = [&](const Task& task) { return which == Which::all || isAwaited(task); };
+    while (std::optional<typename Builder::Built> built = builder_->takeBuilt(wanted)) {
       if (built->packed) {
         upload_.emplace(std::move(built->task), std::move(*built->packed));
         return true;
@@ -142,7 +148,8 @@ class BuiltResidency : public Residency<Buffers> {
   std::unique_ptr<Builder> builder_;
   std::optional<Upload> upload_;
   std::vector<std::pair<Task, Error>> failed_;
-  std::vector<Task> awaited_;
+  std::vector<Task> lacked_;   ///< by this frame
+  std::vector<Task> awaited_;  ///< lacked by the last
   Sent sent_;
 };
 

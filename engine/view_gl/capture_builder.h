@@ -78,17 +78,19 @@ class CaptureBuilder {
     }
     changed_.notify_one();
   }
-  /// The first that is built, once.
-  std::optional<Built> takeBuilt() {
-    std::optional<Built> first;
+  /// The first that is built and that `wanted` says yes to, once.
+  template <class Wanted>
+  std::optional<Built> takeBuilt(const Wanted& wanted) {
+    std::optional<Built> taken;
     {
       const std::lock_guard lock(mutex_);
-      if (built_.empty()) return first;
-      first = std::move(built_.front());
-      built_.pop_front();
+      const auto found = std::ranges::find_if(built_, wanted, &Built::task);
+      if (found == built_.end()) return taken;
+      taken = std::move(*found);
+      built_.erase(found);
     }
     changed_.notify_one();
-    return first;
+    return taken;
   }
   bool anyBuilt() const {
     const std::lock_guard lock(mutex_);

@@ -85,10 +85,7 @@ struct GlRenderer::Impl {
 
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
   Status drawReady(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
-  Result<bool> receive();
-  SendLimit sendLimit() const {
-    return {bytesPerFrame, std::max(secondsPerFrame, 0.25 * stats.totalSeconds)};
-  }
+  SendLimit sendLimit() const { return {bytesPerFrame, std::max(secondsPerFrame, 0.1 * stats.totalSeconds)}; }
   Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                  const ViewSettings& settings);
   /// Null: none is to be drawn.
@@ -148,15 +145,6 @@ Status GlRenderer::Impl::drawReady(const WalkScene& scene, const PerspectiveView
   if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return drawn;
   glQueryCounter(done.name(), GL_TIMESTAMP);
   return {};
-}
-
-Result<bool> GlRenderer::Impl::receive() {
-  SendLimit limit = sendLimit();
-  const Result<bool> points = captures.receive(limit);
-  if (!points) return points;
-  const Result<bool> built = meshes.receive(limit);
-  if (!built) return built;
-  return *points || *built;
 }
 
 Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
@@ -274,7 +262,8 @@ Result<FrameStats> GlRenderer::draw(const WalkScene& scene, const PerspectiveVie
 Result<bool> GlRenderer::receive() {
   const GlStateGuard guard;
   forgetGlErrors();
-  return impl_->receive();
+  SendLimit limit = impl_->sendLimit();
+  return impl_->live.receive(limit);
 }
 
 bool GlRenderer::anyToReceive() const {

@@ -28,8 +28,8 @@ struct GlRendererOptions {
   bool waitForCaptures = true;
   TaskRunner* runner = nullptr;  ///< builds the meshes waited for; outlives the renderer; null: this thread
   int backgroundThreads = 1;     ///< that build those not waited for; one more packs captures
-  std::size_t bytesPerFrame = std::size_t(16) << 20;  ///< sent at most by a frame that does not wait
-  /// It sends no longer than this, or than a quarter of what the frame before it took, a megabyte always.
+  std::size_t bytesPerFrame = std::size_t(32) << 20;  ///< sent at most by a frame that does not wait
+  /// It sends no longer than this, or than a tenth of what the frame before it took; a megabyte always.
   double secondsPerFrame = 0.004;
   std::function<void()> wake = {};  ///< called from another thread when there is something for receive()
 };

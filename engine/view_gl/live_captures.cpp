@@ -113,6 +113,16 @@ Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const View
   return {};
 }
 
+Result<bool> LiveCaptures::receive(SendLimit& limit) {
+  const Result<bool> lacked = captures_.receive(limit, Which::lacked);
+  if (!lacked) return lacked;
+  const Result<bool> meshes = meshes_.receive(limit);
+  if (!meshes) return meshes;
+  const Result<bool> ahead = captures_.receive(limit);
+  if (!ahead) return ahead;
+  return *lacked || *meshes || *ahead;
+}
+
 Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const PerspectiveView& view,
                                               const ViewSettings& settings, SendLimit limit,
                                               FrameStats& stats) {
@@ -126,8 +136,7 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
     if (!drawn && !ready(now, settings))
       if (Status sent = sendSmall(now, camera, settings, limit); !sent) return tl::unexpected(sent.error());
   }
-  if (const auto received = captures_.receive(limit); !received) return tl::unexpected(received.error());
-  if (const auto received = meshes_.receive(limit); !received) return tl::unexpected(received.error());
+  if (const auto received = receive(limit); !received) return tl::unexpected(received.error());
 
   std::vector<std::pair<int, CapturePtr>> instead;
   for (const int camera : cameras) {

@@ -26,6 +26,9 @@ class LiveCaptures {
   /// are not ready others of their cameras, or none. Valid until end(). Counts in `stats`.
   Result<const WalkScene*> choose(const WalkScene& scene, const PerspectiveView& view,
                                   const ViewSettings& settings, SendLimit limit, FrameStats& stats);
+  /// Sends what is packed and built, within the limit. True if a picture drawn now would show something that
+  /// the last could not.
+  Result<bool> receive(SendLimit& limit);
   /// After the frame.
   void end() { planned_ = {}; }
   /// What the graphics card keeps beside the captures of the walk.
