@@ -43,10 +43,10 @@ class GlRenderer {
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;
 
-  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what this view
-  /// needs and is not resident yet; drops what is gone from `scene`. The context's state is left as it was,
-  /// whatever it was. Waits until all is drawn, so that the times in the statistics are true; samplesDrawn
-  /// counts those submitted.
+  /// Draws into the renderer's own framebuffer (view.width x view.height). Sends what this view needs and is
+  /// not resident yet, or a piece of it; drops what is gone from `scene`. The context's state is left as it
+  /// was, whatever it was. Waits until all is drawn, so that the times in the statistics are true;
+  /// samplesDrawn counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
   /// Of what is packed and built in the background: sends a piece to the graphics card, as each draw does.
   /// True if a picture drawn now would show something that the last could not.

@@ -39,8 +39,9 @@ bool sameView(const ColumnCamera& a, const ColumnCamera& b) {
 
 }  // namespace
 
-/// That must be there before the camera is drawn. Of a mesh only what blends is points; the runs of its
-/// background are few enough to be sent when they are drawn.
+/// That must be there before the camera is drawn. Of a mesh only what blends is points. The runs of its
+/// background are sent when they are drawn: at most 0.2 MB where the samples of a capture are 43 to 85 MB
+/// (the sample at 20 per degree), and where these are there the runs are too.
 std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture,
                                                       const ViewSettings& settings) {
   std::vector<Part> parts;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <semaphore>
 
+#include "engine/view_gl/packed_capture.h"
 #include "engine/view_gl/packed_mesh.h"
 #include "gl_fixture.h"
 #include "tests/view/capture_fixtures.h"
@@ -113,6 +114,28 @@ TEST(CaptureBuilder, KeepsNoCaptureInMemoryThatOnlyWaits) {
   EXPECT_EQ(take(builder, 1).at(0).task.camera, 2);
 }
 
+TEST(CaptureBuilder, BeginsNothingWhileMuchIsBuiltAndNotTaken) {
+  struct Large {
+    static std::size_t bytes() { return CaptureBuilder<MeshTask, Large>::kMostBytesBuilt + 1; }
+  };
+  using LargeBuilder = CaptureBuilder<MeshTask, Large>;
+  std::counting_semaphore<> wakes{0};
+  LargeBuilder builder([](const DisplayCapture&, const MeshTask&, TaskRunner&,
+                          const std::stop_token&) { return Result<Large>(Large{}); },
+                       1, [&] { wakes.release(); });
+  const CapturePtr first = captureOf(1), second = captureOf(2);
+  builder.want({taskOf(first, 0), taskOf(second, 1)});
+  for (const int camera : {0, 1}) {
+    ASSERT_TRUE(wakes.try_acquire_for(std::chrono::seconds(60)));
+    EXPECT_FALSE(wakes.try_acquire_for(std::chrono::milliseconds(50)));
+    EXPECT_FALSE(builder.takeBuilt([](const MeshTask&) { return false; }));
+    const auto built = builder.takeBuilt(any);
+    ASSERT_TRUE(built);
+    EXPECT_EQ(built->task.camera, camera);
+  }
+  EXPECT_FALSE(builder.anyBuilt());
+}
+
 TEST(CaptureBuilder, IsDestroyedWhileItBuilds) {
   const CapturePtr large = captureOf(3, 700, 700), other = captureOf(4, 700, 700);
   for (int round = 0; round < 6; ++round) {
@@ -134,6 +157,47 @@ TEST(CaptureBuilder, TellsWhatIsWrongWithACapture) {
   ASSERT_FALSE(built.at(0).packed);
   EXPECT_EQ(built[0].packed.error().kind, ErrorKind::malformed);
   EXPECT_EQ(built[0].packed.error().where, "capture of camera 3");
+}
+
+TEST(PackedCapture, IsCutBetweenColumnsIntoBuffersOfTheUsualSize) {
+  const CapturePtr capture = captureOf(1);
+  const std::size_t columns = std::size_t(capture->camera.columns);
+  std::size_t longest = 0;
+  for (std::size_t k = 0; k < columns; ++k)
+    longest = std::max<std::size_t>(longest, capture->columnStart[k + 1] - capture->columnStart[k]);
+  const std::size_t column = longest * sizeof(GlSample);
+  const auto packed = [&](std::size_t usual, std::size_t largest) {
+    return packCapture(*capture, {capture, "capture of camera 5", CaptureParts::samples, usual, largest});
+  };
+  const auto whole = packed(std::size_t(1) << 20, std::size_t(1) << 20);
+  ASSERT_TRUE(whole);
+  ASSERT_EQ(whole->chunks.size(), 1u);
+  EXPECT_EQ(whole->bytes(), packedBytes(*capture));
+  for (const std::size_t usual : {5 * column, std::size_t(12)}) {
+    const auto cut = packed(usual, column * 6);
+    ASSERT_TRUE(cut);
+    EXPECT_GE(cut->chunks.size(), usual > column ? columns / 10 : columns / 2);
+    std::size_t samples = 0;
+    for (const PackedColumns& chunk : cut->chunks) {
+      EXPECT_TRUE(bytesOf(chunk.samples) <= usual || chunk.lastColumn == chunk.firstColumn + 1);
+      EXPECT_EQ(chunk.firstSample, samples);
+      for (const GlSample& sample : chunk.samples) {
+        const GlSample& same = whole->chunks[0].samples[samples++];
+        EXPECT_EQ(sample.rowAndColumn, same.rowAndColumn);
+        EXPECT_EQ(sample.inverseDistanceAndRoles, same.inverseDistanceAndRoles);
+      }
+    }
+    EXPECT_EQ(samples, capture->samples.size());
+  }
+  const auto tooLong = packed(column, column - 1);
+  ASSERT_FALSE(tooLong);
+  EXPECT_EQ(tooLong.error().kind, ErrorKind::tooLarge);
+  EXPECT_EQ(tooLong.error().where, "capture of camera 5");
+  std::stop_source stop;
+  stop.request_stop();
+  const auto stopped = packCapture(*capture, {capture, "stopped"}, stop.get_token());
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::cancelled);
 }
 
 TEST(PackedMesh, IsNotMadeOnceStopped) {
