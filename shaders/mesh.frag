@@ -1,7 +1,11 @@
 // The sample of a patch that a pixel shows, if the piece needs it. Defines: CLIP_TO_PART; PLACES says where in the pixel the
-// sample lies; MARK_MIRRORS says which mirror the pixel now shows, of captures with MIRRORS that of the sample, else none.
+// sample lies; MARK_MIRRORS says which mirror the pixel now shows, of captures with MIRRORS that of the sample, else none;
+// IN_CRACKS draws before what shows in cracks alone.
 #include "capture_depth.glsl"
 #include "fringe.glsl"
+#ifdef IN_CRACKS
+#include "cracks.glsl"
+#endif
 #ifdef CLIP_TO_PART
 #include "part.glsl"
 uniform mat3 worldFromPicture;  // pixel centre (x, y from the top, 1) -> a direction
@@ -62,6 +66,9 @@ void main() {
   } else {
     gl_FragDepth = max(gl_FragCoord.z, kSkyDepth);
   }
+#ifdef IN_CRACKS
+  if (liesBehindCrack(gl_FragDepth)) discard;
+#endif
 #ifdef PLACES
   vec2 fromCentre = pixelsPerSample * (inside + 0.5 - at);
   ivec2 eighths = clamp(ivec2(floor(vec2(fromCentre.x, -fromCentre.y) * 8.0 + 0.5)), -8, 7) & 15;

@@ -1,6 +1,9 @@
 // Colour and camera of a sample. Defines: MARK_MIRRORS says which mirror the pixel now shows, of captures with MIRRORS that of
 // the sample, else none; REFLECT paints only the pixels that show the sample's mirror; RECTANGLE keeps a rectangle of the
-// square and says where in the pixel the sample lies.
+// square and says where in the pixel the sample lies; IN_CRACKS paints before what shows in cracks alone.
+#ifdef IN_CRACKS
+#include "cracks.glsl"
+#endif
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint source;
@@ -25,6 +28,9 @@ layout(location = 3) out uint place;
 #endif
 
 void main() {
+#ifdef IN_CRACKS
+  if (liesBehindCrack(gl_FragCoord.z)) discard;
+#endif
 #ifdef RECTANGLE
   ivec2 from = ivec2(gl_FragCoord.x, pictureSize.y - gl_FragCoord.y) - rectangle.xy;
   if (any(greaterThanEqual(from, rectangle.zw))) discard;

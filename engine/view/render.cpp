@@ -89,8 +89,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
 
   const std::size_t strips =
       static_cast<std::size_t>(std::min(kStripsPerThread * runner.threads(), view.width));
-  const int beside =
-      settings.reconstruction == Reconstruction::filtered ? 1 : 0;  // columns that filters read
+  const int beside = pixelsReadBeside(plan, settings);
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);
   const std::vector<int> borders = stripBorders(view.width, strips, memory.strips);
   std::vector<WarpCounts> counts(strips);

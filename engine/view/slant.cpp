@@ -11,6 +11,9 @@ namespace {
 constexpr float kConnected = 3;
 /// Inverse distances that differ by more than this part belong to different surfaces, whatever the pitch.
 constexpr float kBroken = 0.25f;
+/// So do samples that a surface would join at a larger tangent (some 84 degrees): few surfaces are seen at
+/// such a slant, and edges before others are many.
+constexpr float kSteepest = 10;
 
 /// Where the two sides of a round body run together they lie farther apart by more than this a pixel further
 /// in.
@@ -56,13 +59,14 @@ std::int8_t codeOf(float tangent) {
 }
 
 std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch) {
+  const float broken = std::min(kBroken, kSteepest * pitch) * inverse;
   float flatter = fromBefore, steeper = toAfter;
   if (std::abs(flatter) > std::abs(steeper)) std::swap(flatter, steeper);
   const bool gentle = std::abs(flatter) < kConnected * inverse * pitch;
   // A surface that turns away at its edge.
-  if (!(std::abs(steeper) < kBroken * inverse) && !gentle) return 0;
+  if (!(std::abs(steeper) < broken) && !gentle) return 0;
   const float step = std::abs(steeper) < kConnected * inverse * pitch ? steeper : flatter;
-  return std::abs(step) < kBroken * inverse ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
+  return std::abs(step) < broken ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
 }
 
 /// At the rim of a round body, which rays enter and leave again near by: how much nearer its other side is,

@@ -8,6 +8,7 @@
 #include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/column_order.h"
+#include "engine/view/cracks.h"
 #include "engine/view/picture_axes.h"
 #include "engine/view/splat_painter.h"
 
@@ -74,7 +75,8 @@ class CanvasWarp {
   }
 
   WarpCounts run() {
-    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, canvas_.places ? 1 : 0);
+    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr,
+                              pixelsReadBeside(plan_, settings_));
     if (!uncovered.none()) drawAllPieces(uncovered);
     if (plan_.reflections.empty()) return counts_;
     canvas_.settleMirrors();
@@ -97,8 +99,11 @@ class CanvasWarp {
     drawPieces(firstInFront, plan_.pieces.size());
     if (firstInFront > 0) {
       openBelow_ = pieceSlot(plan_, firstInFront);
+      Cracks cracks;
+      cracks.open(canvas_, openBelow_);
       if (options_.cull) open_.emplace(uncovered, canvas_, openBelow_);
       if (!open_ || !open_->none()) drawPieces(0, firstInFront);
+      cracks.close(canvas_);
       openBelow_ = 0;
       open_.reset();
     }
@@ -276,6 +281,11 @@ class CanvasWarp {
 };
 
 }  // namespace
+
+int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings) {
+  const bool second = std::ranges::find(plan.pieces, true, &PieceDraw::secondary) != plan.pieces.end();
+  return (settings.reconstruction == Reconstruction::filtered ? 1 : 0) + (second ? Cracks::kReach : 0);
+}
 
 void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                  const ViewPlan& plan, int x0, int x1, Canvas& canvas) {

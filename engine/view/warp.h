@@ -39,6 +39,9 @@ struct WarpCounts {
   }
 };
 
+/// So many pixels on either side of a pixel have a say in it.
+int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings);
+
 /// Makes it an empty canvas of columns [x0, x1) of the picture, with what the plan and the settings need:
 /// stamps if some piece holds blended samples, mirrors if there are reflections, places if it is to be
 /// filtered.
@@ -59,11 +62,12 @@ inline std::uint32_t reflectionSlot(const ViewPlan& plan, std::size_t i) {
   return pieceSlot(plan, plan.pieces.size() + i);
 }
 
-/// Paints the pieces of the first cover; those of the second where nothing of the first lies; then what
-/// mirrors show over those pixels that the same mirror came to cover: they keep the mirror's depth. Where a
-/// mirror of local geometry covers a pixel it shows that alone, or is a hole. At most kMaxSlots slots.
-/// Columns [x0, x1) of the canvas are those that are counted. Pixels do not depend on how the picture is cut
-/// into canvases: a capture's columns fall on nearly vertical lines, so few samples fall on two.
+/// Paints the pieces of the first cover; those of the second where nothing of the first lies, and before it
+/// in its cracks (cracks.h); then what mirrors show over those pixels that the same mirror came to cover:
+/// they keep the mirror's depth. Where a mirror of local geometry covers a pixel it shows that alone, or is a
+/// hole. At most kMaxSlots slots. Columns [x0, x1) of the canvas are those that are counted, and are right if
+/// it holds pixelsReadBeside more on either side. Pixels do not depend on how the picture is cut into
+/// canvases: a capture's columns fall on nearly vertical lines, so few samples fall on two.
 WarpCounts warpPieces(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                       const ViewPlan& plan, const WarpOptions& options, int x0, int x1, Canvas& canvas);
 

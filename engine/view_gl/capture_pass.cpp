@@ -5,7 +5,7 @@
 namespace acentric {
 
 CapturePass::CapturePass(ProgramCache& programs, CaptureResidency& captures, MeshResidency& meshes)
-    : residency_(meshes), points_(programs, captures), meshes_(programs) {}
+    : residency_(meshes), points_(programs, captures), meshes_(programs), cracks_(programs) {}
 
 Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                          const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
@@ -34,17 +34,24 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
     add(depthTest ? Samples::opaque : Samples::all);
     if (depthTest) add(Samples::clear);  // in front of the nearest of what is opaque, as in view/warp.cpp
   }
+  const bool both = std::ranges::any_of(plan.pieces, &PieceDraw::secondary);
+  GLuint leastDepths = 0;  // once the first cover is drawn
   for (const auto& [planned, samples] : steps) {
+    if (planned.secondary && leastDepths == 0) {
+      if (Status opened = cracks_.draw(target); !opened) return opened;
+      leastDepths = cracks_.leastDepths();
+    }
     const std::shared_ptr<const DisplayCapture> capture = sharedOf(planned);
     if (!capture || capture->samples.empty() || planned.runs.empty()) continue;
-    // Back to front by submission; depth is kept for what comes after: clear samples and the filling of
-    // holes.
-    target.beginPainting(depthTest                        ? FrameTarget::Depth::test
-                         : anyClear || settings.fillHoles ? FrameTarget::Depth::keep
-                                                          : FrameTarget::Depth::ignore,
+    // Back to front by submission; depth is kept for what comes after: cracks, clear samples and the filling
+    // of holes.
+    target.beginPainting(depthTest                                ? FrameTarget::Depth::test
+                         : anyClear || both || settings.fillHoles ? FrameTarget::Depth::keep
+                                                                  : FrameTarget::Depth::ignore,
                          planned.secondary ? FrameTarget::Cover::behind : FrameTarget::Cover::inFront);
     target.bindForPieces();
-    const CapturePiece piece{planned, capture, view, settings, anyMirror ? Mirrors::mark : Mirrors::none};
+    const CapturePiece piece{planned,    capture, view, settings, anyMirror ? Mirrors::mark : Mirrors::none,
+                             leastDepths};
     cameras.all.insert(planned.camera);
     const bool asMesh = settings.renderer == Renderer::glMesh && samples == Samples::opaque;
     const Status drawn = asMesh ? drawAsMesh(piece, *scene.layout, target, cameras, stats)

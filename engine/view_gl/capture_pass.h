@@ -1,11 +1,12 @@
 #pragma once
 /// Draws what a view plan takes from captures: the pieces of the first cover, those of the second where
-/// nothing of the first lies; then what mirrors show. As points in order, as points with a depth test, or
-/// opaque samples as meshes with one; samples that blend, and what mirrors show, are points always, and so
-/// are captures whose meshes are not ready.
+/// nothing of the first lies, and in its cracks; then what mirrors show. As points in order, as points with a
+/// depth test, or opaque samples as meshes with one; samples that blend, and what mirrors show, are points
+/// always, and so are captures whose meshes are not ready.
 
 #include <set>
 
+#include "engine/view_gl/crack_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/mesh_pass.h"
 #include "engine/view_gl/mesh_residency.h"
@@ -36,6 +37,7 @@ class CapturePass {
   MeshResidency& residency_;
   PointPass points_;
   MeshPass meshes_;
+  CrackPass cracks_;
 };
 
 }  // namespace acentric

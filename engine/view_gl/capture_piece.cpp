@@ -25,6 +25,13 @@ void setUniform(GlProgram& program, const char* name, const glm::vec3& value) {
   glUniform3f(program.location(name), value.x, value.y, value.z);
 }
 
+void setCracks(GlProgram& program, GLuint leastDepths) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, leastDepths);
+  glBindSampler(0, 0);
+  glUniform1i(program.location("leastDepths"), 0);
+}
+
 void setPart(GlProgram& program, const PieceDraw& piece) {
   const AzimuthRange& part = piece.part.azimuths;
   setUniform(program, "partLow", glm::vec2(directionOf(part.low)));

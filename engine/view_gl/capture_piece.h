@@ -24,6 +24,7 @@ struct CapturePiece {
   const PerspectiveView& view;
   const ViewSettings& settings;
   Mirrors mirrors = Mirrors::none;
+  GLuint leastDepths = 0;  ///< of the second cover: CrackPass::leastDepths
 
   std::string name() const { return captureName(plan.camera, mirrors); }
 };
@@ -33,6 +34,8 @@ glm::dmat3 pictureMatrix(const PerspectiveView& view);
 
 void setUniform(GlProgram& program, const char* name, const glm::vec2& value);
 void setUniform(GlProgram& program, const char* name, const glm::vec3& value);
+/// That of shaders/cracks.glsl, at unit 0; for a program with IN_CRACKS that is in use.
+void setCracks(GlProgram& program, GLuint leastDepths);
 /// Those of shaders/part.glsl.
 void setPart(GlProgram& program, const PieceDraw& piece);
 

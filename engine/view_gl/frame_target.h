@@ -24,7 +24,8 @@ class FrameTarget {
   void bindForDrawing() const;
   /// Binds for drawing that covers what is there: colours go in as the codes they are, the stencil marks what
   /// is drawn. Then back to the state before. `behind`: nothing is drawn where the first cover shows
-  /// something. `ignore` and `keep`: whatever lies nearer, `test`: only what is nearest.
+  /// something, but in its cracks (CrackPass). `ignore` and `keep`: whatever lies nearer, `test`: only what
+  /// is nearest.
   enum class Cover { inFront, behind, background };
   enum class Depth { ignore, keep, test };
   void beginPainting(Depth depth, Cover cover) const;

@@ -38,6 +38,7 @@ MeshPass::MeshPass(ProgramCache& programs)
 Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffers& mesh) {
   Defines defines;
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
+  if (piece.leastDepths != 0) defines.push_back("IN_CRACKS");
   if (piece.settings.reconstruction == Reconstruction::filtered) defines.push_back("PLACES");
   if (piece.mirrors == Mirrors::mark) {
     if (!piece.capture->mirror.empty()) defines.push_back("MIRRORS");
@@ -61,6 +62,7 @@ Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffer
   glUniform1ui(program.location("roles"), piece.plan.roles);
   glUniform1ui(program.location("sourceOfPiece"), GLuint(sourceOfCamera(piece.plan.camera)));
   glUniform1f(program.location("fringeDepth"), float(kFringeDepth * mesh.bound.inverseDistance));
+  if (piece.leastDepths != 0) setCracks(program, piece.leastDepths);
   if (piece.plan.clipToPart) {
     setPart(program, piece.plan);
     const glm::mat3 worldFromPicture(glm::inverse(pictureFromWorld));

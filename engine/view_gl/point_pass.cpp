@@ -115,6 +115,7 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
   if (piece.rectangles()) defines.push_back("RECTANGLE");
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
   if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
+  if (piece.leastDepths != 0) defines.push_back("IN_CRACKS");
   if (samples == Samples::opaque && piece.depthTest())
     defines.push_back("UNORDERED");
   else if (piece.capture->layered)
@@ -151,6 +152,7 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
         glm::vec2(half * piece.capture->camera.columnPitch(), half * piece.capture->camera.rowPitch()));
     glUniform1f(program.location("perSpread"), float(8 * half));
   }
+  if (piece.leastDepths != 0) setCracks(program, piece.leastDepths);
   if (piece.plan.clipToPart) {
     setPart(program, piece.plan);
     setUniform(program, "baselineInPlan", glm::vec2(piece.plan.baseline));

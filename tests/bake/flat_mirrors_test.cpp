@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "layout_builder.h"
 #include "mirror_materials.h"
 #include "scene_builder.h"
 
@@ -13,6 +14,7 @@ namespace {
 using test::glowing;
 using test::SceneBuilder;
 using test::silver;
+using test::square;
 
 /// Number of the mirror that a ray meets.
 std::uint8_t seenBy(const RayScene& scene, const FlatMirrors& mirrors, glm::vec3 from, glm::vec3 to) {

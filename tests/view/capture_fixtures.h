@@ -34,8 +34,15 @@ struct RandomViews {
   }
 };
 
-inline ViewSettings plainSettings(Renderer renderer = Renderer::list) {
+/// Of which a pixel has the colour of one sample.
+inline ViewSettings splatSettings() {
   ViewSettings settings;
+  settings.reconstruction = Reconstruction::splat;
+  return settings;
+}
+
+inline ViewSettings plainSettings(Renderer renderer = Renderer::list) {
+  ViewSettings settings = splatSettings();
   settings.renderer = renderer;
   settings.secondaryCover = false;
   settings.fillHoles = false;
@@ -68,13 +75,21 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
   clearCanvas(scene, view, settings, plan, 0, view.width, canvas);
   for (int strip = 0; strip < strips; ++strip) {
     const int x0 = strip * view.width / strips, x1 = (strip + 1) * view.width / strips;
-    clearCanvas(scene, view, settings, plan, x0, x1, part);
+    const int beside = pixelsReadBeside(plan, settings);
+    clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
+                part);
     background.paint(view, part);
     warpPieces(scene, view, settings, plan, options, x0, x1, part);
-    std::ranges::copy(part.pixels, canvas.column(x0));
-    std::ranges::copy(part.stamps, canvas.stamps.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
-    std::ranges::copy(part.blended, canvas.blended.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
-    std::ranges::copy(part.mirrors, canvas.mirrors.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
+    const auto copy = [&](const auto& from, auto& to) {
+      if (!from.empty())
+        std::copy(from.begin() + std::ptrdiff_t(part.indexOf(x0)),
+                  from.begin() + std::ptrdiff_t(part.indexOf(x1)),
+                  to.begin() + std::ptrdiff_t(canvas.indexOf(x0)));
+    };
+    copy(part.pixels, canvas.pixels);
+    copy(part.stamps, canvas.stamps);
+    copy(part.blended, canvas.blended);
+    copy(part.mirrors, canvas.mirrors);
   }
   return canvas;
 }

@@ -36,12 +36,13 @@ TEST(Mirrors, KeepTheirDepthAndNothingElseOfThePictureChanges) {
   const WalkScene moving = test::walkScene(scene, walk.layout, walk.region, 4),
                   still = test::walkScene(scene, walk.layout, walk.region, 4, false);
   const PerspectiveView view = walk.view({0.3, -0.5, 0});
-  const auto plan = planView(moving, view, {}), plainPlan = planView(still, view, {});
+  const ViewSettings settings = test::splatSettings();
+  const auto plan = planView(moving, view, settings), plainPlan = planView(still, view, settings);
   ASSERT_TRUE(plan && plainPlan);
   EXPECT_FALSE(plan->reflections.empty());
   EXPECT_TRUE(plainPlan->reflections.empty());
-  const Canvas with = test::paint(moving, view, {}, *plan),
-               without = test::paint(still, view, {}, *plainPlan);
+  const Canvas with = test::paint(moving, view, settings, *plan),
+               without = test::paint(still, view, settings, *plainPlan);
   EXPECT_TRUE(without.mirrors.empty());
   std::size_t mirrored = 0, changed = 0;
   for (std::size_t i = 0; i < with.pixels.size(); ++i) {

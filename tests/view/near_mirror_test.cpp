@@ -55,7 +55,8 @@ TEST_F(NearMirrors, ShowWhatTheEyeSeesInThem) {
 TEST_F(NearMirrors, StayLocalGeometryAndNothingElseOfThePictureChanges) {
   const WalkScene scene = walk(), still = poster(scene);
   const PerspectiveView from = view({0.3, -0.5, 0});
-  const Frame with = frameOf(scene, from, {}), without = frameOf(still, from, {});
+  const ViewSettings settings = test::splatSettings();
+  const Frame with = frameOf(scene, from, settings), without = frameOf(still, from, settings);
   EXPECT_EQ(with.source.pixels, without.source.pixels);
   std::size_t changed = 0;
   for (int y = 0; y < from.height; ++y)
