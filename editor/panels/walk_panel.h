@@ -46,8 +46,8 @@ class WalkPanel {
   void takePicture(PanelContext& context);
   void openGl();
   void drawWithGl(PanelContext& context);
-  /// Meshes built in the background; true if there is one that the picture lacks.
-  bool receiveMeshes(PanelContext& context);
+  /// Captures and meshes readied in the background; true if there is one that the picture lacks.
+  bool receive(PanelContext& context);
   /// The frame as `shown_.look` says.
   void show(const Frame& frame);
   const SourceColours& coloursOf(const std::shared_ptr<const Layout>& layout);

@@ -45,7 +45,7 @@ void WalkPanel::requestFrame(PanelContext& context) {
   Session& session = context.session();
   if (!session.walk() || area_.x < 16 || area_.y < 16) return;
   if (onOpenGl(session.project().view.renderer)) return drawWithGl(context);
-  if (gl_) gl_->stopBuildingMeshes();
+  if (gl_) gl_->stopBuilding();
   const PerspectiveView full = viewAt(context, 1);
   if (requested_ || !stale(context, full)) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
@@ -132,16 +132,16 @@ void WalkPanel::takePicture(PanelContext& context) {
 void WalkPanel::openGl() {
   if (gl_ || !glProblem_.empty()) return;
   auto created = GlRenderer::create(
-      {.waitForMeshes = false, .backgroundThreads = std::max(1, threads_ / 2), .wake = wake_});
+      {.waitForCaptures = false, .backgroundThreads = std::max(1, threads_ / 2), .wake = wake_});
   if (created)
     gl_ = std::move(*created);
   else
     glProblem_ = created.error().describe();
 }
 
-bool WalkPanel::receiveMeshes(PanelContext& context) {
-  const Result<bool> ready = gl_->receiveMeshes();
-  if (gl_->meshesToReceive()) context.window.pacer().request(1);
+bool WalkPanel::receive(PanelContext& context) {
+  const Result<bool> ready = gl_->receive();
+  if (gl_->anyToReceive()) context.window.pacer().request(1);
   if (!ready) problem_ = ready.error().describe();
   return ready && *ready;
 }
@@ -156,8 +156,8 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   const PerspectiveView full = viewAt(context, 1);
   const WalkLook look = context.state().walkLook;
   const bool plain = look == WalkLook::picture;
-  const bool newMesh = receiveMeshes(context);
-  if (!newMesh && !stale(context, full) && shown_.look == look && showingGl_ == plain) return;
+  const bool news = receive(context);
+  if (!news && !stale(context, full) && shown_.look == look && showingGl_ == plain) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
   const PerspectiveView view = viewAt(context, scale);
@@ -168,9 +168,11 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   problem_ = stats ? "" : stats.error().describe();
   if (!stats) return;
   if (context.log.on())
-    context.log.event("glframe", fmt::format("{}x{} images {} meshes {} awaited {} points {}", view.width,
-                                             view.height, stats->images, stats->meshes.size(),
-                                             stats->meshesAwaited, stats->pointsForMeshes));
+    context.log.event(
+        "glframe",
+        fmt::format("{}x{} images {} meshes {} awaited {} points {} captures {} missing {}", view.width,
+                    view.height, stats->images, stats->meshes.size(), stats->meshesAwaited,
+                    stats->pointsForMeshes, stats->capturesAwaited, stats->missingImages));
   showingGl_ = true;
   if (plain) return;
   lastFrame_ = gl_->readBack();
@@ -233,7 +235,8 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   };
   line(text);
   if (shown_.valid)
-    for (const std::string& words : {meshSumText(shown_.stats), meshesAwaitedText(shown_.stats)})
+    for (const std::string& words :
+         {meshSumText(shown_.stats), meshesAwaitedText(shown_.stats), capturesAwaitedText(shown_.stats)})
       if (!words.empty()) line(words);
   if (session.walk() && !session.walk()->walk.surfaceLight) line("near geometry unlit until a bake ends");
   if (session.streaming()) line("captures are being read");

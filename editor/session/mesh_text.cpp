@@ -28,4 +28,11 @@ std::string meshesAwaitedText(const FrameStats& stats) {
   return text;
 }
 
+std::string capturesAwaitedText(const FrameStats& stats) {
+  if (stats.capturesAwaited == 0) return {};
+  const int missing = stats.capturesAwaited - stats.standIns;
+  return fmt::format("{} captures on their way to the graphics card", stats.capturesAwaited) +
+         (missing > 0 ? fmt::format(", {} with nothing in their place", missing) : "");
+}
+
 }  // namespace acentric::editor

@@ -1,5 +1,5 @@
 #pragma once
-/// What meshes of captures take (view/frame.h), in words for the walk's figures.
+/// What captures and their meshes take on the graphics card (view/frame.h), in words for the walk's figures.
 
 #include <string>
 
@@ -13,5 +13,7 @@ std::string meshText(const MeshCost& cost);
 std::string meshSumText(const FrameStats& stats);
 /// What is still being built for them; empty if nothing is.
 std::string meshesAwaitedText(const FrameStats& stats);
+/// Which captures are on their way to the graphics card; empty if none is.
+std::string capturesAwaitedText(const FrameStats& stats);
 
 }  // namespace acentric::editor

@@ -59,12 +59,12 @@ class TimedPath {
 /// Draws with a renderer of either kind; no picture is read back.
 class StreamRenderer {
  public:
-  static Result<StreamRenderer> open(const ViewSettings& settings, bool waitForMeshes, TaskRunner& runner) {
+  static Result<StreamRenderer> open(const ViewSettings& settings, bool waitForCaptures, TaskRunner& runner) {
     StreamRenderer made(settings, runner);
     if (!onOpenGl(settings.renderer)) return made;
     auto context = HeadlessContext::create();
     if (!context) return tl::unexpected(context.error());
-    auto gl = GlRenderer::create({.waitForMeshes = waitForMeshes, .runner = &runner});
+    auto gl = GlRenderer::create({.waitForCaptures = waitForCaptures, .runner = &runner});
     if (!gl) return tl::unexpected(gl.error());
     made.context_ = std::move(*context), made.gl_ = std::move(*gl);
     return made;
@@ -89,12 +89,22 @@ class StreamRenderer {
 
 /// What the frames of a walk were like.
 struct WalkTally {
-  std::vector<double> frameMs, takeMs;
-  int incomplete = 0;  ///< frames with a camera of which nothing was there
-  int coarse = 0;      ///< frames with a coarse stand-in
-  int asPoints = 0;    ///< frames with points in place of a mesh
+  std::vector<double> frameMs, takeMs, sendMs;
+  int incomplete = 0;          ///< frames with a camera of which nothing was there
+  int coarse = 0;              ///< frames with a coarse stand-in
+  int asPoints = 0;            ///< frames with points in place of a mesh
+  int awaiting = 0;            ///< frames with captures in memory that were not on the graphics card
+  int unsent = 0;              ///< of these: with nothing in their place
+  std::uint64_t mostSent = 0;  ///< bytes, by a frame
   double firstFullSeconds = -1;
 
+  void count(const FrameStats& stats) {
+    sendMs.push_back(stats.sendSeconds * 1e3);
+    asPoints += stats.pointsForMeshes > 0;
+    awaiting += stats.capturesAwaited > 0;
+    unsent += stats.capturesAwaited > stats.standIns;
+    mostSent = std::max(mostSent, stats.bytesSent);
+  }
   void count(const LoadedWalk& walk, const ViewCameras& needed, double seconds) {
     bool missing = false, standIn = false;
     for (const int camera : needed.cameras) {
@@ -126,7 +136,7 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
   settings.renderer = *renderer;
   if (Status applied = apply(options.look, settings); !applied) return tl::unexpected(applied.error());
   const auto runner = common.runner();
-  auto drawing = StreamRenderer::open(settings, options.waitForMeshes, *runner);
+  auto drawing = StreamRenderer::open(settings, options.waitForCaptures, *runner);
   if (!drawing) return tl::unexpected(drawing.error());
   const std::uint64_t residentBefore = peakResidentBytes();
 
@@ -161,13 +171,14 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
     if (!drawn) return tl::unexpected(drawn.error());
     tally.frameMs.push_back(frameTime.seconds() * 1e3);
     tally.count(*snapshot, camerasOf(*open.layout, view, settings), now);
-    tally.asPoints += drawn->pointsForMeshes > 0 ? 1 : 0;
+    tally.count(*drawn);
     meshes.add(*drawn);
     const double rest = kFrameSeconds - frameTime.seconds();
     if (rest > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest));
   }
 
-  const Spread frames = spreadOf(tally.frameMs), takes = spreadOf(tally.takeMs);
+  const Spread frames = spreadOf(tally.frameMs), takes = spreadOf(tally.takeMs),
+               sending = spreadOf(tally.sendMs);
   const WalkStreamStats stats = stream.stats();
   const auto count = tally.frameMs.size();
   Report report;
@@ -210,6 +221,16 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
       frames.median, frames.p99, frames.max, takes.max, bytesText(stats.peakBytes),
       bytesText(stats.limitBytes), stats.loads, stats.coarseLoads, stats.evictions,
       bytesText(peakResidentBytes()), bytesText(residentBefore));
+  if (onOpenGl(settings.renderer)) {
+    report.json["gl"] = {{"awaitingFrames", tally.awaiting}, {"unsentFrames", tally.unsent},
+                         {"sendMsMedian", sending.median},   {"sendMsP99", sending.p99},
+                         {"sendMsMax", sending.max},         {"mostBytesSent", tally.mostSent}};
+    report.text += fmt::format(
+        "  to the graphics card {:.2f} ms p99, {:.2f} ms max, {} at most in a frame; {} frames with captures "
+        "on "
+        "their way there, {} with nothing in their place\n",
+        sending.p99, sending.max, bytesText(tally.mostSent), tally.awaiting, tally.unsent);
+  }
   if (settings.renderer == Renderer::glMesh) {
     report.json["mesh"] = meshes.json();
     report.text +=

@@ -173,7 +173,7 @@ struct BenchOptions {
   int frames = 30, repeats = 3;
   bool stream = false;  ///< walk in real time, while captures come and go
   double metresPerSecond = 1.4;
-  bool waitForMeshes = false;  ///< of a stream
+  bool waitForCaptures = false;  ///< of a stream
 };
 /// As it is being walked: frames with captures missing or coarse, the longest frame, memory, loads.
 Result<Report> runBenchStream(const BenchOptions& options, const Common& common);

@@ -193,8 +193,10 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
   c->add_option("--speed", o.metresPerSecond, "Of --stream, metres per second")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  c->add_flag("--wait-for-meshes", o.waitForMeshes,
-              "Of --stream with gl-mesh: frames wait for the meshes they lack instead of drawing points");
+  c->add_flag(
+      "--wait-for-captures", o.waitForCaptures,
+      "Of --stream with OpenGL: frames wait until the captures and meshes they lack are on the graphics "
+      "card");
 }
 
 void addBenchGrowth(CLI::App& bench, Chosen& chosen) {

@@ -38,14 +38,18 @@ struct MeshCost {
 
 struct FrameStats {
   int images = 0;         ///< captures drawn
-  int missingImages = 0;  ///< captures that the view needs and that are not loaded
+  int missingImages = 0;  ///< captures that the view needs and that are not there to be drawn
   std::uint64_t samplesRead = 0;
-  std::uint64_t samplesDrawn = 0;   ///< that fell on the picture
+  std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
+  int capturesAwaited = 0;         ///< captures that are loaded and not on the graphics card yet
+  int standIns = 0;             ///< of these: drawn as what their camera had before; the others are missing
+  std::uint64_t bytesSent = 0;  ///< of captures and meshes, to the graphics card since the frame before
   std::uint64_t meshTriangles = 0;  ///< submitted: those of columns in sight and of roles that are needed
   std::vector<MeshCost> meshes;     ///< of the captures drawn, by camera
   int meshesAwaited = 0;            ///< captures drawn whose mesh for these settings is not ready yet
   int pointsForMeshes = 0;          ///< of these: drawn as points; the others as the mesh that they had
   std::uint64_t localTriangles = 0;
+  double sendSeconds = 0;  ///< for that, and for packing what the frame packed itself
   double planSeconds = 0;  ///< choosing pieces and columns
   double warpSeconds = 0;  ///< the background, from captures to pixels
   double localSeconds = 0;

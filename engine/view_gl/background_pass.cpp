@@ -1,11 +1,10 @@
 #include "engine/view_gl/background_pass.h"
 
-#include <fmt/format.h>
-
 #include <glm/gtc/type_ptr.hpp>
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/frame.h"
+#include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/whole_picture.h"
 
@@ -60,9 +59,8 @@ Status BackgroundPass::draw(const WalkScene& scene, const ViewPlan& plan, const 
 Status BackgroundPass::drawCaptured(const WalkScene& scene, const PieceDraw& piece,
                                     const PerspectiveView& view) {
   const std::shared_ptr<const DisplayCapture>& capture = scene.captures[std::size_t(piece.camera)];
-  const std::string name = fmt::format("capture of camera {}", piece.camera);
   const Result<const CaptureBuffers*> buffers =
-      captures_.get(capture, name.c_str(), CaptureParts::background);
+      captures_.get(capture, captureName(piece.camera, Mirrors::none), CaptureParts::background);
   if (!buffers) return tl::unexpected(buffers.error());
   const ColumnCamera& camera = capture->camera;
   const CaptureBackground& background = capture->background.runs;

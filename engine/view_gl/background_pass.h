@@ -4,7 +4,7 @@
 
 #include "engine/view/background.h"
 #include "engine/view/view_plan.h"
-#include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/capture_residency.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
 

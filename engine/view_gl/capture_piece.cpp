@@ -6,8 +6,8 @@
 
 namespace acentric {
 
-std::string CapturePiece::name() const {
-  return fmt::format("{} of camera {}", mirrors == Mirrors::reflect ? "reflections" : "capture", plan.camera);
+std::string captureName(int camera, Mirrors mirrors) {
+  return fmt::format("{} of camera {}", mirrors == Mirrors::reflect ? "reflections" : "capture", camera);
 }
 
 glm::dmat3 pictureMatrix(const PerspectiveView& view) {

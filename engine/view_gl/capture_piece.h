@@ -15,6 +15,9 @@ enum class Samples { opaque, clear, all };
 /// Pieces mark the pixels that show a mirror; what mirrors show is drawn onto those.
 enum class Mirrors { none, mark, reflect };
 
+/// For messages: of a camera's capture, or of what its mirrors show.
+std::string captureName(int camera, Mirrors mirrors);
+
 struct CapturePiece {
   const PieceDraw& plan;
   std::shared_ptr<const DisplayCapture> capture;  ///< or what its mirrors show
@@ -23,8 +26,7 @@ struct CapturePiece {
   Mirrors mirrors = Mirrors::none;
   GLuint leastDepths = 0;  ///< of the second cover: CrackPass::leastDepths
 
-  /// For messages.
-  std::string name() const;
+  std::string name() const { return captureName(plan.camera, mirrors); }
 };
 
 /// K M: world directions to (u z, v z, z).

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <new>
@@ -10,7 +11,6 @@
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
 #include "engine/view_gl/background_pass.h"
-#include "engine/view_gl/capture_buffers.h"
 #include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/fill_pass.h"
 #include "engine/view_gl/filter_pass.h"
@@ -18,6 +18,7 @@
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_program.h"
 #include "engine/view_gl/gl_state.h"
+#include "engine/view_gl/live_captures.h"
 #include "engine/view_gl/local_pass.h"
 
 namespace acentric {
@@ -54,16 +55,22 @@ double secondsBetween(const GlQuery& first, const GlQuery& second) {
 }  // namespace
 
 struct GlRenderer::Impl {
-  explicit Impl(GlRendererOptions options)
-      : meshes(options.runner != nullptr ? *options.runner : own,
-               options.waitForMeshes
-                   ? nullptr
-                   : std::make_unique<MeshBuilder>(options.backgroundThreads, std::move(options.wake))) {}
+  explicit Impl(const GlRendererOptions& options)
+      : waits(options.waitForCaptures),
+        bytesPerFrame(options.bytesPerFrame),
+        secondsPerFrame(options.secondsPerFrame),
+        captures(own, waits ? nullptr : CaptureResidency::makeBuilder(options.wake)),
+        meshes(options.runner != nullptr ? *options.runner : own,
+               waits ? nullptr : MeshResidency::makeBuilder(options.backgroundThreads, options.wake)) {}
 
+  const bool waits;
+  const std::size_t bytesPerFrame;
+  const double secondsPerFrame;
   TaskRunner own;  // this thread alone
   ProgramCache programs;
   CaptureResidency captures;
   MeshResidency meshes;
+  LiveCaptures live{captures, meshes, kCaptureBudgetBytes};
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
@@ -77,6 +84,8 @@ struct GlRenderer::Impl {
   double cardSeconds = 0;
 
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  Status drawReady(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+  SendLimit sendLimit() const { return {bytesPerFrame, std::max(secondsPerFrame, 0.1 * stats.totalSeconds)}; }
   Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                  const ViewSettings& settings);
   /// Null: none is to be drawn.
@@ -91,27 +100,51 @@ struct GlRenderer::Impl {
 Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const PerspectiveView& view,
                                           const ViewSettings& settings) {
   const Clock::time_point start = Clock::now();
-  const Result<ViewPlan> plan = planView(scene, view, settings);
-  if (!plan) return tl::unexpected(plan.error());
-
   const GlStateGuard guard;
   forgetGlErrors();
+  const SendLimit limit = sendLimit();
   stats = {};
-  stats.missingImages = plan->missingImages;
-  captures.dropGone(scene);
+  CaptureSet inScene;
+  addTo(inScene, scene.captures);
+  captures.begin(inScene);
+  meshes.begin(inScene, settings);
+  const WalkScene* ready = &scene;
+  if (!waits) {
+    const Result<const WalkScene*> chosen = live.choose(scene, view, settings, limit, stats);
+    if (!chosen) return tl::unexpected(chosen.error());
+    ready = *chosen;
+  }
+  CaptureSet kept = inScene;
+  live.addKept(kept);
+  captures.dropGone(kept);
+  meshes.dropGone(kept);
   locals.dropGone(scene);
   textures.dropGone();
-  if (Status sized = target.resize(view.width, view.height); !sized) return tl::unexpected(sized.error());
-  if (Status received = meshes.begin(scene, settings); !received) return tl::unexpected(received.error());
-  glQueryCounter(begun.name(), GL_TIMESTAMP);
-  if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return tl::unexpected(drawn.error());
-  glQueryCounter(done.name(), GL_TIMESTAMP);
-  meshes.end();
+  const Status drawn = drawReady(*ready, view, settings);
+  live.end();
+  captures.end();
+  meshes.end(inScene);
+  if (!drawn) return tl::unexpected(drawn.error());
   captures.trim(kCaptureBudgetBytes);
   meshes.trim(kCaptureBudgetBytes);
+  const Sent points = captures.takeSent(), built = meshes.takeSent();
+  stats.bytesSent = points.bytes + built.bytes;
+  stats.sendSeconds = points.seconds + built.seconds;
   stats.totalSeconds = secondsOfDrawing(start);
   cardSeconds = secondsBetween(begun, done);
   return stats;
+}
+
+Status GlRenderer::Impl::drawReady(const WalkScene& scene, const PerspectiveView& view,
+                                   const ViewSettings& settings) {
+  const Result<ViewPlan> plan = planView(scene, view, settings);
+  if (!plan) return tl::unexpected(plan.error());
+  stats.missingImages = plan->missingImages;
+  if (Status sized = target.resize(view.width, view.height); !sized) return sized;
+  glQueryCounter(begun.name(), GL_TIMESTAMP);
+  if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return drawn;
+  glQueryCounter(done.name(), GL_TIMESTAMP);
+  return {};
 }
 
 Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
@@ -184,7 +217,7 @@ Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewP
 GlRenderer::GlRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GlRenderer::~GlRenderer() = default;
 
-Result<std::unique_ptr<GlRenderer>> GlRenderer::create(GlRendererOptions options) {
+Result<std::unique_ptr<GlRenderer>> GlRenderer::create(const GlRendererOptions& options) {
   const int version = epoxy_gl_version();
   if (version < 43 || !epoxy_is_desktop_gl())
     return fail(
@@ -208,7 +241,7 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(GlRendererOptions options
         "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
-  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(std::move(options))));
+  std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(options)));
   // The variant that every walk needs: a driver that refuses our shaders says so now, not in the first frame.
   const Result<GlProgram*> program = renderer->impl_->programs.get("points.vert", "points.frag", {"SPLAT"});
   if (!program) return tl::unexpected(program.error());
@@ -226,15 +259,22 @@ Result<FrameStats> GlRenderer::draw(const WalkScene& scene, const PerspectiveVie
   }
 }
 
-Result<bool> GlRenderer::receiveMeshes() {
+Result<bool> GlRenderer::receive() {
   const GlStateGuard guard;
   forgetGlErrors();
-  return impl_->meshes.receive();
+  SendLimit limit = impl_->sendLimit();
+  return impl_->live.receive(limit);
 }
 
-bool GlRenderer::meshesToReceive() const { return impl_->meshes.anyToReceive(); }
+bool GlRenderer::anyToReceive() const {
+  return impl_->captures.anyToReceive() || impl_->meshes.anyToReceive();
+}
 
-void GlRenderer::stopBuildingMeshes() { impl_->meshes.stopBuilding(); }
+void GlRenderer::stopBuilding() {
+  impl_->captures.stopBuilding();
+  impl_->meshes.stopBuilding();
+  impl_->live.clear();
+}
 
 double GlRenderer::cardSeconds() const { return impl_->cardSeconds; }
 

@@ -4,6 +4,7 @@
 /// with one; or as adaptive meshes with one, built when a capture is first drawn), then local geometry with
 /// one.
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,36 +20,42 @@
 namespace acentric {
 
 struct GlRendererOptions {
-  /// Does a frame wait until the meshes that it lacks are built? Otherwise no frame does: they are built in
-  /// the background, and until its mesh is ready a capture is drawn as points with a depth test or, where
-  /// settings have changed, as the mesh that it had.
-  bool waitForMeshes = true;
+  /// Does a frame wait until all that it lacks is on the graphics card? Otherwise no frame does: captures are
+  /// packed, and meshes built, in the background and sent piece by piece. Until a capture is there its camera
+  /// shows what it had before (the coarse copy, say) or, without that, counts as missing; until its mesh is
+  /// ready a capture is drawn as points with a depth test or, where settings have changed, as the mesh that
+  /// it had.
+  bool waitForCaptures = true;
   TaskRunner* runner = nullptr;  ///< builds the meshes waited for; outlives the renderer; null: this thread
-  int backgroundThreads = 1;     ///< that build those not waited for
-  std::function<void()> wake = {};  ///< called from another thread when there is something for receiveMeshes
+  int backgroundThreads = 1;     ///< that build those not waited for; one more packs captures
+  std::size_t bytesPerFrame = std::size_t(32) << 20;  ///< sent at most by a frame that does not wait
+  /// It sends no longer than this, or than a tenth of what the frame before it took; a megabyte always.
+  double secondsPerFrame = 0.004;
+  std::function<void()> wake = {};  ///< called from another thread when there is something for receive()
 };
 
 class GlRenderer {
  public:
   /// With the context current, as in every call and for destruction. Compiles the shaders that every walk
   /// needs; the others when first used.
-  static Result<std::unique_ptr<GlRenderer>> create(GlRendererOptions options = {});
+  static Result<std::unique_ptr<GlRenderer>> create(const GlRendererOptions& options = {});
   ~GlRenderer();
   GlRenderer(const GlRenderer&) = delete;
   GlRenderer& operator=(const GlRenderer&) = delete;
 
-  /// Draws into the renderer's own framebuffer (view.width x view.height). Uploads what this view
-  /// needs and is not resident yet; drops what is gone from `scene`. The context's state is left as it was,
-  /// whatever it was. Waits until all is drawn, so that the times in the statistics are true; samplesDrawn
-  /// counts those submitted.
+  /// Draws into the renderer's own framebuffer (view.width x view.height). Sends what this view needs and is
+  /// not resident yet, or a piece of it; drops what is gone from `scene`. The context's state is left as it
+  /// was, whatever it was. Waits until all is drawn, so that the times in the statistics are true;
+  /// samplesDrawn counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
-  /// Of the meshes built in the background: sends a piece of those that are done to the graphics card, as
-  /// each draw does. True if a picture drawn now would show one that the last could not.
-  Result<bool> receiveMeshes();
-  /// Is there more for receiveMeshes to do at once?
-  bool meshesToReceive() const;
-  /// For when other renderers draw: what is built in the background is given up until the next draw.
-  void stopBuildingMeshes();
+  /// Of what is packed and built in the background: sends a piece to the graphics card, as each draw does.
+  /// True if a picture drawn now would show something that the last could not.
+  Result<bool> receive();
+  /// Is there more for receive() to do at once?
+  bool anyToReceive() const;
+  /// For when other renderers draw: what is packed and built in the background is given up until the next
+  /// draw.
+  void stopBuilding();
   /// Seconds from the first to the last command of the last draw by the graphics card's own clock; 0 before
   /// it.
   double cardSeconds() const;

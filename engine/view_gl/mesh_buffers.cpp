@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/view_gl/capture_buffers.h"
-
 namespace acentric {
 
 const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, MeshBuffers& buffers) {
@@ -19,50 +17,26 @@ const PatchList& patchesFor(std::uint8_t roles, int columns, MeshChunk& chunk, M
     numbers.push_back(i);
   }
   list.columnStart.resize(std::size_t(columns) + 1, std::uint32_t(numbers.size()));
-  list.numbers = makeStorage(numbers, buffers.bytes);
+  BufferUpload sending;
+  list.numbers = sending.add(numbers);
+  buffers.bytes += sending.send(sending.bytes());
   return chunk.lists.emplace(roles, std::move(list)).first->second;
 }
 
-MeshUpload::MeshUpload(MeshTask task, PackedMesh mesh) : mesh_(std::move(mesh)) {
+MeshUpload::MeshUpload(MeshTask task, PackedMesh mesh) {
   buffers_.task = std::move(task);
-  buffers_.bound = mesh_.bound;
-  buffers_.widestPatch = mesh_.widestPatch;
-  buffers_.cost = mesh_.cost;
-  for (PackedChunk& packed : mesh_.chunks) {
+  buffers_.bound = mesh.bound;
+  buffers_.widestPatch = mesh.widestPatch;
+  buffers_.cost = mesh.cost;
+  for (PackedChunk& packed : mesh.chunks) {
     MeshChunk& chunk = buffers_.chunks.emplace_back();
     chunk.patches = std::move(packed.patches);
-    chunk.patchBuffer = make(chunk.patches);
-    chunk.texels = make(packed.texels);
-    if (!packed.mirrors.empty()) chunk.mirrors = make(packed.mirrors);
+    chunk.patchBuffer = sending_.add(chunk.patches);
+    chunk.texels = sending_.add(std::move(packed.texels));
+    chunk.mirrors = sending_.add(std::move(packed.mirrors));
   }
-  buffers_.borders = make(mesh_.borders);
-}
-
-/// Room for the values, which are to be sent.
-template <class Value>
-GlBuffer MeshUpload::make(const std::vector<Value>& values) {
-  GlBuffer buffer = GlBuffer::make();
-  const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(bytes.size()), nullptr, GL_STATIC_DRAW);
-  buffers_.bytes += bytes.size();
-  parts_.push_back({buffer.name(), bytes});
-  return buffer;
-}
-
-std::size_t MeshUpload::send(std::size_t most) {
-  std::size_t sent = 0;
-  while (!done() && sent < most) {
-    const Part& part = parts_[next_];
-    const std::size_t count = std::min(part.bytes.size() - sentOfNext_, most - sent);
-    glBindBuffer(GL_SHADER_STORAGE_BUFFER, part.buffer);
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, GLintptr(sentOfNext_), GLsizeiptr(count),
-                    part.bytes.data() + sentOfNext_);
-    sent += count, sentOfNext_ += count;
-    if (sentOfNext_ < part.bytes.size()) continue;
-    ++next_, sentOfNext_ = 0;
-  }
-  return sent;
+  buffers_.borders = sending_.add(std::move(mesh.borders));
+  buffers_.bytes = sending_.bytes();
 }
 
 }  // namespace acentric

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "engine/view_gl/buffer_upload.h"
 #include "engine/view_gl/gl_object.h"
 #include "engine/view_gl/packed_mesh.h"
 
@@ -48,23 +48,15 @@ class MeshUpload {
   MeshUpload(MeshTask task, PackedMesh mesh);
   const MeshTask& task() const { return buffers_.task; }
   /// Sends at most so many bytes more, or all that are left; returns how many.
-  std::size_t send(std::size_t most);
-  bool done() const { return next_ == parts_.size(); }
+  std::size_t send(std::size_t most) { return sending_.send(most); }
+  bool done() const { return sending_.done(); }
+  std::size_t bytes() const { return sending_.bytes(); }
   /// Once it is done.
   MeshBuffers take() { return std::move(buffers_); }
 
  private:
-  struct Part {
-    GLuint buffer = 0;
-    std::span<const std::byte> bytes;  ///< of mesh_, or of the patches of buffers_
-  };
-  template <class Value>
-  GlBuffer make(const std::vector<Value>& values);
-
-  PackedMesh mesh_;
   MeshBuffers buffers_;
-  std::vector<Part> parts_;
-  std::size_t next_ = 0, sentOfNext_ = 0;
+  BufferUpload sending_;
 };
 
 }  // namespace acentric

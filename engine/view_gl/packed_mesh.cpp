@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "engine/base/stopwatch.h"
-#include "engine/view_gl/capture_buffers.h"
+#include "engine/view_gl/packed_capture.h"
 
 namespace acentric {
 namespace {
@@ -74,6 +74,13 @@ std::vector<PackedChunk> packChunks(const DisplayCapture& capture, const Capture
 bool MeshTask::sameAs(const MeshTask& other) const {
   const bool sameCapture = !capture.owner_before(other.capture) && !other.capture.owner_before(capture);
   return sameCapture && error == other.error && maxTriangles == other.maxTriangles;
+}
+
+std::size_t PackedMesh::bytes() const {
+  std::size_t sum = bytesOf(borders);
+  for (const PackedChunk& chunk : chunks)
+    sum += bytesOf(chunk.patches) + bytesOf(chunk.texels) + bytesOf(chunk.mirrors);
+  return sum;
 }
 
 Result<PackedMesh> packMesh(const DisplayCapture& capture, const MeshTask& task, TaskRunner& runner,

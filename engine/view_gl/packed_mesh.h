@@ -44,6 +44,8 @@ struct PackedMesh {
   MeshBound bound;
   int widestPatch = 0;  ///< columns
   MeshCost cost;        ///< without the bytes
+
+  std::size_t bytes() const;
 };
 
 /// `capture` is the task's. Fails on one whose arrays contradict each other, and when stopped.

@@ -103,9 +103,7 @@ PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
       columnPlans_(GlBuffer::make()) {}
 
 Status PointPass::draw(const CapturePiece& what, Samples samples, FrameTarget& target, FrameStats& stats) {
-  const CaptureParts parts =
-      followsSlant(what.settings.reconstruction) ? CaptureParts::samplesAndSlants : CaptureParts::samples;
-  const Result<const CaptureBuffers*> buffers = captures_.get(what.capture, what.name().c_str(), parts);
+  const Result<const CaptureBuffers*> buffers = captures_.get(what.capture, what.name());
   if (!buffers) return tl::unexpected(buffers.error());
   Piece piece{what, **buffers};
   return drawPiece(piece, samples, target, stats);
@@ -199,7 +197,7 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
   if (!lay) return tl::unexpected(lay.error());
   int ranks = 0;
   for (const auto& column : piece.columns)
-    ranks = std::max(ranks, int(piece.buffers.clearSamples[std::size_t(column.second)]));
+    ranks = std::max(ranks, int(piece.buffers.clearRanks[std::size_t(column.second)]));
   for (int rank = ranks - 1; rank >= 0; --rank) {  // farthest from the camera first
     if (Status ready = target.beginClearLayer(); !ready) return ready;
     glDisable(GL_BLEND);
@@ -245,7 +243,7 @@ void PointPass::drawColumns(const Piece& piece, int clearRank, FrameStats& stats
     counts_.clear();
     for (; n < piece.columns.size() && piece.columns[n].first == chunk; ++n) {
       const std::size_t column = std::size_t(piece.columns[n].second);
-      if (clearRank >= 0 && int(piece.buffers.clearSamples[column]) <= clearRank) continue;
+      if (clearRank >= 0 && int(piece.buffers.clearRanks[column]) <= clearRank) continue;
       const glm::uvec4& parts = plans_[column].parts;
       firsts_.push_back(GLint(parts.x));
       counts_.push_back(GLsizei(parts.z - parts.x));

@@ -3,8 +3,8 @@
 /// or with one, in any order.
 
 #include "engine/view/frame.h"
-#include "engine/view_gl/capture_buffers.h"
 #include "engine/view_gl/capture_piece.h"
+#include "engine/view_gl/capture_residency.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
 

@@ -6,10 +6,21 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
+
+using CaptureSet = std::set<const DisplayCapture*>;
+/// With what their mirrors show.
+inline void addTo(CaptureSet& set, std::span<const std::shared_ptr<const DisplayCapture>> captures) {
+  for (const auto& capture : captures) {
+    if (!capture) continue;
+    set.insert(capture.get());
+    if (capture->reflections) set.insert(capture->reflections.get());
+  }
+}
 
 /// `Buffers` has an `owner` (weak pointer to the capture), `bytes` and `lastUse`.
 template <class Buffers>
@@ -29,13 +40,8 @@ class Residency {
     buffers.lastUse = frame_;
     return resident_.insert_or_assign(capture.get(), std::move(buffers)).first->second;
   }
-  /// Drops the captures that are no longer anywhere in memory or no longer in `scene`.
-  void dropGone(const WalkScene& scene) {
-    std::set<const DisplayCapture*> wanted;
-    for (const auto& capture : scene.captures) {
-      wanted.insert(capture.get());
-      if (capture) wanted.insert(capture->reflections.get());
-    }
+  /// Drops the captures that are no longer anywhere in memory or not among these.
+  void dropGone(const CaptureSet& wanted) {
     std::erase_if(resident_, [&](const auto& entry) {
       return !wanted.contains(entry.first) || entry.second.owner.expired();
     });

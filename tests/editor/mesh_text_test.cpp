@@ -17,6 +17,12 @@ TEST(MeshText, SumsWhatTheMeshesOfAFrameTake) {
 TEST(MeshText, TellsPointsFromMeshesOfOtherSettings) {
   FrameStats stats;
   EXPECT_EQ(meshesAwaitedText(stats), "");
+  EXPECT_EQ(capturesAwaitedText(stats), "");
+  stats.capturesAwaited = stats.standIns = 3;
+  EXPECT_EQ(capturesAwaitedText(stats), "3 captures on their way to the graphics card");
+  stats.standIns = 1;
+  EXPECT_EQ(capturesAwaitedText(stats),
+            "3 captures on their way to the graphics card, 2 with nothing in their place");
   stats.meshesAwaited = stats.pointsForMeshes = 4;
   EXPECT_EQ(meshesAwaitedText(stats), "4 captures as points until their meshes are built");
   stats.pointsForMeshes = 0;

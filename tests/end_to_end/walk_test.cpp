@@ -87,8 +87,10 @@ TEST_F(WalkTest, AWalkInRealTimeShowsPointsUntilMeshesAreBuiltUnlessItIsToWaitFo
     return Json::parse(ran.output);
   };
   EXPECT_GT(walk({})["pointFrames"].get<int>(), 0);
-  const Json waiting = walk({"--wait-for-meshes"});
+  const Json waiting = walk({"--wait-for-captures"});
   EXPECT_EQ(waiting["pointFrames"].get<int>(), 0);
+  EXPECT_EQ(waiting["gl"]["awaitingFrames"].get<int>(), 0);
+  EXPECT_GT(waiting["gl"]["mostBytesSent"].get<std::uint64_t>(), 0U);
   EXPECT_GT(waiting["mesh"]["triangles"].get<int>(), 0);
 }
 

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <thread>
 
 #include "engine/view/render.h"
+#include "engine/view/view_cameras.h"
 #include "engine/view_gl/gl_renderer.h"
 #include "tests/view/analytic_scene.h"
 
@@ -41,6 +45,21 @@ class WithGl : public testing::Test {
   std::unique_ptr<HeadlessContext> context_;
   std::unique_ptr<GlRenderer> renderer_;
 };
+
+/// Until what is at work on it has given it up, or is done.
+inline bool isLetGoOf(const std::weak_ptr<const DisplayCapture>& capture) {
+  for (int i = 0; i < 60'000 && !capture.expired(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return capture.expired();
+}
+
+/// The walk without the cameras that this view is not painted from.
+inline WalkScene onlyInView(WalkScene scene, const PerspectiveView& view, const ViewSettings& settings) {
+  const std::vector<int> cameras = camerasOf(*scene.layout, view, settings).cameras;
+  for (std::size_t i = 0; i < scene.captures.size(); ++i)
+    if (!std::ranges::binary_search(cameras, int(i))) scene.captures[i] = nullptr;
+  return scene;
+}
 
 /// As the scalar reference paints it; what a depth test shows if that is asked for.
 inline Frame onCpu(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {

@@ -32,9 +32,17 @@ class GlMeshBackground : public test::WithGl {
   void SetUp() override {
     WithGl::SetUp();
     if (!renderer_) return;
-    auto live = GlRenderer::create({.waitForMeshes = false});
-    ASSERT_TRUE(live) << live.error().describe();
-    live_ = std::move(*live);
+    live_ = liveRenderer();
+    ASSERT_TRUE(live_);
+  }
+  /// Whose points are there at once: only meshes are awaited.
+  static std::unique_ptr<GlRenderer> liveRenderer(int threads = 1) {
+    auto live = GlRenderer::create({.waitForCaptures = false,
+                                    .backgroundThreads = threads,
+                                    .bytesPerFrame = std::size_t(1) << 30,
+                                    .secondsPerFrame = 60});
+    EXPECT_TRUE(live) << live.error().describe();
+    return live ? std::move(*live) : nullptr;
   }
   void TearDown() override {
     live_.reset();
@@ -56,11 +64,11 @@ class GlMeshBackground : public test::WithGl {
   Frame liveWhenReady(const WalkScene& scene, const PerspectiveView& view) {
     Frame frame = live(scene, view);
     for (int i = 0; i < 60'000 && frame.stats.meshesAwaited > 0; ++i) {
-      const auto ready = live_->receiveMeshes();
+      const auto ready = live_->receive();
       EXPECT_TRUE(ready);
       if (*ready)
         frame = live(scene, view);
-      else if (!live_->meshesToReceive())
+      else if (!live_->anyToReceive())
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(frame.stats.meshesAwaited, 0);
@@ -90,7 +98,7 @@ TEST_F(GlMeshBackground, PointsAreDrawnUntilMeshesAreReadyAndThenThePictureOfTho
     if (glass) surfaces.boxes.push_back({{3.5, -1, 0.8}, {3.51, 1, 1.9}, {0.1f, 0.2f, 0.6f, 0.4f}});
     const WalkScene scene = test::walkScene(surfaces, layout_, region_, 4, 2);
     for (const Reconstruction reconstruction : {Reconstruction::surface, Reconstruction::filtered}) {
-      live_ = std::move(*GlRenderer::create({.waitForMeshes = false}));
+      live_ = liveRenderer();
       settings_.reconstruction = reconstruction;
       PerspectiveView view = nextView();
       if (glass) view.yawRadians = 0, view.pitchRadians = 0;
@@ -188,20 +196,20 @@ TEST_F(GlMeshBackground, WhatIsEvictedWhileBuildingIsLetGoOf) {
   EXPECT_GT(first.stats.missingImages, 0);
   const Frame ready = liveWhenReady(scene, view);
   expectSame(ready, onGl(scene, view, settings_));
-  for (const auto& capture : evicted) EXPECT_TRUE(capture.expired());
+  for (const auto& capture : evicted) EXPECT_TRUE(test::isLetGoOf(capture));
 }
 
 TEST_F(GlMeshBackground, OtherRenderersEndTheBuilding) {
-  const WalkScene scene = boxes(3, 4);
   const PerspectiveView view = nextView();
+  const WalkScene scene = test::onlyInView(boxes(3, 4), view, settings_);
   live(scene, view);
   ViewSettings other = settings_;
   other.renderer = Renderer::gl;
   ASSERT_TRUE(live_->draw(scene, view, other));
-  EXPECT_FALSE(live_->meshesToReceive());
+  EXPECT_FALSE(live_->anyToReceive());
   EXPECT_EQ(live(scene, view).stats.meshes.size(), 0u);
-  live_->stopBuildingMeshes();
-  EXPECT_FALSE(live_->meshesToReceive());
+  live_->stopBuilding();
+  EXPECT_FALSE(live_->anyToReceive());
   expectSame(liveWhenReady(scene, view), onGl(scene, view, settings_));
 }
 
@@ -209,7 +217,7 @@ TEST_F(GlMeshBackground, IsDestroyedWhileItBuilds) {
   const WalkScene scene = boxes(3, 4);
   for (int i = 0; i < 4; ++i) {
     live(scene, nextView());
-    live_ = std::move(*GlRenderer::create({.waitForMeshes = false, .backgroundThreads = 2}));
+    live_ = liveRenderer(2);
   }
   live_.reset();
   for (const auto& capture : scene.captures) EXPECT_LE(capture.use_count(), 1);

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "engine/view/view_plan.h"
-#include "engine/view_gl/capture_buffers.h"
 #include "engine/view_gl/capture_pass.h"
+#include "engine/view_gl/capture_residency.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_state.h"
@@ -34,7 +34,13 @@ TEST_F(GlResources, TheContextNamesItsDriverAndVersion) {
 }
 
 TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
-  CaptureResidency residency;
+  TaskRunner runner(0);
+  CaptureResidency residency(runner);
+  const auto dropGone = [&](const WalkScene& scene) {
+    CaptureSet inScene;
+    addTo(inScene, scene.captures);
+    residency.dropGone(inScene);
+  };
   WalkScene scene;
   scene.captures = {smallCapture(), smallCapture(5)};
   const auto first = residency.get(scene.captures[0], "first");
@@ -44,12 +50,14 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   EXPECT_EQ(*residency.get(scene.captures[0], "first"), *first) << "the same buffers again";
   ASSERT_TRUE(residency.get(scene.captures[1], "second"));
   EXPECT_EQ(residency.count(), 2u);
-  const std::size_t samples = scene.captures[0]->samples.size() + scene.captures[1]->samples.size();
   const std::size_t runs =
       scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
-  EXPECT_EQ(residency.bytes(), 12 * samples + 8 * runs + 2 * 16 * sizeof(float));
-  CaptureResidency forBackgrounds;
+  std::size_t expected = 8 * runs + 2 * 16 * sizeof(float);
+  for (const auto& capture : scene.captures)  // whole words
+    expected += 12 * capture->samples.size() + (2 * capture->samples.size() + 3) / 4 * 4;
+  EXPECT_EQ(residency.bytes(), expected);
+  CaptureResidency forBackgrounds(runner);
   for (const auto& capture : scene.captures)
     ASSERT_TRUE(forBackgrounds.get(capture, "its background", CaptureParts::background));
   EXPECT_EQ(forBackgrounds.bytes(), 8 * runs);
@@ -58,23 +66,24 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   reflecting->reflections = smallCapture();
   scene.captures.push_back(reflecting);
   ASSERT_TRUE(residency.get(reflecting->reflections, "what its mirrors show"));
-  residency.dropGone(scene);
+  dropGone(scene);
   EXPECT_EQ(residency.count(), 3u);
   scene.captures.pop_back();
-  residency.dropGone(scene);
+  dropGone(scene);
   EXPECT_EQ(residency.count(), 2u);
 
   scene.captures[0] = nullptr;
-  residency.dropGone(scene);
+  dropGone(scene);
   EXPECT_EQ(residency.count(), 1u);
   EXPECT_EQ(glIsBuffer(buffer), GL_FALSE);
   scene.captures.clear();
-  residency.dropGone(scene);
+  dropGone(scene);
   EXPECT_EQ(residency.bytes(), 0u);
 }
 
 TEST_F(GlResources, TrimmingDropsWhatWasUnusedLongest) {
-  CaptureResidency residency;
+  TaskRunner runner(0);
+  CaptureResidency residency(runner);
   const auto a = smallCapture(), b = smallCapture(), c = smallCapture();
   ASSERT_TRUE(residency.get(a, "a"));
   residency.trim(std::size_t(1) << 30);
@@ -103,8 +112,8 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   const auto drawnWith = [&](std::size_t largestBuffer, Renderer renderer) {
     const GlStateGuard guard;
     ProgramCache programs;
-    CaptureResidency captures(largestBuffer);
     TaskRunner runner(0);
+    CaptureResidency captures(runner, nullptr, largestBuffer);
     MeshResidency meshes(runner, nullptr, largestBuffer);
     CapturePass pass(programs, captures, meshes);
     FrameTarget target;
@@ -119,14 +128,16 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   const std::size_t someColumns = 12 * 5000;
   EXPECT_FALSE(plan->reflections.empty());
   const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
-  EXPECT_GT(uploadCapture(*first, "cut", CaptureParts::samples, someColumns)->chunks.size(), 4u);
   TaskRunner runner(0);
+  CaptureResidency cut(runner, nullptr, someColumns);
+  EXPECT_GT((*cut.get(first, "cut"))->chunks.size(), 4u);
   MeshResidency meshes(runner, nullptr, someColumns);
   EXPECT_GT((*meshes.get(first, "cut", *layout, plan->pieces[0].camera, {}))->chunks.size(), 2u);
   for (const Renderer renderer : {Renderer::gl, Renderer::glMesh})
     EXPECT_EQ(drawnWith(someColumns, renderer).colour.pixels, drawnWith(0, renderer).colour.pixels);
 
-  const auto tooSmall = uploadCapture(*first, "capture of camera 3", CaptureParts::samples, 120);
+  CaptureResidency narrow(runner, nullptr, 120);
+  const auto tooSmall = narrow.get(first, "capture of camera 3");
   ASSERT_FALSE(tooSmall);
   EXPECT_EQ(tooSmall.error().kind, ErrorKind::tooLarge);
   EXPECT_EQ(tooSmall.error().where, "capture of camera 3");
@@ -137,9 +148,9 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   const auto refused = [&](auto&& spoil) {
     auto spoilt = std::make_shared<DisplayCapture>(*sound);
     spoil(*spoilt);
-    const auto uploaded = uploadCapture(*spoilt, "capture of camera 7");
-    return !uploaded && uploaded.error().where == "capture of camera 7" &&
-           uploaded.error().kind == ErrorKind::malformed;
+    const auto packed = packCapture(*spoilt, {spoilt, "capture of camera 7"});
+    return !packed && packed.error().where == "capture of camera 7" &&
+           packed.error().kind == ErrorKind::malformed;
   };
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.samples.back().row = 16; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.colour.pop_back(); }));
@@ -147,7 +158,7 @@ TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart[3] = c.columnStart[4] + 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart.back() += 1; }));
   EXPECT_TRUE(refused([](DisplayCapture& c) { c.rowTangent.pop_back(); }));
-  EXPECT_TRUE(uploadCapture(*sound, "sound"));
+  EXPECT_TRUE(packCapture(*sound, {sound, "sound", CaptureParts::samples, 4096, std::size_t(1) << 20}));
 }
 
 TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {

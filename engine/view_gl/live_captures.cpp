@@ -1,0 +1,162 @@
+#include "engine/view_gl/live_captures.h"
+
+#include <algorithm>
+#include <ranges>
+#include <utility>
+
+#include "engine/view/view_cameras.h"
+
+namespace acentric {
+namespace {
+
+/// Captures around the eye that are sent before they are seen.
+constexpr std::size_t kMostAhead = 64;
+
+std::size_t bytesOfAll(const DisplayCapture& capture) {
+  return packedBytes(capture) + (capture.reflections ? packedBytes(*capture.reflections) : 0);
+}
+
+/// The first cover, which is in front, comes first.
+std::vector<int> camerasInView(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {
+  const std::vector<int> all = camerasOf(*scene.layout, view, settings).cameras;
+  settings.secondaryCover = false;
+  std::vector<int> cameras = camerasOf(*scene.layout, view, settings).cameras;
+  const std::size_t first = cameras.size();
+  for (const int camera : all)
+    if (!std::binary_search(cameras.begin(), cameras.begin() + std::ptrdiff_t(first), camera))
+      cameras.push_back(camera);
+  std::erase_if(cameras, [&](int camera) {
+    return std::size_t(camera) >= scene.captures.size() || !scene.captures[std::size_t(camera)];
+  });
+  return cameras;
+}
+
+/// May one be drawn in place of the other, with other columns, rows and samples?
+bool sameView(const ColumnCamera& a, const ColumnCamera& b) {
+  return a.centreOfProjection == b.centreOfProjection && a.lowAzimuth == b.lowAzimuth &&
+         a.fovRadians == b.fovRadians;
+}
+
+}  // namespace
+
+/// That must be there before the camera is drawn. Of a mesh only what blends is points. The runs of its
+/// background are sent when they are drawn: at most 0.2 MB where the samples of a capture are 43 to 85 MB
+/// (the sample at 20 per degree), and where these are there the runs are too.
+std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture,
+                                                      const ViewSettings& settings) {
+  std::vector<Part> parts;
+  if (settings.renderer != Renderer::glMesh || capture->blended || meshes_.find(capture) == nullptr)
+    parts.push_back({capture, Mirrors::none});
+  if (capture->reflections) parts.push_back({capture->reflections, Mirrors::reflect});
+  return parts;
+}
+
+bool LiveCaptures::ready(const CapturePtr& capture, const ViewSettings& settings) {
+  return std::ranges::all_of(partsOf(capture, settings),
+                             [&](const Part& part) { return captures_.ready(part.capture); });
+}
+
+Status LiveCaptures::ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked) {
+  for (const Part& part : partsOf(capture, settings))
+    if (!captures_.ready(part.capture))
+      if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), lacked); !asked)
+        return asked;
+  return {};
+}
+
+/// The nearest first, as many as there is memory for beside those in view; those that are there are used, so
+/// that they stay.
+void LiveCaptures::askAhead(const WalkScene& scene, const glm::dvec3& eye, const ViewSettings& settings,
+                            const std::vector<int>& inView) {
+  std::size_t bytes = 0;
+  for (const int camera : inView) bytes += bytesOfAll(*scene.captures[std::size_t(camera)]);
+  std::vector<std::pair<double, int>> others;
+  for (std::size_t i = 0; i < scene.captures.size(); ++i)
+    if (scene.captures[i] && std::ranges::find(inView, int(i)) == inView.end())
+      others.emplace_back(glm::distance(scene.captures[i]->camera.centreOfProjection, eye), int(i));
+  const std::size_t nearest = std::min(others.size(), kMostAhead);
+  std::ranges::partial_sort(others, others.begin() + std::ptrdiff_t(nearest));
+  others.resize(nearest);
+  for (const auto& [distance, camera] : others) {
+    const CapturePtr& now = scene.captures[std::size_t(camera)];
+    bytes += bytesOfAll(*now);
+    if (bytes > memoryBytes_) return;
+    if (ready(now, settings))
+      drawn_[std::size_t(camera)] = now;
+    else
+      (void)ask(now, camera, settings, false);  // what is wrong with it is told when it is seen
+  }
+}
+
+/// Of what stands in no longer. Out of sight nothing does that keeps more memory from the walk than what it
+/// stands in for.
+void LiveCaptures::letGo(const WalkScene& scene, const std::vector<int>& inView) {
+  drawn_.resize(scene.captures.size());
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    CapturePtr& drawn = drawn_[i];
+    const CapturePtr& now = scene.captures[i];
+    if (!drawn || drawn == now) continue;
+    const bool useful =
+        now && sameView(drawn->camera, now->camera) &&
+        (drawn->samples.size() <= now->samples.size() || std::ranges::find(inView, int(i)) != inView.end());
+    if (!useful) drawn.reset();
+  }
+}
+
+Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const ViewSettings& settings,
+                               SendLimit& limit) {
+  const std::size_t bytes = bytesOfAll(*capture);
+  if (bytes > limit.left()) return {};
+  limit.sent(bytes);
+  for (const Part& part : partsOf(capture, settings))
+    if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors)); !sent)
+      return tl::unexpected(sent.error());
+  return {};
+}
+
+Result<bool> LiveCaptures::receive(SendLimit& limit) {
+  const Result<bool> lacked = captures_.receive(limit, Which::lacked);
+  if (!lacked) return lacked;
+  const Result<bool> meshes = meshes_.receive(limit);
+  if (!meshes) return meshes;
+  const Result<bool> ahead = captures_.receive(limit);
+  if (!ahead) return ahead;
+  return *lacked || *meshes || *ahead;
+}
+
+Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const PerspectiveView& view,
+                                              const ViewSettings& settings, SendLimit limit,
+                                              FrameStats& stats) {
+  if (!view.check()) return &scene;  // as planning will tell
+  const std::vector<int> cameras = camerasInView(scene, view, settings);
+  letGo(scene, cameras);
+  for (const int camera : cameras) {
+    const CapturePtr& now = scene.captures[std::size_t(camera)];
+    CapturePtr& drawn = drawn_[std::size_t(camera)];
+    if (drawn && !ready(drawn, settings)) drawn.reset();  // it had to leave the graphics card
+    if (!drawn && !ready(now, settings))
+      if (Status sent = sendSmall(now, camera, settings, limit); !sent) return tl::unexpected(sent.error());
+  }
+  if (const auto received = receive(limit); !received) return tl::unexpected(received.error());
+
+  std::vector<std::pair<int, CapturePtr>> instead;
+  for (const int camera : cameras) {
+    const CapturePtr& now = scene.captures[std::size_t(camera)];
+    CapturePtr& drawn = drawn_[std::size_t(camera)];
+    if (ready(now, settings)) {
+      drawn = now;
+      continue;
+    }
+    if (Status asked = ask(now, camera, settings, true); !asked) return tl::unexpected(asked.error());
+    instead.emplace_back(camera, drawn);
+    ++stats.capturesAwaited;
+    stats.standIns += drawn ? 1 : 0;
+  }
+  askAhead(scene, view.eye, settings, cameras);
+  if (instead.empty()) return &scene;
+  planned_ = scene;
+  for (auto& [camera, capture] : instead) planned_.captures[std::size_t(camera)] = std::move(capture);
+  return &planned_;
+}
+
+}  // namespace acentric
