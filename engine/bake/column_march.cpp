@@ -150,8 +150,8 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
                         : setting_.shader.shade(hit, surface.toViewer(Side::met), out_.counts.rays),
             horizontal, mirror);
   if (!sides_.other.empty())
-    addSide(sides_.other, Side::other, setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays),
-            horizontal, 0);
+    addSide(sides_.other, Side::other,
+            setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays), horizontal, 0);
 }
 
 /// A sample of one side of a surface for the roles that see it.
