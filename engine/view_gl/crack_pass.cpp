@@ -8,33 +8,16 @@ namespace acentric {
 
 CrackPass::CrackPass(ProgramCache& programs) : programs_(programs), noAttributes_(GlVertexArray::make()) {}
 
-Status CrackPass::resize(int width, int height) {
-  if (width == width_ && height == height_) return {};
-  width_ = height_ = 0;
-  least_ = GlTexture::make();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, least_.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, width, height);
-  into_ = GlFramebuffer::make();
-  glBindFramebuffer(GL_FRAMEBUFFER, into_.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, least_.name(), 0);
-  if (Status made = checkGl("making the texture of cracks"); !made) return made;
-  width_ = width;
-  height_ = height;
-  return {};
-}
-
 Status CrackPass::draw(const FrameTarget& target) {
   const Result<GlProgram*> find = programs_.get("whole_picture.vert", "cracks_find.frag", {});
   if (!find) return tl::unexpected(find.error());
   const Result<GlProgram*> open = programs_.get("whole_picture.vert", "cracks_open.frag", {});
   if (!open) return tl::unexpected(open.error());
-  if (Status sized = resize(target.width(), target.height()); !sized) return sized;
+  if (Status sized = least_.resize(target.width(), target.height()); !sized) return sized;
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_BLEND);
-  glBindFramebuffer(GL_FRAMEBUFFER, into_.name());
-  glViewport(0, 0, width_, height_);
+  least_.bindForDrawing();
   (*find)->use();
   glUniform1i((*find)->location("reach"), Cracks::kReach);
   glUniform1f((*find)->location("before"), Cracks::kBefore);

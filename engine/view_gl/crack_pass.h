@@ -3,6 +3,7 @@
 
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
+#include "engine/view_gl/pass_texture.h"
 
 namespace acentric {
 
@@ -16,13 +17,9 @@ class CrackPass {
   GLuint leastDepths() const { return least_.name(); }
 
  private:
-  Status resize(int width, int height);
-
   ProgramCache& programs_;
   GlVertexArray noAttributes_;
-  GlTexture least_;
-  GlFramebuffer into_;
-  int width_ = 0, height_ = 0;
+  PassTexture least_{GL_R32F};
 };
 
 }  // namespace acentric

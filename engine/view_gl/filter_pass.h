@@ -4,6 +4,7 @@
 
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
+#include "engine/view_gl/pass_texture.h"
 
 namespace acentric {
 
@@ -15,13 +16,9 @@ class FilterPass {
   Status draw(const FrameTarget& target, bool localMirrors);
 
  private:
-  Status resize(int width, int height);
-
   ProgramCache& programs_;
   GlVertexArray noAttributes_;
-  GlTexture filtered_;  ///< RGBA8; what is read cannot be drawn into
-  GlFramebuffer into_;
-  int width_ = 0, height_ = 0;
+  PassTexture filtered_{GL_RGBA8};
 };
 
 }  // namespace acentric
