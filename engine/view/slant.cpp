@@ -11,9 +11,9 @@ namespace {
 constexpr float kConnected = 3;
 /// Inverse distances that differ by more than this part belong to different surfaces, whatever the pitch.
 constexpr float kBroken = 0.25f;
-/// So do samples that a surface would join at a larger tangent (some 84 degrees): few surfaces are seen at
-/// such a slant, and edges before others are many.
-constexpr float kSteepest = 10;
+/// So do samples that a surface would join at a larger tangent (some 84 degrees), unless it goes on as evenly
+/// on the other side: few surfaces are seen at such a slant, and edges before others are many.
+constexpr float kSteepest = 10, kEven = 1.5f;
 
 /// Where the two sides of a round body run together they lie farther apart by more than this a pixel further
 /// in.
@@ -59,9 +59,10 @@ std::int8_t codeOf(float tangent) {
 }
 
 std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch) {
-  const float broken = std::min(kBroken, kSteepest * pitch) * inverse;
   float flatter = fromBefore, steeper = toAfter;
   if (std::abs(flatter) > std::abs(steeper)) std::swap(flatter, steeper);
+  const bool even = flatter * steeper > 0 && std::abs(steeper) < kEven * std::abs(flatter);
+  const float broken = (even ? kBroken : std::min(kBroken, kSteepest * pitch)) * inverse;
   const bool gentle = std::abs(flatter) < kConnected * inverse * pitch;
   // A surface that turns away at its edge.
   if (!(std::abs(steeper) < broken) && !gentle) return 0;

@@ -30,13 +30,14 @@ TEST(SlantCode, IsNearEveryTangentAndOdd) {
 
 /// The inverse distances of each pixel (or the only one), 0 = sky.
 struct Grid {
-  ColumnCamera camera = test::cameraAt({0, 0, 1.6}, 0, 60, 90);
+  ColumnCamera camera;
   std::vector<std::uint32_t> columnStart{0};
   std::vector<std::uint16_t> row;
   std::vector<float> inverseDistance;
 
   template <class Inverse>
-  explicit Grid(const Inverse& inverse) {
+  explicit Grid(const Inverse& inverse, int columns = 60)
+      : camera(test::cameraAt({0, 0, 1.6}, 0, columns, 90)) {
     for (int k = 0; k < camera.columns; ++k) {
       for (int r = 0; r < camera.rows; ++r) {
         const auto add = [&](double w) {
@@ -85,6 +86,29 @@ TEST(Slants, DoNotBridgeTheEdgeOfASurface) {
   // A wall in the left half, another one far behind in the right half, sky above: all seen nearly face on.
   const Grid grid([&](const glm::dvec2& c, double t) { return t > 0.5 ? 0 : c.y > 0 ? 1 / 2.0 : 1 / 9.0; });
   for (const Slant& slant : grid.slants()) EXPECT_EQ(slant, Slant{});
+}
+
+/// Fine enough that a tenth of the distance is a steep step from one sample to the next.
+TEST(Slants, DoNotBridgeTheStepToASurfaceRightBehind) {
+  constexpr int kColumns = 480;
+  const Grid steps(
+      [](const glm::dvec2& c, double) {
+        return c.x / (c.y > 0.01 ? 5.0 : c.y > -0.1 ? 5.5 : 5.2);
+      },
+      kColumns);
+  for (const Slant& slant : steps.slants()) EXPECT_LT(std::abs(slantTangent(slant.across)), 1.5);
+  // As steep, but evenly so: a wall along which the camera looks.
+  const Grid wall([](const glm::dvec2& c, double) { return std::max(c.y, 0.0) / 0.3; }, kColumns);
+  const std::vector<Slant> slants = wall.slants();
+  int steep = 0;
+  for (int k = 0; k < kColumns; ++k) {
+    const glm::dvec2 c = wall.camera.directionAt(k + 0.5);
+    if (c.y < 8 * wall.camera.columnPitch() || k + 1 == kColumns) continue;
+    const Slant slant = slants[std::size_t(k * wall.camera.rows + 45)];
+    EXPECT_NEAR(slant.across, slantCode(c.x / c.y), 1) << k;
+    steep += c.x / c.y > 12;
+  }
+  EXPECT_GT(steep, 20);
 }
 
 TEST(Slants, AreNoneWhereASurfaceTurnsAwayAtItsEdge) {
@@ -198,9 +222,11 @@ int compareWithSlowSearch(const ColumnCamera& camera, const std::vector<std::uin
     if (backwards != 0) return -double(backwards) / (w * pitch);
     const double a = double(-before), b = double(after);
     const double steeper = std::abs(a) > std::abs(b) ? a : b, flatter = std::abs(a) > std::abs(b) ? b : a;
-    if (!(std::abs(steeper) < 0.25 * w) && !(std::abs(flatter) < 3 * w * pitch)) return 0.0;
+    const bool even = a * b > 0 && std::abs(steeper) < 1.5 * std::abs(flatter);
+    const double broken = even ? 0.25 * w : std::min(0.25, 10 * pitch) * w;
+    if (!(std::abs(steeper) < broken) && !(std::abs(flatter) < 3 * w * pitch)) return 0.0;
     const double step = std::abs(steeper) < 3 * w * pitch ? steeper : flatter;
-    return std::abs(step) < 0.25 * w ? step / (w * pitch) : 0;
+    return std::abs(step) < broken ? step / (w * pitch) : 0;
   };
   std::uniform_int_distribution<std::size_t> any(0, row.size() - 1);
   int leaning = 0;
