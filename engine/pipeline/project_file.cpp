@@ -171,7 +171,8 @@ void readImport(const Json& json, ImportOptions& options) {
 
 void readView(const Json& json, Project& project) {
   project.view.renderer = *parseRenderer(json.value("renderer", nameOf(project.view.renderer)));
-  project.view.reconstruction = *parseReconstruction(json.value("reconstruction", nameOf(project.view.reconstruction)));
+  project.view.reconstruction =
+      *parseReconstruction(json.value("reconstruction", nameOf(project.view.reconstruction)));
   read(json, "maxSplatPixels", project.view.maxSplatPixels);
   read(json, "meshError", project.view.meshError);
   read(json, "maxMeshTriangles", project.view.maxMeshTriangles);
