@@ -194,13 +194,7 @@ class CanvasWarp {
     else if (size > 0)
       runs_.push_back({0, size});
     std::uint32_t samples = 0;
-    for (const SampleRun& run : runs_) {
-      samples += run.end - run.first;
-      for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(PackedSample))
-        __builtin_prefetch(&capture.samples[start + i]);
-      for (std::uint32_t i = run.first; i < run.end; i += 64 / sizeof(Rgba8))
-        __builtin_prefetch(&capture.colour[start + i]);
-    }
+    for (const SampleRun& run : runs_) samples += run.end - run.first;
     counts_.samplesRead += samples;
     return samples;
   }
