@@ -75,6 +75,8 @@ struct Canvas {
 
   PixelRect rect() const { return {x0, 0, x0 + width, height}; }
   std::size_t indexOf(int x) const { return std::size_t(x - x0) * std::size_t(height); }
+  /// The bits of its pixels' high halves that are depth.
+  CanvasPixel depthBits() const { return ~CanvasPixel(0xffffffff) & ~(places ? kPlaceBits : 0); }
   /// Takes away mirrors that were painted over.
   void settleMirrors() {
     for (std::size_t i = 0; i < mirrors.size(); ++i)

@@ -5,16 +5,14 @@
 namespace acentric {
 namespace {
 
-constexpr std::size_t kSlotBits = 0xff000000u;
-
-CanvasPixel depthMask(const Canvas& canvas) { return canvas.places ? ~kPlaceBits : ~CanvasPixel(0); }
+constexpr CanvasPixel kSlotBits = 0xff000000;
 
 /// The depths of the columns around one, that many at a time, with room above and below.
 class DepthWindow {
  public:
   DepthWindow(const Canvas& canvas)
       : canvas_(canvas),
-        mask_(depthMask(canvas)),
+        mask_(canvas.depthBits()),
         pitch_(std::size_t(canvas.height) + 2 * kReach),
         depths_(kColumns * pitch_, kNothing) {
     for (int x = 0; x < kReach; ++x) fetch(x);
@@ -75,11 +73,11 @@ void Cracks::open(Canvas& canvas, std::uint32_t openBelow) {
       if (slotOf(canvas.pixels[i]) >= openBelow) cracks_.push_back({i, canvas.pixels[i]});
     }
   }
-  for (const Crack& crack : cracks_) canvas.pixels[crack.at] &= ~CanvasPixel(kSlotBits);
+  for (const Crack& crack : cracks_) canvas.pixels[crack.at] &= ~kSlotBits;
 }
 
 void Cracks::close(Canvas& canvas) {
-  const CanvasPixel mask = depthMask(canvas);
+  const CanvasPixel mask = canvas.depthBits();
   for (const Crack& crack : cracks_) {
     CanvasPixel& pixel = canvas.pixels[crack.at];
     if (slotOf(pixel) == 0 ||

@@ -41,7 +41,7 @@ void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource
   block.columnPitch = canvas.height;
   block.filtered = canvas.places ? filtered.data() : nullptr;
   block.sources = wide.data();
-  block.depthBits = ~(canvas.places ? static_cast<std::uint32_t>(kPlaceBits >> 32) : 0u);
+  block.depthBits = static_cast<std::uint32_t>(canvas.depthBits() >> 32);
   block.rowPitch = frame.colour.width;
   for (int left = x0; left < x1; left += kBlockSide)
     for (int top = 0; top < canvas.height; top += kBlockSide) {

@@ -16,6 +16,16 @@
 
 namespace acentric::test {
 
+inline Frame drawnBy(GlRenderer& renderer, const WalkScene& scene, const PerspectiveView& view,
+                     const ViewSettings& settings) {
+  const auto stats = renderer.draw(scene, view, settings);
+  if (!stats) {
+    ADD_FAILURE() << stats.error().describe();
+    return {};
+  }
+  return renderer.readBack();
+}
+
 class WithGl : public testing::Test {
  protected:
   void SetUp() override {
@@ -34,12 +44,7 @@ class WithGl : public testing::Test {
   }
 
   Frame onGl(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings) {
-    const auto stats = renderer_->draw(scene, view, settings);
-    if (!stats) {
-      ADD_FAILURE() << stats.error().describe();
-      return {};
-    }
-    return renderer_->readBack();
+    return drawnBy(*renderer_, scene, view, settings);
   }
 
   std::unique_ptr<HeadlessContext> context_;

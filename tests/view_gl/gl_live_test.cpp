@@ -28,12 +28,7 @@ class LiveRenderer {
   }
   GlRenderer& operator*() { return *renderer_; }
   Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings) {
-    const auto stats = renderer_->draw(scene, view, settings);
-    if (!stats) {
-      ADD_FAILURE() << stats.error().describe();
-      return {};
-    }
-    return renderer_->readBack();
+    return test::drawnBy(*renderer_, scene, view, settings);
   }
   /// Until something is packed or built that was not.
   bool waitForWake() { return wakes_.try_acquire_for(std::chrono::seconds(60)); }

@@ -53,12 +53,7 @@ class GlMeshBackground : public test::WithGl {
   }
   PerspectiveView nextView() { return views_.next(*layout_, region_, 60); }
   Frame live(const WalkScene& scene, const PerspectiveView& view) {
-    const auto stats = live_->draw(scene, view, settings_);
-    if (!stats) {
-      ADD_FAILURE() << stats.error().describe();
-      return {};
-    }
-    return live_->readBack();
+    return test::drawnBy(*live_, scene, view, settings_);
   }
   /// As the editor does: a new frame when there is a mesh to be shown.
   Frame liveWhenReady(const WalkScene& scene, const PerspectiveView& view) {
