@@ -14,6 +14,7 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_package(CGAL REQUIRED)
 # By pkg-config: Debian's CMake package names tools and an OpenCV folder that other packages bring.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+find_package(PNG REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 find_package(OpenEXR REQUIRED)
 find_package(assimp REQUIRED)

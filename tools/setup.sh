@@ -18,12 +18,13 @@ packagesOf() {
   done < "$root/packages.txt"
 }
 
-# missingPackages NAME...: those that are not installed, one a line. One dpkg-query for all, so it is quick.
+# missingPackages NAME...: those that are neither installed nor provided by a package that is (as npm is by some
+# builds of nodejs), one a line. One dpkg-query for all, so it is quick.
 missingPackages() {
-  local installed
-  # dpkg-query fails when it knows nothing of a package, and still lists the others.
-  installed=$(dpkg-query --show --showformat='${Package} ${db:Status-Status}\n' "$@" 2>/dev/null || true)
-  comm -23 <(printf '%s\n' "$@" | sort -u) <(awk '$2 == "installed" { print $1 }' <<< "$installed" | sort -u)
+  local there
+  there=$(dpkg-query --show --showformat='${db:Status-Status}|${Package}, ${Provides}\n' |
+    sed -n -E 's/^installed\|//p' | tr ',' '\n' | sed -E 's/^ +//; s/[ :(].*//')
+  comm -23 <(printf '%s\n' "$@" | sort -u) <(sort -u <<< "$there")
 }
 
 # ensurePackages GROUP...: installs what is missing from these groups, and nothing where nothing is.
@@ -96,4 +97,19 @@ build() {
   [[ -d $root/build/$preset/bin ]] || say "Building with $jobs jobs; the first time takes minutes."
   (cd "$root" && cmake --build --preset "$preset" -j "$jobs" --target "$@") < /dev/null >&2 ||
     die "the build failed (the first error above is why)."
+}
+
+# buildWeb: the page of `acentric export --to web`, with the packages of its lock file. Quiet when there is nothing to do.
+buildWeb() {
+  local web=$root/web newer
+  if [[ ! -f $web/node_modules/.package-lock.json || $web/package-lock.json -nt $web/node_modules/.package-lock.json ]]; then
+    say "Installing the page's packages (npm ci)."
+    (cd "$web" && npm ci --no-audit --no-fund) < /dev/null >&2 ||
+      die "npm ci failed (above is why): check the network, then try again."
+    touch "$web/node_modules/.package-lock.json"
+  fi
+  newer=$web/dist/index.html
+  if [[ -f $newer && -z $(find "$web/src" "$web"/*.* "$root/shaders" -newer "$newer" -type f -print -quit) ]]; then return 0; fi
+  say "Building the page."
+  (cd "$web" && npm run --silent build) < /dev/null >&2 || die "the page could not be built (above is why)."
 }

@@ -1,0 +1,15 @@
+# Writes OUT after TEMPLATE with the commit of SOURCE, if that changes it. A folder inside of another checkout is none itself.
+set(commit unknown)
+find_program(GIT git)
+if(GIT)
+  execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --show-toplevel OUTPUT_VARIABLE top ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+  file(REAL_PATH "${SOURCE}" own)
+  if("${top}" STREQUAL "${own}")
+    execute_process(COMMAND ${GIT} -C ${SOURCE} describe --always --dirty OUTPUT_VARIABLE described ERROR_QUIET
+      OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
+    if(NOT failed AND described)
+      set(commit ${described})
+    endif()
+  endif()
+endif()
+configure_file(${TEMPLATE} ${OUT} @ONLY)
