@@ -23,6 +23,7 @@ namespace acentric {
 
 class EyeViews;
 class FlatMirrors;
+class TexturePyramids;
 class RegionSkies;
 class Shader;
 
@@ -86,6 +87,7 @@ class CameraBaker {
   std::unique_ptr<Shader> shader_;
   std::stop_token shaderStop_;
   std::unique_ptr<FlatMirrors> mirrors_;
+  std::unique_ptr<TexturePyramids> textures_;
   std::unique_ptr<EyeViews> views_;
   std::unique_ptr<RegionSkies> skies_;
 };

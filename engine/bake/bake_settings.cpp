@@ -57,6 +57,9 @@ Status BakeSettings::check() const {
   if (testEyes < 1 || testEyes > 64) return bad(fmt::format("{} test eyes: must lie in 1..64", testEyes));
   if (!inRange(eyeRange, 0, kLargestBakeLength))
     return bad(fmt::format("eye range {} m: must lie in 0..{:.0f}", eyeRange, kLargestBakeLength));
+  if (!inRange(distanceShift, 0, kLargestDistanceShift))
+    return bad(fmt::format("distances that shift pictures by {} samples: must lie in 0..{}", distanceShift,
+                           kLargestDistanceShift));
   if (maxLayers < 1 || maxLayers > 64) return bad(fmt::format("{} layers: must lie in 1..64", maxLayers));
   return {};
 }
@@ -70,6 +73,8 @@ void BakeSettings::addTo(Hasher& hasher) const {
       .value(shadowRays)
       .value(bounces);
   hasher.value(int(pruning)).value(testEyes).value(eyeRange);
+  // Captures of before this could be set are as those of the usual value.
+  if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
 }
 
 }  // namespace acentric

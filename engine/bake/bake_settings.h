@@ -11,6 +11,8 @@ namespace acentric {
 /// Metres, of the settings' lengths; a project may be drawn in any unit.
 inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
 
+inline constexpr double kUsualDistanceShift = 0.1, kLargestDistanceShift = 16;
+
 /// How much of the settings a bake spends: a preview is there at once, a draft shows the layout's faults.
 enum class Quality : std::uint8_t { preview, draft, full };
 inline constexpr Quality kQualities[] = {Quality::preview, Quality::draft, Quality::full};
@@ -27,6 +29,9 @@ struct BakeSettings {
   bool pruning = true;          ///< keep only what a served region sees from one of its test eyes
   int testEyes = 8;             ///< per served region, 1..64
   double eyeRange = 0.15;       ///< metres: how far above and below eye height the eye may stand, 0..1e6
+  /// Of a sample's spacing: by how much the picture may shift because inverse distances are rounded, 0..16.
+  /// 0 = only to the 16 significant bits that captures keep.
+  double distanceShift = kUsualDistanceShift;
 
   /// Those that a quality is baked with: a quarter or half of the resolution, fewer rays, layers and eyes.
   BakeSettings at(Quality quality) const;

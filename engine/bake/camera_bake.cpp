@@ -16,21 +16,19 @@ namespace acentric {
 namespace {
 
 constexpr int kColumnsPerChunk = 4;
-/// Of a sample's spacing: how far the picture may shift by the rounding of a distance.
-constexpr double kShiftByRounding = 0.1;
 /// Of a region, for what mirrors show: through a mirror, as through a window, places are seen from parts of a
 /// region that lie between the test eyes.
 constexpr int kEyesBeforeMirrors = 16;
 
-/// The largest step of inverse distances that shifts no picture from a served region by more than a share of
-/// a sample: a sample off by dw is seen off by dw times the eye's distance from the camera.
-double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns) {
+/// The largest step of inverse distances that shifts no picture from a served region by more than `shift`
+/// samples: a sample off by dw is seen off by dw times the eye's distance from the camera. 0: no step.
+double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns, double shift) {
   double reach = 0;
   for (const Role& role : camera.roles)
     for (const glm::dvec2& corner : role.polygon.corners)
       reach = std::max(reach, glm::distance(corner, camera.position));
-  if (!(reach > 0)) return 0;
-  const double largest = kShiftByRounding * std::min(columns.columnPitch(), columns.rowPitch()) / reach;
+  if (!(reach > 0) || !(shift > 0)) return 0;
+  const double largest = shift * std::min(columns.columnPitch(), columns.rowPitch()) / reach;
   return std::ldexp(1.0, std::ilogb(largest));
 }
 
@@ -85,6 +83,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       shaderStop_ = stop;
     }
     if (!mirrors_) mirrors_ = std::make_unique<FlatMirrors>(scene_.scene(), scene_.plan());
+    if (!textures_ && shader_->detail().any())
+      textures_ = std::make_unique<TexturePyramids>(scene_.scene(), shader_->detail(), runner);
     std::optional<RegionSight> sight;
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
@@ -115,7 +115,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                                        sight ? &*sight : nullptr,
                                        mirrors,
                                        beyond && beyond->any() ? &*beyond : nullptr,
-                                       distanceStepFor(camera, columns)};
+                                       textures_ && textures_->any() ? textures_.get() : nullptr,
+                                       distanceStepFor(camera, columns, settings_.distanceShift)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<ChunkSamples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;

@@ -10,7 +10,7 @@ namespace acentric {
 namespace {
 
 /// Raised whenever the same input bakes to other pixels.
-constexpr std::string_view kBakeVersion = "acentric capture 11";
+constexpr std::string_view kBakeVersion = "acentric capture 12";
 
 /// Rows are never wasted on the poles, which local geometry covers.
 constexpr double kSteepest = radians(85);
@@ -33,6 +33,8 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   Hasher settings;
   settings.value(bake.samplesPerDegree).value(bake.maxLayers).value(int(bake.pruning));
   if (bake.pruning) settings.value(bake.testEyes).value(bake.eyeRange);
+  // Captures of before this could be set are as those of the usual value.
+  if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
   else

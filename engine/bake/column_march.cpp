@@ -60,6 +60,15 @@ void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
   }
 }
 
+std::optional<TextureArea> ColumnMarch::areaOf(const Hit& hit, const glm::vec3& direction) const {
+  if (setting_.textures == nullptr) return {};
+  const float flat = glm::length(glm::vec2(direction));
+  const glm::vec2 across = float(setting_.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
+  const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
+  return TextureArea(*setting_.textures, setting_.shader.scene().scene(), hit, direction,
+                     {glm::vec3(across, 0), float(setting_.columns.rowPitch()) * up});
+}
+
 /// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
 /// surface does not hide what is behind it.
 bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) {
@@ -73,7 +82,8 @@ bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) 
   if (const auto& even = setting_.shader.evenColours(); !even.empty()) {
     out_.add(row, stored, even[hit.mesh], mask);
   } else {
-    const Shaded shaded = setting_.shader.shade(hit, -direction, out_.counts.rays);
+    const auto area = areaOf(hit, direction);
+    const Shaded shaded = setting_.shader.shade(hit, -direction, area ? &*area : nullptr, out_.counts.rays);
     if (shaded.alpha < kOpaqueAlpha) return false;
     out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
   }
@@ -143,15 +153,16 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     if (inPart) sides_.of(side).push_back(&having);
     if (mirror != 0 && side == Side::met) facing_.push_back(&role);
   }
+  const auto shaded = [&](Side side) {
+    const auto area = areaOf(hit, direction);
+    return setting_.shader.shade(hit, surface.toViewer(side), area ? &*area : nullptr, out_.counts.rays);
+  };
   if (sides_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (!sides_.met.empty() || !facing_.empty())
     addSide(sides_.met, Side::met,
-            mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror)
-                        : setting_.shader.shade(hit, surface.toViewer(Side::met), out_.counts.rays),
-            horizontal, mirror);
-  if (!sides_.other.empty())
-    addSide(sides_.other, Side::other,
-            setting_.shader.shade(hit, surface.toViewer(Side::other), out_.counts.rays), horizontal, 0);
+            mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror) : shaded(Side::met), horizontal,
+            mirror);
+  if (!sides_.other.empty()) addSide(sides_.other, Side::other, shaded(Side::other), horizontal, 0);
 }
 
 /// A sample of one side of a surface for the roles that see it.

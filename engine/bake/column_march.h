@@ -26,9 +26,10 @@ class ColumnMarch {
     const ColumnCamera& columns;
     const RowAngles& rows;
     const BakeSettings& settings;
-    const RegionSight* sight;    ///< null: no pruning
-    const FlatMirrors* mirrors;  ///< null: there are none
-    const MirrorSight* beyond;   ///< null: only what the camera itself sees in them
+    const RegionSight* sight;         ///< null: no pruning
+    const FlatMirrors* mirrors;       ///< null: there are none
+    const MirrorSight* beyond;        ///< null: only what the camera itself sees in them
+    const TexturePyramids* textures;  ///< null: none to be averaged
     double distanceStep;
   };
   /// All must outlive the march.
@@ -39,6 +40,7 @@ class ColumnMarch {
 
  private:
   void runRows(int first, int last, const std::stop_token& stop);
+  std::optional<TextureArea> areaOf(const Hit& hit, const glm::vec3& direction) const;
   bool addAlone(int row, const glm::vec3& direction, const Hit& hit);
   void beginPixel(int row);
   void runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,

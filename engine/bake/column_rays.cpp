@@ -1,6 +1,8 @@
 #include "engine/bake/column_rays.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace acentric {
 
@@ -23,6 +25,13 @@ RayPacket firstRays(const ColumnCamera& columns, const RowAngles& rows, const gl
     packet.nearest[n] = float(nearest / flat);
   }
   return packet;
+}
+
+double firstExit(const LayoutCamera& camera, const glm::dvec2& columnDirection) {
+  if (camera.roles.empty()) return nearestSample(camera);
+  double exit = std::numeric_limits<double>::infinity();
+  for (const Role& role : camera.roles) exit = std::min(exit, exitDistance(camera, role, columnDirection));
+  return exit;
 }
 
 }  // namespace acentric

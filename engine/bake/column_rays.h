@@ -5,6 +5,7 @@
 
 #include "engine/bake/ray_scene.h"
 #include "engine/geometry/column_camera.h"
+#include "engine/layout/layout.h"
 
 namespace acentric {
 
@@ -19,5 +20,8 @@ struct RowAngles {
 /// (metres) on.
 RayPacket firstRays(const ColumnCamera& columns, const RowAngles& rows, const glm::dvec2& columnDirection,
                     int first, int last, double nearest);
+
+/// Where a camera's rays of a column begin, horizontal metres: as they leave the first region that it serves.
+double firstExit(const LayoutCamera& camera, const glm::dvec2& columnDirection);
 
 }  // namespace acentric

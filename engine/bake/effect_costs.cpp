@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/bake/bake.h"
+#include "engine/bake/column_rays.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/shading.h"
 #include "engine/base/stopwatch.h"
@@ -97,8 +98,7 @@ class CostProbe {
     const glm::dvec2 direction = columns.directionAt(u * columns.columns);
     const double elevation = columns.elevationAt(v * columns.rows), flat = std::cos(elevation);
     const LayoutCamera& camera = layout_.cameras[index];
-    double exit = camera.roles.empty() ? nearestSample(camera) : std::numeric_limits<double>::infinity();
-    for (const Role& role : camera.roles) exit = std::min(exit, exitDistance(camera, role, direction));
+    const double exit = firstExit(camera, direction);
     const Ray ray{glm::vec3(columns.centreOfProjection),
                   glm::vec3(direction.x * flat, direction.y * flat, std::sin(elevation)), float(exit / flat)};
     const Hit hit = scene_.trace(ray);

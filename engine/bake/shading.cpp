@@ -13,7 +13,6 @@ namespace acentric {
 namespace {
 
 /// Layers of glass and blending that a composed ray goes through at most.
-constexpr int kMaxBlendedLayers = 32;
 
 }  // namespace
 
@@ -58,15 +57,15 @@ struct ShadingKernels {
 
   template <DirectLight kSmall, DirectLight kWide, Around kAround, bool kDetail, bool kSpecial>
   static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
-                      RayCounts& rays) {
+                      const TextureArea* area, RayCounts& rays) {
     const RayScene& scene = *shader.scene_;
     const auto material = std::size_t(scene.scene().meshes[hit.mesh].material);
     const MaterialRules& rules = shader.rules_[material];
     if constexpr (kSmall == DirectLight::none && kWide == DirectLight::none && kAround == Around::even &&
                   !kDetail && !kSpecial)
       return evenly(shader, material, rules);
-    const Surface surface =
-        surfaceAt<kDetail>(scene.scene(), hit, toViewer, shader.detail_, shader.emission_ && !rules.unlit);
+    const Surface surface = surfaceAt<kDetail>(scene.scene(), hit, toViewer, shader.detail_,
+                                               shader.emission_ && !rules.unlit, area);
 
     Shaded out;
     out.baseColour = glm::vec3(surface.baseColour);
@@ -181,7 +180,7 @@ Shaded mirrorUnder(const glm::vec3& light, const Surface& surface) {
 
 Surface Shader::flatMirrorAt(const Hit& hit, const glm::vec3& toViewer) const {
   const auto surfaceOf = detail_.any() ? surfaceAt<true> : surfaceAt<false>;
-  return surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_);
+  return surfaceOf(scene_->scene(), hit, toViewer, detail_, emission_, nullptr);
 }
 
 Shaded Shader::flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm::vec3& toViewer) const {

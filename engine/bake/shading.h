@@ -36,6 +36,8 @@ struct Shaded {
 /// A hit this opaque hides what is behind it; one this clear is not there at all.
 inline constexpr float kOpaqueAlpha = 0.999f;
 inline constexpr float kInvisibleAlpha = 1.0f / 512;
+/// A ray ends after so many that are neither.
+inline constexpr int kMaxBlendedLayers = 32;
 
 /// Where to go on behind a hit: far enough not to meet it again, and coinciding surfaces count once.
 float justBehind(float distance);
@@ -52,8 +54,13 @@ class Shader {
   /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
   /// only.
   Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false) const {
-    return kernel_(*this, hit, toViewer, seenInMirror, rays);
+    return kernel_(*this, hit, toViewer, seenInMirror, nullptr, rays);
   }
+  /// Of a surface that a sample of a camera stands for: textures are averaged over it (texture_area.h).
+  Shaded shade(const Hit& hit, const glm::vec3& toViewer, const TextureArea* area, RayCounts& rays) const {
+    return kernel_(*this, hit, toViewer, false, area, rays);
+  }
+  const DetailRules& detail() const { return detail_; }
   /// What is seen where a ray hits nothing; all zero (black) where the plan has none.
   Sky sky() const { return scene_->plan().on(Effect::sky) ? scene_->scene().sky : Sky{}; }
   glm::vec3 background(const glm::vec3& direction) const { return sky().radiance(direction); }
@@ -97,7 +104,8 @@ class Shader {
   const Switches& switches() const { return switches_; }
 
  private:
-  using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, RayCounts&);
+  using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, const TextureArea*,
+                            RayCounts&);
   friend struct ShadingKernels;
   Surface flatMirrorAt(const Hit& hit, const glm::vec3& toViewer) const;
 

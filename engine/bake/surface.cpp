@@ -13,15 +13,33 @@ Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& co
   return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
 }
 
-/// Texture coordinates for a use; nothing where the mesh lacks them.
-bool coordinatesFor(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& b,
-                    glm::vec2& uv) {
-  if (!use.used()) return false;
-  const auto& values = mesh.uv[use.uvSet == 1 ? 1 : 0];
-  if (values.empty()) return false;
-  uv = interpolate(values, corners, b);
-  return true;
-}
+/// Reads the textures of a triangle at a place on it, or over an area around that.
+class TextureReader {
+ public:
+  TextureReader(const Scene& scene, const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& barycentric,
+                const TextureArea* area)
+      : scene_(scene), mesh_(mesh), corners_(corners), barycentric_(barycentric), area_(area) {}
+
+  /// Is there one, and has the mesh coordinates for it?
+  bool has(const TextureUse& use) const { return use.used() && !coordinates(use).empty(); }
+  glm::vec4 read(const TextureUse& use, TexelKind kind) const {
+    const auto& uv = coordinates(use);
+    if (area_ != nullptr)
+      return area_->mean(scene_, use, kind, glm::mat3x2(uv[corners_.x], uv[corners_.y], uv[corners_.z]));
+    const glm::vec2 at = interpolate(uv, corners_, barycentric_);
+    return kind == TexelKind::data ? sampleLinear(scene_, use, at) : sampleColour(scene_, use, at);
+  }
+
+ private:
+  const std::vector<glm::vec2>& coordinates(const TextureUse& use) const {
+    return mesh_.uv[use.uvSet == 1 ? 1 : 0];
+  }
+  const Scene& scene_;
+  const Mesh& mesh_;
+  glm::uvec3 corners_;
+  glm::vec2 barycentric_;
+  const TextureArea* area_;
+};
 
 /// How far the interpolated point may lie off its triangle's plane, generously: rounding is relative to the
 /// corners' coordinates axis by axis (so an axis-aligned wall has next to none across itself, however long it
@@ -39,43 +57,45 @@ glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
   return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
 }
 
-glm::vec3 mappedNormal(const Scene& scene, const Mesh& mesh, const Material& material,
+glm::vec3 mappedNormal(const TextureReader& textures, const Mesh& mesh, const Material& material,
                        const glm::uvec3& corners, const glm::vec2& b, const glm::vec3& normal) {
-  glm::vec2 uv;
-  if (mesh.tangents.empty() || !coordinatesFor(mesh, material.normalTexture, corners, b, uv)) return normal;
+  if (mesh.tangents.empty() || !textures.has(material.normalTexture)) return normal;
   const glm::vec4 tangent = interpolate(mesh.tangents, corners, b);
   const glm::vec3 flat = glm::vec3(tangent) - normal * glm::dot(normal, glm::vec3(tangent));
   const glm::vec3 t = unitOr(flat, glm::vec3(0));
   if (t == glm::vec3(0)) return normal;
   const glm::vec3 bitangent = glm::cross(normal, t) * (tangent.w < 0 ? -1.0f : 1.0f);
-  const glm::vec3 stored = 2.0f * glm::vec3(sampleLinear(scene, material.normalTexture, uv)) - 1.0f;
+  const glm::vec3 stored = 2.0f * glm::vec3(textures.read(material.normalTexture, TexelKind::data)) - 1.0f;
   const glm::vec2 slope = material.normalScale * glm::vec2(stored);
   return unitOr(t * slope.x + bitangent * slope.y + normal * stored.z, normal);
+}
+
+glm::vec4 baseColourOf(const TextureReader& textures, const Mesh& mesh, const Material& material,
+                       const glm::uvec3& corners, const glm::vec2& b, const DetailRules& detail) {
+  glm::vec4 colour = material.baseColour;
+  if (detail.textures && textures.has(material.baseColourTexture))
+    colour *= textures.read(material.baseColourTexture, baseColourKind(material));
+  if (detail.vertexColours && !mesh.colours.empty()) {
+    const auto& c = mesh.colours;
+    colour *= (glm::vec4(c[corners.x]) * (1 - b.x - b.y) + glm::vec4(c[corners.y]) * b.x +
+               glm::vec4(c[corners.z]) * b.y) /
+              255.0f;
+  }
+  return colour;
 }
 
 }  // namespace
 
 glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t triangle,
                        const glm::vec2& barycentric, const DetailRules& detail) {
-  const Material& material = scene.materials[std::size_t(mesh.material)];
   const glm::uvec3& corners = mesh.triangles[triangle];
-  glm::vec4 colour = material.baseColour;
-  glm::vec2 uv;
-  if (detail.textures && coordinatesFor(mesh, material.baseColourTexture, corners, barycentric, uv))
-    colour *= sampleColour(scene, material.baseColourTexture, uv);
-  if (detail.vertexColours && !mesh.colours.empty()) {
-    const auto& c = mesh.colours;
-    const float first = 1 - barycentric.x - barycentric.y;
-    colour *= (glm::vec4(c[corners.x]) * first + glm::vec4(c[corners.y]) * barycentric.x +
-               glm::vec4(c[corners.z]) * barycentric.y) /
-              255.0f;
-  }
-  return colour;
+  return baseColourOf({scene, mesh, corners, barycentric, nullptr}, mesh,
+                      scene.materials[std::size_t(mesh.material)], corners, barycentric, detail);
 }
 
 template <bool kDetail>
 Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer, const DetailRules& detail,
-                  bool emission) {
+                  bool emission, const TextureArea* area) {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const Material& material = scene.materials[std::size_t(mesh.material)];
   const glm::uvec3& corners = mesh.triangles[hit.triangle];
@@ -97,16 +117,16 @@ Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer,
   if (emission) surface.emission = material.emissive;
 
   if constexpr (kDetail) {
-    if (detail.normalMaps) normal = mappedNormal(scene, mesh, material, corners, b, normal);
-    surface.baseColour = baseColourAt(scene, mesh, hit.triangle, b, detail);
-    glm::vec2 uv;
-    if (detail.textures && coordinatesFor(mesh, material.metallicRoughnessTexture, corners, b, uv)) {
-      const glm::vec4 stored = sampleLinear(scene, material.metallicRoughnessTexture, uv);
+    const TextureReader textures(scene, mesh, corners, b, area);
+    if (detail.normalMaps) normal = mappedNormal(textures, mesh, material, corners, b, normal);
+    surface.baseColour = baseColourOf(textures, mesh, material, corners, b, detail);
+    if (detail.textures && textures.has(material.metallicRoughnessTexture)) {
+      const glm::vec4 stored = textures.read(material.metallicRoughnessTexture, TexelKind::data);
       surface.roughness *= stored.g;
       surface.metallic *= stored.b;
     }
-    if (emission && detail.textures && coordinatesFor(mesh, material.emissiveTexture, corners, b, uv))
-      surface.emission *= glm::vec3(sampleColour(scene, material.emissiveTexture, uv));
+    if (emission && detail.textures && textures.has(material.emissiveTexture))
+      surface.emission *= glm::vec3(textures.read(material.emissiveTexture, TexelKind::colour));
   } else {
     surface.baseColour = material.baseColour;
   }
@@ -115,7 +135,9 @@ Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer,
   return surface;
 }
 
-template Surface surfaceAt<true>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool);
-template Surface surfaceAt<false>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool);
+template Surface surfaceAt<true>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool,
+                                 const TextureArea*);
+template Surface surfaceAt<false>(const Scene&, const Hit&, const glm::vec3&, const DetailRules&, bool,
+                                  const TextureArea*);
 
 }  // namespace acentric

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "engine/bake/ray_scene.h"
+#include "engine/bake/texture_area.h"
 #include "engine/scene/material_rules.h"
 
 namespace acentric {
@@ -23,9 +24,10 @@ struct Surface {
 glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t triangle,
                        const glm::vec2& barycentric, const DetailRules& detail);
 
-/// `kDetail` false reads neither textures nor vertex colours nor normal maps.
+/// `kDetail` false reads neither textures nor vertex colours nor normal maps. Textures are read at the hit,
+/// or over an area around it.
 template <bool kDetail>
 Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer, const DetailRules& detail,
-                  bool emission);
+                  bool emission, const TextureArea* area = nullptr);
 
 }  // namespace acentric

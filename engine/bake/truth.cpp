@@ -6,6 +6,7 @@
 
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/shading.h"
+#include "engine/bake/surface.h"
 #include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
 #include "engine/image/colour.h"
@@ -38,17 +39,18 @@ float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2
 }  // namespace
 
 TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,
-                       float exposure, int samplesPerPixel, TaskRunner& runner) {
+                       float exposure, int samplesPerPixel, TaskRunner& runner, const std::stop_token& stop) {
   require(view.check().has_value(), "a view to render is sound");
   require(settings.check().has_value(), "bake settings are checked before they are used");
   const int grid = int(std::lround(std::sqrt(double(samplesPerPixel))));
   require(grid >= 1 && grid * grid == samplesPerPixel, "samples per pixel are a square number");
 
   TruthFrame frame{ColourImage(view.width, view.height), FloatImage(view.width, view.height), {}};
-  const Shader shader(scene, settings);
+  const Shader shader(scene, settings, stop);
   const ViewRays camera(view);
   std::vector<RayCounts> counts(std::size_t(view.height));
   runner.parallelFor(std::size_t(view.height), [&](std::size_t row) {
+    if (stop.stop_requested()) return;
     const FlushDenormals flush;
     RayCounts& rays = counts[row];
     const int y = int(row);
@@ -73,6 +75,36 @@ TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const
   });
   for (const RayCounts& c : counts) frame.rays += c;
   return frame;
+}
+
+Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,
+                                        TaskRunner& runner) {
+  require(view.check().has_value(), "a view to render is sound");
+  const std::vector<MaterialRules> rules = materialRules(scene.scene(), scene.plan());
+  const DetailRules detail = detailRules(scene.plan());
+  const ViewRays camera(view);
+  const auto depends = [&](Ray ray) {
+    constexpr float kFaintlyMetallic = 0.05f;
+    for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
+      const Hit hit = scene.trace(ray);
+      if (!hit.found()) return false;
+      const MaterialRules& rule = rules[std::size_t(scene.scene().meshes[hit.mesh].material)];
+      const Surface surface = surfaceAt<true>(scene.scene(), hit, -ray.direction, detail, false);
+      const bool clear = rule.blended && surface.baseColour.a < kInvisibleAlpha;
+      if (!clear && !rule.unlit && (rule.mirror || rule.transmissive || surface.metallic > kFaintlyMetallic))
+        return true;
+      if (!rule.blended || surface.baseColour.a >= kOpaqueAlpha) return false;
+      ray.nearest = justBehind(hit.distance);
+    }
+    return false;
+  };
+  Image<std::uint8_t> out(view.width, view.height);
+  runner.parallelFor(std::size_t(view.height), [&](std::size_t row) {
+    const FlushDenormals flush;
+    for (int x = 0; x < view.width; ++x)
+      out.at(x, int(row)) = depends(camera.through(x + 0.5, double(row) + 0.5)) ? 1 : 0;
+  });
+  return out;
 }
 
 float estimateExposure(const RayScene& scene, const std::vector<glm::dvec3>& eyes,

@@ -18,8 +18,15 @@ struct TruthFrame {
 };
 
 /// One ray through each pixel centre; `samplesPerPixel` > 1 averages a regular grid of n x n (1, 4, 9, 16).
+/// A stop ends it within a row; the picture then means nothing.
 TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,
-                       float exposure, int samplesPerPixel, TaskRunner& runner);
+                       float exposure, int samplesPerPixel, TaskRunner& runner,
+                       const std::stop_token& stop = {});
+
+/// 1 where what a pixel's centre shows looks different from elsewhere: metals, mirrors, and what lies behind
+/// glass; else 0. Shades nothing.
+Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,
+                                        TaskRunner& runner);
 
 /// Exposure that puts the log-average radiance seen from `eyes` (all around, low resolution) at middle grey
 /// 0.18.

@@ -192,7 +192,7 @@ int removeStaleTemporaries(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     std::error_code removeError;
     if (entry.path().filename().string().starts_with(kTemporaryPrefix) && isStale(entry, machine) &&
-        fs::remove(entry.path(), removeError))
+        fs::remove_all(entry.path(), removeError) > 0 && !removeError)
       ++removed;
   }
   return removed;

@@ -40,8 +40,9 @@ inline constexpr std::string_view kTemporaryPrefix = ".acentric-tmp-";
 /// be shared between machines, whose process numbers mean nothing to each other.
 std::string temporaryNameStart();
 
-/// Removes temporaries that a killed process left in `folder`: those of this machine whose writing process is
-/// gone, and all that nobody has written to for a day. Returns how many were removed.
+/// Removes temporaries, files and folders, that a killed process left in `folder`: those of this machine
+/// whose writing process is gone, and all that nobody has written to for a day. Returns how many were
+/// removed.
 int removeStaleTemporaries(const std::filesystem::path& folder);
 
 /// Can files be made in a folder that is there? Tries, and leaves nothing.

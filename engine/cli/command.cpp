@@ -9,6 +9,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
+#include "engine/pipeline/knobs.h"
 #include "engine/pipeline/scene_storeys.h"
 #include "engine/pipeline/walk_stream.h"
 #include "engine/view/view_cameras.h"
@@ -49,6 +50,7 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
                                                        TaskRunner& runner, const Look& look) {
   std::unique_ptr<FrameMaker> maker(new FrameMaker(storeys, common, runner));
   maker->settings = storeys.front().project.view;
+  maker->name_ = rendererName.empty() ? nameOf(maker->settings.renderer) : rendererName;
   if (rendererName == "truth") {
     maker->shows_ = Shows::truth;
     return maker;
@@ -61,7 +63,7 @@ Result<std::unique_ptr<FrameMaker>> FrameMaker::create(std::span<const OpenProje
     maker->settings.fillHoles = false;
     return maker;
   }
-  const auto renderer = parseRenderer(rendererName);
+  const auto renderer = parseRenderer(maker->name_);
   if (!renderer) return tl::unexpected(renderer.error());
   maker->settings.renderer = *renderer;
   if (Status applied = apply(look, maker->settings); !applied) return tl::unexpected(applied.error());
@@ -205,7 +207,19 @@ Result<int> storeyOf(const Project& project, const std::string& choice) {
               "--storey");
 }
 
-Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& common) {
+Result<Bookmark> bookmarkOf(const Project& project, const std::string& name) {
+  const auto found = std::ranges::find(project.bookmarks, name, &Bookmark::name);
+  if (found != project.bookmarks.end()) return *found;
+  std::vector<std::string> names;
+  for (const Bookmark& bookmark : project.bookmarks) names.push_back("'" + bookmark.name + "'");
+  return fail(ErrorKind::invalidArgument,
+              names.empty()
+                  ? fmt::format("there is no bookmark '{}': the project has none", name)
+                  : fmt::format("there is no bookmark '{}'; there are {}", name, fmt::join(names, ", ")),
+              "--bookmark");
+}
+
+Result<Project> loadChosen(const std::filesystem::path& file, const Common& common) {
   auto project = loadProject(file);
   if (!project) return tl::unexpected(project.error());
   if (!common.storey.empty()) {
@@ -213,6 +227,15 @@ Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& 
     if (!storey) return tl::unexpected(storey.error());
     project->storey = *storey;
   }
+  if (common.preset.empty()) return project;
+  const auto setting = presetOf(sweepFileOf(file, common.presetFrom), common.preset);
+  if (!setting) return tl::unexpected(setting.error());
+  return applySetting(std::move(*project), *setting);
+}
+
+Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& common) {
+  const auto project = loadChosen(file, common);
+  if (!project) return tl::unexpected(project.error());
   return openUnsaved(file, *project, common.host, common.progress, common.stop);
 }
 

@@ -31,7 +31,9 @@ struct Report {
 
 struct Common {
   std::string storey;  ///< of the project, as --storey says; empty = the one where its walk begins
-  int threads = 0;     ///< 0 = all processors
+  std::string preset;  ///< of a sweep, that the project is taken with; empty = as it is
+  std::filesystem::path presetFrom;     ///< the sweep's folder or file; empty = beside the project
+  int threads = 0;                      ///< 0 = all processors
   std::optional<double> walkMegabytes;  ///< for captures in memory; none = a share of the machine's
   Progress progress;                    ///< empty when not on a terminal or with --json
   std::stop_token stop;                 ///< Ctrl-C
@@ -46,7 +48,12 @@ struct Common {
 /// number in the project. Messages list what there is.
 Result<int> storeyOf(const Project& project, const std::string& choice);
 
-/// Opens the storey that was chosen.
+/// Of that name. Messages list what there is.
+Result<Bookmark> bookmarkOf(const Project& project, const std::string& name);
+
+/// The project with the storey and the preset that were chosen.
+Result<Project> loadChosen(const std::filesystem::path& file, const Common& common);
+/// Opens the storey that was chosen, with the preset.
 Result<OpenProject> openChosen(const std::filesystem::path& file, const Common& common);
 /// Opens the storey that was chosen; if none was, all of them.
 Result<std::vector<OpenProject>> openStoreys(const std::filesystem::path& file, const Common& common);
@@ -78,6 +85,7 @@ Status apply(const Look& look, ViewSettings& settings);
 class FrameMaker {
  public:
   /// `storeys`, at least one, must outlive it.
+  /// No name: the project's renderer.
   static Result<std::unique_ptr<FrameMaker>> create(std::span<const OpenProject> storeys,
                                                     const std::string& rendererName, const Common& common,
                                                     TaskRunner& runner, const Look& look = {});
@@ -90,7 +98,11 @@ class FrameMaker {
   Result<Frame> render(const PerspectiveView& view);
   /// The next frame is made in the memory of one that is no longer needed.
   void recycle(Frame frame) { memory_.frame = std::move(frame); }
+  /// Of the last frame that was not drawn by OpenGL, 1/m along the view's axis.
+  const FloatImage& inverseZDepth() const { return memory_.inverseZDepth; }
   std::vector<std::string> warnings() const;
+  /// Of the renderer that it has become.
+  const std::string& name() const { return name_; }
   bool isTruth() const { return shows_ == Shows::truth; }
   ViewSettings settings;
   int truthSamples = 1;  ///< per pixel
@@ -105,6 +117,7 @@ class FrameMaker {
   TaskRunner& runner_;
   std::shared_ptr<Shared> shared_;
   FrameMemory memory_;
+  std::string name_;
   enum class Shows { captures, truth, polygons };
   Shows shows_ = Shows::captures;
 };

@@ -156,6 +156,8 @@ Status checkOptions(const BakeOptions& options, const Common& common) {
     return bad("leave it to one command when all shares are baked", "--prune");
   if (options.prune && !common.storey.empty())
     return bad("what one storey does not use another may: leave --storey away", "--prune");
+  if (options.prune && !common.preset.empty())
+    return bad("would delete the captures of the project as it is: leave --preset away", "--prune");
   if (options.quality != nameOf(Quality::full) && (options.prune || options.dryRun))
     return bad("is about the captures of full quality: leave --quality away",
                options.prune ? "--prune" : "--dry-run");
@@ -167,14 +169,15 @@ Status checkOptions(const BakeOptions& options, const Common& common) {
 /// The plan of the storey chosen, or of all.
 Result<BakePlan> planFor(const BakeOptions& options, const Common& common) {
   std::optional<int> storey;
-  if (!common.storey.empty()) {
-    const auto project = loadProject(options.project);
+  std::optional<Project> preset;
+  if (!common.storey.empty() || !common.preset.empty()) {
+    auto project = loadChosen(options.project, common);
     if (!project) return tl::unexpected(project.error());
-    const auto chosen = storeyOf(*project, common.storey);
-    if (!chosen) return tl::unexpected(chosen.error());
-    storey = *chosen;
+    if (!common.storey.empty()) storey = project->storey;
+    if (!common.preset.empty()) preset = std::move(*project);
   }
-  auto plan = planBake(options.project, storey, common.host, common.progress, common.stop);
+  auto plan = preset ? planBake(options.project, *preset, storey, common.host, common.progress, common.stop)
+                     : planBake(options.project, storey, common.host, common.progress, common.stop);
   if (!plan || options.only.empty()) return plan;
   if (plan->storeys.size() > 1)
     return fail(ErrorKind::invalidArgument,

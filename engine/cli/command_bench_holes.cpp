@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
+#include "engine/cli/machine.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "engine/measure/statistics.h"
@@ -112,19 +113,19 @@ Result<Report> runBenchHoles(const BenchHolesOptions& options, const Common& com
 
   const PerspectiveView& first = measured->views.front();
   Report report;
-  report.json = {{"version", ACENTRIC_VERSION},
-                 {"project", options.project.string()},
-                 {"region", {measured->region.i, measured->region.j, measured->region.slot}},
-                 {"from", cli::toJson(first.eye)},
-                 {"to", cli::toJson(measured->views.back().eye)},
-                 {"yaw", degrees(first.yawRadians)},
-                 {"fov", degrees(first.fovRadians)},
-                 {"width", first.width},
-                 {"height", first.height},
-                 {"frames", measured->views.size()},
-                 {"samplesPerDegree", open->project.bake.samplesPerDegree},
-                 {"truthSamples", options.truthSamples},
-                 {"methods", Json::array()}};
+  report.json = measuredOn(runner->threads());
+  report.json.update({{"project", options.project.string()},
+                      {"region", {measured->region.i, measured->region.j, measured->region.slot}},
+                      {"from", cli::toJson(first.eye)},
+                      {"to", cli::toJson(measured->views.back().eye)},
+                      {"yaw", degrees(first.yawRadians)},
+                      {"fov", degrees(first.fovRadians)},
+                      {"width", first.width},
+                      {"height", first.height},
+                      {"frames", measured->views.size()},
+                      {"samplesPerDegree", open->project.bake.samplesPerDegree},
+                      {"truthSamples", options.truthSamples},
+                      {"methods", Json::array()}});
   for (const HoleBenchMethod& method : measured->methods) report.json["methods"].push_back(toJson(method));
   report.text = fmt::format(
       "{} frames of {}x{} from ({:.2f}, {:.2f}) to ({:.2f}, {:.2f}), {:g} samples per degree; medians and "

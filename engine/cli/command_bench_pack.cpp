@@ -16,18 +16,19 @@ Result<Report> runBenchPack(const BenchPackOptions& options, const Common& commo
                         ? Result<CameraPath>(roundIn(layout, region.value_or(0), options.frames))
                         : loadPath(options.path);
   if (!path) return tl::unexpected(path.error());
-  const auto packed = packWalk(*open, *path, {size->width, size->height},
+  const CameraPath frames = framesOf(*path);
+  const auto packed = packWalk(*open, frames, {size->width, size->height},
                                std::uint64_t(options.mostMegabytes * 1e6), options.output);
   if (!packed) return tl::unexpected(packed.error());
   Report report;
   report.json = {{"folder", options.output.string()},
                  {"frames", packed->path.poses.size()},
-                 {"framesLeftOut", path->poses.size() - packed->path.poses.size()},
+                 {"framesLeftOut", frames.poses.size() - packed->path.poses.size()},
                  {"cameras", packed->cameras},
                  {"bytes", packed->bytes}};
   report.text =
       fmt::format("{}: {} of {} frames, {} cameras, {}\n", options.output.string(), packed->path.poses.size(),
-                  path->poses.size(), packed->cameras, bytesText(packed->bytes));
+                  frames.poses.size(), packed->cameras, bytesText(packed->bytes));
   return report;
 }
 

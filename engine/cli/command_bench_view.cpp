@@ -92,19 +92,17 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
       }
   const double readRate = streamingReadRate(*runner);
   Report report;
-  report.json = {{"version", ACENTRIC_VERSION},
-                 {"processor", processorName()},
-                 {"threads", runner->threads()},
-                 {"project", options.project.string()},
-                 {"triangles", walk->storeys.front().scene->triangleCount()},
-                 {"width", walk->size.width},
-                 {"height", walk->size.height},
-                 {"frames", views.size()},
-                 {"repeats", options.repeats},
-                 {"reconstruction", nameOf(makers.front()->settings.reconstruction)},
-                 {"loadSeconds", loadSeconds},
-                 {"readGigabytesPerSecond", readRate / 1e9},
-                 {"renderers", Json::array()}};
+  report.json = measuredOn(runner->threads());
+  report.json.update({{"project", options.project.string()},
+                      {"triangles", walk->storeys.front().scene->triangleCount()},
+                      {"width", walk->size.width},
+                      {"height", walk->size.height},
+                      {"frames", views.size()},
+                      {"repeats", options.repeats},
+                      {"reconstruction", nameOf(makers.front()->settings.reconstruction)},
+                      {"loadSeconds", loadSeconds},
+                      {"readGigabytesPerSecond", readRate / 1e9},
+                      {"renderers", Json::array()}});
   report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; the first captures loaded in {:.2f} s\n",
                             processorName(), runner->threads(), walk->size.width, walk->size.height,
                             views.size(), options.repeats, loadSeconds);

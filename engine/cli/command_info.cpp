@@ -5,6 +5,7 @@
 #include "engine/bake/effect_costs.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/region_report.h"
+#include "engine/geometry/conventions.h"
 #include "engine/inspect/budgets.h"
 #include "engine/measure/statistics.h"
 
@@ -37,6 +38,39 @@ std::string effectsText(const EffectPlan& plan, const EffectCosts& costs) {
   return text;
 }
 
+Json toJson(const Bookmark& bookmark, const Project& project) {
+  return {{"name", bookmark.name},
+          {"storey", project.storeys[std::size_t(bookmark.storey)].name},
+          {"eye", cli::toJson(bookmark.eye)},
+          {"yaw", degrees(bookmark.yawRadians)},
+          {"pitch", degrees(bookmark.pitchRadians)},
+          {"fov", bookmark.fovDegrees}};
+}
+
+Json toJson(const WalkPath& path, const Project& project) {
+  return {{"name", path.name},
+          {"storey", project.storeys[std::size_t(path.storey)].name},
+          {"seconds", path.path.seconds()},
+          {"poses", path.path.poses.size()}};
+}
+
+/// Bookmarks and paths, a line each.
+std::string walksText(const Project& project) {
+  const auto where = [&](int storey) {
+    return project.storeys.size() > 1 ? ", " + project.storeys[std::size_t(storey)].name : std::string();
+  };
+  std::string text;
+  for (const Bookmark& b : project.bookmarks)
+    text += fmt::format(
+        "bookmark {}: ({:.2f}, {:.2f}, {:.2f}) m, yaw {:.1f}°, pitch {:.1f}°, field of view {:g}°{}\n",
+        b.name, b.eye.x, b.eye.y, b.eye.z, degrees(b.yawRadians), degrees(b.pitchRadians), b.fovDegrees,
+        where(b.storey));
+  for (const WalkPath& p : project.paths)
+    text += fmt::format("path     {}: {:.1f} s, {} key poses{}\n", p.name, p.path.seconds(),
+                        p.path.poses.size(), where(p.storey));
+  return text;
+}
+
 }  // namespace
 
 Result<Report> runInfo(const InfoOptions& options, const Common& common) {
@@ -62,6 +96,10 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   const glm::vec3 size = scene.bounds.size();
 
   Report report;
+  Json bookmarks = Json::array(), paths = Json::array();
+  for (const Bookmark& bookmark : open->project.bookmarks)
+    bookmarks.push_back(toJson(bookmark, open->project));
+  for (const WalkPath& path : open->project.paths) paths.push_back(toJson(path, open->project));
   Json storeys = Json::array();
   for (const Storey& storey : open->project.storeys)
     storeys.push_back({{"name", storey.name},
@@ -71,6 +109,8 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
       {"project", options.project.string()},
       {"storey", open->project.current().name},
       {"storeys", std::move(storeys)},
+      {"bookmarks", std::move(bookmarks)},
+      {"paths", std::move(paths)},
       {"scene",
        {{"file", open->project.scene.generic_string()},
         {"triangles", scene.triangleCount()},
@@ -115,6 +155,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
       report.text += fmt::format("storey   {} {}: {:.2f} m, {:.1f} m2 walkable\n",
                                  storey == open->project.current() ? '>' : ' ', storey.name,
                                  storey.layout.floorHeight, storey.layout.outline.area());
+  report.text += walksText(open->project);
   for (const auto& [label, lines] :
        {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
         std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})

@@ -14,7 +14,8 @@ namespace acentric::cli {
 /// What parsing leaves to be run.
 struct Chosen {
   std::function<Result<Report>(const Common&)> run;
-  std::string storey;
+  std::string storey, preset;
+  std::filesystem::path presetFrom;
   std::optional<double> walkMegabytes;
 };
 
@@ -34,6 +35,8 @@ std::pair<CLI::App*, Options&> add(CLI::App& app, Chosen& chosen, const char* na
 
 /// `otherwise`: what is meant where no storey is given.
 void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise);
+/// The project is taken as a sweep found worth having; its file is not changed.
+void addPresetOption(CLI::App& command, Chosen& chosen);
 
 /// Projects: made, changed, baked, checked.
 void addProjectCommands(CLI::App& app, Chosen& chosen);
@@ -41,7 +44,13 @@ void addProjectCommands(CLI::App& app, Chosen& chosen);
 void addInspectionCommands(CLI::App& app, Chosen& chosen);
 /// Pictures of what is baked, and how good and fast they are.
 void addWalkCommands(CLI::App& app, Chosen& chosen);
-/// One of those of `acentric bench`.
+/// Bundles for other programs.
+void addExportCommand(CLI::App& app, Chosen& chosen);
+/// What accuracy costs, and settings chosen by it.
+void addSweepCommands(CLI::App& app, Chosen& chosen);
+/// Of those of `acentric bench`.
 void addPackCommand(CLI::App& bench, Chosen& chosen);
+void addRepresentationsCommand(CLI::App& bench, Chosen& chosen);
+void addNumericsCommand(CLI::App& bench, Chosen& chosen);
 
 }  // namespace acentric::cli

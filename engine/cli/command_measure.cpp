@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/cli/attribution_report.h"
 #include "engine/cli/commands.h"
+#include "engine/cli/machine.h"
 #include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/cli/seam_report.h"
@@ -39,6 +41,7 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
 
   std::vector<double> psnr, ssim, holes, milliseconds;
   SeamSums seams;
+  AttributionReport attribution(open.project.bake.samplesPerDegree);
   MeshBudget meshes;
   Json frames = Json::array();
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -50,6 +53,8 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
                                          options.truthSamples, *runner);
     const auto comparison = compare(*frame, truth.colour, truth.rayDistance);
     if (!comparison) return tl::unexpected(comparison.error());
+    if (options.attribution)
+      attribution.add(*frame, truth, viewDependentPixels(*open.rays, views[i], *runner), views[i]);
     if (options.seams) seams += measureSeam(*frame, truth.colour, truth.rayDistance);
     if (!options.images.empty())
       if (Status written = writeTriple(options.images, i, *frame, truth); !written)
@@ -67,29 +72,33 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   }
   const Spread p = spreadOf(psnr), s = spreadOf(ssim), h = spreadOf(holes), m = spreadOf(milliseconds);
   Report report;
-  report.json = {{"project", options.project.string()},
-                 {"renderer", options.renderer},
-                 {"reconstruction", nameOf((*maker)->settings.reconstruction)},
-                 {"width", walk->size.width},
-                 {"height", walk->size.height},
-                 {"threads", runner->threads()},
-                 {"psnr", toJson(p)},
-                 {"ssim", toJson(s)},
-                 {"holeShare", toJson(h)},
-                 {"frameMs", toJson(m)},
-                 {"frames", std::move(frames)},
-                 {"warnings", (*maker)->warnings()}};
+  report.json = measuredOn(runner->threads());
+  report.json.update({{"project", options.project.string()},
+                      {"renderer", (*maker)->name()},
+                      {"reconstruction", nameOf((*maker)->settings.reconstruction)},
+                      {"width", walk->size.width},
+                      {"height", walk->size.height},
+                      {"psnr", toJson(p)},
+                      {"ssim", toJson(s)},
+                      {"holeShare", toJson(h)},
+                      {"frameMs", toJson(m)},
+                      {"frames", std::move(frames)},
+                      {"warnings", (*maker)->warnings()}});
   report.text = fmt::format(
       "{} frames of {}x{}, renderer {}, {} threads\n"
       "  PSNR       median {:6.2f} dB   worst {:6.2f} dB\n"
       "  SSIM       median {:6.4f}      worst {:6.4f}\n"
       "  hole share median {:6.3f} %    worst {:6.3f} %\n"
       "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
-      views.size(), walk->size.width, walk->size.height, options.renderer, runner->threads(), p.median, p.min,
+      views.size(), walk->size.width, walk->size.height, (*maker)->name(), runner->threads(), p.median, p.min,
       s.median, s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
   if (meshes.any()) {
     report.json["mesh"] = meshes.json();
     report.text += meshes.text();
+  }
+  if (options.attribution) {
+    report.json["attribution"] = attribution.json();
+    report.text += attribution.text();
   }
   if (options.seams) {
     const auto pops =

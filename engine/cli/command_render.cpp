@@ -34,6 +34,24 @@ Result<glm::dvec3> parseEye(const std::string& text, const Layout& layout) {
   return eye;
 }
 
+/// Where the eye is and where it looks.
+Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProject& open) {
+  if (!options.bookmark.empty()) {
+    const auto bookmark = bookmarkOf(open.project, options.bookmark);
+    if (!bookmark) return tl::unexpected(bookmark.error());
+    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, {});
+  }
+  PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
+                radians(options.yawDegrees),
+                radians(options.pitchDegrees)};
+  if (!options.eye.empty()) {
+    const auto eye = parseEye(options.eye, *open.layout);
+    if (!eye) return tl::unexpected(eye.error());
+    pose.eye = *eye;
+  }
+  return viewAt(pose, options.fovDegrees, {});
+}
+
 }  // namespace
 
 Result<PictureSize> parseSize(const std::string& text) {
@@ -60,23 +78,15 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   auto current = openChosen(options.project, common);
   if (!current) return tl::unexpected(current.error());
 
-  PerspectiveView view;
-  if (options.eye.empty()) {
-    view.eye = {current->project.spawn().position, current->layout->eyeZ()};
-  } else {
-    const auto eye = parseEye(options.eye, *current->layout);
-    if (!eye) return tl::unexpected(eye.error());
-    view.eye = *eye;
-  }
-  view.yawRadians = radians(options.yawDegrees);
-  view.pitchRadians = radians(options.pitchDegrees);
-  view.fovRadians = radians(options.fovDegrees);
+  const auto chosen = chosenView(options, *current);
+  if (!chosen) return tl::unexpected(chosen.error());
+  PerspectiveView view = *chosen;
   view.width = size->width;
   view.height = size->height;
 
   const auto runner = common.runner();
   std::vector<OpenProject> storeys{*current};
-  if (common.storey.empty() && !options.eye.empty()) {
+  if (common.storey.empty() && !(options.eye.empty() && options.bookmark.empty())) {
     auto all = acentric::openStoreys(*current, common.host, common.progress, common.stop);
     if (!all) return tl::unexpected(all.error());
     storeys = std::move(*all);
@@ -109,7 +119,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
   Report report;
   report.json = {{"picture", options.output.string()},
                  {"mode", options.mode},
-                 {"renderer", options.renderer},
+                 {"renderer", (*maker)->name()},
                  {"eye", toJson(view.eye)},
                  {"width", view.width},
                  {"height", view.height},

@@ -57,8 +57,7 @@ Status removeStorey(Project& project, const std::string& choice) {
   if (!storey) return tl::unexpected(storey.error());
   if (project.storeys.size() == 1)
     return fail(ErrorKind::invalidArgument, "a project keeps at least one storey", "--remove");
-  project.storeys.erase(project.storeys.begin() + *storey);
-  if (project.storey > *storey || project.storey == int(project.storeys.size())) --project.storey;
+  acentric::removeStorey(project, *storey);
   return {};
 }
 

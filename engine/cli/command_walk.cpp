@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kSheetPictures = 12, kSheetRows = 6;
 constexpr std::size_t kSheetColumns = 4;
 constexpr int kSheetPictureWidth = 480;
-constexpr int kVideoRate = 30;  ///< frames per second, in the command that is suggested
 
 /// A frame as its files are numbered, and how near the truth it is, where that is known.
 struct WalkedFrame {
@@ -79,7 +78,7 @@ std::string videoCommand(const std::filesystem::path& folder, PictureMode mode, 
   return fmt::format(
       "ffmpeg -framerate {} -i {} -frames:v {} -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -c:v libx264 "
       "-pix_fmt yuv420p {}",
-      kVideoRate, quoted(name + "/" + prefix + "_%05d.png"), frames,
+      kPathRate, quoted(name + "/" + prefix + "_%05d.png"), frames,
       quoted((folder / (prefix + ".mp4")).string()));
 }
 
@@ -200,7 +199,7 @@ Result<Report> runWalk(const WalkOptions& options, const Common& common) {
   Report report;
   report.json = {
       {"folder", options.output.string()},  {"frames", views.size()},          {"modes", options.modes},
-      {"contactSheet", sheetFile.string()}, {"table", table.string()},         {"renderer", options.renderer},
+      {"contactSheet", sheetFile.string()}, {"table", table.string()},         {"renderer", (*maker)->name()},
       {"frameMsMedian", time.median},       {"frameMsP99", time.p99},          {"openShare", openShare},
       {"videoCommands", commands},          {"warnings", (*maker)->warnings()}};
   report.text = fmt::format("{} frames in {}; contact sheet {}, table {}\n", views.size(),

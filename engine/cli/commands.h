@@ -8,6 +8,7 @@
 #include "engine/cli/command.h"
 #include "engine/cli/layout_edits.h"
 #include "engine/pipeline/bench_bake.h"
+#include "engine/pipeline/bench_representations.h"
 
 namespace acentric::cli {
 
@@ -119,9 +120,25 @@ struct BenchPackOptions {
 };
 Result<Report> runBenchPack(const BenchPackOptions& options, const Common& common);
 
+struct ExportOptions {
+  std::filesystem::path project, output;
+  std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; or pictures
+  bool allowMissing = false;
+  bool singleFile = false;   ///< of "web": `output` is one HTML file with everything in it
+  double meshError = 0.5;    ///< of "gltf"
+  int texturePixels = 4096;  ///< of "gltf"
+  int region = -1;           ///< of "gltf" and pictures: this one alone
+  int facePixels = 512;      ///< of pictures
+};
+Result<Report> runExport(const ExportOptions& options, const Common& common);
+Result<Report> runExportImages(const ExportOptions& options, const Common& common);
+Result<Report> runExportGltf(const ExportOptions& options, const Common& common);
+
 struct RenderOptions {
   std::filesystem::path project, output, holes;
-  std::string eye, size = "960x540", renderer = "list";
+  std::string bookmark;  ///< of the project; empty = eye and angles below
+  std::string eye, size = "960x540";
+  std::string renderer;  ///< empty = the project's
   Look look;
   std::string mode = "picture";  ///< frame_pictures.h
   double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
@@ -133,7 +150,7 @@ Result<Report> runRender(const RenderOptions& options, const Common& common);
 
 struct WalkOptions {
   std::filesystem::path project, path, output;
-  std::string size = "960x540", renderer = "list";
+  std::string size = "960x540", renderer;  ///< no renderer: the project's
   Look look;
   double fovDegrees = 0;                      ///< 0 = the project's
   std::vector<std::string> modes{"picture"};  ///< frame_pictures.h
@@ -150,15 +167,37 @@ Result<Report> runTour(const TourOptions& options, const Common& common);
 
 struct MeasureOptions {
   std::filesystem::path project, path, images;
-  std::string size = "640x360", renderer = "list";
+  std::string size = "640x360", renderer;  ///< no renderer: the project's
   Look look;
   double fovDegrees = 0;
   int frames = 0;  ///< 0 = all; else so many, evenly chosen
   int truthSamples = 1;
-  bool seams = false;  ///< also where local geometry and captures meet, and changes of region
-  int crossings = 20;  ///< 0 = all along the path; else so many, evenly chosen
+  bool seams = false;        ///< also where local geometry and captures meet, and changes of region
+  int crossings = 20;        ///< 0 = all along the path; else so many, evenly chosen
+  bool attribution = false;  ///< also what the error comes from
 };
 Result<Report> runMeasure(const MeasureOptions& options, const Common& common);
+
+struct SweepOptions {
+  std::filesystem::path project, path;
+  std::filesystem::path output;    ///< folder; empty = beside the project
+  std::vector<std::string> knobs;  ///< "layers" or "layers=1/2"; empty = all
+  std::string size = "640x360";
+  int frames = 8, repeats = 3, truthSamples = 4, crossings = 8;
+  double budgetMinutes = 10;
+  bool search = true;    ///< also combinations
+  bool numerics = true;  ///< also careful arithmetic against less
+  bool again = false;    ///< forget what was measured before
+  bool list = false;
+};
+Result<Report> runSweep(const SweepOptions& options, const Common& common);
+
+struct PresetOptions {
+  std::filesystem::path project, from;  ///< from: a sweep's folder or file; empty = beside the project
+  std::string name;
+  bool apply = false;
+};
+Result<Report> runPreset(const PresetOptions& options, const Common& common);
 
 struct ValidateOptions {
   std::filesystem::path project;
@@ -202,6 +241,21 @@ struct BenchHolesOptions {
   int frames = 5, truthSamples = 1;
 };
 Result<Report> runBenchHoles(const BenchHolesOptions& options, const Common& common);
+
+struct BenchRepresentationsOptions {
+  std::filesystem::path project, output;     ///< output: the folder that it works in
+  std::vector<std::filesystem::path> paths;  ///< measured besides the random poses
+  std::string size = "640x360";
+  RepresentationBenchOptions bench;
+};
+Result<Report> runBenchRepresentations(const BenchRepresentationsOptions& options, const Common& common);
+
+struct BenchNumericsOptions {
+  std::filesystem::path project, path, output;  ///< output: a folder; empty = nothing is written
+  std::string size = "640x360";
+  int frames = 8, repeats = 3;
+};
+Result<Report> runBenchNumerics(const BenchNumericsOptions& options, const Common& common);
 
 struct EstimateCommandOptions {
   std::filesystem::path project, output;

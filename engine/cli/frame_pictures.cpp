@@ -14,20 +14,6 @@ namespace {
 constexpr int kSwatchSide = 14;
 constexpr double kLeastInLegend = 5e-4;  ///< share of the picture
 
-const char* nameOf(SourceRole role) {
-  switch (role) {
-    case SourceRole::ownCover:
-      return "cover";
-    case SourceRole::otherHand:
-      return "other hand";
-    case SourceRole::panorama:
-      return "panorama";
-    case SourceRole::notACamera:
-      break;
-  }
-  return "";
-}
-
 std::string hex(const Rgba8& colour) {
   return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
 }

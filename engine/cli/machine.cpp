@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "engine/cli/commit/commit.h"
+
 namespace acentric::cli {
 
 std::string processorName() {
@@ -9,6 +11,13 @@ std::string processorName() {
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
+}
+
+nlohmann::ordered_json measuredOn(int threads) {
+  return {{"version", ACENTRIC_VERSION},
+          {"commit", commitName()},
+          {"processor", processorName()},
+          {"threads", threads}};
 }
 
 }  // namespace acentric::cli

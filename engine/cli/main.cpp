@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/interrupt.h"
 #include "engine/cli/command_line.h"
 #include "engine/cli/terminal.h"
 
@@ -56,13 +57,18 @@ int main(int argc, char** argv) {
   addProjectCommands(app, chosen);
   addInspectionCommands(app, chosen);
   addWalkCommands(app, chosen);
+  addExportCommand(app, chosen);
+  addSweepCommands(app, chosen);
   addPackCommand(*app.get_subcommand("bench"), chosen);
+  addRepresentationsCommand(*app.get_subcommand("bench"), chosen);
+  addNumericsCommand(*app.get_subcommand("bench"), chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : kUsage;
   }
   common.storey = chosen.storey;
+  common.preset = chosen.preset, common.presetFrom = chosen.presetFrom;
   common.walkMegabytes = chosen.walkMegabytes;
   common.stop = stopOnInterrupt();
   if (!json) common.progress = terminalProgress();

@@ -14,17 +14,22 @@ namespace acentric::cli {
 struct PathWalk {
   std::vector<OpenProject> storeys;
   PictureSize size;
-  std::vector<PerspectiveView> views;  ///< one per pose
+  std::vector<PerspectiveView> views;  ///< one per frame
 };
 
 /// A path may lead through all storeys, unless one was chosen or only one can be dealt with.
 enum class Along { anyStorey, oneStorey };
 
-/// `pathFile` empty = a tour of `tourFrames` through all regions of one storey; `fovDegrees` 0 = the
-/// project's. Fails, naming the frame, when an eye stands outside every region.
-Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& pathFile,
+/// `path`: one of the project's by its name, or a file; empty = a tour of `tourFrames` through all regions of
+/// one storey. One with times is played at kPathRate. `fovDegrees` 0 = the project's. Fails, naming the
+/// frame, when an eye stands outside every region.
+Result<PathWalk> openAlong(const std::filesystem::path& project, const std::filesystem::path& path,
                            const std::string& size, double fovDegrees, int tourFrames, const Common& common,
                            Along along = Along::anyStorey);
+
+/// Views along a path, as above, of one storey's project.
+Result<std::vector<PerspectiveView>> viewsOn(const OpenProject& open, const std::filesystem::path& path,
+                                             PictureSize size, double fovDegrees);
 
 /// A share of the way from one view to another, turning the shorter way round.
 PerspectiveView between(const PerspectiveView& from, const PerspectiveView& to, double share);

@@ -120,6 +120,7 @@ void addBake(CLI::App& app, Chosen& chosen) {
                     runBake);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
+  addPresetOption(*c, chosen);
   c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
   c->add_option("--shard", o.shard,
                 "Bake a share: 2/8 is the second of eight, which may run side by side on machines that share "

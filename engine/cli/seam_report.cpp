@@ -15,25 +15,6 @@ PerspectiveView viewOf(const PathPose& pose, PerspectiveView view) {
   return view;
 }
 
-std::vector<Pop> cross(const PathWalk& walk) {
-  std::vector<Pop> pops;
-  for (std::size_t i = 0; i + 1 < walk.views.size(); ++i) {
-    const PerspectiveView &a = walk.views[i], &b = walk.views[i + 1];
-    const std::size_t storey = storeyAt(walk.storeys, a.eye);
-    if (storeyAt(walk.storeys, b.eye) != storey) continue;  // a staircase between them
-    for (const RegionCrossing& crossing :
-         crossingsBetween(*walk.storeys[storey].layout, poseOf(a), poseOf(b))) {
-      Pop pop;
-      pop.storey = storey;
-      pop.crossing = crossing;
-      pop.before = viewOf(crossing.before, a);
-      pop.after = viewOf(crossing.after, a);
-      pops.push_back(pop);
-    }
-  }
-  return pops;
-}
-
 /// On into the new region, or else back in the old one, as the walk goes; nothing if both are smaller.
 std::optional<std::pair<PerspectiveView, PerspectiveView>> ordinaryStep(const Layout& layout, const Pop& pop,
                                                                         const glm::dvec2& along) {
@@ -51,9 +32,28 @@ Json toJson(const Change& change) {
 
 }  // namespace
 
+std::vector<Pop> crossingsAlong(const PathWalk& walk, int most) {
+  std::vector<Pop> pops;
+  for (std::size_t i = 0; i + 1 < walk.views.size(); ++i) {
+    const PerspectiveView &a = walk.views[i], &b = walk.views[i + 1];
+    const std::size_t storey = storeyAt(walk.storeys, a.eye);
+    if (storeyAt(walk.storeys, b.eye) != storey) continue;  // a staircase between them
+    for (const RegionCrossing& crossing :
+         crossingsBetween(*walk.storeys[storey].layout, poseOf(a), poseOf(b))) {
+      Pop pop;
+      pop.storey = storey;
+      pop.crossing = crossing;
+      pop.before = viewOf(crossing.before, a);
+      pop.after = viewOf(crossing.after, a);
+      pops.push_back(pop);
+    }
+  }
+  return evenly(pops, most);
+}
+
 Result<std::vector<Pop>> measurePopping(const PathWalk& walk, int most, FrameMaker& maker, int truthSamples,
                                         TaskRunner& runner, const Common& common) {
-  std::vector<Pop> pops = evenly(cross(walk), most);
+  std::vector<Pop> pops = crossingsAlong(walk, most);
   const OpenProject& open = walk.storeys.front();
   for (std::size_t i = 0; i < pops.size(); ++i) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");

@@ -23,6 +23,10 @@ struct Pop {
   double psnrBefore = 0, psnrAfter = 0;  ///< of both pictures, against the truth
 };
 
+/// Where a walk changes region, at most `most` of these places, evenly chosen; 0 = all. Only the views are
+/// filled in.
+std::vector<Pop> crossingsAlong(const PathWalk& walk, int most);
+
 /// At most `most` of the crossings along a walk, evenly chosen; 0 = all.
 Result<std::vector<Pop>> measurePopping(const PathWalk& walk, int most, FrameMaker& maker, int truthSamples,
                                         TaskRunner& runner, const Common& common);

@@ -1,14 +1,12 @@
 #include "engine/cli/terminal.h"
 
 #include <fmt/format.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 namespace acentric::cli {
 namespace {
@@ -56,27 +54,6 @@ Progress terminalProgress() {
 
 void finishProgress() {
   if (::isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K");
-}
-
-std::stop_token stopOnInterrupt() {
-  // Signals are taken by a thread of their own, so that no handler runs code that is unsafe in one.
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::stop_source source;
-  std::thread([source, signals]() mutable {
-    int signal = 0;
-    sigwait(&signals, &signal);
-    source.request_stop();
-    // One that follows at once is the same: timeout(1) sends it to the process and to its group.
-    const auto first = Clock::now();
-    do sigwait(&signals, &signal);
-    while (Clock::now() - first < std::chrono::milliseconds(500));
-    ::_exit(130);
-  }).detach();
-  return source.get_token();
 }
 
 }  // namespace acentric::cli

@@ -1,7 +1,5 @@
 #pragma once
-/// The terminal's side: a progress bar on stderr, and Ctrl-C turned into a stop request.
-
-#include <stop_token>
+/// The terminal's side: a progress bar on stderr.
 
 #include "engine/base/progress.h"
 
@@ -11,8 +9,5 @@ namespace acentric::cli {
 /// it. Empty when stderr is not a terminal.
 Progress terminalProgress();
 void finishProgress();
-
-/// A token that Ctrl-C (or SIGTERM) sets; a second Ctrl-C ends the program at once.
-std::stop_token stopOnInterrupt();
 
 }  // namespace acentric::cli

@@ -13,7 +13,12 @@ std::vector<std::string> renderers(bool truthToo) {
   if (truthToo) names.emplace_back("truth");
   return names;
 }
-std::string rendererChoice(bool truthToo) { return fmt::format("{}", fmt::join(renderers(truthToo), ", ")); }
+void addRenderer(CLI::App& command, std::string& renderer, bool truthToo) {
+  const std::vector<std::string> names = renderers(truthToo);
+  command
+      .add_option("--renderer", renderer, fmt::format("{} (default: the project's)", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names));
+}
 
 void addLook(CLI::App& command, Look& look) {
   command
@@ -58,20 +63,27 @@ void addRender(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(
       app, chosen, "render", "Render one picture",
       "  acentric render kitchen.acentric.json --eye 1,2,1.6 --yaw 90 -o view.png --holes holes.png --stats\n"
+      "  acentric render kitchen.acentric.json --bookmark door -o door.png\n"
       "  acentric render kitchen.acentric.json --mode sources -o cameras.png\n"
       "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
       runRender);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "the one at the eye");
+  addPresetOption(*c, chosen);
   addMemory(*c, chosen);
-  c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
-  c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
-  c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
-  c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();
+  auto* eye = c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
+  auto* yaw =
+      c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
+  auto* pitch = c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
+  auto* fov =
+      c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();
+  c->add_option("--bookmark", o.bookmark, "The view of one of the project's bookmarks (`info` lists them)")
+      ->excludes(eye)
+      ->excludes(yaw)
+      ->excludes(pitch)
+      ->excludes(fov);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--renderer", o.renderer, rendererChoice(true))
-      ->check(CLI::IsMember(renderers(true)))
-      ->capture_default_str();
+  addRenderer(*c, o.renderer, true);
   addLook(*c, o.look);
   c->add_option(
        "--mode", o.mode,
@@ -105,15 +117,15 @@ void addWalk(CLI::App& app, Chosen& chosen) {
           runWalk);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "those along the path");
+  addPresetOption(*c, chosen);
   addMemory(*c, chosen);
   c->add_option("--path", o.path,
-                "Camera path (JSON), such as `acentric tour` writes (default: a tour of 60 frames)");
+                "One of the project's paths by its name, or a camera path (JSON) such as `acentric tour` "
+                "writes (default: a tour of 60 frames)");
   c->add_option("-o,--output", o.output, "Folder for the frames")->required();
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
-  c->add_option("--renderer", o.renderer, rendererChoice(true))
-      ->check(CLI::IsMember(renderers(true)))
-      ->capture_default_str();
+  addRenderer(*c, o.renderer, true);
   addLook(*c, o.look);
   c->add_option(
        "--modes", o.modes,
@@ -134,11 +146,10 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
                     runMeasure);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "those along the path");
+  addPresetOption(*c, chosen);
   addMemory(*c, chosen);
-  c->add_option("--path", o.path, "Camera path (JSON; default: a tour of 60 frames)");
-  c->add_option("--renderer", o.renderer, rendererChoice(false))
-      ->check(CLI::IsMember(renderers(false)))
-      ->capture_default_str();
+  c->add_option("--path", o.path, "A path of the project, or a file (default: a tour of 60 frames)");
+  addRenderer(*c, o.renderer, false);
   addLook(*c, o.look);
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
@@ -152,6 +163,10 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
                 "With --seams: only so many changes of region, evenly chosen (0 = all)")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
+  c->add_flag(
+      "--attribution", o.attribution,
+      "Also what the error comes from: holes, silhouettes, seams, metals and mirrors, local polygons, sky, "
+      "resampling; and what captures of this density could show at best");
   c->add_option("--images", o.images, "Folder for pictures: frame, truth, difference, holes");
 }
 
@@ -169,7 +184,7 @@ void addFrameTiming(CLI::App& command, BenchOptions& options) {
       ->check(CLI::IsMember(benchRenderers()))
       ->capture_default_str();
   addLook(command, options.look);
-  command.add_option("--path", options.path, "Path file (default: a tour)");
+  command.add_option("--path", options.path, "A path of the project, or a file (default: a tour)");
   command.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   command.add_option("--frames", options.frames, "Frames along the tour or the path")
       ->check(CLI::Range(1, 100000))

@@ -99,6 +99,7 @@ class SurfaceJudge {
   SurfaceJudge(const CaptureReach& reach, const SurfaceCoverageOptions& options);
   PointCoverage judge(const SurfacePoint& point) const;
   const std::vector<std::vector<glm::dvec3>>& eyes() const { return eyes_; }
+  const SurfaceCoverageOptions& options() const { return options_; }
 
  private:
   struct Sampling;

@@ -235,13 +235,17 @@ std::optional<int> Layout::findRegion(const CellId& id) const {
 std::optional<int> Layout::findCamera(const CameraId& id) const { return findIn(cameras, id); }
 
 std::optional<int> Layout::regionAt(const glm::dvec2& point) const {
-  return index ? index->regionAt(point) : std::nullopt;
+  if (index) return index->regionAt(point);
+  if (!std::isfinite(point.x) || !std::isfinite(point.y)) return std::nullopt;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    if (regions[r].polygon.containsClosed(point)) return int(r);
+  return std::nullopt;
 }
 
 std::vector<Cover> Layout::panoramasFor(int region) const {
   require(region >= 0 && std::size_t(region) < regions.size(), "the region exists");
+  if (!index) return panoramas.empty() ? std::vector<Cover>{} : panoramas[std::size_t(region)];
   std::vector<Cover> covers;
-  if (!index) return covers;
   const Region& home = regions[std::size_t(region)];
   const Lattice& lattice = index->lattice();
   if (home.id.slot != kFreeSlot && lattice.panoramas()) {
@@ -328,7 +332,10 @@ ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id) {
 bool isPlaced(const LayoutSpec& spec, const CellId& id) {
   if (id.slot == kFreeSlot) return spec.freeApvs.contains(id.i);
   const std::optional<Lattice> lattice = latticeFor(spec);
-  return lattice && isPlaced(spec, *lattice, id);
+  // The address may be of another configuration's lattice.
+  const bool exists = lattice && id.slot >= 0 && id.slot < lattice->slots() && id.level >= 0 &&
+                      id.level <= (canSplit(spec.configuration) ? kMaxLevel : 0);
+  return exists && isPlaced(spec, *lattice, id);
 }
 
 std::array<CellId, 4> partsOf(const LayoutSpec& spec, const CellId& id) {

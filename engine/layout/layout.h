@@ -129,10 +129,12 @@ struct Layout {
   std::vector<Region> regions;
   std::vector<LayoutCamera> cameras;         ///< those that some placed region needs, sorted by id
   std::shared_ptr<const RegionIndex> index;  ///< made by buildLayout: which region holds a point
+  /// By region, what panoramasFor answers where there is no index: in layouts that come from bundles.
+  std::vector<std::vector<Cover>> panoramas;
 
   double eyeZ() const { return spec.floorHeight + spec.eyeHeight; }
   /// Region that holds a point (exactly one on shared borders; of overlapping free APVs the one with the
-  /// lowest number); nothing outside all.
+  /// lowest number); nothing outside all. Without an index the first one whose closed polygon holds it.
   std::optional<int> regionAt(const glm::dvec2& point) const;
   /// Nearest placed region and the nearest point in it.
   struct Nearest {

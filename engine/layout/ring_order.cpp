@@ -41,7 +41,8 @@ class RingWalk {
   /// Calls emit(sector, partStart, partWidth) back to front, part after part, from azimuth `start` on.
   template <class Emit>
   void walk(double start, double width, const Emit& emit) const {
-    while (width > 0) {
+    // Of a ring that closes, parts are wide; one that comes broken from a file must not go on for ever.
+    for (int parts = 0; width > 0 && parts <= 2 * count_; ++parts) {
       const glm::dvec2 ray = directionOf(start);
       const int first = sectorAtInfinity(ray);
       int last = nearestSector(ray, first);

@@ -19,8 +19,6 @@ bool sameSize(const Image<A>& a, const Image<B>& b) {
   return a.width == b.width && a.height == b.height;
 }
 
-bool isReal(PixelSource source) { return source != kSourceHole && source != kSourceInvented; }
-
 }  // namespace
 
 Result<Comparison> compare(const Frame& frame, const ColourImage& truth, const FloatImage& truthDistance) {
@@ -44,6 +42,25 @@ double holeShareOf(const Frame& frame, const FloatImage& truthDistance) {
   for (std::size_t i = 0; i < truthDistance.pixels.size(); ++i)
     holes += std::isfinite(truthDistance.pixels[i]) && !isReal(frame.source.pixels[i]) ? 1 : 0;
   return static_cast<double>(holes) / static_cast<double>(truthDistance.pixels.size());
+}
+
+double depthErrorOf(const Frame& frame, const FloatImage& inverseZDepth, const PerspectiveView& view,
+                    const FloatImage& truthDistance) {
+  require(sameSize(frame.source, truthDistance) && sameSize(inverseZDepth, truthDistance),
+          "a frame, its depths and a truth of one size are compared");
+  const glm::dvec3 forward = view.rayThrough(0.5 * view.width, 0.5 * view.height);
+  double sum = 0;
+  std::size_t count = 0;
+  for (int y = 0; y < truthDistance.height; ++y)
+    for (int x = 0; x < truthDistance.width; ++x) {
+      if (!isReal(frame.source.at(x, y))) continue;
+      const double alongAxis = glm::dot(forward, view.rayThrough(x + 0.5, y + 0.5));
+      const double drawn = std::max(0.0, alongAxis * double(inverseZDepth.at(x, y)));
+      const double truth = 1 / double(truthDistance.at(x, y));
+      sum += drawn == truth ? 0 : std::abs(drawn - truth) / std::max(drawn, truth);
+      ++count;
+    }
+  return count == 0 ? 0 : sum / double(count);
 }
 
 double psnrOf(const ColourImage& a, const ColourImage& b) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/perspective_view.h"
 #include "engine/image/image.h"
 #include "engine/view/frame.h"
 
@@ -21,9 +22,18 @@ Result<Comparison> compare(const Frame& frame, const ColourImage& truth, const F
 /// Pixels without real sample where the truth has a surface, of all pixels. Same sizes.
 double holeShareOf(const Frame& frame, const FloatImage& truthDistance);
 
+/// How far a frame's surfaces lie from the truth's, along the rays: the mean over all pixels with a real
+/// sample of |1/d - 1/t| over the larger of both, 0..1; d the frame's distance, t the truth's, infinity where
+/// there is no surface. 0 if both are infinite. `inverseZDepth` (1/m) is along the view's axis. Same sizes.
+double depthErrorOf(const Frame& frame, const FloatImage& inverseZDepth, const PerspectiveView& view,
+                    const FloatImage& truthDistance);
+
 /// Both need pictures of one size. Alpha is not looked at.
 double psnrOf(const ColourImage& a, const ColourImage& b);
 double ssimOf(const ColourImage& a, const ColourImage& b);
+/// Multi-scale structural similarity of luma (Wang, Simoncelli and Bovik 2003, equation 7): five scales, each
+/// half the size of the one before. Where the structure of a scale is opposed it counts as 0.
+double msSsimOf(const ColourImage& a, const ColourImage& b);
 /// |a - b| per colour channel, times `gain`; opaque.
 ColourImage differenceImage(const ColourImage& a, const ColourImage& b, int gain = 4);
 

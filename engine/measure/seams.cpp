@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/measure/compare.h"
+#include "engine/measure/surface_steps.h"
 
 namespace acentric {
 namespace {
@@ -17,14 +18,7 @@ bool sameSize(const Image<A>& a, const Image<B>& b) {
 double rms(const glm::vec3& difference) { return std::sqrt(double(glm::dot(difference, difference)) / 3); }
 double difference(const Rgba8& a, const Rgba8& b) { return rms(glm::vec3(a) - glm::vec3(b)); }
 
-bool isReal(PixelSource source) { return source != kSourceHole && source != kSourceInvented; }
 bool isCaptured(PixelSource source) { return isReal(source) && source != kSourceLocal; }
-
-/// One row or column of a picture.
-struct Line {
-  std::size_t first, step, length;
-  std::size_t at(std::size_t i) const { return first + i * step; }
-};
 
 class Seams {
  public:
@@ -32,14 +26,13 @@ class Seams {
       : frame_(frame), truth_(truth), distance_(distance) {}
 
   SeamSums run() {
-    const std::size_t width = std::size_t(truth_.width), height = std::size_t(truth_.height);
-    for (std::size_t y = 0; y < height; ++y) walk({y * width, 1, width});
-    for (std::size_t x = 0; x < width; ++x) walk({x, width, height});
+    for (int y = 0; y < truth_.height; ++y) walk(rowOf(distance_, y));
+    for (int x = 0; x < truth_.width; ++x) walk(columnOf(distance_, x));
     return sums_;
   }
 
  private:
-  void walk(const Line& line) {
+  void walk(const PixelLine& line) {
     for (std::size_t i = 0; i + 1 < line.length; ++i) {
       const std::size_t a = line.at(i), b = line.at(i + 1);
       const PixelSource from = frame_.source.pixels[a], to = frame_.source.pixels[b];
@@ -49,7 +42,7 @@ class Seams {
       const bool border =
           (from == kSourceLocal && isCaptured(to)) || (isCaptured(from) && to == kSourceLocal);
       if (!border && from != to) continue;
-      if (!oneSurface(line, i)) {
+      if (!oneSurface(distance_, line, i)) {
         sums_.silhouettes += border ? 1 : 0;
         continue;
       }
@@ -64,20 +57,6 @@ class Seams {
       sums_.localSquares += localError * localError;
       sums_.capturedSquares += capturedError * capturedError;
     }
-  }
-
-  /// Inverse distances of a plane change nearly evenly along a line: a jump between pixels i and i + 1 that
-  /// is several times what they change on either side is no plane.
-  bool oneSurface(const Line& line, std::size_t i) const {
-    constexpr double kJump = 3, kSlack = 0.004;
-    const auto inverse = [&](std::size_t k) { return 1 / double(distance_.pixels[line.at(k)]); };
-    const double here = inverse(i), next = inverse(i + 1);
-    double beside = 0;
-    if (i > 0) beside = std::max(beside, std::abs(here - inverse(i - 1)));
-    if (i + 2 < line.length) beside = std::max(beside, std::abs(inverse(i + 2) - next));
-    const double jump = std::abs(next - here);
-    // Where both neighbours jump too, as across a thin rod, all of it is silhouettes.
-    return jump <= kJump * beside + kSlack * here && jump <= 0.2 * std::max(here, next);
   }
 
   const Frame& frame_;

@@ -92,6 +92,20 @@ Rgba8 cameraColour(int number) {
   return kPalette[std::size_t(((number % kCameraColours) + kCameraColours) % kCameraColours)];
 }
 
+const char* nameOf(SourceRole role) {
+  switch (role) {
+    case SourceRole::ownCover:
+      return "cover";
+    case SourceRole::otherHand:
+      return "other hand";
+    case SourceRole::panorama:
+      return "panorama";
+    case SourceRole::notACamera:
+      break;
+  }
+  return "";
+}
+
 SourceColours::SourceColours(const Layout& layout) : number_(layout.cameras.size(), kCameraColours) {
   const CoverPlaces covers(layout);
   for (std::size_t camera = 0; camera < number_.size(); ++camera) {
@@ -157,11 +171,14 @@ SourceRole SourceRoles::of(PixelSource source) const {
 }
 
 std::vector<SourceShare> sourceShares(const Frame& frame, const SourceRoles& roles) {
-  std::map<PixelSource, std::size_t> counts;
+  std::vector<std::uint32_t> counts(std::size_t(std::numeric_limits<PixelSource>::max()) + 1);
   for (const PixelSource source : frame.source.pixels) ++counts[source];
   std::vector<SourceShare> shares;
-  for (const auto& [source, count] : counts)
-    shares.push_back({source, roles.of(source), double(count) / double(frame.source.pixels.size())});
+  for (std::size_t s = 0; s < counts.size(); ++s) {
+    if (counts[s] == 0) continue;
+    const auto source = PixelSource(s);
+    shares.push_back({source, roles.of(source), double(counts[s]) / double(frame.source.pixels.size())});
+  }
   std::ranges::stable_sort(shares, std::ranges::greater{}, &SourceShare::share);
   return shares;
 }

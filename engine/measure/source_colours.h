@@ -28,6 +28,9 @@ enum class SourceRole : std::uint8_t {
   notACamera,
 };
 
+/// "cover", "other hand", "panorama"; nothing for what is no camera.
+const char* nameOf(SourceRole role);
+
 class SourceColours {
  public:
   explicit SourceColours(const Layout& layout);

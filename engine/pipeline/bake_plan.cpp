@@ -99,10 +99,17 @@ Result<BakePlan> planBake(const fs::path& file, std::optional<int> storey, const
   const PlanMemory memory(file, storey, *text, host);
   if (auto known = memory.recall()) return std::move(*known);
 
-  auto project = parseProject(*text, file.string());
+  const auto project = parseProject(*text, file.string());
   if (!project) return tl::unexpected(project.error());
-  if (storey) project->storey = *storey;
-  auto open = openUnsaved(file, *project, host, progress, stop);
+  auto plan = planBake(file, *project, storey, host, progress, std::move(stop));
+  if (plan) memory.keep(*plan, file.parent_path() / project->scene, project->import, began);
+  return plan;
+}
+
+Result<BakePlan> planBake(const fs::path& file, Project project, std::optional<int> storey,
+                          const ImportHost& host, const Progress& progress, std::stop_token stop) {
+  if (storey) project.storey = *storey;
+  auto open = openUnsaved(file, project, host, progress, stop);
   if (!open) return tl::unexpected(open.error());
   BakePlan plan;
   plan.file = file;
@@ -114,7 +121,6 @@ Result<BakePlan> planBake(const fs::path& file, std::optional<int> storey, const
     plan.open = std::move(*all);
   }
   for (const OpenProject& each : plan.open) plan.storeys.push_back(planStorey(each));
-  memory.keep(plan, file.parent_path() / project->scene, project->import, began);
   return plan;
 }
 
@@ -167,6 +173,29 @@ Result<std::vector<StoreyState>> stateOf(const BakePlan& plan) {
     state.light = std::move(*light);
   }
   return states;
+}
+
+CapturesOnDisk capturesOnDisk(const OpenProject& open) {
+  const std::size_t cameras = open.keys.size();
+  CapturesOnDisk there{bakedCameras(open), std::vector<bool>(cameras, false),
+                       std::vector<std::uint64_t>(cameras, 0)};
+  std::error_code error;
+  const fs::path folder = captureFolderFor(open.file);
+  if (!fs::is_directory(folder, error)) return there;
+  const auto store = CaptureStore::open(folder);
+  if (!store) return there;
+  for (std::size_t c = 0; c < cameras; ++c)
+    if (there.baked[c]) there.bytes[c] = store->bytesOf(open.keys[c]);
+  if (std::ranges::find(there.baked, false) == there.baked.end()) return there;
+  std::vector<ContentKey> known = open.keys;  // coarser ones of the project as it is now are not of before
+  for (const Quality quality : {Quality::preview, Quality::draft})
+    std::ranges::copy(atQuality(open, quality).keys, std::back_inserter(known));
+  const auto former = store->formerRecords(known);
+  if (former.empty()) return there;
+  const std::string& storey = open.project.current().name;
+  for (std::size_t c = 0; c < cameras; ++c)
+    there.stale[c] = !there.baked[c] && former.contains(subjectOf(storey, open.layout->cameras[c].id));
+  return there;
 }
 
 }  // namespace acentric

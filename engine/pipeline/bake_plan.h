@@ -38,6 +38,17 @@ StoreyPlan planStorey(const OpenProject& open);
 /// `storey`: only this one (by its place in the project).
 Result<BakePlan> planBake(const std::filesystem::path& file, std::optional<int> storey,
                           const ImportHost& host, const Progress& progress = {}, std::stop_token stop = {});
+/// Of a project that differs from its file; it is opened.
+Result<BakePlan> planBake(const std::filesystem::path& file, Project project, std::optional<int> storey,
+                          const ImportHost& host, const Progress& progress = {}, std::stop_token stop = {});
+
+/// What of the cameras is there, without looking into files.
+struct CapturesOnDisk {
+  std::vector<bool> baked;           ///< at full quality; as in Layout::cameras
+  std::vector<bool> stale;           ///< not baked as the project is now, but as it was before
+  std::vector<std::uint64_t> bytes;  ///< of those that are baked
+};
+CapturesOnDisk capturesOnDisk(const OpenProject& open);
 
 /// Why a capture is baked, or that it need not be.
 enum class BakeReason { baked, neverBaked, damaged, changed };

@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/pipeline/foreign_paths.h"
 
 namespace acentric {
 namespace {
 
 constexpr std::size_t kMaxPoses = 1'000'000;
+constexpr double kMostMetres = 1e9;
 
 Result<PathPose> poseFrom(const nlohmann::json& json, const std::string& pointer, const std::string& where) {
   const auto bad = [&](const char* what) { return fail(ErrorKind::malformed, pointer + ": " + what, where); };
@@ -22,7 +24,6 @@ Result<PathPose> poseFrom(const nlohmann::json& json, const std::string& pointer
   for (int k = 0; k < 3; ++k) {
     if (!eye[std::size_t(k)].is_number()) return bad("\"eye\" must be three numbers in metres");
     pose.eye[k] = eye[std::size_t(k)].get<double>();
-    if (!(std::abs(pose.eye[k]) <= 1e9)) return bad("\"eye\" is out of range");
   }
   for (const auto& [key, target] :
        {std::pair{"yaw", &pose.yawRadians}, std::pair{"pitch", &pose.pitchRadians}}) {
@@ -30,8 +31,10 @@ Result<PathPose> poseFrom(const nlohmann::json& json, const std::string& pointer
     if (!json[key].is_number()) return bad("\"yaw\" and \"pitch\" must be numbers in degrees");
     *target = radians(json[key].get<double>());
   }
-  if (std::abs(pose.pitchRadians) > kPi / 2 + 1e-9 || !(std::abs(pose.yawRadians) < 1e6))
-    return bad("\"pitch\" must lie in -90..90 degrees");
+  if (json.contains("seconds")) {
+    if (!json["seconds"].is_number()) return bad("\"seconds\" must be a number");
+    pose.seconds = json["seconds"].get<double>();
+  }
   return pose;
 }
 
@@ -71,6 +74,59 @@ double turnTowards(double from, double to, double most) {
 
 }  // namespace
 
+Status PathPose::check() const {
+  const auto bad = [](const char* what) { return fail(ErrorKind::malformed, what); };
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(eye[k]) <= kMostMetres)) return bad("\"eye\" is out of range");
+  if (!(std::abs(yawRadians) < 1e6)) return bad("\"yaw\" is out of range");
+  if (!(std::abs(pitchRadians) <= kPi / 2 + 1e-9)) return bad("\"pitch\" must lie in -90..90 degrees");
+  if (!(seconds >= 0 && seconds <= kMostPathSeconds))
+    return bad("\"seconds\" must lie in 0..21600 (6 hours)");
+  return {};
+}
+
+Status CameraPath::check() const {
+  if (poses.empty()) return fail(ErrorKind::malformed, ": holds no pose");
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (const Status sound = poses[i].check(); !sound)
+      return fail(ErrorKind::malformed, fmt::format("/{}: {}", i, sound.error().message));
+    if (i == 0 && poses[0].seconds != 0)
+      return fail(ErrorKind::malformed, "/0: a path begins at 0 \"seconds\"");
+    if (i > 0 && timed() && !(poses[i].seconds > poses[i - 1].seconds))
+      return fail(ErrorKind::malformed,
+                  fmt::format("/{}: \"seconds\" must be more than those of the pose before", i));
+    if (!timed() && poses[i].seconds != 0)
+      return fail(ErrorKind::malformed, fmt::format("/{}: either all poses have \"seconds\" or none", i));
+  }
+  return {};
+}
+
+PathPose between(const PathPose& from, const PathPose& to, double share) {
+  return {glm::mix(from.eye, to.eye, share),
+          from.yawRadians + share * std::remainder(to.yawRadians - from.yawRadians, kTwoPi),
+          glm::mix(from.pitchRadians, to.pitchRadians, share), glm::mix(from.seconds, to.seconds, share)};
+}
+
+PathPose poseAt(const CameraPath& path, double seconds) {
+  const auto after = std::ranges::upper_bound(path.poses, seconds, {}, &PathPose::seconds);
+  if (after == path.poses.begin()) return path.poses.front();
+  if (after == path.poses.end()) return path.poses.back();
+  const PathPose& before = *std::prev(after);
+  return between(before, *after, (seconds - before.seconds) / (after->seconds - before.seconds));
+}
+
+CameraPath framesOf(const CameraPath& path) {
+  if (!path.timed()) return path;
+  constexpr double kSlack = 1e-6;  // of a frame: a whole number of them stays one
+  const int steps = std::max(1, int(std::ceil(path.seconds() * kPathRate - kSlack)));
+  CameraPath frames;
+  for (int i = 0; i <= steps; ++i) {
+    frames.poses.push_back(poseAt(path, double(i) / kPathRate));
+    frames.poses.back().seconds = 0;
+  }
+  return frames;
+}
+
 PerspectiveView viewAt(const PathPose& pose, double fovDegrees, glm::ivec2 pixels) {
   PerspectiveView view;
   view.eye = pose.eye;
@@ -86,13 +142,15 @@ Result<CameraPath> loadPath(const std::filesystem::path& path) {
   const auto text = readText(path);
   if (!text) return tl::unexpected(text.error());
   const std::string where = path.string();
+  if (path.filename() == "images.txt") return pathFromColmap(*text, where);
   try {
     const auto json = nlohmann::json::parse(*text);
+    if (isNerfstudio(json)) return pathFromNerfstudio(json, where);
     if (!json.is_object() || json.value("version", 0) != 1 || !json.contains("frames") ||
         !json["frames"].is_array())
       return fail(ErrorKind::malformed,
                   "a camera path is {\"version\": 1, \"frames\": [{\"eye\": [x, y, z], \"yaw\": degrees, "
-                  "\"pitch\": degrees}, ...]}",
+                  "\"pitch\": degrees}, ...]}, each with \"seconds\" or none",
                   where);
     if (json["frames"].empty()) return fail(ErrorKind::malformed, "/frames: holds no frame", where);
     if (json["frames"].size() > kMaxPoses)
@@ -103,6 +161,8 @@ Result<CameraPath> loadPath(const std::filesystem::path& path) {
       if (!pose) return tl::unexpected(pose.error());
       out.poses.push_back(*pose);
     }
+    if (const Status sound = out.check(); !sound)
+      return fail(ErrorKind::malformed, "/frames" + sound.error().message, where);
     return out;
   } catch (const nlohmann::json::exception& problem) {
     return fail(ErrorKind::malformed, fmt::format("is not JSON that can be read: {}", problem.what()), where);
@@ -112,10 +172,12 @@ Result<CameraPath> loadPath(const std::filesystem::path& path) {
 Status savePath(const CameraPath& path, const std::filesystem::path& file) {
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   const auto tidy = [](double value) { return std::round(value * 1e6) / 1e6; };
-  for (const PathPose& pose : path.poses)
+  for (const PathPose& pose : path.poses) {
     frames.push_back({{"eye", {tidy(pose.eye.x), tidy(pose.eye.y), tidy(pose.eye.z)}},
                       {"yaw", tidy(degrees(pose.yawRadians))},
                       {"pitch", tidy(degrees(pose.pitchRadians))}});
+    if (path.timed()) frames.back()["seconds"] = tidy(pose.seconds);
+  }
   const nlohmann::ordered_json json = {{"version", 1}, {"frames", std::move(frames)}};
   return writeTextAtomically(file, json.dump(1) + "\n");
 }

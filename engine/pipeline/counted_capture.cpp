@@ -3,16 +3,6 @@
 namespace acentric {
 namespace {
 
-template <class T, class Allocator>
-std::size_t bytesOf(const std::vector<T, Allocator>& values) {
-  return values.size() * sizeof(T);
-}
-
-std::size_t bytesOf(const SampleBlocks& b) {
-  return bytesOf(b.leastInverse) + bytesOf(b.mostInverse) + bytesOf(b.lowTangent) + bytesOf(b.highTangent) +
-         bytesOf(b.roles);
-}
-
 struct Counted {
   std::shared_ptr<MemoryBudget> budget;
   MemoryBudget::Share share;
@@ -20,14 +10,6 @@ struct Counted {
 };
 
 }  // namespace
-
-std::size_t bytesOf(const DisplayCapture& c) {
-  const DisplayBackground& b = c.background;
-  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.samples) + bytesOf(c.colour) +
-         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.blocks) +
-         bytesOf(c.columnBlock) + bytesOf(c.mirror) + b.runs.bytes() + bytesOf(b.columnBorder) +
-         bytesOf(b.rowBorder) + (c.reflections ? bytesOf(*c.reflections) : 0);
-}
 
 std::shared_ptr<const DisplayCapture> counted(std::shared_ptr<const DisplayCapture> capture,
                                               std::shared_ptr<MemoryBudget> budget) {

@@ -4,12 +4,9 @@
 #include <memory>
 
 #include "engine/base/memory_budget.h"
-#include "engine/view/walk_scene.h"
+#include "engine/view/display_bytes.h"
 
 namespace acentric {
-
-/// In memory, with what its mirrors show.
-std::size_t bytesOf(const DisplayCapture& capture);
 
 /// The same capture; `budget` counts it until the last of its users lets it go.
 std::shared_ptr<const DisplayCapture> counted(std::shared_ptr<const DisplayCapture> capture,

@@ -154,7 +154,7 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
                          bool ignoredSides, const RayScene& rays, std::stop_token stop) {
   LayoutSpec spec = pattern;
   spec.outline = tidied(plane.outline);
-  spec.floorHeight = roundTo(plane.height, 1e-4);
+  spec.floorHeight = roundTo(plane.height, 1e-4) + 0.0;  // never -0
   const glm::dvec2 middle = middleOf(spec.outline);
   spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
   if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
@@ -170,6 +170,11 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
 }
 
 }  // namespace
+
+double firstCellSize(double walkableSquareMetres, Configuration configuration) {
+  const double middling = std::sqrt(walkableSquareMetres / (kFirstRings * areaPerRing(configuration)));
+  return std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
+}
 
 Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
@@ -203,11 +208,8 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
   LayoutSpec pattern;
   pattern.configuration = options.configuration;
   pattern.eyeHeight = options.eyeHeight;
-  const double middling =
-      std::sqrt(largest->outline.area() / (kFirstRings * areaPerRing(pattern.configuration)));
-  pattern.cellSize = options.cellSize > 0
-                         ? options.cellSize
-                         : std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
+  pattern.cellSize =
+      options.cellSize > 0 ? options.cellSize : firstCellSize(largest->outline.area(), pattern.configuration);
   if (options.samplesPerDegree > 0) project.bake.samplesPerDegree = options.samplesPerDegree;
   project.storeys.clear();
   std::vector<glm::dvec3> eyes;

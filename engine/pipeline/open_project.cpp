@@ -6,13 +6,10 @@
 namespace acentric {
 namespace {
 
-std::filesystem::path sceneFileOf(const std::filesystem::path& projectFile, const Project& project) {
-  return (projectFile.parent_path() / project.scene).lexically_normal();
-}
-
+/// `given`: instead of what the model file has.
 Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::path& file,
                              const Project& project, const ImportHost& host, const Progress& progress,
-                             std::stop_token stop) {
+                             std::stop_token stop, const ScenePtr& given = nullptr) {
   if (Status sound = project.check(); !sound) return tl::unexpected(sound.error());
   OpenProject open;
   open.file = file;
@@ -20,6 +17,8 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
 
   if (former && former->project.scene == project.scene && former->project.import == project.import) {
     open.scene = former->scene;
+  } else if (given) {
+    open.scene = given;
   } else {
     auto scene = importScene(sceneFileOf(file, project), project.import, host, progress, stop);
     if (!scene) return tl::unexpected(scene.error());
@@ -49,7 +48,29 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
   return open;
 }
 
+/// Nothing, as far as the layout reaches.
+ScenePtr emptyScene(const std::filesystem::path& model, const LayoutSpec& spec) {
+  auto scene = std::make_shared<Scene>();
+  scene->name = model.stem().string();
+  const auto layout = buildLayout(spec);
+  const auto add = [&](const glm::dvec2& place) {
+    scene->bounds.add(glm::vec3(place, spec.floorHeight));
+    scene->bounds.add(glm::vec3(place, spec.floorHeight + 2 * spec.eyeHeight));
+  };
+  add(spec.latticeOrigin);
+  if (layout)
+    for (const Region& region : layout->regions)
+      for (const glm::dvec2& corner : region.polygon.corners) add(corner);
+  scene->parts = partsOf(*scene);
+  scene->key = keyOf(*scene);
+  return scene;
+}
+
 }  // namespace
+
+std::filesystem::path sceneFileOf(const std::filesystem::path& projectFile, const Project& project) {
+  return (projectFile.parent_path() / project.scene).lexically_normal();
+}
 
 KeyParts captureKeyParts(const OpenProject& open, int camera) {
   const LayoutCamera& at = open.layout->cameras[std::size_t(camera)];
@@ -87,6 +108,14 @@ Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project
 Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,
                                   const Progress& progress, std::stop_token stop) {
   return openWith(&former, former.file, project, host, progress, stop);
+}
+
+Result<OpenProject> openWithoutModel(const std::filesystem::path& file, const Project& project,
+                                     const ImportHost& host, const Progress& progress, std::stop_token stop) {
+  const std::filesystem::path model = sceneFileOf(file, project);
+  ScenePtr scene = lastImported(model, project.import, host);
+  if (!scene) scene = emptyScene(model, project.layout());
+  return openWith(nullptr, file, project, host, progress, stop, scene);
 }
 
 }  // namespace acentric

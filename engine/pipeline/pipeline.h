@@ -41,6 +41,9 @@ Result<Project> makeProject(const std::filesystem::path& sceneFile, const std::f
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});
 
+/// The cell size that a new project has if none is chosen, metres.
+double firstCellSize(double walkableSquareMetres, Configuration configuration);
+
 /// A project opened: scene imported and traceable, plan and layout made. Immutable; edits make a new one,
 /// sharing what did not change.
 struct OpenProject {
@@ -71,6 +74,14 @@ Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project
 Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,
                                   const Progress& progress = {}, std::stop_token stop = {});
 
+/// A project whose model is gone: with the scene as it was last imported on this machine, so that its
+/// captures can be walked and baked; where the cache has none, with an empty scene around the layout.
+Result<OpenProject> openWithoutModel(const std::filesystem::path& file, const Project& project,
+                                     const ImportHost& host, const Progress& progress = {},
+                                     std::stop_token stop = {});
+/// Where a project's model is looked for.
+std::filesystem::path sceneFileOf(const std::filesystem::path& projectFile, const Project& project);
+
 /// Each storey of a project opened, in order; what they have in common is shared.
 Result<std::vector<OpenProject>> openStoreys(const OpenProject& open, const ImportHost& host,
                                              const Progress& progress = {}, std::stop_token stop = {});
@@ -83,6 +94,9 @@ Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::
                           bool ignoredSides, std::stop_token stop = {});
 /// Has the project a storey on this plane: at its height, with an outline that holds most of its corners?
 bool hasStoreyOn(const Project& project, const WalkPlane& plane);
+/// With the bookmarks and paths on it; if it was the current one, the one before it is now. The last one
+/// stays.
+void removeStorey(Project& project, int storey);
 /// Adds a storey for each plane that has none, with a name of its own. How many were added.
 Result<int> addStoreys(Project& project, const OpenProject& open, std::span<const WalkPlane> planes,
                        bool ignoredSides, std::stop_token stop = {});

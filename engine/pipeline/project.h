@@ -8,6 +8,7 @@
 
 #include "engine/bake/bake_settings.h"
 #include "engine/layout/layout_spec.h"
+#include "engine/pipeline/camera_path.h"
 #include "engine/scene/effect_plan.h"
 #include "engine/scene/import.h"
 #include "engine/view/view_settings.h"
@@ -41,6 +42,26 @@ struct TriangleBudget {
   bool operator==(const TriangleBudget&) const = default;
 };
 
+/// A view that is gone back to by its name.
+struct Bookmark {
+  std::string name;  ///< of no other bookmark
+  int storey = 0;    ///< where one stands
+  glm::dvec3 eye{0};
+  double yawRadians = 0, pitchRadians = 0;
+  double fovDegrees = 60;  ///< horizontal
+  bool operator==(const Bookmark&) const = default;
+};
+inline constexpr std::size_t kMaxBookmarks = 1000;
+
+/// A walk that was recorded or drawn.
+struct WalkPath {
+  std::string name;  ///< of no other path
+  int storey = 0;    ///< on which it begins
+  CameraPath path;   ///< with times, unless it is a single pose
+  bool operator==(const WalkPath&) const = default;
+};
+inline constexpr std::size_t kMaxPaths = 200, kMaxPathPoses = 10000;
+
 struct Project {
   std::filesystem::path scene;  ///< relative to the project file's folder
   ImportOptions import;
@@ -52,6 +73,8 @@ struct Project {
   ViewSettings view;
   double fovDegrees = 60;  ///< of the walk
   float exposure = 1;
+  std::vector<Bookmark> bookmarks;
+  std::vector<WalkPath> paths;
 
   const Storey& current() const { return storeys[std::size_t(storey)]; }
   Storey& current() { return storeys[std::size_t(storey)]; }

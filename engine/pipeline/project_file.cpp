@@ -6,14 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "engine/base/file.h"
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/project.h"
+#include "engine/pipeline/project_walks.h"
+#include "engine/pipeline/schema_check.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -23,9 +21,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxStoreyName = 100;
 constexpr std::size_t kMaxProjectBytes = std::size_t(64) << 20;
-
-/// Degrees to nine decimals: angles then survive saving and reading unchanged.
-double tidyDegrees(double angleRadians) { return std::round(degrees(angleRadians) * 1e9) / 1e9; }
 
 const char* nameOf(UpAxis up) {
   switch (up) {
@@ -208,6 +203,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "pruning", project.bake.pruning);
     read(json["bake"], "testEyes", project.bake.testEyes);
     read(json["bake"], "eyeRange", project.bake.eyeRange);
+    read(json["bake"], "distanceShift", project.bake.distanceShift);
   }
   if (json.contains("budget")) {
     read(json["budget"], "trianglesPerRegion", project.budget.trianglesPerRegion);
@@ -215,6 +211,7 @@ Project projectFrom(const Json& json) {
     read(json["budget"], "simplify", project.budget.simplify);
   }
   if (json.contains("view")) readView(json["view"], project);
+  readWalks(json, project);
   return project;
 }
 
@@ -242,33 +239,6 @@ std::string withShortArraysOnOneLine(const std::string& text) {
     out += ']';
   }
   return out;
-}
-
-/// The first thing that the schema refuses, as "/layout/cellSize: reason".
-Status checkSchema(const Json& json, const std::string& where) {
-  const nlohmann::json plain = json;  // the adapter reads nlohmann::json
-  const nlohmann::json schemaText = nlohmann::json::parse(projectSchema());
-  valijson::Schema schema;
-  valijson::SchemaParser parser;
-  parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schemaText), schema);
-  valijson::Validator validator;
-  valijson::ValidationResults results;
-  if (validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(plain), &results)) return {};
-  // The deepest pointer names the culprit; the errors above it only repeat that something below is wrong.
-  std::string pointer = "/", reason = "is not a project of version 1";
-  std::size_t depth = 0;
-  for (valijson::ValidationResults::Error error; results.popError(error);)
-    if (error.context.size() >= depth) {
-      depth = error.context.size();
-      pointer.clear();
-      for (std::size_t i = 1; i < error.context.size(); ++i) {  // [0] is "<root>"; entries look like "[name]"
-        const std::string& part = error.context[i];
-        pointer += "/" + (part.size() > 2 && part.front() == '[' ? part.substr(1, part.size() - 2) : part);
-      }
-      if (pointer.empty()) pointer = "/";
-      reason = error.description;
-    }
-  return fail(ErrorKind::malformed, fmt::format("{}: {}", pointer, reason), where);
 }
 
 Status checkStoreys(const Project& project) {
@@ -311,7 +281,8 @@ Status Project::check() const {
   if (scene.is_absolute())
     return fail(ErrorKind::malformed,
                 "/scene: must be relative to the project file's folder, not " + scene.string());
-  for (const Status& part : {import.check(), checkStoreys(*this), bake.check(), budget.check(), view.check()})
+  for (const Status& part :
+       {import.check(), checkStoreys(*this), bake.check(), budget.check(), view.check(), checkWalks(*this)})
     if (!part) return part;
   if (!(fovDegrees >= 1 && fovDegrees <= 179))
     return fail(ErrorKind::malformed, "/view/fovDegrees: must lie in 1..179");
@@ -325,7 +296,7 @@ std::string formatProject(const Project& project) {
   for (const auto& [effect, on] : project.effects) effects[nameOf(effect)] = on;
   Json storeys = Json::array();
   for (const Storey& storey : project.storeys) storeys.push_back(toJson(storey));
-  const Json json = {
+  Json json = {
       {"format", "acentric-project"},
       {"version", 1},
       {"scene", project.scene.generic_string()},
@@ -346,7 +317,8 @@ std::string formatProject(const Project& project) {
         {"maxLayers", project.bake.maxLayers},
         {"pruning", project.bake.pruning},
         {"testEyes", project.bake.testEyes},
-        {"eyeRange", project.bake.eyeRange}}},
+        {"eyeRange", project.bake.eyeRange},
+        {"distanceShift", project.bake.distanceShift}}},
       {"budget",
        {{"trianglesPerRegion", project.budget.trianglesPerRegion},
         {"maxErrorMetres", project.budget.maxErrorMetres},
@@ -362,6 +334,7 @@ std::string formatProject(const Project& project) {
         {"fillHoles", project.view.fillHoles},
         {"fovDegrees", project.fovDegrees},
         {"exposure", std::stod(fmt::format("{}", project.exposure))}}}};  // the shortest decimal of the float
+  addWalks(project, json);
   return withShortArraysOnOneLine(json.dump(2)) + "\n";
 }
 
@@ -374,7 +347,8 @@ Result<Project> parseProject(const std::string& text, const std::string& where) 
                   fmt::format("/version: {} was written by a newer Acentric; this one reads version 1",
                               json["version"].get<std::int64_t>()),
                   where);
-    if (const Status valid = checkSchema(json, where); !valid) return tl::unexpected(valid.error());
+    if (const Status valid = checkSchema(json, projectSchema(), where); !valid)
+      return tl::unexpected(valid.error());
     Project project = projectFrom(json);
     if (Status sound = project.check(); !sound) {
       Error error = sound.error();

@@ -74,4 +74,17 @@ Result<int> addStoreys(Project& project, const OpenProject& open, std::span<cons
   return added;
 }
 
+void removeStorey(Project& project, int storey) {
+  if (project.storeys.size() < 2) return;
+  project.storeys.erase(project.storeys.begin() + storey);
+  if (project.storey > storey || (project.storey == storey && storey > 0)) --project.storey;
+  const auto forget = [storey](auto& places) {
+    std::erase_if(places, [storey](const auto& place) { return place.storey == storey; });
+    for (auto& place : places)
+      if (place.storey > storey) --place.storey;
+  };
+  forget(project.bookmarks);
+  forget(project.paths);
+}
+
 }  // namespace acentric

@@ -8,6 +8,7 @@
 #include "engine/base/contract.h"
 #include "engine/base/physical_memory.h"
 #include "engine/base/priority.h"
+#include "engine/base/stopwatch.h"
 #include "engine/geometry/conventions.h"
 #include "engine/image/coarse_capture.h"
 #include "engine/pipeline/counted_capture.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr auto kLongestFrame = std::chrono::milliseconds(100);
 /// How often snapshots that frames no longer use are looked for.
 constexpr auto kSweep = std::chrono::milliseconds(30);
+/// Of reading local geometry, which is often quick, until it is shown.
+constexpr double kBatchSeconds = 0.05;
 
 /// Is it far enough from where the loaders last looked to look again?
 bool moved(const Whereabouts& from, const Whereabouts& to, double cellSize) {
@@ -156,7 +159,7 @@ void WalkStream::waitForRoom(const Task& task, const std::stop_token& stop) {
     {
       const std::lock_guard lock(state_);
       const std::size_t held = held_->held();
-      if (held + tier(Detail::full).bytes[std::size_t(task.index)] <= options_.memoryBytes) return;
+      if (held + tier(Detail::full).bytes[std::size_t(task.camera)] <= options_.memoryBytes) return;
       std::size_t known = 0;
       for (const Tier& t : tiers_)
         for (std::size_t c = 0; c < t.bytes.size(); ++c)
@@ -170,11 +173,13 @@ void WalkStream::waitForRoom(const Task& task, const std::stop_token& stop) {
 WalkStream::Read WalkStream::read(const Task& task, const std::stop_token& stop) const {
   Read result;
   if (task.what == Task::What::local) {
-    result.local = source_->local(task.index, stop);
+    const Stopwatch watch;
+    for (std::size_t r = 0; r < task.regions.size() && (r == 0 || watch.seconds() < kBatchSeconds); ++r)
+      result.locals.push_back(source_->local(task.regions[r], stop));
     return result;
   }
   const Detail detail = task.what == Task::What::coarse ? Detail::coarse : Detail::full;
-  const auto capture = source_->capture(task.index, detail);
+  const auto capture = source_->capture(task.camera, detail);
   if (!capture) {
     result.error = capture.error();
     return result;
@@ -198,15 +203,10 @@ WalkStream::Read WalkStream::read(const Task& task, const std::stop_token& stop)
 void WalkStream::finish(const Task& task, Read result) {
   {
     const std::lock_guard lock(state_);
-    const auto i = std::size_t(task.index);
+    const auto i = std::size_t(task.camera);
     if (task.what == Task::What::local) {
-      locals_[i] = result.local.geometry ? Residence::resident : Residence::absent;
-      now_.walk.local[i] = std::move(result.local.geometry);
-      if (result.local.simplified) {
-        now_.simplified.push_back(*result.local.simplified);
-        std::ranges::sort(now_.simplified, {}, &LoadedWalk::Simplified::region);
-      }
-      std::ranges::move(result.local.warnings, std::back_inserter(warnings_));
+      for (std::size_t r = 0; r < task.regions.size(); ++r)
+        insertLocal(task.regions[r], r < result.locals.size() ? std::move(result.locals[r]) : LocalPart());
     } else if (result.error) {
       // It is not asked for again.
       warnings_.push_back(result.error->describe());
@@ -219,11 +219,11 @@ void WalkStream::finish(const Task& task, Read result) {
       if (!coarse) ++now_.missing;
     } else {
       if (result.coarse)
-        insert(Detail::coarse, task.index, std::move(result.coarse), task.what != Task::What::coarse);
+        insert(Detail::coarse, task.camera, std::move(result.coarse), task.what != Task::What::coarse);
       if (result.full) {
-        insert(Detail::full, task.index, std::move(result.full), false);
+        insert(Detail::full, task.camera, std::move(result.full), false);
         if (allFit_ && tier(Detail::coarse).captures[i])
-          drop(Detail::coarse, task.index);  // not needed again
+          drop(Detail::coarse, task.camera);  // not needed again
       }
       ++(task.what == Task::What::full ? counts_.loads : counts_.coarseLoads);
       guessBytes();
@@ -235,6 +235,18 @@ void WalkStream::finish(const Task& task, Read result) {
     ++calls_;
   }
   woken_.notify_all();
+}
+
+/// Without geometry: it was not read, and is asked for again.
+void WalkStream::insertLocal(int region, LocalPart part) {
+  const auto r = std::size_t(region);
+  locals_[r] = part.geometry ? Residence::resident : Residence::absent;
+  now_.walk.local[r] = std::move(part.geometry);
+  if (part.simplified) {
+    now_.simplified.push_back(*part.simplified);
+    std::ranges::sort(now_.simplified, {}, &LoadedWalk::Simplified::region);
+  }
+  std::ranges::move(part.warnings, std::back_inserter(warnings_));
 }
 
 void WalkStream::publish() {
@@ -275,13 +287,14 @@ Status WalkStream::complete(std::span<const int> cameras, std::span<const int> r
     evict(detail, planned.evict);
     for (const ResidencyPlan::Step& step : planned.steps) {
       evict(detail, step.evict);
-      tasks.push_back({detail == Detail::full ? Task::What::full : Task::What::coarse, step.load});
+      tasks.push_back({detail == Detail::full ? Task::What::full : Task::What::coarse, step.load, false, {}});
     }
     return planned.beyondLimit;
   };
   counts_.beyondLimit = takeSteps(Detail::full);
   for (const int region : regions)
-    if (locals_[std::size_t(region)] == Residence::absent) tasks.push_back({Task::What::local, region});
+    if (locals_[std::size_t(region)] == Residence::absent)
+      tasks.push_back({Task::What::local, -1, false, {region}});
   std::mutex counting;
   double done = 0;
   const auto run = [&] {

@@ -28,9 +28,6 @@ namespace acentric {
 /// Half of the machine's memory.
 std::size_t usualWalkMemory();
 
-/// Coarse renditions made of captures have, as previews do, a quarter of the columns and rows.
-inline constexpr int kCoarseFactor = 4;
-
 struct WalkStreamOptions {
   std::size_t memoryBytes = usualWalkMemory();
   /// That read what the eye's region needs; one more reads ahead, and gives way to all others. 0 = none:
@@ -89,12 +86,13 @@ class WalkStream {
   };
   struct Task {
     enum class What { full, coarse, local, sketch } what = What::full;
-    int index = 0;         ///< camera or region
-    bool standIn = false;  ///< make a coarse rendition of the full one
+    int camera = -1;
+    bool standIn = false;      ///< make a coarse rendition of the full one
+    std::vector<int> regions;  ///< of `local`, as many as are read before the next snapshot; nearest first
   };
   struct Read {
     CapturePtr full, coarse;
-    LocalPart local;
+    std::vector<LocalPart> locals;  ///< of the first regions
     std::optional<Error> error;
   };
 
@@ -104,7 +102,7 @@ class WalkStream {
   void loaderLoop(Duty duty, std::uint64_t& idleAt, const std::stop_token& stop);
   std::optional<Task> next(Duty duty);
   std::optional<Task> nextSketch() const;
-  std::optional<int> nextLocal(double within) const;
+  std::vector<int> nextLocals(double within) const;
   ResidencyPlan plan(Detail detail, std::span<const double> distance, std::size_t mostSteps) const;
   void evict(Detail detail, std::span<const int> cameras);
   void drop(Detail detail, int camera);
@@ -112,6 +110,7 @@ class WalkStream {
   Read read(const Task& task, const std::stop_token& stop) const;
   void finish(const Task& task, Read read);
   void insert(Detail detail, int camera, CapturePtr capture, bool made);
+  void insertLocal(int region, LocalPart part);
   void follow();
   void guessBytes();
   void show(int camera);

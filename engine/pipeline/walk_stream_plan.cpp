@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/image/coarse_capture.h"
 #include "engine/pipeline/counted_capture.h"
 #include "engine/pipeline/walk_stream.h"
 
@@ -43,36 +44,39 @@ std::optional<WalkStream::Task> WalkStream::next(Duty duty) {
   const auto isNeeded = [&](const auto& s) { return s && distances_.camera[std::size_t(s->load)] <= 0; };
   const auto take = [&](Detail detail, const ResidencyPlan::Step& chosen) {
     evict(detail, chosen.evict);
-    return Task{detail == Detail::full ? Task::What::full : Task::What::coarse, chosen.load};
+    return Task{detail == Detail::full ? Task::What::full : Task::What::coarse, chosen.load, false, {}};
   };
-  const auto here = nextLocal(0);
+  auto here = nextLocals(0);
   const auto choose = [&]() -> std::optional<Task> {
     if (isNeeded(coarse)) return take(Detail::coarse, *coarse);
-    if (here) return Task{Task::What::local, *here};
+    if (!here.empty()) return Task{Task::What::local, -1, false, std::move(here)};
     if (isNeeded(full)) return take(Detail::full, *full);
     if (coarse) return take(Detail::coarse, *coarse);
-    if (const auto region = nextLocal(std::numeric_limits<double>::infinity()))
-      return Task{Task::What::local, *region};
+    if (auto ahead = nextLocals(std::numeric_limits<double>::infinity()); !ahead.empty())
+      return Task{Task::What::local, -1, false, std::move(ahead)};
     if (full) return take(Detail::full, *full);
     return nextSketch();
   };
-  const bool needed = isNeeded(coarse) || here || isNeeded(full);
+  const bool needed = isNeeded(coarse) || !here.empty() || isNeeded(full);
   std::optional<Task> task;
   if (needed == (duty == Duty::needed)) task = choose();
   if (task) begin(*task);
   if (task && task->what == Task::What::full)
-    task->standIn = !allFit_ && source_->storedBytes(task->index, Detail::coarse) == 0;
+    task->standIn = !allFit_ && source_->storedBytes(task->camera, Detail::coarse) == 0;
   if (std::size_t(counts_.evictions) != evictions) publish();
   return task;
 }
 
-std::optional<int> WalkStream::nextLocal(double within) const {
-  int nearest = -1;
+std::vector<int> WalkStream::nextLocals(double within) const {
+  constexpr std::size_t kMost = 64;
+  std::vector<int> regions;
   for (std::size_t r = 0; r < locals_.size(); ++r)
-    if (locals_[r] == Residence::absent && distances_.region[r] <= within &&
-        (nearest < 0 || distances_.region[r] < distances_.region[std::size_t(nearest)]))
-      nearest = int(r);
-  return nearest < 0 ? std::nullopt : std::optional(nearest);
+    if (locals_[r] == Residence::absent && distances_.region[r] <= within) regions.push_back(int(r));
+  const auto distance = [this](int region) { return distances_.region[std::size_t(region)]; };
+  const auto end = regions.begin() + std::ptrdiff_t(std::min(kMost, regions.size()));
+  std::ranges::partial_sort(regions, end, {}, distance);
+  regions.erase(end, regions.end());
+  return regions;
 }
 
 /// A camera that memory does not hold and that nothing stands in for yet.
@@ -91,7 +95,7 @@ std::optional<WalkStream::Task> WalkStream::nextSketch() const {
   const auto c = std::size_t(nearest);
   const std::size_t bytes = std::max(coarseBytesOf(full.bytes[c]), coarse.madeBytes[c]);
   if (taken(Detail::coarse) + bytes > limitOf(Detail::coarse)) return std::nullopt;
-  return Task{Task::What::sketch, nearest, true};
+  return Task{Task::What::sketch, nearest, true, {}};
 }
 
 std::size_t WalkStream::taken(Detail detail) const {
@@ -132,11 +136,10 @@ void WalkStream::drop(Detail detail, int camera) {
 }
 
 void WalkStream::begin(const Task& task) {
-  const auto i = std::size_t(task.index);
-  if (task.what == Task::What::local)
-    locals_[i] = Residence::loading;
-  else
-    tier(task.what == Task::What::full ? Detail::full : Detail::coarse).residence[i] = Residence::loading;
+  for (const int region : task.regions) locals_[std::size_t(region)] = Residence::loading;
+  if (task.camera >= 0)
+    tier(task.what == Task::What::full ? Detail::full : Detail::coarse).residence[std::size_t(task.camera)] =
+        Residence::loading;
 }
 
 void WalkStream::insert(Detail detail, int camera, CapturePtr capture, bool made) {

@@ -1,44 +1,23 @@
 #include "engine/scene/decimate.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
-#include <OpenMesh/Tools/Decimater/Observer.hh>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
 
+#include "engine/scene/loosen.h"
 #include "engine/scene/triangle_bvh.h"
 
 namespace acentric {
 namespace {
-
-struct Traits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  VertexAttributes(OpenMesh::Attributes::Status);
-  EdgeAttributes(OpenMesh::Attributes::Status);
-  FaceAttributes(OpenMesh::Attributes::Status);
-  VertexTraits {
-    std::uint32_t input = 0;  ///< vertex of the input
-  };
-  FaceTraits {
-    std::uint32_t input = 0;  ///< triangle of the input
-    std::vector<std::uint32_t>
-        stoodHere;  ///< vertices of the input that were taken away and lie nearest to it
-  };
-};
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
-using Vertex = HalfEdgeMesh::VertexHandle;
 
 /// Places where one vertex may stand in several sheets; more of them get triangles apart.
 constexpr std::size_t kSheets = 4;
 /// Triangles may turn by so much in one collapse: cosine of 60 degrees.
 constexpr double kLeastCosine = 0.5;
 constexpr float kColourTolerance = 6.0f / 255;
-constexpr std::size_t kCollapsesBetweenLooks = 1024;
-
-glm::dvec3 toGlm(const OpenMesh::Vec3d& v) { return {v[0], v[1], v[2]}; }
 
 /// The quadric's priority for collapses that keep the surface, and what is painted on it, within the
 /// tolerance of every vertex taken away so far; no others.
@@ -153,16 +132,6 @@ class GuardedQuadric : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
   std::vector<std::uint32_t> landing_;
 };
 
-class StopObserver : public OpenMesh::Decimater::Observer {
- public:
-  explicit StopObserver(std::stop_token stop) : Observer(kCollapsesBetweenLooks), stop_(std::move(stop)) {}
-  void notify(std::size_t) override {}
-  bool abort() const override { return stop_.stop_requested(); }
-
- private:
-  std::stop_token stop_;
-};
-
 class Builder {
  public:
   explicit Builder(const DecimationMesh& input) : input_(input), sheets_(input.positions.size()) {}
@@ -223,8 +192,8 @@ void quietOpenMesh() {
   std::call_once(once, [] { omerr().disable(); });
 }
 
-Decimation collect(const HalfEdgeMesh& mesh, const DecimationMesh& input) {
-  Decimation out;
+std::vector<DecimatedTriangle> collect(const HalfEdgeMesh& mesh, const DecimationMesh& input) {
+  std::vector<DecimatedTriangle> out;
   for (const auto face : mesh.faces()) {
     DecimatedTriangle triangle;
     int k = 0;
@@ -234,7 +203,7 @@ Decimation collect(const HalfEdgeMesh& mesh, const DecimationMesh& input) {
     glm::uvec3 turned = triangle.vertices;
     for (int turn = 0; turn < 3; ++turn, turned = {turned.y, turned.z, turned.x})
       if (turned == input.triangles[from]) triangle = {turned, from};
-    out.triangles.push_back(triangle);
+    out.push_back(triangle);
   }
   return out;
 }
@@ -251,12 +220,18 @@ Result<Decimation> decimate(const DecimationMesh& input, const DecimationOptions
     OpenMesh::Decimater::ModHandleT<GuardedQuadric> module;
     decimater.add(module);
     decimater.module(module).guard(input, options.tolerance);
-    StopObserver observer(stop);
+    DecimationStop observer(stop);
     decimater.set_observer(&observer);
     if (!decimater.initialize()) return fail(ErrorKind::internal, "the mesh decimater could not be set up");
     decimater.decimate_to_faces(0, options.mostTriangles);
+    Decimation out;
+    mesh.garbage_collection();
+    if (options.reach && mesh.n_faces() > options.mostTriangles && !stop.stop_requested()) {
+      out.loosenedFrom = mesh.n_faces();
+      loosen(mesh, options.mostTriangles, stop, out);
+    }
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "simplifying was cancelled");
-    Decimation out = collect(mesh, input);
+    out.triangles = collect(mesh, input);
     out.split = split;
     return out;
   } catch (const std::bad_alloc&) {

@@ -3,6 +3,7 @@
 /// into a neighbour, so every vertex that is left is one of the input's, with all its attributes. Borders of
 /// the mesh stay as they are: whatever the caller keeps apart by separate vertices (materials, texture seams,
 /// the rim of a cut) has its border there, and does not move.
+/// Where a budget must be reached all of that is let go, in steps (DecimationOptions::reach).
 ///
 /// Meshes that are not manifold are split where they are not: a triangle that OpenMesh cannot join gets
 /// copies of its vertices, and every vertex that has copies is held in place. No triangle is lost.
@@ -28,6 +29,9 @@ struct DecimationOptions {
   std::size_t mostTriangles = 0;  ///< stop at so many
   /// Metres that a vertex taken away may lie from what is left, and what is painted on it from its place.
   double tolerance = 0.005;
+  /// Go on to `mostTriangles` whatever it costs: borders move too, what is painted on the surface counts no
+  /// more, and in the end the smallest pieces (by area) are left out.
+  bool reach = false;
 };
 
 struct DecimatedTriangle {
@@ -39,6 +43,9 @@ struct DecimatedTriangle {
 struct Decimation {
   std::vector<DecimatedTriangle> triangles;
   std::size_t split = 0;  ///< triangles that needed vertices of their own
+  /// With DecimationOptions::reach: triangles when only that helped any more, 0 = never; then pieces of the
+  /// surface left out in the end, and their triangles.
+  std::size_t loosenedFrom = 0, piecesLeftOut = 0, trianglesLeftOut = 0;
 };
 
 /// Indices must be valid and triangles have three different corners. Fails only when cancelled or out of

@@ -25,6 +25,16 @@ struct Box {
   double diagonal() const { return empty() ? 0 : glm::length(max - min); }
 };
 
+/// Nobody walks through a thimble, or a country.
+void questionSize(double metres, ReportLines& guessed) {
+  if (metres > 20000)
+    guessed.add(fmt::format("the scene is {:.0f} km across: if that is too large, set metres per unit",
+                            metres / 1000));
+  else if (metres > 0 && metres < 0.5)
+    guessed.add(
+        fmt::format("the scene is only {:.2g} m across: if that is too small, set metres per unit", metres));
+}
+
 double chooseUnit(const SourceScene& source, const ImportOptions& options, double diagonal,
                   ReportLines& guessed) {
   if (options.metresPerUnit > 0) return options.metresPerUnit;
@@ -32,18 +42,18 @@ double chooseUnit(const SourceScene& source, const ImportOptions& options, doubl
     guessed.add(source.metresPerUnit == 1
                     ? fmt::format("unit: metres ({})", source.unitSource)
                     : fmt::format("unit: {} m ({})", source.metresPerUnit, source.unitSource));
-    if (diagonal * source.metresPerUnit > 20000)
-      guessed.add(fmt::format("the scene is {:.0f} km across: if that is too large, set metres per unit",
-                              diagonal * source.metresPerUnit / 1000));
+    questionSize(diagonal * source.metresPerUnit, guessed);
     return source.metresPerUnit;
   }
   if (diagonal <= 2000) {
     guessed.add("unit: metres (the file states none)");
+    questionSize(diagonal, guessed);
     return 1;
   }
   const double unit = diagonal * 0.01 < 500 ? 0.01 : 0.001;
   guessed.add(fmt::format("unit: {} (the file states none, and as metres the scene would be {:.0f} m across)",
                           unit == 0.01 ? "centimetres" : "millimetres", diagonal));
+  questionSize(diagonal * unit, guessed);
   return unit;
 }
 
@@ -184,7 +194,9 @@ class Finisher {
         "{}, {}, {}", counted(scene_.materials.size(), "material", "materials"),
         counted(scene_.textures.size(), "texture", "textures"), counted(ownLights, "light", "lights")));
     const glm::vec3 size = scene_.bounds.size();
-    report.found.push_back(fmt::format("{:.2f} x {:.2f} x {:.2f} m (x, y, z up)", size.x, size.y, size.z));
+    const int decimals = std::max({size.x, size.y, size.z}) < 0.1F ? 5 : 2;
+    report.found.push_back(
+        fmt::format("{0:.{3}f} x {1:.{3}f} x {2:.{3}f} m (x, y, z up)", size.x, size.y, size.z, decimals));
     reportDropped(counts_, report);
     report.ignored = source_.ignored.take();
     report.guessed = source_.guessed.take();

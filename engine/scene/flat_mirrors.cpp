@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/contract.h"
 #include "engine/scene/material_rules.h"
 #include "engine/scene/triangle_normal.h"
 
@@ -95,8 +96,18 @@ FlatMirrors::FlatMirrors(const Scene& scene, const EffectPlan& plan) : planeOf_(
   }
 }
 
+FlatMirrors::FlatMirrors(std::span<const MirrorPlane> planes) {
+  require(planes.size() <= kMaxPlanes, "mirrors have numbers of 8 bits");
+  for (const MirrorPlane& plane : planes) planes_.push_back({plane.normal, plane.point});
+}
+
 std::uint8_t FlatMirrors::planeOf(const LocalGeometry& local, const LocalTriangle& triangle) const {
   if (!local.surfaces) return planeOf(triangle.mesh, triangle.triangle);
+  if (!local.surfaces->mirrorPlanes.empty()) {
+    const std::vector<std::uint8_t>& planes = local.surfaces->mirrorPlanes[triangle.mesh];
+    return planes.empty() ? kNoPlane : planes[triangle.triangle];
+  }
+  if (materials_.empty()) return kNoPlane;
   const Mesh& mesh = local.surfaces->meshes[triangle.mesh];
   return isFacet(mesh, triangle.triangle) ? findPlane(mesh, triangle.triangle) : kNoPlane;
 }
@@ -108,6 +119,12 @@ std::vector<FlatMirror> FlatMirrors::sides() const {
       sides.push_back({std::uint8_t(sides.size() + 1), p.point, side * glm::normalize(glm::dvec3(p.normal)),
                        p.right, p.up, p.low, p.high});
   return sides;
+}
+
+std::vector<MirrorPlane> FlatMirrors::planes() const {
+  std::vector<MirrorPlane> planes;
+  for (const Plane& p : planes_) planes.push_back({p.normal, p.point});
+  return planes;
 }
 
 std::shared_ptr<const FlatMirrors> flatMirrorsOf(const Scene& scene, const EffectPlan& plan) {

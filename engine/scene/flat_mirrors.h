@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/scene/effect_plan.h"
@@ -30,11 +31,21 @@ struct FlatMirror {
   glm::dvec3 reflected(const glm::dvec3& way) const { return way - 2 * glm::dot(normal, way) * normal; }
 };
 
+/// Of a mirror's plane what tells which side of it an eye sees.
+struct MirrorPlane {
+  glm::vec3 normal{0};  ///< unit
+  glm::vec3 point{0};
+  bool operator==(const MirrorPlane&) const = default;
+};
+
 class FlatMirrors {
  public:
   /// None where the plan has no mirrors. Of more planes than can be numbered those with the largest
   /// triangles.
   FlatMirrors(const Scene& scene, const EffectPlan& plan);
+  /// Known planes, by number: only local geometry that says which of them it lies in
+  /// (LocalSurfaces::mirrorPlanes) has mirrors. At most kMaxPlanes.
+  explicit FlatMirrors(std::span<const MirrorPlane> planes);
 
   /// Coplanar triangles are one plane, whatever they belong to; each of its sides is a mirror.
   static constexpr std::size_t kMaxPlanes = 127;
@@ -54,6 +65,8 @@ class FlatMirrors {
   }
   /// Both sides of all planes, by number.
   std::vector<FlatMirror> sides() const;
+  /// All planes, by number.
+  std::vector<MirrorPlane> planes() const;
   /// Metres: how far a mirror may lie off its plane.
   float slack() const { return slack_; }
 

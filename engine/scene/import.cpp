@@ -29,6 +29,21 @@ fs::path entryFor(const fs::path& folder, const ContentKey& model, const ImportO
   return folder / (hasher.finish().toHex() + kEntryExtension);
 }
 
+/// Names the entry that a path was last imported to.
+fs::path pointerFor(const fs::path& folder, const fs::path& model, const ImportOptions& options) {
+  Hasher hasher;
+  hasher.text("acentric last import").text(model.string());
+  options.addTo(hasher);
+  return folder / (hasher.finish().toHex() + ".last");
+}
+
+/// A convenience: that it cannot be written is no reason to fail.
+void noteLastImport(const fs::path& pointer, const fs::path& entry) {
+  const std::string name = entry.filename().string();
+  if (const auto known = readText(pointer, 4096); !known || *known != name)
+    (void)writeTextAtomically(pointer, name);
+}
+
 Status checkModel(const fs::path& path) {
   std::error_code error;
   const auto type = fs::status(path, error).type();
@@ -95,7 +110,10 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
   if (!content) return tl::unexpected(content.error());
   const fs::path entry = entryFor(folder, *content, options);
   if (host.useCache)
-    if (ScenePtr scene = fromCache(entry, path)) return scene;
+    if (ScenePtr scene = fromCache(entry, path)) {
+      noteLastImport(pointerFor(folder, path, options), entry);
+      return scene;
+    }
 
   const auto program = importerProgram(host);
   if (!program) return tl::unexpected(program.error());
@@ -111,7 +129,10 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
                 asked.string());
   // A model that changed while it was read must not be found under the old content's key.
   const auto after = hashFile(path);
-  if (host.useCache && after && *after == *content) fs::rename(temporary.path(), entry, error);
+  if (host.useCache && after && *after == *content) {
+    fs::rename(temporary.path(), entry, error);
+    if (!error) noteLastImport(pointerFor(folder, path, options), entry);
+  }
   return std::make_shared<const Scene>(std::move(file->scene));
 }
 
@@ -126,6 +147,18 @@ Result<ScenePtr> importScene(const fs::path& path, const ImportOptions& options,
   } catch (const std::exception& error) {
     return fail(ErrorKind::internal, error.what(), path.string());
   }
+}
+
+ScenePtr lastImported(const fs::path& asked, const ImportOptions& options, const ImportHost& host) {
+  std::error_code error;
+  const fs::path model = fs::weakly_canonical(asked, error);
+  const fs::path folder = cacheFolderOf(host);
+  const auto name = readText(pointerFor(folder, model, options), 4096);
+  if (error || !name || fs::path(*name).has_parent_path()) return nullptr;
+  auto file = readSceneFile(folder / *name, nullptr);
+  if (!file) return nullptr;
+  file->scene.name = model.stem().string();
+  return std::make_shared<const Scene>(std::move(file->scene));
 }
 
 std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& options,

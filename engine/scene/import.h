@@ -41,6 +41,10 @@ Result<ScenePtr> importScene(const std::filesystem::path& path, const ImportOpti
                              const ImportHost& host = {}, const Progress& progress = {},
                              std::stop_token stop = {});
 
+/// The scene as this machine last imported it from `path`, which may be gone; null if it is not in the cache.
+ScenePtr lastImported(const std::filesystem::path& path, const ImportOptions& options,
+                      const ImportHost& host = {});
+
 /// The model file and all that it names, as the cache knows them; none if it does not hold this scene. Who
 /// keeps results of a scene can tell by them whether it may have changed.
 std::vector<std::filesystem::path> importedFiles(const std::filesystem::path& path,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,9 +14,8 @@
 #include <memory>
 #include <optional>
 
+#include "engine/base/spawn.h"
 #include "engine/scene/importer_protocol.h"
-
-extern char** environ;
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -80,35 +78,14 @@ Result<std::unique_ptr<Child>> spawn(const std::vector<std::string>& arguments) 
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     return fail(ErrorKind::internal, fmt::format("no pipe: {}", std::strerror(errno)));
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawnattr_init(&attributes);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::vector<std::string> copies = arguments;
-  std::vector<char*> pointers;
-  for (std::string& argument : copies) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = ::posix_spawn(&pid, pointers[0], &actions, &attributes, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
+  const auto process = spawnProgram(arguments, {ends[1], {}});
   ::close(ends[1]);
-  if (error != 0) {
+  if (!process) {
     ::close(ends[0]);
-    return fail(ErrorKind::internal, fmt::format("cannot be started: {}", std::strerror(error)),
-                arguments[0]);
+    return tl::unexpected(process.error());
   }
   ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  return std::make_unique<Child>(pid, ends[0]);
+  return std::make_unique<Child>(*process, ends[0]);
 }
 
 /// Cuts the child's output into lines and keeps the last word.

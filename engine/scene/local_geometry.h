@@ -29,6 +29,8 @@ struct LocalTriangle {
 struct LocalSurfaces {
   std::vector<Mesh> meshes;  ///< of the scene's materials
   SurfaceLight light;        ///< triangles numbered through the meshes in order; empty: not baked
+  /// By mesh and triangle the mirror's plane (flat_mirrors.h); empty: their shape tells, or of a mesh: none.
+  std::vector<std::vector<std::uint8_t>> mirrorPlanes;
 };
 
 struct LocalGeometry {

@@ -155,9 +155,9 @@ class Assembler {
 };
 
 /// Decimates; where the measured error is larger than allowed, again with less tolerance.
-Result<Decimation> decimateWithin(const Welded& welded, const TriangleBvh& before, std::size_t mostTriangles,
-                                  double maxError, SimplifyReport& report, const std::stop_token& stop) {
-  DecimationOptions options{mostTriangles, maxError};
+Result<Decimation> decimateWithin(const Welded& welded, const TriangleBvh& before, DecimationOptions options,
+                                  SimplifyReport& report, const std::stop_token& stop) {
+  const double maxError = options.tolerance;
   for (int attempt = 1;; ++attempt) {
     auto decimated = decimate(welded.mesh, options, stop);
     if (!decimated) return decimated;
@@ -166,8 +166,11 @@ Result<Decimation> decimateWithin(const Welded& welded, const TriangleBvh& befor
     report.meanError = distances.mean();
     report.errorSamples = distances.count;
     report.split = decimated->split;
+    report.loosenedFrom = decimated->loosenedFrom;
+    report.piecesLeftOut = decimated->piecesLeftOut;
+    report.trianglesLeftOut = decimated->trianglesLeftOut;
     report.withinError = distances.max <= maxError;
-    if (report.withinError || attempt == kAttempts) return decimated;
+    if (report.withinError || options.reach || attempt == kAttempts) return decimated;
     options.tolerance *= 0.8 * maxError / distances.max;
   }
 }
@@ -178,6 +181,8 @@ Status SimplifyOptions::check() const {
   if (!(maxError > 0 && maxError <= 10))
     return fail(ErrorKind::invalidArgument,
                 fmt::format("simplifying needs an error above 0 and up to 10 m, not {:g}", maxError));
+  if (reach && mostTriangles == 0)
+    return fail(ErrorKind::invalidArgument, "a budget that must be reached needs a number of triangles");
   if (!(lightTexel > 0)) return fail(ErrorKind::invalidArgument, "light samples must be some distance apart");
   return {};
 }
@@ -198,7 +203,8 @@ Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
   report.before = full.triangles.size();
   report.rim = kept.size();
   const std::size_t most = options.mostTriangles > kept.size() ? options.mostTriangles - kept.size() : 0;
-  const auto decimated = decimateWithin(welded, before, most, options.maxError, report, stop);
+  const auto decimated =
+      decimateWithin(welded, before, {most, options.maxError, options.reach}, report, stop);
   if (!decimated) return tl::unexpected(decimated.error());
 
   Assembler assembler(scene, full, options);

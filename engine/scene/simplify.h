@@ -20,6 +20,7 @@ struct SimplifyOptions {
   std::size_t mostTriangles = 200'000;  ///< 0 = as few as the error allows
   double maxError = 0.005;              ///< metres
   double lightTexel = 0.05;             ///< metres between light samples
+  bool reach = false;                   ///< the budget comes first, whatever the error (DecimationOptions)
 
   Status check() const;
 };
@@ -43,6 +44,8 @@ struct SimplifyReport {
   int comparedFrames = 0;
   double psnr = 0;            ///< dB; 99 if identical
   double meanDifference = 0;  ///< of red, green and blue
+  /// Decimation.
+  std::size_t loosenedFrom = 0, piecesLeftOut = 0, trianglesLeftOut = 0;
 };
 
 /// Triangles of one scene mesh's vertices.

@@ -20,9 +20,7 @@ glm::vec4 sampleColour(const Scene& scene, const TextureUse& use, glm::vec2 uv) 
 
 glm::vec4 sampleLinear(const Scene& scene, const TextureUse& use, glm::vec2 uv) {
   const TextureSampler sampler(scene, use);
-  if (!sampler.used()) return glm::vec4(1);
-  return sampler.sample(use.transform * glm::vec3(uv, 1),
-                        [](const Rgba8& p) { return glm::vec4(p) * (1 / 255.0f); });
+  return sampler.used() ? sampler.stored(use.transform * glm::vec3(uv, 1)) : glm::vec4(1);
 }
 
 }  // namespace acentric

@@ -26,6 +26,12 @@ class TextureSampler {
   Wrap wrapU() const { return wrapU_; }
   Wrap wrapV() const { return wrapV_; }
   bool nearest() const { return nearest_; }
+  /// The same of a smaller copy of the image (texture_pyramid.h).
+  TextureSampler ofLevel(const ColourImage& level) const {
+    TextureSampler of = *this;
+    of.image_ = &level;
+    return of;
+  }
 
   /// `at`: transformed texture coordinates. `decode`: from Rgba8.
   template <class Decode>
@@ -41,6 +47,9 @@ class TextureSampler {
     const glm::vec4 upper = glm::mix(decode(image_->at(x0, y0)), decode(image_->at(x1, y0)), fx);
     const glm::vec4 lower = glm::mix(decode(image_->at(x0, y1)), decode(image_->at(x1, y1)), fx);
     return glm::mix(upper, lower, fy);
+  }
+  glm::vec4 stored(glm::vec2 at) const {
+    return sample(at, [](const Rgba8& p) { return glm::vec4(p) * (1 / 255.0f); });
   }
   glm::vec4 colour(glm::vec2 at, const std::array<float, 256>& linearFromSrgb) const {
     return sample(at, [&](const Rgba8& p) {

@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
 /// Of each kind of file its own: one that changes leaves the others readable.
-constexpr std::uint32_t versionOf(BlockFileKind kind) { return kind == BlockFileKind::capture ? 4 : 2; }
+constexpr std::uint32_t versionOf(BlockFileKind kind) {
+  return kind == BlockFileKind::capture ? 4 : kind == BlockFileKind::localGeometry ? 1 : 2;
+}
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;
 constexpr std::size_t kTableEntryBytes = 8;
@@ -101,9 +103,14 @@ Status BlockFileWriter::write(const std::filesystem::path& path) const {
 Result<BlockFileReader> BlockFileReader::open(const std::filesystem::path& path, BlockFileKind kind) {
   auto bytes = readFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
+  return of(std::move(*bytes), path.string(), kind);
+}
+
+Result<BlockFileReader> BlockFileReader::of(std::vector<std::byte> bytes, std::string name,
+                                            BlockFileKind kind) {
   BlockFileReader reader;
-  reader.bytes_ = std::move(*bytes);
-  reader.name_ = path.string();
+  reader.bytes_ = std::move(bytes);
+  reader.name_ = std::move(name);
   if (Status parsed = reader.parse(kind); !parsed) return tl::unexpected(parsed.error());
   return reader;
 }

@@ -21,7 +21,12 @@
 
 namespace acentric {
 
-enum class BlockFileKind : std::uint32_t { capture = 1, surfaceLight = 2, simplifiedLocal = 3 };
+enum class BlockFileKind : std::uint32_t {
+  capture = 1,
+  surfaceLight = 2,
+  simplifiedLocal = 3,
+  localGeometry = 4,  ///< of bundles (engine/export/FORMAT.md)
+};
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;
@@ -62,6 +67,8 @@ class BlockFileReader {
  public:
   /// Reads and verifies everything but the blocks' contents.
   static Result<BlockFileReader> open(const std::filesystem::path& path, BlockFileKind kind);
+  /// The same of a file's bytes; `name` is for messages.
+  static Result<BlockFileReader> of(std::vector<std::byte> bytes, std::string name, BlockFileKind kind);
 
   const ContentKey& key() const { return key_; }
   const std::string& name() const { return name_; }

@@ -110,8 +110,7 @@ Status take(BlockFileReader& file, std::size_t columns, std::uint64_t runs, Capt
   return file.nextRecords(runLanes(out), runs);
 }
 
-Result<Keyed<Capture>> readPack(const std::filesystem::path& path) {
-  auto file = BlockFileReader::open(path, BlockFileKind::capture);
+Result<Keyed<Capture>> readPack(Result<BlockFileReader> file) {
   if (!file) return tl::unexpected(file.error());
   Capture capture;
   ColumnCamera& camera = capture.camera;
@@ -160,7 +159,12 @@ Status writeCapturePack(const Capture& capture, const ContentKey& key, const std
 }
 
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return readPack(path); });
+  return withinMemory(path, [&] { return readPack(BlockFileReader::open(path, BlockFileKind::capture)); });
+}
+
+Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name) {
+  return withinMemory(
+      name, [&] { return readPack(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture)); });
 }
 
 Result<Capture> readCapturePack(const std::filesystem::path& path) {

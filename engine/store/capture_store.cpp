@@ -83,6 +83,8 @@ Status CaptureStore::put(const ContentKey& key, const Capture& capture, const st
   return packed;
 }
 
+std::filesystem::path CaptureStore::packFile(const ContentKey& key) const { return packOf(folder_, key); }
+
 Result<Capture> CaptureStore::get(const ContentKey& key) const {
   const fs::path exr = exrOf(folder_, key), pack = packOf(folder_, key);
   if (!has(key)) return fail(ErrorKind::notFound, "is not baked", pack.string());
@@ -102,6 +104,26 @@ Result<Capture> CaptureStore::get(const ContentKey& key) const {
               "both files of this capture are damaged and were set aside as *.damaged; bake again (" +
                   packed.error().message + "; " + original.error().message + ")",
               pack.string());
+}
+
+Status CaptureStore::adopt(const ContentKey& key, const CaptureStore& from) const {
+  // The record last: what has one was taken over to the end.
+  for (const auto fileOf : {exrOf, packOf, lightOf, recordOf}) {
+    const fs::path source = fileOf(from.folder_, key), target = fileOf(folder_, key);
+    if (!isFile(source) || isFile(target)) continue;
+    std::error_code error;
+    fs::create_hard_link(source, target, error);
+    if (!error) continue;
+    const auto copy = [&](const fs::path& temporary) -> Status {
+      std::error_code failed;
+      fs::copy_file(source, temporary, fs::copy_options::overwrite_existing, failed);
+      if (failed)
+        return fail(ErrorKind::unreadable, "cannot be copied: " + failed.message(), source.string());
+      return {};
+    };
+    if (Status copied = replaceFileAtomically(target, copy); !copied) return copied;
+  }
+  return {};
 }
 
 bool CaptureStore::hasSurfaceLight(const ContentKey& key) const { return isFile(lightOf(folder_, key)); }

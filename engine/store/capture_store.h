@@ -51,6 +51,13 @@ class CaptureStore {
   /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both
   /// are set aside (renamed *.damaged), so that the next bake replaces them.
   Result<Capture> get(const ContentKey& key) const;
+  /// Where its pack is, or would be.
+  std::filesystem::path packFile(const ContentKey& key) const;
+
+  /// Takes what another store has under the key, capture or light with its record: as further names of the
+  /// same files (no file of a store is ever changed in place) or, across file systems, as copies. What is
+  /// there already stays; nothing where the other has none.
+  Status adopt(const ContentKey& key, const CaptureStore& from) const;
 
   bool hasSurfaceLight(const ContentKey& key) const;
   Status putSurfaceLight(const ContentKey& key, const SurfaceLight& light,

@@ -20,6 +20,8 @@ struct Keyed {
 Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path,
                                            const std::stop_token& stop = {});
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
+/// Of a pack's bytes; `name` is for messages.
+Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name);
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
 Result<Keyed<SimplifiedLocal>> readKeyedSimplified(const std::filesystem::path& path);
 

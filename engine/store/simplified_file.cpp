@@ -78,6 +78,9 @@ Status write(const SimplifiedLocal& s, const ContentKey& key, const std::filesys
     file.describe(static_cast<std::uint64_t>(mesh.sceneVertices.size()));
     file.describe(static_cast<std::uint64_t>(mesh.triangles.size()));
   }
+  if (s.report.loosenedFrom > 0)
+    for (const std::size_t count : {s.report.loosenedFrom, s.report.piecesLeftOut, s.report.trianglesLeftOut})
+      file.describe(static_cast<std::uint64_t>(count));
   Status added = file.addRecords(vertexLanes(s.vertices), s.vertices.size());
   const auto add = [&](const auto& lanes, std::size_t count) {
     if (added) added = file.addRecords(lanes, count);
@@ -121,6 +124,9 @@ Result<Keyed<SimplifiedLocal>> read(const std::filesystem::path& path) {
     bytes += 4 * counts.back().vertices + 12 * counts.back().triangles;
     s.meshes.push_back(std::move(mesh));
   }
+  if (file->describesMore())
+    for (std::size_t* count : {&s.report.loosenedFrom, &s.report.piecesLeftOut, &s.report.trianglesLeftOut})
+      *count = file->described<std::uint64_t>();
   if (!file->describedAll() || bytes != file->rawBytes())
     return file->malformed("its number of triangles contradicts its size");
   s.vertices.resize(vertices);

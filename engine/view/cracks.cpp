@@ -1,6 +1,7 @@
 #include "engine/view/cracks.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace acentric {
 namespace {
@@ -68,8 +69,11 @@ void Cracks::open(Canvas& canvas, std::uint32_t openBelow) {
       between[std::size_t(y)] = std::max(across, along) > kBefore * own[y];
     }
     const std::size_t first = std::size_t(x) * std::size_t(canvas.height);
-    for (auto at = between.begin(); (at = std::find(at, between.end(), 1)) != between.end(); ++at) {
-      const std::size_t i = first + std::size_t(at - between.begin());
+    const std::uint8_t* const end = between.data() + between.size();
+    for (const std::uint8_t* at = between.data();
+         (at = static_cast<const std::uint8_t*>(std::memchr(at, 1, std::size_t(end - at)))) != nullptr;
+         ++at) {
+      const std::size_t i = first + std::size_t(at - between.data());
       if (slotOf(canvas.pixels[i]) >= openBelow) cracks_.push_back({i, canvas.pixels[i]});
     }
   }

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace acentric {
-namespace {
-
-bool isOpen(PixelSource source) { return source == kSourceHole || source == kSourceInvented; }
-
-}  // namespace
-
 void MeshCost::add(const MeshCost& other) {
   samples += other.samples, triangles += other.triangles, bytes += other.bytes;
   error = std::max(error, other.error);
@@ -22,13 +16,13 @@ MeshCost FrameStats::meshSum() const {
 }
 
 std::size_t Frame::holeCount() const {
-  return static_cast<std::size_t>(std::count_if(source.pixels.begin(), source.pixels.end(), isOpen));
+  return source.pixels.size() - std::size_t(std::ranges::count_if(source.pixels, isReal));
 }
 
 ColourImage Frame::holeMask() const {
   ColourImage mask(source.width, source.height, Rgba8(0, 0, 0, 255));
   for (std::size_t i = 0; i < source.pixels.size(); ++i)
-    if (isOpen(source.pixels[i])) mask.pixels[i] = Rgba8(255);
+    if (!isReal(source.pixels[i])) mask.pixels[i] = Rgba8(255);
   return mask;
 }
 

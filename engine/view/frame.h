@@ -18,6 +18,9 @@ inline constexpr PixelSource kSourceInvented =
 inline constexpr PixelSource kSourceBackground =
     0xfffd;  ///< steeper than anything that a capture could hold (background.h)
 
+/// Painted from something that is there, not a hole.
+constexpr bool isReal(PixelSource source) { return source != kSourceHole && source != kSourceInvented; }
+
 /// Source of what a camera captured.
 constexpr PixelSource sourceOfCamera(int camera) {
   return camera + 1 < kSourceBackground ? static_cast<PixelSource>(camera + 1) : kSourceBackground - 1;

@@ -22,9 +22,10 @@ struct PictureAxes {
   glm::dvec3 project(const glm::dvec3& direction) const {
     return {glm::dot(u, direction), glm::dot(v, direction), glm::dot(z, direction)};
   }
-  void project(const glm::dvec3& direction, float* out) const {
+  template <class T>
+  void project(const glm::dvec3& direction, T* out) const {
     const glm::dvec3 q = project(direction);
-    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(q[i]);
+    for (int i = 0; i < 3; ++i) out[i] = static_cast<T>(q[i]);
   }
 };
 

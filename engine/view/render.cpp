@@ -28,8 +28,13 @@ constexpr int kFillRingsWhileLoading = 8;
 /// More than one: some strips hold more than others. Not many more: samples near the borders are read twice.
 constexpr int kStripsPerThread = 2;
 
+/// One sample at a time, and all of them.
+bool isReference(const ViewSettings& settings) {
+  return settings.renderer == Renderer::scalar || settings.renderer == Renderer::precise;
+}
+
 const Kernels& kernelsFor(const ViewSettings& settings) {
-  return settings.renderer == Renderer::scalar ? supportedKernels().front() : supportedKernels().back();
+  return isReference(settings) ? supportedKernels().front() : supportedKernels().back();
 }
 
 /// Borders of strips that take equal time, if every column of the picture takes what it took the last time;
@@ -78,7 +83,8 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   options.project = kernels.project;
   options.findBlocks = kernels.findBlocks;
   options.depthTest = settings.renderer == Renderer::zbuffer;
-  options.cull = settings.renderer != Renderer::scalar;
+  options.precise = settings.renderer == Renderer::precise;
+  options.cull = !isReference(settings);
   options.cover = cover;
   options.coverMirrors = coverMirrors;
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
@@ -166,6 +172,11 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   return frame;
 }
 
+tl::unexpected<Error> tooLarge() {
+  return fail(ErrorKind::outOfSpace, "not enough memory for a picture of this size: ask for a smaller one",
+              "view");
+}
+
 }  // namespace
 
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
@@ -177,20 +188,32 @@ Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, c
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                           TaskRunner& runner, FrameMemory& memory) {
   const Stopwatch total;
-  if (onOpenGl(settings.renderer))
-    return fail(ErrorKind::unsupported,
-                "the OpenGL renderer needs a window or a headless context: use GlRenderer", "view settings");
   try {
     const auto plan = planView(scene, view, settings);
     if (!plan) return tl::unexpected(plan.error());
     const double planSeconds = total.seconds();
-    Frame frame = draw(scene, view, settings, *plan, runner, memory);
-    frame.stats.planSeconds = planSeconds;
+    auto frame = renderPlan(scene, view, settings, *plan, runner, memory);
+    if (!frame) return frame;
+    frame->stats.planSeconds = planSeconds;
+    frame->stats.totalSeconds = total.seconds();
+    return frame;
+  } catch (const std::bad_alloc&) {
+    return tooLarge();
+  }
+}
+
+Result<Frame> renderPlan(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                         const ViewPlan& plan, TaskRunner& runner, FrameMemory& memory) {
+  const Stopwatch total;
+  if (onOpenGl(settings.renderer))
+    return fail(ErrorKind::unsupported,
+                "the OpenGL renderer needs a window or a headless context: use GlRenderer", "view settings");
+  try {
+    Frame frame = draw(scene, view, settings, plan, runner, memory);
     frame.stats.totalSeconds = total.seconds();
     return frame;
   } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::outOfSpace, "not enough memory for a picture of this size: ask for a smaller one",
-                "view");
+    return tooLarge();
   }
 }
 

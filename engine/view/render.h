@@ -7,6 +7,7 @@
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
 #include "engine/view/open_tiles.h"
+#include "engine/view/view_plan.h"
 #include "engine/view/view_settings.h"
 #include "engine/view/walk_scene.h"
 
@@ -33,5 +34,8 @@ Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, c
                           TaskRunner& runner);
 Result<Frame> renderFrame(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
                           TaskRunner& runner, FrameMemory& memory);
+/// The same after a plan that was made already, with these settings for this view.
+Result<Frame> renderPlan(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                         const ViewPlan& plan, TaskRunner& runner, FrameMemory& memory);
 
 }  // namespace acentric

@@ -14,7 +14,11 @@ struct ViewCameras {
   std::vector<int> cameras;  ///< into Layout::cameras, ascending
 };
 
-/// Those that planView looks for.
+/// Those that planView looks for, in the order in which it paints them, back to front; one that the view is
+/// split for comes where it is painted first.
+std::vector<int> paintingOrder(const Layout& layout, const PerspectiveView& view,
+                               const ViewSettings& settings);
+/// The same with where the eye stands.
 ViewCameras camerasOf(const Layout& layout, const PerspectiveView& view, const ViewSettings& settings);
 
 }  // namespace acentric

@@ -4,6 +4,7 @@
 /// where local geometry is drawn), and the least (farther ones lie outside the piece, in another's).
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "engine/geometry/perspective_view.h"
@@ -60,5 +61,10 @@ struct ViewPlan {
 };
 
 Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+
+/// A plan that draws these captures whole, in this order, wherever the eye is: of captures that no regions
+/// share out, for renderers that test depth. Its region is -1: no local geometry is drawn.
+Result<ViewPlan> planCaptures(const WalkScene& scene, const PerspectiveView& view,
+                              const ViewSettings& settings, std::span<const int> cameras);
 
 }  // namespace acentric

@@ -4,12 +4,19 @@
 
 namespace acentric {
 
+Renderer withoutOpenGl(Renderer renderer) {
+  if (!onOpenGl(renderer)) return renderer;
+  return depthTested(renderer) ? Renderer::zbuffer : Renderer::list;
+}
+
 const char* nameOf(Renderer renderer) {
   switch (renderer) {
     case Renderer::list:
       return "list";
     case Renderer::scalar:
       return "scalar";
+    case Renderer::precise:
+      return "double";
     case Renderer::zbuffer:
       return "zbuffer";
     case Renderer::gl:

@@ -13,13 +13,15 @@ namespace acentric {
 enum class Renderer : std::uint8_t {
   list,       ///< list priority, no depth buffer (SIMD where the processor has it)
   scalar,     ///< list priority, one sample at a time in plain C++: the reference of the fast ones
+  precise,    ///< the same in double precision: what floats cost
   zbuffer,    ///< the same splats with a depth buffer, for comparison
   gl,         ///< list priority on OpenGL
   glZbuffer,  ///< the same splats on OpenGL with a depth test, for comparison
   glMesh,     ///< captures as adaptive meshes on OpenGL, with a depth test (capture_mesh.h)
 };
-inline constexpr Renderer kRenderers[] = {Renderer::list, Renderer::scalar,    Renderer::zbuffer,
-                                          Renderer::gl,   Renderer::glZbuffer, Renderer::glMesh};
+inline constexpr Renderer kRenderers[] = {Renderer::list,    Renderer::scalar, Renderer::precise,
+                                          Renderer::zbuffer, Renderer::gl,     Renderer::glZbuffer,
+                                          Renderer::glMesh};
 /// Is it drawn by view_gl instead of view?
 constexpr bool onOpenGl(Renderer renderer) {
   return renderer == Renderer::gl || renderer == Renderer::glZbuffer || renderer == Renderer::glMesh;
@@ -28,6 +30,8 @@ constexpr bool onOpenGl(Renderer renderer) {
 constexpr bool depthTested(Renderer renderer) {
   return renderer == Renderer::zbuffer || renderer == Renderer::glZbuffer || renderer == Renderer::glMesh;
 }
+/// Itself, or what comes nearest to it where there is no OpenGL to draw with.
+Renderer withoutOpenGl(Renderer renderer);
 const char* nameOf(Renderer renderer);
 Result<Renderer> parseRenderer(std::string_view name);
 /// All their names, as options list them.

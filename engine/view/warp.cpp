@@ -18,37 +18,47 @@ namespace {
 /// Planes and directions are of unit length, what kernels compute of float precision.
 constexpr double kPlaneSlack = 2e-6;
 
+/// Of a piece; rounded where the kernels compute in floats.
+glm::dvec3 baselineOf(const PieceDraw& piece, const DisplayCapture&, const PerspectiveView&, float) {
+  return glm::dvec3(piece.baseline);
+}
+glm::dvec3 baselineOf(const PieceDraw&, const DisplayCapture& capture, const PerspectiveView& view, double) {
+  return capture.camera.centreOfProjection - view.eye;
+}
+
 /// What is constant over a piece.
-ProjectColumn columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
-                             const ViewSettings& settings, const PieceDraw& piece,
-                             const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot,
-                             bool places) {
-  ProjectColumn column{};
+template <class T>
+ProjectColumnOf<T> columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
+                                  const ViewSettings& settings, const PieceDraw& piece,
+                                  const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot,
+                                  bool places) {
+  const glm::dvec3 baseline = baselineOf(piece, capture, view, T());
+  ProjectColumnOf<T> column{};
   axes.project(glm::dvec3(0, 0, 1), column.z);
-  axes.project(glm::dvec3(piece.baseline), column.b);
+  axes.project(baseline, column.b);
   const double focal = view.focalPixels();
   const double pitch = std::max(capture.camera.columnPitch(), capture.camera.rowPitch());
   column.footprint = settings.reconstruction == Reconstruction::splat
-                         ? static_cast<float>(focal * pitch * kSlantAllowance)
-                         : 0.0f;
-  column.maxSide = static_cast<float>(settings.maxSplatPixels);
+                         ? static_cast<T>(focal * pitch * kSlantAllowance)
+                         : T(0);
+  column.maxSide = static_cast<T>(settings.maxSplatPixels);
   column.slanted = followsSlant(settings.reconstruction);
-  column.acrossStep = static_cast<float>(0.5 * kOverlap * capture.camera.columnPitch());
-  column.perSpread = static_cast<float>(8 * 0.5 * kOverlap);
-  column.downStep = static_cast<float>(0.5 * kOverlap * capture.camera.rowPitch());
+  column.acrossStep = static_cast<T>(0.5 * kOverlap * capture.camera.columnPitch());
+  column.perSpread = static_cast<T>(8 * 0.5 * kOverlap);
+  column.downStep = static_cast<T>(0.5 * kOverlap * capture.camera.rowPitch());
   column.roles = piece.roles;
-  column.centreX = 0.5f * static_cast<float>(view.width);
-  column.centreY = 0.5f * static_cast<float>(view.height);
-  column.inverseFocal = static_cast<float>(1 / focal);
+  column.centreX = T(0.5) * static_cast<T>(view.width);
+  column.centreY = T(0.5) * static_cast<T>(view.height);
+  column.inverseFocal = static_cast<T>(1 / focal);
   column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
   column.slot = slot;
   column.places = places;
-  column.baseline[0] = piece.baseline.x, column.baseline[1] = piece.baseline.y;
+  column.baseline[0] = static_cast<T>(baseline.x), column.baseline[1] = static_cast<T>(baseline.y);
   if (piece.clipToPart) {
     const AzimuthRange part = piece.part.azimuths;
     const glm::dvec2 low = directionOf(part.low), high = directionOf(part.low + part.width);
-    column.low[0] = static_cast<float>(low.x), column.low[1] = static_cast<float>(low.y);
-    column.high[0] = static_cast<float>(high.x), column.high[1] = static_cast<float>(high.y);
+    column.low[0] = static_cast<T>(low.x), column.low[1] = static_cast<T>(low.y);
+    column.high[0] = static_cast<T>(high.x), column.high[1] = static_cast<T>(high.y);
     column.partTest = part.width <= kPi ? PartTest::within : PartTest::without;
   }
   return column;
@@ -156,7 +166,8 @@ class CanvasWarp {
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    constants_ = columnTemplate(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
+    constants_ = columnTemplate<float>(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
+    if (options_.precise) beginPrecisely(piece, capture, slot);
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
     blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
@@ -171,6 +182,25 @@ class CanvasWarp {
         if (const std::uint32_t samples = choose(piece, capture, k); samples > 0)
           drawColumn(piece, capture, k, samples, mode, slot);
       }
+  }
+
+  void beginPrecisely(const PieceDraw& piece, const DisplayCapture& capture, std::uint32_t slot) {
+    precise_ = columnTemplate<double>(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
+    rowTangent_.resize(static_cast<std::size_t>(capture.camera.rows));
+    for (std::size_t r = 0; r < rowTangent_.size(); ++r)
+      rowTangent_[r] = capture.camera.tangentAt(static_cast<double>(r) + 0.5);
+  }
+
+  int projectPrecisely(const DisplayCapture& capture, std::size_t k, const SampleColumn& column,
+                       const SplatArrays& splats) {
+    const glm::dvec2 direction = capture.camera.directionAt(static_cast<double>(k) + 0.5);
+    axes_.project(glm::dvec3(direction, 0), precise_.a);
+    axes_.project(precise_.acrossStep * glm::dvec3(-direction.y, direction.x, 0), precise_.across);
+    precise_.maxInverseDistance = double(constants_.maxInverseDistance);
+    precise_.minInverseDistance = double(constants_.minInverseDistance);
+    precise_.direction[0] = direction.x, precise_.direction[1] = direction.y;
+    return projectSamplesDouble(precise_, {rowTangent_.data(), column.samples, column.colour}, runs_.data(),
+                                static_cast<int>(runs_.size()), splats);
   }
 
   /// Finds the runs of samples of column k that may be seen; returns how many samples those are.
@@ -226,8 +256,9 @@ class CanvasWarp {
     const SplatArrays& splats = splats_.room(chosen);
     const SampleColumn column =
         sampleColumn(capture.rowTangent.data(), samples, capture.colour.data() + start);
-    const int count =
-        options_.project(constants_, column, runs_.data(), static_cast<int>(runs_.size()), splats);
+    const int count = options_.precise ? projectPrecisely(capture, k, column, splats)
+                                       : options_.project(constants_, column, runs_.data(),
+                                                          static_cast<int>(runs_.size()), splats);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
@@ -267,9 +298,11 @@ class CanvasWarp {
       open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
   BlockTest blockTest_{};
   std::vector<std::uint16_t> visibleBlocks_;
-  double directionSlack_ = 0;    ///< of a column's direction against a plane, in BlockTest::a
-  ProjectColumn constants_{};    ///< of the column that is being drawn
-  std::vector<SampleRun> runs_;  ///< of its samples that may be seen
+  double directionSlack_ = 0;          ///< of a column's direction against a plane, in BlockTest::a
+  ProjectColumn constants_{};          ///< of the column that is being drawn
+  ProjectColumnOf<double> precise_{};  ///< the same, if WarpOptions::precise
+  std::vector<double> rowTangent_;     ///< of the capture, then
+  std::vector<SampleRun> runs_;        ///< of its samples that may be seen
   SplatMemory splats_;
   WarpCounts counts_;
 };

@@ -21,6 +21,7 @@ inline constexpr double kOverlap = 1.1;
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   FindBlocks findBlocks = findBlocksScalar;
+  bool precise = false;    ///< projectSamplesDouble instead of `project`
   bool depthTest = false;  ///< nearest sample wins instead of the last one
   bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
   const CoverImage* cover = nullptr;  ///< what hides the captures in the end: nothing is drawn there

@@ -2,8 +2,9 @@
 /// The inner loop of the warp: from samples of one capture column to squares or rectangles on the picture.
 ///
 /// One template (warp_kernel_body.h) is compiled three times: one sample at a time for any processor, eight
-/// at a time with AVX2 and sixteen with AVX-512. All do the same operations in the same order without fused
-/// multiply-adds, so their results are the same bits. kernels.h chooses.
+/// at a time with AVX2 and sixteen with AVX-512 (and once in double precision, as a reference). All do the
+/// same operations in the same order without fused multiply-adds, so their results are the same bits.
+/// kernels.h chooses.
 ///
 /// This header and everything the AVX sources include must stay free of the standard library and of glm: an
 /// inline function compiled there could otherwise be the one copy that the linker keeps for the whole
@@ -46,38 +47,42 @@ enum class PartTest : std::int32_t {
 /// Everything that is constant over a column. Directions are in view axes with focal length and picture
 /// centre multiplied in: sample (t, w) has q = a + t * z + w * b, image position u = q.x / q.z, v = q.y /
 /// q.z, and depth q.z / w along the view axis.
-struct ProjectColumn {
-  float a[3], z[3], b[3];
-  float maxInverseDistance;  ///< nearer samples are dropped
-  float minInverseDistance;  ///< farther ones too; 0: none
-  float footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
-  bool slanted;              ///< rectangles after each sample's slant instead of squares
-  float across[3];           ///< slanted: half the rectangle's size along a row, as q is
-  float acrossStep;          ///< slanted: half its size along a row and along a column, radians
-  float downStep;
-  float perSpread;  ///< slanted: eight times half a rectangle's size where samples lie a pixel apart
-  float maxSide;
+template <class T>
+struct ProjectColumnOf {
+  T a[3], z[3], b[3];
+  T maxInverseDistance;  ///< nearer samples are dropped
+  T minInverseDistance;  ///< farther ones too; 0: none
+  T footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
+  bool slanted;          ///< rectangles after each sample's slant instead of squares
+  T across[3];           ///< slanted: half the rectangle's size along a row, as q is
+  T acrossStep;          ///< slanted: half its size along a row and along a column, radians
+  T downStep;
+  T perSpread;  ///< slanted: eight times half a rectangle's size where samples lie a pixel apart
+  T maxSide;
   std::uint32_t roles;          ///< samples that none of these needs are dropped
-  float centreX, centreY;       ///< picture centre, pixels
-  float inverseFocal;           ///< 1/pixels
+  T centreX, centreY;           ///< picture centre, pixels
+  T inverseFocal;               ///< 1/pixels
   std::int32_t x0, y0, x1, y1;  ///< the canvas: splats that miss it are dropped
   std::uint32_t slot;           ///< of the canvas, 1..255
   bool places;                  ///< pixels say where their samples lie
   PartTest partTest;
-  float direction[2];     ///< column direction in plan
-  float baseline[2];      ///< b in plan, metres
-  float low[2], high[2];  ///< border directions of the part
+  T direction[2];     ///< column direction in plan
+  T baseline[2];      ///< b in plan, metres
+  T low[2], high[2];  ///< border directions of the part
 };
+using ProjectColumn = ProjectColumnOf<float>;
 
 /// What kernels read and write beyond the end of arrays that have room for it.
 inline constexpr int kSampleRoom = 16;
 
 /// The samples of a column from its first on.
-struct SampleColumn {
-  const float* rowTangent = nullptr;      ///< the capture's table
+template <class T>
+struct SampleColumnOf {
+  const T* rowTangent = nullptr;          ///< the capture's table
   const PackedSample* samples = nullptr;  ///< rows do not fall
   const unsigned char* colour = nullptr;  ///< Rgba8, four bytes each
 };
+using SampleColumn = SampleColumnOf<float>;
 
 /// Samples [first, end) of a column.
 struct SampleRun {
@@ -117,6 +122,10 @@ int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& sample
                          int runCount, const SplatArrays& out);
 int findBlocksScalar(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
                      std::uint16_t* out);
+/// The same in double precision, from constants and tangents that were never rounded to floats: what the
+/// others are measured against. Distances are those of the samples, the depths of pixels are floats.
+int projectSamplesDouble(const ProjectColumnOf<double>& column, const SampleColumnOf<double>& samples,
+                         const SampleRun* runs, int runCount, const SplatArrays& out);
 int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
                        int runCount, const SplatArrays& out);
 int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,

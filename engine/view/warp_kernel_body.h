@@ -1,6 +1,6 @@
 #pragma once
 /// The kernel itself, over a batch type B that provides float lanes F, integer lanes I and masks M.
-/// Included by the three sources that instantiate it and by nothing else.
+/// Included by the four sources that instantiate it and by nothing else.
 
 #include <cstddef>
 
@@ -16,8 +16,8 @@ inline constexpr float kFarPixel = 30000.0f;
 /// both rounded to pixels, and rounding errors.
 inline constexpr float kSplatSlack = 1.25f;
 
-template <class B>
-inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
+template <class B, class C>
+inline typename B::M insidePart(const C& c, typename B::F w) {
   const typename B::F x = B::set(c.direction[0]) + w * B::set(c.baseline[0]);
   const typename B::F y = B::set(c.direction[1]) + w * B::set(c.baseline[1]);
   const typename B::F fromLow = B::set(c.low[0]) * y - B::set(c.low[1]) * x;
@@ -26,8 +26,8 @@ inline typename B::M insidePart(const ProjectColumn& c, typename B::F w) {
   return B::notLess(fromLow, B::set(0)) | B::less(B::set(0), toHigh);
 }
 
-template <class B>
-inline typename B::M touches(const ProjectColumn& c, typename B::I x, typename B::I y, typename B::I width,
+template <class B, class C>
+inline typename B::M touches(const C& c, typename B::I x, typename B::I y, typename B::I width,
                              typename B::I height) {
   return B::greater(B::seti(c.x1), x) & B::greater(B::seti(c.y1), y) & B::greater(x + width, B::seti(c.x0)) &
          B::greater(y + height, B::seti(c.y0));
@@ -40,8 +40,8 @@ inline typename B::I placeCode(typename B::I fromBorder) {
 }
 
 /// Writes the accepted splats one after the other (and whatever it likes behind them), and returns how many.
-template <class B>
-inline int appendSplats(const ProjectColumn& c, typename B::M accepted, typename B::I x, typename B::I y,
+template <class B, class C>
+inline int appendSplats(const C& c, typename B::M accepted, typename B::I x, typename B::I y,
                         typename B::I width, typename B::I height, typename B::I placeX, typename B::I placeY,
                         typename B::I spread, typename B::F inverseZDepth, typename B::I colour,
                         std::uint32_t firstIndex, const SplatArrays& out, int written) {
@@ -103,8 +103,8 @@ inline typename B::F slantTangent(typename B::I code) {
 
 /// Rectangles around the picture of the piece of surface that a sample stands for: a parallelogram, whose
 /// sides are the derivatives of (u, v) along a row and a column of the capture, the sample's slant included.
-template <class B>
-inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, typename B::F t, typename B::F w,
+template <class B, class C>
+inline int appendRectangles(const C& c, typename B::M accepted, typename B::F t, typename B::F w,
                             typename B::F u, typename B::F v, typename B::F perDepth,
                             typename B::I rowAndSlant, typename B::I colour, std::uint32_t firstIndex,
                             const SplatArrays& out, int written) {
@@ -133,11 +133,10 @@ inline int appendRectangles(const ProjectColumn& c, typename B::M accepted, type
 }
 
 /// Samples of no role are dropped.
-template <class B>
-[[gnu::always_inline]] inline int projectBatch(const ProjectColumn& c, const float* rowTangent,
-                                               const PackedSample* samples, typename B::I colour,
-                                               std::uint32_t firstIndex, const SplatArrays& out,
-                                               int written) {
+template <class B, class C, class T>
+[[gnu::always_inline]] inline int projectBatch(const C& c, const T* rowTangent, const PackedSample* samples,
+                                               typename B::I colour, std::uint32_t firstIndex,
+                                               const SplatArrays& out, int written) {
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
@@ -182,12 +181,12 @@ template <class B>
 /// Samples are asked for so many ahead of their use.
 inline constexpr std::uint32_t kAhead = 160;
 
-template <class B>
-inline int projectColumn(const ProjectColumn& constants, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, const SplatArrays& out) {
-  const ProjectColumn column = constants;  // a copy that no splat is written over: it stays in registers
+template <class B, class T>
+inline int projectColumn(const ProjectColumnOf<T>& constants, const SampleColumnOf<T>& samples,
+                         const SampleRun* runs, int runCount, const SplatArrays& out) {
+  const ProjectColumnOf<T> column = constants;  // a copy that no splat is written over, for registers
   const SplatArrays to = out;
-  const SampleColumn from = samples;
+  const SampleColumnOf<T> from = samples;
   int written = 0;
   for (int r = 0; r < runCount; ++r) {
     std::uint32_t i = runs[r].first;

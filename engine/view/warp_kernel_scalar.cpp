@@ -1,35 +1,7 @@
-#include "engine/view/lanes_scalar.h"
 #include "engine/view/warp_kernel_body.h"
+#include "engine/view/warp_lane.h"
 
 namespace acentric {
-namespace {
-
-struct WarpLane : OneLane {
-  using OneLane::load;
-  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
-    inverseAndRoles = static_cast<I>(p->inverseDistanceAndRoles);
-    rowAndSlant = p->row | static_cast<std::uint8_t>(p->slant.across) << 16 |
-                  static_cast<I>(static_cast<std::uint32_t>(p->slant.down) << 24);
-  }
-  static I words(const unsigned char* p, int) {
-    I word = 0;
-    __builtin_memcpy(&word, p, sizeof word);
-    return word;
-  }
-  static F tangents(const float* table, const PackedSample* rising, I) { return table[rising->row]; }
-  /// Of blocks, and of samples.
-  static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
-  static M needed(I roles, std::uint32_t wanted) { return (static_cast<std::uint32_t>(roles) & wanted) != 0; }
-  static M kept(M accepted) { return accepted; }
-  static I together(M, I lane) { return lane; }
-  static void storeAll(std::uint32_t* p, I a) { *p = static_cast<std::uint32_t>(a); }
-  static void storePairs(std::uint64_t* p, I low, I high) {
-    *p = static_cast<std::uint32_t>(low) | std::uint64_t(static_cast<std::uint32_t>(high)) << 32;
-  }
-};
-
-}  // namespace
-
 int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
                          int runCount, const SplatArrays& out) {
   return warp_kernel::projectColumn<WarpLane>(column, samples, runs, runCount, out);

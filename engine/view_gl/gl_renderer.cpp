@@ -220,11 +220,10 @@ GlRenderer::~GlRenderer() = default;
 Result<std::unique_ptr<GlRenderer>> GlRenderer::create(const GlRendererOptions& options) {
   const int version = epoxy_gl_version();
   if (version < 43 || !epoxy_is_desktop_gl())
-    return fail(
-        ErrorKind::unsupported,
-        fmt::format("the current context has OpenGL {}.{}, at least 4.3 is needed: use a CPU renderer",
-                    version / 10, version % 10),
-        "OpenGL");
+    return fail(ErrorKind::unsupported,
+                fmt::format("OpenGL {}.{} is too old, at least 4.3 is needed: use a CPU renderer",
+                            version / 10, version % 10),
+                "OpenGL");
   if (version < 45 && !epoxy_has_gl_extension("GL_ARB_clip_control"))
     return fail(ErrorKind::unsupported,
                 "this OpenGL driver lacks GL_ARB_clip_control (in every driver for OpenGL 4.5): update it or "

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "engine/base/stopwatch.h"
+#include "engine/cli/commit/commit.h"
 #include "engine/measure/statistics.h"
 #include "engine/view_gl/gl_renderer.h"
 
@@ -61,10 +62,15 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
       }
 
   GlTiming out;
-  out.json = {{"version", ACENTRIC_VERSION}, {"glRenderer", (*context)->description()},
-              {"width", options.pixels.x},   {"height", options.pixels.y},
-              {"frames", views.size()},      {"repeats", options.repeats},
-              {"measured", kMeasured},       {"renderers", nlohmann::ordered_json::array()}};
+  out.json = {{"version", ACENTRIC_VERSION},
+              {"commit", commitName()},
+              {"glRenderer", (*context)->description()},
+              {"width", options.pixels.x},
+              {"height", options.pixels.y},
+              {"frames", views.size()},
+              {"repeats", options.repeats},
+              {"measured", kMeasured},
+              {"renderers", nlohmann::ordered_json::array()}};
   out.text = fmt::format("{}\n{}x{}, {} frames x {}\n", (*context)->description(), options.pixels.x,
                          options.pixels.y, views.size(), options.repeats);
   for (std::size_t m = 0; m < times.size(); ++m) {

@@ -1,0 +1,144 @@
+#include <cstring>
+#include <limits>
+
+#include "engine/capi/handle.h"
+
+using namespace acentric;
+using namespace acentric::capi;
+
+namespace {
+
+/// Files that the caller reads.
+class CallerFiles final : public BundleFiles {
+ public:
+  explicit CallerFiles(const acentric_files& files) : files_(files) {}
+
+  Result<std::vector<std::byte>> read(const std::string& path, std::uint64_t mostBytes) const override {
+    uint64_t size = 0;
+    if (const acentric_status code = files_.size(files_.user, path.c_str(), &size); code != ACENTRIC_OK)
+      return failedWith(code, path);
+    if (size > mostBytes) return fail(ErrorKind::tooLarge, "has more bytes than it may have", path);
+    std::vector<std::byte> bytes(size);
+    if (const acentric_status code = files_.read(files_.user, path.c_str(), bytes.data(), size);
+        code != ACENTRIC_OK)
+      return failedWith(code, path);
+    return bytes;
+  }
+
+ private:
+  static tl::unexpected<Error> failedWith(acentric_status code, const std::string& path) {
+    if (code == ACENTRIC_ERROR_NOT_FOUND) return fail(ErrorKind::notFound, "is not there", path);
+    return fail(ErrorKind::unreadable,
+                std::string("the caller could not read it: ") + acentric_status_name(code), path);
+  }
+  acentric_files files_;
+};
+
+template <class MakeFiles>
+acentric_status openWith(acentric_bundle** out, const MakeFiles& makeFiles) noexcept {
+  if (out == nullptr) return ACENTRIC_ERROR_ARGUMENT;
+  *out = new (std::nothrow) acentric_bundle;
+  if (*out == nullptr) return ACENTRIC_ERROR_MEMORY;
+  acentric_bundle& bundle = **out;
+  try {
+    std::unique_ptr<BundleFiles> files = makeFiles();
+    if (!files) return failed(bundle, ACENTRIC_ERROR_ARGUMENT, "no folder, or no functions that read files");
+    if (const Status opened = bundle.runtime.open(std::move(files)); !opened)
+      return failed(bundle, opened.error());
+    for (const BundlePath& path : bundle.runtime.bundle().paths) {
+      bundle.poses.emplace_back();
+      for (const BundlePose& p : path.poses)
+        bundle.poses.back().push_back({{p.eye.x, p.eye.y, p.eye.z}, p.yaw, p.pitch, p.seconds});
+    }
+    bundle.open = true;
+    return ACENTRIC_OK;
+  } catch (const std::bad_alloc&) {
+    return ACENTRIC_ERROR_MEMORY;
+  } catch (...) {
+    return ACENTRIC_ERROR_INTERNAL;
+  }
+}
+
+}  // namespace
+
+namespace acentric::capi {
+
+acentric_status codeOf(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::notFound:
+      return ACENTRIC_ERROR_NOT_FOUND;
+    case ErrorKind::unreadable:
+    case ErrorKind::timeout:
+      return ACENTRIC_ERROR_UNREADABLE;
+    case ErrorKind::malformed:
+    case ErrorKind::tooLarge:
+      return ACENTRIC_ERROR_MALFORMED;
+    case ErrorKind::unsupported:
+      return ACENTRIC_ERROR_UNSUPPORTED;
+    case ErrorKind::outOfSpace:
+      return ACENTRIC_ERROR_MEMORY;
+    case ErrorKind::invalidArgument:
+      return ACENTRIC_ERROR_ARGUMENT;
+    case ErrorKind::cancelled:
+    case ErrorKind::internal:
+      break;
+  }
+  return ACENTRIC_ERROR_INTERNAL;
+}
+
+}  // namespace acentric::capi
+
+uint32_t acentric_runtime_version(void) { return ACENTRIC_RUNTIME_VERSION; }
+
+const char* acentric_status_name(acentric_status status) {
+  switch (status) {
+    case ACENTRIC_OK:
+      return "ok";
+    case ACENTRIC_ERROR_ARGUMENT:
+      return "argument out of range";
+    case ACENTRIC_ERROR_NOT_FOUND:
+      return "not found";
+    case ACENTRIC_ERROR_UNREADABLE:
+      return "unreadable";
+    case ACENTRIC_ERROR_MALFORMED:
+      return "malformed";
+    case ACENTRIC_ERROR_UNSUPPORTED:
+      return "unsupported";
+    case ACENTRIC_ERROR_MEMORY:
+      return "not enough memory";
+    case ACENTRIC_ERROR_OUTSIDE:
+      return "outside every region";
+    case ACENTRIC_ERROR_NOT_LOADED:
+      return "not loaded";
+    case ACENTRIC_ERROR_INTERNAL:
+      return "internal error";
+    default:
+      return "unknown";
+  }
+}
+
+acentric_status acentric_open_folder(const char* folder, acentric_bundle** bundle) {
+  return openWith(bundle, [&] { return folder != nullptr ? bundleFolder(folder) : nullptr; });
+}
+
+acentric_status acentric_open_files(const acentric_files* files, acentric_bundle** bundle) {
+  return openWith(bundle, [&]() -> std::unique_ptr<BundleFiles> {
+    if (files == nullptr || files->size == nullptr || files->read == nullptr) return nullptr;
+    return std::make_unique<CallerFiles>(*files);
+  });
+}
+
+void acentric_close(acentric_bundle* bundle) { delete bundle; }
+
+const char* acentric_message(const acentric_bundle* bundle) {
+  return bundle != nullptr ? bundle->message.c_str() : "";
+}
+
+acentric_status acentric_set_threads(acentric_bundle* bundle, int32_t threads) {
+  return guarded(bundle, [&](Runtime& runtime) {
+    constexpr int32_t kMost = 1024;
+    if (threads < 1 || threads > kMost) return refused(bundle, "threads: 1 to 1024");
+    runtime.setThreads(threads);
+    return acentric_status(ACENTRIC_OK);
+  });
+}

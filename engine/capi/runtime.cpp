@@ -1,0 +1,207 @@
+#include "engine/capi/runtime.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "engine/view/display_bytes.h"
+#include "engine/view/view_cameras.h"
+
+namespace acentric {
+namespace {
+
+template <class T>
+std::uint64_t bytesIn(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+std::uint64_t bytesOf(const LocalGeometry& local) {
+  const SurfaceLight& light = local.surfaces->light;
+  std::uint64_t bytes = bytesIn(local.vertices) + bytesIn(local.triangles) + bytesIn(light.firstSample) +
+                        bytesIn(light.resolution) + bytesIn(light.hasBack) + bytesIn(light.light);
+  for (const Mesh& mesh : local.surfaces->meshes)
+    bytes += bytesIn(mesh.positions) + bytesIn(mesh.normals) + bytesIn(mesh.uv[0]) + bytesIn(mesh.uv[1]) +
+             bytesIn(mesh.colours) + bytesIn(mesh.triangles);
+  for (const auto& planes : local.surfaces->mirrorPlanes) bytes += bytesIn(planes);
+  return bytes;
+}
+
+std::uint64_t bytesOf(const ColourImage& image) { return bytesIn(image.pixels); }
+
+}  // namespace
+
+Status Runtime::open(std::unique_ptr<BundleFiles> files) {
+  files_ = std::move(files);
+  auto bundle = readBundle(*files_);
+  if (!bundle) return tl::unexpected(bundle.error());
+  bundle_ = std::move(*bundle);
+  images_.resize(bundle_.textures.size());
+  const ScenePtr scene = sceneOf(bundle_, images_);
+  for (const BundleStorey& storey : bundle_.storeys) {
+    StoreyState state;
+    state.cameras.resize(storey.cameras.size());
+    state.regions.resize(storey.local.size());
+    state.walk = walkSceneOf(bundle_, storey, scene);
+    storeys_.push_back(std::move(state));
+  }
+  return {};
+}
+
+void Runtime::setThreads(int threads) { runner_ = std::make_unique<TaskRunner>(threads - 1); }
+
+std::size_t Runtime::storeyAt(const glm::dvec3& eye) const {
+  std::size_t best = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; storeys_.size() > 1 && s < storeys_.size(); ++s) {
+    const Layout& layout = bundle_.storeys[s].layout;
+    const Layout::Nearest region = layout.nearestRegion(glm::dvec2(eye));
+    if (region.region < 0) continue;
+    const double away = glm::distance(eye, glm::dvec3(region.point, layout.eyeZ()));
+    if (away < nearest) nearest = away, best = s;
+  }
+  return best;
+}
+
+Result<Runtime::Needs> Runtime::needsOf(const PerspectiveView& view, const ViewSettings& settings) const {
+  for (const Status& sound : {view.check(), settings.check()})
+    if (!sound) return tl::unexpected(sound.error());
+  Needs needs;
+  needs.storey = storeyAt(view.eye);
+  const Layout& layout = bundle_.storeys[needs.storey].layout;
+  const auto region = layout.regionAt(glm::dvec2(view.eye));
+  if (!region)
+    return fail(ErrorKind::notFound,
+                fmt::format("the eye ({:.3f}, {:.3f}) stands in no region", view.eye.x, view.eye.y), "view");
+  needs.region = *region;
+  needs.cameras = paintingOrder(layout, view, settings);
+  return needs;
+}
+
+std::shared_ptr<const DisplayCapture>& Runtime::slot(std::size_t storey, std::size_t camera, Loaded detail) {
+  Camera& of = storeys_[storey].cameras[camera];
+  return detail == Loaded::full ? of.full : of.coarse;
+}
+
+const DisplayCapture* Runtime::capture(std::size_t storey, std::size_t camera, Loaded detail) const {
+  const Camera& of = storeys_[storey].cameras[camera];
+  return detail == Loaded::full ? of.full.get() : of.coarse.get();
+}
+
+const LocalGeometry* Runtime::region(std::size_t storey, std::size_t region) const {
+  return storeys_[storey].regions[region].get();
+}
+
+const ColourImage* Runtime::texture(std::size_t texture) const { return images_[texture].get(); }
+
+Loaded Runtime::loaded(std::size_t storey, std::size_t camera) const {
+  const Camera& of = storeys_[storey].cameras[camera];
+  return of.full ? Loaded::full : of.coarse ? Loaded::coarse : Loaded::absent;
+}
+
+bool Runtime::regionLoaded(std::size_t storey, std::size_t region) const {
+  return storeys_[storey].regions[region] != nullptr;
+}
+
+void Runtime::show(std::size_t storey, std::size_t camera) {
+  const Camera& of = storeys_[storey].cameras[camera];
+  storeys_[storey].walk.captures[camera] = of.full ? of.full : of.coarse;
+}
+
+Status Runtime::takeRoom(std::uint64_t bytes, const std::string& what) {
+  if (limit_ > 0 && memory_ + bytes > limit_)
+    return fail(ErrorKind::outOfSpace,
+                fmt::format("takes {} bytes where {} of {} are taken: unload something first", bytes, memory_,
+                            limit_),
+                what);
+  memory_ += bytes;
+  return {};
+}
+
+Status Runtime::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+  auto& place = slot(storey, camera, detail);
+  if (place) return {};
+  const BundleCamera& renditions = bundle_.storeys[storey].cameras[camera];
+  const auto& file = detail == Loaded::full ? renditions.full : renditions.coarse;
+  if (!file)
+    return fail(ErrorKind::notFound, "was not baked", fmt::format("storey {}, camera {}", storey, camera));
+  const auto read = readBundleCapture(*files_, bundle_.storeys[storey], camera, *file);
+  if (!read) return tl::unexpected(read.error());
+  auto made = std::make_shared<const DisplayCapture>(prepareForDisplay(*read, bundle_.exposure));
+  if (Status room = takeRoom(acentric::bytesOf(*made), file->file.path); !room) return room;
+  place = std::move(made);
+  show(storey, camera);
+  return {};
+}
+
+void Runtime::unloadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+  auto& place = slot(storey, camera, detail);
+  if (!place) return;
+  memory_ -= acentric::bytesOf(*place);
+  place.reset();
+  show(storey, camera);
+}
+
+Status Runtime::loadTexture(int texture) {
+  auto& image = images_[std::size_t(texture)];
+  if (image) return {};
+  const BundleTexture& described = bundle_.textures[std::size_t(texture)];
+  for (std::size_t t = 0; t < images_.size(); ++t)  // several textures may share a picture
+    if (images_[t] && bundle_.textures[t].file == described.file) {
+      image = images_[t];
+      return {};
+    }
+  auto read = readBundleTexture(*files_, described);
+  if (!read) return tl::unexpected(read.error());
+  if (Status room = takeRoom(bytesOf(*read), described.file.path); !room) return room;
+  image = std::make_shared<const ColourImage>(std::move(*read));
+  return {};
+}
+
+void Runtime::showTextures() {
+  const ScenePtr scene = sceneOf(bundle_, images_);
+  for (StoreyState& storey : storeys_) storey.walk.scene = scene;
+}
+
+Status Runtime::loadRegion(std::size_t storey, std::size_t region) {
+  auto& place = storeys_[storey].regions[region];
+  if (place) return {};
+  auto read = readBundleLocal(*files_, bundle_, bundle_.storeys[storey], region);
+  if (!read) return tl::unexpected(read.error());
+  for (const Mesh& mesh : read->surfaces->meshes) {
+    const Material& material = bundle_.materials[std::size_t(mesh.material)];
+    for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
+      if (use->used())
+        if (Status loaded = loadTexture(use->texture); !loaded) return loaded;
+  }
+  auto made = std::make_shared<const LocalGeometry>(std::move(*read));
+  if (Status room = takeRoom(bytesOf(*made), fmt::format("storey {}, region {}", storey, region)); !room)
+    return room;
+  showTextures();
+  place = std::move(made);
+  storeys_[storey].walk.local[region] = place;
+  return {};
+}
+
+void Runtime::unloadRegion(std::size_t storey, std::size_t region) {
+  auto& place = storeys_[storey].regions[region];
+  if (!place) return;
+  memory_ -= bytesOf(*place);
+  place.reset();
+  storeys_[storey].walk.local[region].reset();
+}
+
+void Runtime::unloadTextures() {
+  for (std::size_t t = 0; t < images_.size(); ++t) {
+    if (!images_[t]) continue;
+    memory_ -= bytesOf(*images_[t]);
+    for (std::size_t other = images_.size(); other-- > t;)  // of a picture that several share, all
+      if (images_[other] == images_[t]) images_[other].reset();
+  }
+  showTextures();
+}
+
+Result<Frame> Runtime::render(const PerspectiveView& view, const ViewSettings& settings) {
+  return renderFrame(storeys_[storeyAt(view.eye)].walk, view, settings, *runner_, frames_);
+}
+
+}  // namespace acentric

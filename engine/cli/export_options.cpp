@@ -1,0 +1,42 @@
+/// Bundles for other programs.
+
+#include "engine/cli/command_line.h"
+
+namespace acentric::cli {
+
+void addExportCommand(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "export", "Write what is baked for other programs to walk through",
+                    "  acentric export kitchen.acentric.json --to bundle kitchen-bundle\n"
+                    "  acentric export kitchen.acentric.json --to web kitchen-web    # for any web server\n"
+                    "  acentric export kitchen.acentric.json --to web --single-file kitchen.html\n"
+                    "  acentric export kitchen.acentric.json --to gltf kitchen-gltf",
+                    runExport);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option(
+       "output", o.output,
+       "Folder to write: a new one, or one to replace that holds the same; with --single-file an HTML file")
+      ->required();
+  c->add_option(
+       "--to", o.to,
+       "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
+       "that "
+       "walks through it (docs/web.md); gltf, a GLB for each region; colmap, nerfstudio, seurat, ray-traced "
+       "pictures with distances and their cameras")
+      ->check(CLI::IsMember({"bundle", "web", "gltf", "colmap", "nerfstudio", "seurat"}))
+      ->capture_default_str();
+  c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
+      ->check(CLI::Range(0.01, 64.0))
+      ->capture_default_str();
+  c->add_option("--texture-size", o.texturePixels, "gltf: most pixels a side of a texture")
+      ->check(CLI::Range(128, 16384))
+      ->capture_default_str();
+  c->add_option("--region", o.region, "gltf and pictures: this region alone")->check(CLI::NonNegativeNumber);
+  c->add_option("--face-size", o.facePixels, "colmap, nerfstudio, seurat: pixels a side of a cube's face")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  c->add_flag("--single-file", o.singleFile, "Of --to web: everything in one HTML file, for small projects");
+  c->add_flag("--allow-missing", o.allowMissing,
+              "Write what there is though captures or light are not baked yet");
+}
+
+}  // namespace acentric::cli

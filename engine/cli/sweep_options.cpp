@@ -1,0 +1,84 @@
+/// What accuracy costs, and settings chosen by it.
+
+#include "engine/cli/command_line.h"
+#include "engine/pipeline/knobs.h"
+
+namespace acentric::cli {
+namespace {
+
+void addSweep(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(
+      app, chosen, "sweep",
+      "Measure what accuracy costs: settings of a project against the same truth, one at a time and combined",
+      "  acentric sweep kitchen.acentric.json --path tour.json --knobs reconstruction,splat-limit,renderer\n"
+      "  acentric sweep kitchen.acentric.json --knobs samples-per-degree=4/6/8,layers --budget-minutes 60 -o "
+      "sweep\n"
+      "  acentric sweep kitchen.acentric.json --list-knobs",
+      runSweep);
+  c->add_option("project", o.project, "Project file; what it lacks is baked into the sweep's folder")
+      ->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  c->add_option("--path", o.path, "A path of the project, or a file (default: a tour)");
+  c->add_option("--knobs", o.knobs,
+                "What is changed, separated by commas, with the values that are tried if they are not to be "
+                "the usual ones: layers=1/2 (default: all that --list-knobs names)")
+      ->delimiter(',');
+  c->add_flag("--list-knobs", o.list, "Name what can be changed");
+  c->add_option(
+       "--budget-minutes", o.budgetMinutes,
+       "Minutes that it may take; what would not fit is skipped, and said to be. A later call goes on")
+      ->check(CLI::Range(0.01, 1e5))
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--frames", o.frames, "Frames along the path, evenly chosen")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  c->add_option("--repeats", o.repeats, "Times that frames and loading are timed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+  c->add_option("--crossings", o.crossings, "Changes of region that flicker is measured at (0 = all)")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  c->add_flag("!--no-search", o.search, "Only one change at a time, no combinations");
+  c->add_flag("!--no-numerics", o.numerics,
+              "Leave out floats against doubles, exact against naive signs and bits of distances (`acentric "
+              "bench numerics`)");
+  c->add_flag("--again", o.again, "Forget what was measured into the folder before");
+  c->add_option("-o,--output", o.output,
+                "Folder for sweep.json, sweep.csv, sweep.html and captures (default: NAME.sweep beside the "
+                "project)");
+}
+
+void addPreset(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "preset", "Set a project as a sweep found worth having",
+                    "  acentric preset kitchen.acentric.json fast\n"
+                    "  acentric preset kitchen.acentric.json balanced --from sweep --apply",
+                    runPreset);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("name", o.name, "fast, balanced or accurate")->required();
+  c->add_option("--from", o.from,
+                "Folder of a sweep, or its sweep.json (default: NAME.sweep beside the project)");
+  c->add_flag("--apply", o.apply, "Write the changes to the project");
+}
+
+}  // namespace
+
+void addPresetOption(CLI::App& command, Chosen& chosen) {
+  CLI::Option* preset = command.add_option(
+      "--preset", chosen.preset,
+      "Take the project as a sweep found worth having (fast, balanced or accurate); its file stays as it is");
+  command
+      .add_option("--preset-from", chosen.presetFrom,
+                  "Folder of that sweep, or its sweep.json (default: NAME.sweep beside the project)")
+      ->needs(preset);
+}
+
+void addSweepCommands(CLI::App& app, Chosen& chosen) {
+  addSweep(app, chosen);
+  addPreset(app, chosen);
+}
+
+}  // namespace acentric::cli

@@ -1,0 +1,312 @@
+#include "engine/export/bundle_write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "engine/base/file.h"
+#include "engine/base/folder.h"
+#include "engine/export/bundle_materials.h"
+#include "engine/export/export_target.h"
+#include "engine/export/local_file.h"
+#include "engine/export/region_order.h"
+#include "engine/image/coarse_capture.h"
+
+namespace acentric {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BundleWriter {
+ public:
+  BundleWriter(const BundleInput& input, fs::path folder, TaskRunner& runner, const Progress& progress,
+               const std::stop_token& stop)
+      : input_(input), folder_(std::move(folder)), runner_(runner), progress_(progress), stop_(stop) {}
+
+  Result<BundleReport> write() {
+    describe();
+    for (const BundleStoreyInput& storey : input_.storeys) addStorey(storey);
+    for (const auto& step : {&BundleWriter::writeCaptures, &BundleWriter::writeLocals,
+                             &BundleWriter::writeTextures, &BundleWriter::writeIndex})
+      if (Status done = (this->*step)(); !done) return tl::unexpected(done.error());
+    return report_;
+  }
+
+ private:
+  struct CameraPlace {
+    std::size_t storey, camera;
+  };
+  struct RegionPlace {
+    std::size_t storey, region;  ///< of the bundle
+    int source;                  ///< of the layout
+  };
+
+  void describe() {
+    bundle_.generator = input_.generator, bundle_.name = input_.name;
+    bundle_.origin = input_.scene->origin;
+    bundle_.exposure = input_.exposure, bundle_.fov = input_.fov;
+    bundle_.view = input_.view;
+    if (input_.plan.on(Effect::sky)) bundle_.sky = input_.scene->sky;
+    bundle_.bounds = input_.scene->bounds;
+    if (input_.mirrors) bundle_.mirrors = input_.mirrors->planes();
+    bundle_.storey = input_.storey;
+    bundle_.bookmarks = input_.bookmarks, bundle_.paths = input_.paths;
+  }
+
+  void addStorey(const BundleStoreyInput& storey) {
+    BundleStorey out;
+    out.name = storey.name;
+    out.start = storey.start, out.startYaw = storey.startYaw;
+    const Layout& layout = *storey.layout;
+    out.layout.spec = layout.spec;
+    out.layout.cameras = layout.cameras;
+    const std::size_t place = bundle_.storeys.size();
+    for (const int r : searchOrder(layout)) {
+      regions_.push_back({place, out.layout.regions.size(), r});
+      out.layout.regions.push_back(layout.regions[std::size_t(r)]);
+      out.layout.panoramas.push_back(layout.panoramasFor(r));
+    }
+    out.neighbours = touching(out.layout.regions);
+    out.local.resize(out.layout.regions.size());
+    out.cameras.resize(layout.cameras.size());
+    for (std::size_t c = 0; c < layout.cameras.size(); ++c) cameras_.push_back({place, c});
+    bundle_.storeys.push_back(std::move(out));
+  }
+
+  /// body(index) for all; the first error by number.
+  template <class Body>
+  Status forAll(std::size_t count, const std::string& stage, const Body& body) {
+    std::vector<Status> done(count);
+    std::atomic<bool> failed = false;
+    std::size_t finished = 0;
+    runner_.parallelFor(count, [&](std::size_t i) {
+      if (failed) return;
+      if (stop_.stop_requested())
+        done[i] = fail(ErrorKind::cancelled, "writing the bundle was stopped");
+      else
+        done[i] = body(i);
+      if (!done[i]) failed = true;
+      const std::lock_guard lock(mutex_);
+      if (progress_) progress_({double(++finished), double(count), stage});
+    });
+    for (const Status& status : done)
+      if (!status) return status;
+    return {};
+  }
+
+  Result<BundleFile> fileOf(const std::string& path) const {
+    const auto hash = hashFile(folder_ / path);
+    if (!hash) return tl::unexpected(hash.error());
+    return BundleFile{path, fs::file_size(folder_ / path), *hash};
+  }
+
+  Result<BundleCapture> described(const Capture& capture, const std::string& path) const {
+    const auto file = fileOf(path);
+    if (!file) return tl::unexpected(file.error());
+    return BundleCapture{*file, capture.camera.columns, capture.camera.rows, capture.sampleCount(),
+                         capture.reflections.sampleCount()};
+  }
+
+  void note(const Capture& capture) {
+    const bool layered = capture.maxLayers() > 1;
+    const bool blended =
+        std::ranges::any_of(capture.colour, [](const HalfColour& c) { return c.a < 0x3c00; });
+    const std::lock_guard lock(mutex_);
+    BundleFeatures& features = bundle_.features;
+    features.layered |= layered, features.blended |= blended;
+    features.mirrors |= capture.hasReflections();
+    features.background |= capture.background.runCount() > 0;
+  }
+
+  Status copyPack(const ContentKey& key, const std::string& path) const {
+    const auto bytes = readFile(input_.store->packFile(key));
+    if (!bytes) return tl::unexpected(bytes.error());
+    return writeFileAtomically(folder_ / path, *bytes, stop_);
+  }
+
+  Status writeCamera(const CameraPlace& place) {
+    const BundleStoreyInput& storey = input_.storeys[place.storey];
+    BundleCamera& camera = bundle_.storeys[place.storey].cameras[place.camera];
+    const std::optional<ContentKey>& full = storey.full[place.camera];
+    const std::optional<ContentKey>& key = full ? full : storey.coarse[place.camera];
+    if (!key) return {};
+    const auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
+    if (!capture) return tl::unexpected(capture.error());
+    note(*capture);
+    camera.topElevation = capture->camera.topElevation;
+    camera.bottomElevation = capture->camera.bottomElevation;
+    const std::string coarsePath = fmt::format("coarse/{}.pack", key->toHex());
+    if (!full) {
+      if (Status copied = copyPack(*key, coarsePath); !copied) return copied;
+      return describeInto(*capture, coarsePath, camera.coarse);
+    }
+    const std::string path = fmt::format("captures/{}.pack", key->toHex());
+    if (Status copied = copyPack(*key, path); !copied) return copied;
+    if (Status described = describeInto(*capture, path, camera.full); !described) return described;
+    const Capture coarse = coarsened(*capture, kCoarseFactor);
+    if (Status written = writeCapturePack(coarse, *key, folder_ / coarsePath, stop_); !written)
+      return written;
+    return describeInto(coarse, coarsePath, camera.coarse);
+  }
+
+  Status describeInto(const Capture& capture, const std::string& path, std::optional<BundleCapture>& into) {
+    auto found = described(capture, path);
+    if (!found) return tl::unexpected(found.error());
+    into = std::move(*found);
+    return {};
+  }
+
+  Status writeCaptures() {
+    if (Status done = forAll(cameras_.size(), "writing captures",
+                             [&](std::size_t i) { return writeCamera(cameras_[i]); });
+        !done)
+      return done;
+    for (const BundleStorey& storey : bundle_.storeys)
+      for (const BundleCamera& camera : storey.cameras) {
+        ++report_.cameras;
+        report_.missing += camera.full ? 0 : 1;
+        report_.samples += camera.full ? camera.full->samples : 0;
+        report_.fullBytes += camera.full ? camera.full->file.bytes : 0;
+        report_.coarseBytes += camera.coarse ? camera.coarse->file.bytes : 0;
+      }
+    return {};
+  }
+
+  Status writeLocal(std::size_t index) {
+    const RegionPlace& place = regions_[index];
+    const BundleStoreyInput& storey = input_.storeys[place.storey];
+    const auto local = storey.local(place.source);
+    if (!local) return tl::unexpected(local.error());
+    if ((*local)->triangles.empty()) return {};
+    const LocalGeometry own =
+        selfContained(**local, *input_.scene, input_.plan, storey.light.get(), input_.mirrors.get());
+    const std::string path = fmt::format("regions/{}.local", index);
+    if (Status written = writeLocalFile(own, folder_ / path); !written) return written;
+    auto file = fileOf(path);
+    if (!file) return tl::unexpected(file.error());
+    bundle_.storeys[place.storey].local[place.region] = BundleLocal{std::move(*file), own.triangles.size()};
+    const std::lock_guard lock(mutex_);
+    for (const Mesh& mesh : own.surfaces->meshes) usedMaterials_.insert(mesh.material);
+    bundle_.features.light |= !own.surfaces->light.empty();
+    return {};
+  }
+
+  Status writeLocals() {
+    if (Status done =
+            forAll(regions_.size(), "writing local geometry", [&](std::size_t i) { return writeLocal(i); });
+        !done)
+      return done;
+    for (const BundleStorey& storey : bundle_.storeys)
+      for (const auto& local : storey.local) {
+        ++report_.regions;
+        if (!local) continue;
+        report_.triangles += local->triangles;
+        report_.localBytes += local->file.bytes;
+      }
+    return {};
+  }
+
+  /// Into `textures`, once each; gives the use its number there.
+  Status takeTexture(TextureUse& use) {
+    if (!use.used()) return {};
+    const Scene& scene = *input_.scene;
+    const Texture& texture = scene.textures[std::size_t(use.texture)];
+    const bool known = texture.image >= 0 && std::size_t(texture.image) < scene.images.size() &&
+                       scene.images[std::size_t(texture.image)] != nullptr &&
+                       !scene.images[std::size_t(texture.image)]->empty();
+    if (!known) {
+      use = {};
+      return {};
+    }
+    auto [place, isNew] = textureOf_.emplace(use.texture, int(bundle_.textures.size()));
+    use.texture = place->second;
+    if (!isNew) return {};
+    const ColourImage& image = *scene.images[std::size_t(texture.image)];
+    auto [file, unwritten] = imageOf_.emplace(texture.image, BundleFile{});
+    if (unwritten) {
+      auto written = writeTexture(image);
+      if (!written) return tl::unexpected(written.error());
+      file->second = std::move(*written);
+    }
+    bundle_.textures.push_back(
+        {file->second, image.width, image.height, texture.wrapU, texture.wrapV, texture.nearest});
+    return {};
+  }
+
+  /// Named after its content, so that equal pictures are one file.
+  Result<BundleFile> writeTexture(const ColourImage& image) {
+    const fs::path unnamed = folder_ / "textures" / "new.png";
+    if (Status written = writeColourImage(image, unnamed); !written) return tl::unexpected(written.error());
+    auto file = fileOf("textures/new.png");
+    if (!file) return file;
+    file->path = fmt::format("textures/{}.png", file->hash.toHex());
+    std::error_code error;
+    fs::rename(unnamed, folder_ / file->path, error);
+    if (error) return fail(ErrorKind::unreadable, error.message(), unnamed.string());
+    return file;
+  }
+
+  Status writeTextures() {
+    for (std::size_t m = 0; m < input_.scene->materials.size(); ++m) {
+      Material material = localMaterial(input_.scene->materials[m], input_.plan);
+      const bool used = usedMaterials_.contains(int(m));
+      if (!used) material.baseColourTexture = material.emissiveTexture = {};
+      for (TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
+        if (Status taken = takeTexture(*use); !taken) return taken;
+      bundle_.features.blended |=
+          used && (material.alphaMode == AlphaMode::blend || (material.transmission > 0 && !material.unlit));
+      bundle_.materials.push_back(std::move(material));
+    }
+    std::set<std::string> files;
+    for (const BundleTexture& texture : bundle_.textures)
+      if (files.insert(texture.file.path).second) report_.textureBytes += texture.file.bytes;
+    report_.textures = files.size();
+    return {};
+  }
+
+  Status writeIndex() {
+    const std::string text = formatBundle(bundle_);
+    report_.indexBytes = text.size();
+    return writeTextAtomically(folder_ / kBundleIndex, text);
+  }
+
+  const BundleInput& input_;
+  const fs::path folder_;
+  TaskRunner& runner_;
+  const Progress& progress_;
+  const std::stop_token& stop_;
+  std::mutex mutex_;  ///< of features, materials and progress
+  Bundle bundle_;
+  BundleReport report_;
+  std::vector<CameraPlace> cameras_;
+  std::vector<RegionPlace> regions_;  ///< their place here names their files
+  std::set<int> usedMaterials_;
+  std::map<int, int> textureOf_;       ///< by texture of the scene
+  std::map<int, BundleFile> imageOf_;  ///< by image of the scene
+};
+
+}  // namespace
+
+Status checkBundleTarget(const fs::path& folder) {
+  return checkExportTarget(folder, kBundleIndex, kBundleFormat, "bundle");
+}
+
+Result<BundleReport> writeBundle(const BundleInput& input, const fs::path& folder, TaskRunner& runner,
+                                 const Progress& progress, std::stop_token stop) {
+  if (Status free = checkBundleTarget(folder); !free) return tl::unexpected(free.error());
+  BundleReport report;
+  const Status written = replaceFolderAtomically(folder, [&](const fs::path& temporary) -> Status {
+    auto done = BundleWriter(input, temporary, runner, progress, stop).write();
+    if (!done) return tl::unexpected(done.error());
+    report = *done;
+    return {};
+  });
+  if (!written) return tl::unexpected(written.error());
+  return report;
+}
+
+}  // namespace acentric

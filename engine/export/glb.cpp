@@ -1,0 +1,155 @@
+#include "engine/export/glb.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/base/file.h"
+
+namespace acentric {
+namespace {
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+constexpr int kNearest = 9728, kLinear = 9729;
+constexpr std::size_t kLargestGlb = 0xfffffff0;  // its lengths have 32 bits
+
+Result<std::vector<std::byte>> encodePng(const ColourImage& image) {
+  const bool opaque = std::ranges::all_of(image.pixels, [](const Rgba8& p) { return p.a == 255; });
+  std::vector<std::uint8_t> codes;
+  codes.reserve(image.pixels.size() * (opaque ? 3 : 4));
+  for (const Rgba8& p : image.pixels) {
+    codes.insert(codes.end(), {p.r, p.g, p.b});
+    if (!opaque) codes.push_back(p.a);
+  }
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = png_uint_32(image.width), png.height = png_uint_32(image.height);
+  png.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
+  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, codes.data(), 0, nullptr) == 0)
+    return fail(ErrorKind::outOfSpace, std::string("a texture cannot be written: ") + png.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+void put(std::vector<std::byte>& out, std::uint32_t word) {
+  for (int shift = 0; shift < 32; shift += 8) out.push_back(std::byte(word >> shift));
+}
+
+}  // namespace
+
+Glb::Glb(const std::string& generator)
+    : json_{{"asset", {{"version", "2.0"}, {"generator", generator}}},
+            {"extensionsUsed", {"KHR_materials_unlit"}},
+            {"scene", 0},
+            {"scenes", Json::array({Json::object()})}} {}
+
+int Glb::addView(const void* data, std::size_t bytes, int target) {
+  buffer_.resize((buffer_.size() + 3) / 4 * 4);
+  Json view{{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes}};
+  if (target != 0) view["target"] = target;
+  const auto* first = static_cast<const std::byte*>(data);
+  buffer_.insert(buffer_.end(), first, first + bytes);
+  json_["bufferViews"].push_back(std::move(view));
+  return int(json_["bufferViews"].size()) - 1;
+}
+
+int Glb::addAccessor(int view, int componentType, const char* type, std::size_t count) {
+  json_["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", type}});
+  return int(json_["accessors"].size()) - 1;
+}
+
+template <class Value>
+int Glb::addAttribute(const std::vector<Value>& values, const char* type) {
+  return addAccessor(addView(values.data(), values.size() * sizeof(Value), kArrayBuffer), kFloat, type,
+                     values.size());
+}
+
+Result<int> Glb::addTexture(const ColourImage& image, const Sampler& sampler) {
+  const auto png = encodePng(image);
+  if (!png) return tl::unexpected(png.error());
+  const int view = addView(png->data(), png->size(), 0);
+  json_["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+  json_["samplers"].push_back({{"magFilter", sampler.nearest ? kNearest : kLinear},
+                               {"minFilter", sampler.nearest ? kNearest : kLinear},
+                               {"wrapS", sampler.wrapU},
+                               {"wrapT", sampler.wrapV}});
+  const auto number = int(json_["images"].size()) - 1;
+  json_["textures"].push_back({{"sampler", number}, {"source", number}});
+  return number;
+}
+
+int Glb::addMaterial(const GlbMaterial& material) {
+  Json pbr{{"baseColorFactor", {material.factor.r, material.factor.g, material.factor.b, material.factor.a}},
+           {"metallicFactor", 0},
+           {"roughnessFactor", 1}};
+  if (material.texture >= 0) pbr["baseColorTexture"] = {{"index", material.texture}};
+  Json out{{"name", material.name},
+           {"pbrMetallicRoughness", std::move(pbr)},
+           {"doubleSided", material.doubleSided},
+           {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+  if (material.alpha == GlbMaterial::Alpha::blend) out["alphaMode"] = "BLEND";
+  if (material.alpha == GlbMaterial::Alpha::mask)
+    out["alphaMode"] = "MASK", out["alphaCutoff"] = material.cutoff;
+  json_["materials"].push_back(std::move(out));
+  return int(json_["materials"].size()) - 1;
+}
+
+void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
+  if (mesh.triangles.empty()) return;
+  const int positions = addAttribute(mesh.positions, "VEC3");
+  glm::vec3 low = mesh.positions.front(), high = low;
+  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+  json_["accessors"][std::size_t(positions)]["min"] = {low.x, low.y, low.z};
+  json_["accessors"][std::size_t(positions)]["max"] = {high.x, high.y, high.z};
+  Json attributes{{"POSITION", positions}};
+  const bool textured =
+      json_["materials"][std::size_t(material)]["pbrMetallicRoughness"].contains("baseColorTexture");
+  if (textured && !mesh.uv.empty()) attributes["TEXCOORD_0"] = addAttribute(mesh.uv, "VEC2");
+  if (!mesh.colour.empty()) attributes["COLOR_0"] = addAttribute(mesh.colour, "VEC3");
+  const int view = addView(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3), kElementBuffer);
+  const int indices = addAccessor(view, kUnsignedInt, "SCALAR", 3 * mesh.triangles.size());
+  Json primitive{{"attributes", std::move(attributes)}, {"indices", indices}, {"material", material}};
+  Json& nodes = json_["nodes"];
+  if (nodes.is_null()) nodes = Json::array();
+  const auto known = std::ranges::find_if(nodes, [&](const Json& each) { return each["name"] == node; });
+  if (known != nodes.end()) {
+    json_["meshes"][known->at("mesh").get<std::size_t>()]["primitives"].push_back(std::move(primitive));
+    return;
+  }
+  json_["scenes"][0]["nodes"].push_back(nodes.size());
+  nodes.push_back({{"name", node}, {"mesh", json_["meshes"].size()}});
+  json_["meshes"].push_back({{"name", node}, {"primitives", Json::array({std::move(primitive)})}});
+}
+
+Result<std::uint64_t> Glb::write(const std::filesystem::path& file) const {
+  Json json = json_;
+  if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::size_t binary = (buffer_.size() + 3) / 4 * 4;
+  const std::size_t size = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
+  if (size > kLargestGlb)
+    return fail(ErrorKind::tooLarge,
+                "would be larger than the 4 GB that a GLB can have: allow a larger error", file.string());
+  std::vector<std::byte> out;
+  out.reserve(size);
+  for (const std::uint32_t word :
+       {0x46546c67U, 2U, std::uint32_t(size), std::uint32_t(text.size()), 0x4e4f534aU})
+    put(out, word);
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  out.insert(out.end(), first, first + text.size());
+  if (binary > 0) {
+    put(out, std::uint32_t(binary));
+    put(out, 0x004e4942U);
+    out.insert(out.end(), buffer_.begin(), buffer_.end());
+    out.resize(size);
+  }
+  if (Status written = writeFileAtomically(file, out); !written) return tl::unexpected(written.error());
+  return size;
+}
+
+}  // namespace acentric

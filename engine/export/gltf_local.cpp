@@ -1,0 +1,192 @@
+#include "engine/export/gltf_local.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/export/bundle_materials.h"
+#include "engine/export/glb.h"
+#include "engine/export/gltf_background.h"
+#include "engine/image/colour.h"
+#include "engine/scene/texture_lookup.h"
+
+namespace acentric {
+namespace {
+
+constexpr int kMostCuts = 32;  ///< of a side, for light
+
+template <class Attribute>
+Attribute interpolated(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
+  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
+}
+
+class LocalWriter {
+ public:
+  LocalWriter(Glb& glb, const WalkScene& walk, const LocalGeometry& local)
+      : glb_(glb),
+        walk_(walk),
+        local_(local),
+        meshes_(local.meshes(*walk.scene)),
+        first_(firstTrianglesOf(meshes_)) {
+    light_ = local.surfaces ? &local.surfaces->light : walk.surfaceLight.get();
+    if (light_ != nullptr && light_->empty()) light_ = nullptr;
+    for (const Material& material : walk.scene->materials)
+      materials_.push_back(localMaterial(material, walk.plan));
+  }
+
+  Status write(GltfRegionReport& report) {
+    for (const LocalTriangle& triangle : local_.triangles) {
+      add(triangle, false);
+      if (lightOnBack(triangle)) add(triangle, true);
+    }
+    for (auto& [key, mesh] : out_) {
+      const auto made = materialOf(key.first, key.second);
+      if (!made) return tl::unexpected(made.error());
+      report.localTriangles += mesh.triangles.size();
+      glb_.add("near", mesh, *made);
+    }
+    return {};
+  }
+
+ private:
+  /// Sides that are seen by light of their own.
+  enum class Sides { both, front, back };
+
+  std::uint32_t numberOf(const LocalTriangle& t) const { return first_[t.mesh] + t.triangle; }
+  bool lightOnBack(const LocalTriangle& t) const {
+    const std::uint32_t number = numberOf(t);
+    return light_ != nullptr && number < light_->hasBack.size() && light_->hasBack[number] != 0;
+  }
+  const Material& material(const LocalTriangle& t) const {
+    return materials_[std::size_t(meshes_[t.mesh].material)];
+  }
+  bool textured(const LocalTriangle& t) const {
+    const TextureUse& use = material(t).baseColourTexture;
+    return use.used() && !meshes_[t.mesh].uv[use.uvSet == 1 ? 1 : 0].empty() &&
+           TextureSampler(*walk_.scene, use).used();
+  }
+
+  /// What the texture is multiplied with so that the product is what is shown, display-linear.
+  glm::vec3 factorAt(const LocalTriangle& t, const glm::vec2& b, bool back) const {
+    const Mesh& mesh = meshes_[t.mesh];
+    const Material& m = material(t);
+    const glm::uvec3& corners = mesh.triangles[t.triangle];
+    glm::vec3 light(1);
+    if (light_ != nullptr && !m.unlit) {
+      const std::uint32_t number = numberOf(t);
+      light = number < light_->resolution.size() ? light_->at(number, b, back) : glm::vec3(0);
+    }
+    glm::vec3 base(m.baseColour);
+    if (walk_.plan.on(Effect::vertexColours) && !mesh.colours.empty())
+      base *= glm::vec3(glm::vec4(mesh.colours[corners.x]) * (1 - b.x - b.y) +
+                        glm::vec4(mesh.colours[corners.y]) * b.x + glm::vec4(mesh.colours[corners.z]) * b.y) /
+              255.0F;
+    const auto sampled = [&](const TextureUse& use) {
+      return glm::vec3(
+          sampleColour(*walk_.scene, use, interpolated(mesh.uv[use.uvSet == 1 ? 1 : 0], corners, b)));
+    };
+    const bool hasTexture = textured(t);
+    const glm::vec3 texture = hasTexture ? sampled(m.baseColourTexture) : glm::vec3(1);
+    glm::vec3 emission = m.unlit ? glm::vec3(0) : m.emissive;
+    if (m.emissiveTexture.used() && !mesh.uv[m.emissiveTexture.uvSet == 1 ? 1 : 0].empty())
+      emission *= sampled(m.emissiveTexture);
+    constexpr float kDarkest = 1.0F / 64;  // of a texture: below, light would be blown up
+    const glm::vec3 shown = toneMap(base * texture * light + emission, walk_.exposure);
+    return glm::min(shown / glm::max(texture, glm::vec3(kDarkest)), glm::vec3(1));
+  }
+
+  void add(const LocalTriangle& t, bool back) {
+    const Mesh& source = meshes_[t.mesh];
+    const Sides sides = lightOnBack(t) ? (back ? Sides::back : Sides::front) : Sides::both;
+    GlbMesh& mesh = out_[{source.material, sides}];
+    std::array<LocalVertex, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[std::size_t(i)] = local_.vertices[t.vertices[i]];
+    float longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec2 way = corners[(i + 1) % 3].barycentric - corners[i].barycentric;
+      longest = std::max({longest, std::abs(way.x), std::abs(way.y), std::abs(way.x + way.y)});
+    }
+    const std::uint32_t number = numberOf(t);
+    const int resolution =
+        light_ != nullptr && number < light_->resolution.size() ? int(light_->resolution[number]) : 0;
+    const int cuts = std::clamp(int(std::ceil(longest * float(resolution))), 1, kMostCuts);
+    const TextureUse& use = material(t).baseColourTexture;
+    const bool hasTexture = textured(t);
+    const auto first = std::uint32_t(mesh.positions.size());
+    for (int i = 0; i <= cuts; ++i)
+      for (int j = 0; i + j <= cuts; ++j) {
+        const float x = float(i) / float(cuts), y = float(j) / float(cuts), rest = 1 - x - y;
+        const glm::vec2 b =
+            rest * corners[0].barycentric + x * corners[1].barycentric + y * corners[2].barycentric;
+        mesh.positions.push_back(gltfPosition(
+            glm::dvec3(rest * corners[0].position + x * corners[1].position + y * corners[2].position)));
+        mesh.colour.push_back(factorAt(t, b, back));
+        mesh.uv.push_back(hasTexture
+                              ? use.transform * glm::vec3(interpolated(source.uv[use.uvSet == 1 ? 1 : 0],
+                                                                       source.triangles[t.triangle], b),
+                                                          1)
+                              : glm::vec2(0));
+      }
+    const auto at = [&](int i, int j) {
+      return first + surfaceSampleIndex(std::uint32_t(cuts), std::uint32_t(i), std::uint32_t(j));
+    };
+    const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      mesh.triangles.emplace_back(a, back ? c : b, back ? b : c);
+    };
+    for (int i = 0; i < cuts; ++i)
+      for (int j = 0; i + j < cuts; ++j) {
+        emit(at(i, j), at(i + 1, j), at(i, j + 1));
+        if (i + j + 1 < cuts) emit(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+      }
+  }
+
+  Result<int> textureOf(const TextureUse& use) {
+    const TextureSampler sampler(*walk_.scene, use);
+    if (!use.used() || !sampler.used()) return -1;
+    const auto known = textures_.find(use.texture);
+    if (known != textures_.end()) return known->second;
+    const auto wrap = [](Wrap mode) {
+      return mode == Wrap::clamp ? Glb::kClamp : mode == Wrap::mirror ? Glb::kMirror : Glb::kRepeat;
+    };
+    const auto made =
+        glb_.addTexture(*sampler.image(), {sampler.nearest(), wrap(sampler.wrapU()), wrap(sampler.wrapV())});
+    if (made) textures_[use.texture] = *made;
+    return made;
+  }
+
+  Result<int> materialOf(int number, Sides sides) {
+    const Material& m = materials_[std::size_t(number)];
+    GlbMaterial out;
+    out.name = m.name.empty() ? "near " + std::to_string(number) : m.name;
+    const auto texture = textureOf(m.baseColourTexture);
+    if (!texture) return texture;
+    out.texture = *texture;
+    out.doubleSided = sides == Sides::both && m.doubleSided;
+    out.factor.a = std::clamp(m.baseColour.a, 0.0F, 1.0F);
+    if (m.alphaMode == AlphaMode::mask) out.alpha = GlbMaterial::Alpha::mask, out.cutoff = m.alphaCutoff;
+    if (m.alphaMode == AlphaMode::blend) out.alpha = GlbMaterial::Alpha::blend;
+    if (m.transmission > 0 && !m.unlit) {
+      out.alpha = GlbMaterial::Alpha::blend;
+      out.factor.a *= std::max(0.0F, 1 - m.transmission);
+    }
+    return glb_.addMaterial(out);
+  }
+
+  Glb& glb_;
+  const WalkScene& walk_;
+  const LocalGeometry& local_;
+  const std::vector<Mesh>& meshes_;
+  std::vector<std::uint32_t> first_;
+  const SurfaceLight* light_ = nullptr;
+  std::vector<Material> materials_;
+  std::map<std::pair<int, Sides>, GlbMesh> out_;  ///< by material
+  std::map<int, int> textures_;                   ///< by texture of the scene
+};
+
+}  // namespace
+
+Status addLocal(Glb& glb, const WalkScene& walk, const LocalGeometry& local, GltfRegionReport& report) {
+  return LocalWriter(glb, walk, local).write(report);
+}
+
+}  // namespace acentric

@@ -1,0 +1,54 @@
+#include <utility>
+
+#include "engine/base/contract.h"
+#include "engine/export/local_file.h"
+#include "engine/export/local_lanes.h"
+#include "engine/store/keyed.h"
+
+namespace acentric {
+namespace {
+
+Status write(const LocalGeometry& local, const std::filesystem::path& path) {
+  require(local.surfaces != nullptr, "what a bundle holds is self-contained");
+  const LocalSurfaces& surfaces = *local.surfaces;
+  local_file::Arrays arrays;
+  std::vector<std::uint32_t> firstTriangle, firstVertex;
+  for (const Mesh& mesh : surfaces.meshes) {
+    firstVertex.push_back(std::uint32_t(arrays.place.size()));
+    firstTriangle.push_back(std::uint32_t(arrays.source.size()));
+    arrays.flags |= arrays.append(mesh);
+  }
+  for (const LocalTriangle& t : local.triangles)
+    arrays.triangle.push_back(glm::uvec4(t.vertices, firstTriangle[t.mesh] + t.triangle));
+  if (!surfaces.light.empty()) arrays.flags |= local_file::kLight;
+  if (!surfaces.mirrorPlanes.empty()) arrays.flags |= local_file::kMirrors;
+  for (const auto& planes : surfaces.mirrorPlanes)
+    arrays.plane.insert(arrays.plane.end(), planes.begin(), planes.end());
+
+  BlockFileWriter file(BlockFileKind::localGeometry, {});
+  for (const std::size_t count : {local.vertices.size(), arrays.triangle.size(), arrays.place.size(),
+                                  arrays.source.size(), surfaces.light.light.size(), surfaces.meshes.size()})
+    file.describe(static_cast<std::uint32_t>(count));
+  file.describe(arrays.flags);
+  for (const Mesh& mesh : surfaces.meshes) {
+    file.describe(static_cast<std::uint32_t>(mesh.material));
+    file.describe(static_cast<std::uint32_t>(mesh.positions.size()));
+    file.describe(static_cast<std::uint32_t>(mesh.triangles.size()));
+    file.describe(local_file::flagsOf(mesh));
+  }
+  Status added;
+  local_file::forEachArray(local.vertices, std::as_const(arrays), surfaces.light,
+                           [&](const auto& lanes, std::size_t count) {
+                             if (added) added = file.addRecords(lanes, count);
+                           });
+  if (!added) return added;
+  return file.write(path);
+}
+
+}  // namespace
+
+Status writeLocalFile(const LocalGeometry& local, const std::filesystem::path& path) {
+  return withinMemory(path, [&] { return write(local, path); });
+}
+
+}  // namespace acentric

@@ -1,0 +1,28 @@
+#pragma once
+/// The page that walks through a bundle in a browser: its files, as web/ builds them, put beside a bundle, or
+/// both as one HTML file.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "engine/base/result.h"
+
+namespace acentric {
+
+/// Where the built page is, seen from a program of ours: share/acentric/web beside an installed one's folder,
+/// or web/dist of the sources that it was built from. Fails with how to make it.
+Result<std::filesystem::path> findWebPage(const std::filesystem::path& program);
+
+/// Copies the page into the folder of a bundle, index.html last.
+Status addWebPage(const std::filesystem::path& page, const std::filesystem::path& bundle);
+
+/// Larger pages take long to open, and phones may not open them at all.
+inline constexpr std::uint64_t kHandySingleFile = std::uint64_t(32) << 20;
+/// Browsers hold no longer texts.
+inline constexpr std::uint64_t kLargestSingleFile = std::uint64_t(256) << 20;
+
+/// Writes the page with all files of the bundle in it; returns its size. Fails above kLargestSingleFile.
+Result<std::uint64_t> writeSingleFile(const std::filesystem::path& page, const std::filesystem::path& bundle,
+                                      const std::filesystem::path& output);
+
+}  // namespace acentric

@@ -1,0 +1,19 @@
+#pragma once
+/// A project as a bundle for runtimes (engine/export/FORMAT.md).
+
+#include "engine/export/bundle_write.h"
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric {
+
+struct ExportBundleOptions {
+  bool allowMissing = false;  ///< write what there is; else captures or light that are not baked are refused
+  std::string generator;      ///< program and version, for the index
+};
+
+/// `storeys`: all of one project, in order, as openStoreys gives them.
+Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const std::filesystem::path& folder,
+                                  const ExportBundleOptions& options, TaskRunner& runner,
+                                  const Progress& progress = {}, std::stop_token stop = {});
+
+}  // namespace acentric

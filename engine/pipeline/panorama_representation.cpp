@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "engine/pipeline/bake_to_size.h"
+#include "engine/pipeline/make_representation.h"
+#include "engine/pipeline/merged_bake.h"
+
+namespace acentric {
+namespace {
+
+class PanoramaView final : public RepresentationView {
+ public:
+  PanoramaView(const OpenProject& open, std::shared_ptr<const PanoramaSet> set,
+               std::vector<std::shared_ptr<const DisplayCapture>> captures)
+      : set_(std::move(set)), settings_(open.project.view) {
+    walk_.scene = open.scene, walk_.plan = open.plan, walk_.exposure = open.project.exposure;
+    walk_.layout = std::shared_ptr<const Layout>(set_, &set_->layout);
+    walk_.captures = std::move(captures);
+    settings_.renderer = Renderer::zbuffer;
+  }
+  Result<Frame> render(const PerspectiveView& view, TaskRunner& runner, FrameMemory& memory) const override {
+    const auto plan = planCaptures(walk_, view, settings_, set_->camerasFor(glm::dvec2(view.eye)));
+    if (!plan) return tl::unexpected(plan.error());
+    return renderPlan(walk_, view, settings_, *plan, runner, memory);
+  }
+
+ private:
+  std::shared_ptr<const PanoramaSet> set_;
+  WalkScene walk_;
+  ViewSettings settings_;
+};
+
+Result<std::vector<std::shared_ptr<const DisplayCapture>>> loadCaptures(const Workplace& at,
+                                                                        const SizedCaptures& sized) {
+  std::vector<std::shared_ptr<const DisplayCapture>> captures;
+  for (const ContentKey& key : sized.open.keys) {
+    if (at.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
+    const auto capture = sized.store.get(key);
+    if (!capture) return tl::unexpected(capture.error());
+    captures.push_back(
+        std::make_shared<const DisplayCapture>(prepareForDisplay(*capture, at.open.project.exposure)));
+  }
+  return captures;
+}
+
+}  // namespace
+
+Result<Representation> makePanoramas(const Workplace& at, const std::string& name, std::string description,
+                                     PanoramaSet panoramas, bool merged, const SizeTarget& target) {
+  const auto set = std::make_shared<const PanoramaSet>(std::move(panoramas));
+  const auto openAt = [&](double samplesPerDegree) -> Result<OpenProject> {
+    OpenProject open = at.open;
+    open.file = at.fileOf(name);
+    open.project.bake.samplesPerDegree = samplesPerDegree;
+    open.project.bake.maxLayers = 1;
+    open.project.bake.pruning = false;
+    open.layout = std::shared_ptr<const Layout>(set, &set->layout);
+    open.keys = captureKeys(*open.scene, open.plan, open.project.bake, *open.layout);
+    return open;
+  };
+  const std::size_t together = std::size_t(set->groups.front().cameras);
+  auto sized = bakeToSize(at, name, merged ? mergedBake(at, openAt, together) : plainBake(at, openAt),
+                          target.bytes, target.tolerance);
+  if (!sized) return tl::unexpected(sized.error());
+  auto captures = loadCaptures(at, *sized);
+  if (!captures) return tl::unexpected(captures.error());
+  Representation made{name, std::move(description), sized->cost, nullptr};
+  for (const auto& capture : *captures) made.cost.samples += capture->samples.size();
+  made.view = std::make_unique<const PanoramaView>(at.open, set, std::move(*captures));
+  return made;
+}
+
+}  // namespace acentric

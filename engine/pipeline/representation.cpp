@@ -1,0 +1,48 @@
+#include "engine/pipeline/representation.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+
+namespace acentric {
+namespace {
+
+std::filesystem::path noteOf(const Workplace& at, const std::string& name) {
+  return at.folder / (name + ".baked.json");
+}
+
+}  // namespace
+
+Result<std::uint64_t> packedBytes(const CaptureStore& store, std::span<const ContentKey> keys) {
+  std::uint64_t bytes = 0;
+  for (const ContentKey& key : keys) {
+    const auto record = store.record(key);
+    if (!record) return tl::unexpected(record.error());
+    for (const FileRecord& file : record->files)
+      if (file.extension == ".pack") bytes += file.bytes;
+  }
+  return bytes;
+}
+
+std::optional<BakeNote> readNote(const Workplace& at, const std::string& name, const ContentKey& key) {
+  const auto text = readText(noteOf(at, name));
+  if (!text) return std::nullopt;
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("key") || !json["key"].is_string() ||
+      json["key"].get<std::string>() != key.toHex())
+    return std::nullopt;
+  const auto number = [&](const char* field) {
+    return json.contains(field) && json[field].is_number() ? json[field].get<double>() : -1;
+  };
+  const BakeNote note{key, number("samplesPerDegree"), number("seconds")};
+  if (note.samplesPerDegree < 0 || note.seconds < 0) return std::nullopt;
+  return note;
+}
+
+Status writeNote(const Workplace& at, const std::string& name, const BakeNote& note) {
+  const nlohmann::ordered_json json = {
+      {"key", note.key.toHex()}, {"samplesPerDegree", note.samplesPerDegree}, {"seconds", note.seconds}};
+  return writeTextAtomically(noteOf(at, name), json.dump(2) + "\n");
+}
+
+}  // namespace acentric

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/pipeline/bake_to_size.h"
+#include "engine/pipeline/local_triangles.h"
+#include "engine/pipeline/make_representation.h"
+
+namespace acentric {
+namespace {
+
+/// From a ring's centre to its cameras, of cells of one metre.
+double ringRadius(Configuration configuration) {
+  LayoutSpec spec;
+  spec.configuration = configuration;
+  spec.cellSize = 1;
+  const ConvexPolygon ring = cellPolygon(spec, {});
+  return glm::distance(ring.centroid(), ring.corners.front());
+}
+
+/// What near surfaces take of the scene.
+std::uint64_t localMeshBytes(const Scene& scene, const LocalTriangles& local) {
+  const auto first = scene.firstTriangles();
+  std::uint64_t vertices = 0, triangles = 0;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    std::vector<char> used(mesh.positions.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (local.wanted[first[m] + t] == 0) continue;
+      ++triangles;
+      for (int corner = 0; corner < 3; ++corner) used[mesh.triangles[t][corner]] = 1;
+    }
+    vertices += std::uint64_t(std::ranges::count(used, 1));
+  }
+  return meshBytes(vertices, triangles);
+}
+
+class RingView final : public RepresentationView {
+ public:
+  RingView(LoadedWalk loaded, const ViewSettings& settings)
+      : loaded_(std::move(loaded)), settings_(settings) {
+    settings_.renderer = Renderer::list;
+  }
+  Result<Frame> render(const PerspectiveView& view, TaskRunner& runner, FrameMemory& memory) const override {
+    return renderFrame(loaded_.walk, view, settings_, runner, memory);
+  }
+
+ private:
+  LoadedWalk loaded_;
+  ViewSettings settings_;
+};
+
+/// Light on the surfaces that some region draws; how long it took, now or in an earlier run.
+Result<double> bakeLight(const Workplace& at, const std::string& name, const OpenProject& open,
+                         const CaptureStore& store) {
+  const std::string noteName = name + ".light";
+  if (store.hasSurfaceLight(open.surfaceLightKey))
+    if (const auto note = readNote(at, noteName, open.surfaceLightKey)) return note->seconds;
+  BakeRequest request;
+  request.cameras = std::vector<int>();
+  const auto report = bakeProject(open, request, store, at.runner, at.progress, at.stop);
+  if (!report) return tl::unexpected(report.error());
+  if (Status noted = writeNote(at, noteName, {open.surfaceLightKey, 0, report->surfaceLightSeconds}); !noted)
+    return tl::unexpected(noted.error());
+  return report->surfaceLightSeconds;
+}
+
+}  // namespace
+
+LayoutSpec relaid(const LayoutSpec& spec, Configuration configuration) {
+  LayoutSpec other = spec;
+  other.cellSize = spec.cellSize * ringRadius(spec.configuration) / ringRadius(configuration);
+  other.configuration = configuration;
+  other.added.clear(), other.removed.clear(), other.split.clear(), other.freeApvs.clear();
+  return other;
+}
+
+Result<Representation> makeRings(const Workplace& at, const std::string& name, const LayoutSpec& spec,
+                                 const SizeTarget& target) {
+  Project project = at.open.project;
+  project.layout() = spec;
+  const auto openAt = [&](double samplesPerDegree) -> Result<OpenProject> {
+    project.bake.samplesPerDegree = samplesPerDegree;
+    auto open = reopenProject(at.open, project, {}, at.progress, at.stop);
+    if (open) open->file = at.fileOf(name);
+    return open;
+  };
+  const auto own = openAt(at.open.project.bake.samplesPerDegree);
+  if (!own) return tl::unexpected(own.error());
+  const auto store = openCaptures(own->file);
+  if (!store) return tl::unexpected(store.error());
+  const auto lightSeconds = bakeLight(at, name, *own, *store);
+  if (!lightSeconds) return tl::unexpected(lightSeconds.error());
+  const std::uint64_t lightBytes = store->bytesOf(own->surfaceLightKey),
+                      polygonBytes =
+                          localMeshBytes(*own->scene, localTrianglesOf(*own->scene, *own->layout, at.stop));
+
+  CaptureBake bake = plainBake(at, openAt);
+  bake.keep = {own->surfaceLightKey};
+  std::optional<double> captureBytes;
+  if (target.bytes) captureBytes = *target.bytes - double(lightBytes + polygonBytes);
+  auto sized = bakeToSize(at, name, bake, captureBytes, target.tolerance);
+  if (!sized) return tl::unexpected(sized.error());
+
+  auto loaded = loadWalk(sized->open, nullptr, at.runner, at.progress, at.stop);
+  if (!loaded) return tl::unexpected(loaded.error());
+  Representation made{name, describe(spec.configuration), sized->cost, nullptr};
+  made.cost.lightBytes = lightBytes;
+  made.cost.meshBytes = polygonBytes;
+  made.cost.bakeSeconds += *lightSeconds;
+  for (const auto& capture : loaded->walk.captures)
+    made.cost.samples += capture ? capture->samples.size() : 0;
+  for (const auto& local : loaded->walk.local)
+    if (local) made.cost.triangles = std::max(made.cost.triangles, local->triangles.size());
+  made.view = std::make_unique<const RingView>(std::move(*loaded), at.open.project.view);
+  return made;
+}
+
+}  // namespace acentric
