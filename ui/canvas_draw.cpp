@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/text_format.h"
+#include "ui/theme.h"
 
 namespace acentric::ui {
 namespace {
@@ -51,49 +52,49 @@ void drawGrid(ImDrawList& list, const CanvasView& view) {
 }
 
 void drawRulers(ImDrawList& list, const CanvasView& view, ImFont* font, std::optional<glm::dvec2> pointer) {
+  const float ruler = scaled(kRulerPixels);
   const glm::dvec2 low = view.areaMin();
   const glm::dvec2 high = low + view.areaSize();
   const ImU32 plate = palette::panel.withOpacity(0.92F).packed();
   const ImU32 tick = palette::faint.packed();
   const ImU32 text = palette::muted.packed();
   const float size = font->FontSize;
-  list.AddRectFilled(imVec(low), {float(high.x), float(low.y) + kRulerPixels}, plate);
-  list.AddRectFilled({float(low.x), float(low.y) + kRulerPixels},
-                     {float(low.x) + kRulerPixels, float(high.y)}, plate);
+  list.AddRectFilled(imVec(low), {float(high.x), float(low.y) + ruler}, plate);
+  list.AddRectFilled({float(low.x), float(low.y) + ruler}, {float(low.x) + ruler, float(high.y)}, plate);
 
   const double step = niceStep(view.pixelsPerMetre(), 64);
   const WorldBox box = visibleBox(view);
   for (double x = std::ceil(box.min.x / step) * step; x <= box.max.x; x += step) {
     const float at = float(std::round(view.screenFromWorld({x, 0}).x)) + 0.5F;
-    if (at < float(low.x) + kRulerPixels) continue;
-    list.AddLine({at, float(low.y) + kRulerPixels - 5}, {at, float(low.y) + kRulerPixels}, tick);
+    if (at < float(low.x) + ruler) continue;
+    list.AddLine({at, float(low.y) + ruler - scaled(5)}, {at, float(low.y) + ruler}, tick);
     list.AddText(font, size, {at + 3, float(low.y) + 1}, text, rulerText(x, step).c_str());
   }
   for (double y = std::ceil(box.min.y / step) * step; y <= box.max.y; y += step) {
     const float at = float(std::round(view.screenFromWorld({0, y}).y)) + 0.5F;
-    if (at < float(low.y) + kRulerPixels + size) continue;
-    list.AddLine({float(low.x) + kRulerPixels - 5, at}, {float(low.x) + kRulerPixels, at}, tick);
+    if (at < float(low.y) + ruler + size) continue;
+    list.AddLine({float(low.x) + ruler - scaled(5), at}, {float(low.x) + ruler, at}, tick);
     list.AddText(font, size, {float(low.x) + 2, at - size - 1}, text, rulerText(y, step).c_str());
   }
   if (pointer && view.contains(*pointer)) {
     const ImU32 mark = palette::accent.packed();
     const float x = float(pointer->x);
     const float y = float(pointer->y);
-    list.AddLine({x, float(low.y)}, {x, float(low.y) + kRulerPixels}, mark);
-    list.AddLine({float(low.x), y}, {float(low.x) + kRulerPixels, y}, mark);
+    list.AddLine({x, float(low.y)}, {x, float(low.y) + ruler}, mark);
+    list.AddLine({float(low.x), y}, {float(low.x) + ruler, y}, mark);
   }
-  list.AddRectFilled(imVec(low), {float(low.x) + kRulerPixels, float(low.y) + kRulerPixels},
-                     palette::panel.packed());
+  list.AddRectFilled(imVec(low), {float(low.x) + ruler, float(low.y) + ruler}, palette::panel.packed());
   list.AddText(font, size, {float(low.x) + 4, float(low.y) + 2}, text, "m");
 }
 
 void drawScaleBar(ImDrawList& list, const CanvasView& view, ImFont* font) {
-  const double length = niceStep(view.pixelsPerMetre(), 70);
+  const float ruler = scaled(kRulerPixels);
+  const double length = niceStep(view.pixelsPerMetre(), double(scaled(70)));
   const float pixels = float(length * view.pixelsPerMetre());
   const std::string text = formatMetres(length);
   const ImVec2 textSize = font->CalcTextSizeA(font->FontSize, 1e6F, 0, text.c_str());
-  const float left = float(view.areaMin().x) + kRulerPixels + 14;
-  const float bottom = float(view.areaMin().y + view.areaSize().y) - 14;
+  const float left = float(view.areaMin().x) + ruler + scaled(14);
+  const float bottom = float(view.areaMin().y + view.areaSize().y) - scaled(14);
   list.AddRectFilled({left - 8, bottom - textSize.y - 10},
                      {left + std::max(pixels, textSize.x) + 8, bottom + 7},
                      palette::backdrop.withOpacity(0.72F).packed(), 4);
@@ -109,8 +110,8 @@ void drawCoordinates(ImDrawList& list, const CanvasView& view, ImFont* font, con
   const std::string text = fmt::format("x {:.2f} m   y {:.2f} m", world.x, world.y);
   const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, text.c_str());
   const glm::dvec2 corner = view.areaMin() + view.areaSize();
-  drawLabel(list, font, {float(corner.x) - size.x - 14, float(corner.y) - size.y - 11}, palette::text,
-            text.c_str());
+  drawLabel(list, font, {float(corner.x) - size.x - scaled(14), float(corner.y) - size.y - scaled(11)},
+            palette::text, text.c_str());
 }
 
 void drawConvex(ImDrawList& list, const CanvasView& view, std::span<const glm::dvec2> corners,
@@ -127,7 +128,7 @@ void drawConvex(ImDrawList& list, const CanvasView& view, std::span<const glm::d
 
 void drawDashed(ImDrawList& list, const CanvasView& view, std::span<const glm::dvec2> points, bool closed,
                 const Colour& line, float thickness) {
-  constexpr double kDash = 6;
+  const double dash = double(scaled(6));
   constexpr double kLongestEdge = 4000;  // beyond it the dashes cannot be told apart: draw it solid
   const ImU32 packed = line.packed();
   const std::size_t edges = points.size() < 2 ? 0 : points.size() - (closed ? 0 : 1);
@@ -135,20 +136,21 @@ void drawDashed(ImDrawList& list, const CanvasView& view, std::span<const glm::d
     const glm::dvec2 a = view.screenFromWorld(points[i]);
     const glm::dvec2 b = view.screenFromWorld(points[(i + 1) % points.size()]);
     const double length = glm::length(b - a);
-    if (length > kLongestEdge || length < kDash) {
+    if (length > kLongestEdge || length < dash) {
       list.AddLine(imVec(a), imVec(b), packed, thickness);
       continue;
     }
     const glm::dvec2 along = (b - a) / length;
-    for (double at = 0; at < length; at += 2 * kDash)
-      list.AddLine(imVec(a + along * at), imVec(a + along * std::min(length, at + kDash)), packed, thickness);
+    for (double at = 0; at < length; at += 2 * dash)
+      list.AddLine(imVec(a + along * at), imVec(a + along * std::min(length, at + dash)), packed, thickness);
   }
 }
 
 void drawLabel(ImDrawList& list, ImFont* font, const ImVec2& position, const Colour& colour,
                const char* text) {
   const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, text);
-  list.AddRectFilled({position.x - 5, position.y - 2}, {position.x + size.x + 5, position.y + size.y + 2},
+  list.AddRectFilled({position.x - scaled(5), position.y - scaled(2)},
+                     {position.x + size.x + scaled(5), position.y + size.y + scaled(2)},
                      palette::backdrop.withOpacity(0.78F).packed(), 3);
   list.AddText(font, font->FontSize, position, colour.packed(), text);
 }

@@ -31,6 +31,6 @@ void drawDashed(ImDrawList& list, const CanvasView& view, std::span<const glm::d
 void drawLabel(ImDrawList& list, ImFont* font, const ImVec2& position, const Colour& colour,
                const char* text);
 
-inline constexpr float kRulerPixels = 18;
+inline constexpr float kRulerPixels = 18;  ///< unscaled
 
 }  // namespace acentric::ui

@@ -26,14 +26,17 @@ void renderNow(const ImDrawList*, const ImDrawCmd* command) {
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glActiveTexture(GL_TEXTURE0);
   glBindSampler(0, 0);
-  (*static_cast<const CanvasRender*>(command->UserCallbackData))(
-      {{data.DisplayPos.x, data.DisplayPos.y}, {data.DisplaySize.x, data.DisplaySize.y}});
+  static_cast<const CanvasRender*>(command->UserCallbackData)
+      ->render({{data.DisplayPos.x, data.DisplayPos.y}, {data.DisplaySize.x, data.DisplaySize.y}});
 }
 
 }  // namespace
 
 void ColourTable::upload(std::span<const std::uint32_t> words) {
   rows_ = int((words.size() + kTableWidth - 1) / kTableWidth);
+  ContentHash hash;
+  hash.add(words);
+  content_ = hash.value();
   if (rows_ == 0) return texture_.reset();
   std::vector<std::uint32_t> whole(words.begin(), words.end());
   whole.resize(std::size_t(rows_) * kTableWidth, 0);
@@ -50,6 +53,11 @@ void ColourTable::upload(std::span<const std::uint32_t> words) {
 void ColourTable::bind() const {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, texture_.name());
+}
+
+void addView(ContentHash& hash, const CanvasView& view) {
+  for (const glm::dvec2& pair : {view.areaMin(), view.areaSize(), view.centre()}) hash.add(pair);
+  hash.add(view.pixelsPerMetre());
 }
 
 void forVisibleTiles(const GlProgram& program, const CanvasView& view, const CanvasTarget& target,
@@ -71,6 +79,10 @@ void forVisibleTiles(const GlProgram& program, const CanvasView& view, const Can
 void addRender(ImDrawList& list, CanvasRender* render) {
   list.AddCallback(&renderNow, render);
   list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
+std::uint64_t contentOf(const ImDrawCmd& command) {
+  return static_cast<const CanvasRender*>(command.UserCallbackData)->content;
 }
 
 void uploadTo(GlName<GlKind::buffer>& buffer, unsigned target, const void* data, std::size_t bytes) {

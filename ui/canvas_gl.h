@@ -10,6 +10,7 @@
 
 #include "ui/canvas_tiles.h"
 #include "ui/canvas_view.h"
+#include "ui/content_hash.h"
 #include "ui/gl_names.h"
 
 namespace acentric::ui {
@@ -26,11 +27,16 @@ class ColourTable {
   void upload(std::span<const std::uint32_t> words);
   void bind() const;  ///< to texture unit 0
   bool empty() const { return rows_ == 0; }
+  std::uint64_t content() const { return content_; }
 
  private:
   GlName<GlKind::texture> texture_;
   int rows_ = 0;
+  std::uint64_t content_ = 0;
 };
+
+/// Adds what tells one view of a canvas from another.
+void addView(ContentHash& hash, const CanvasView& view);
 
 /// Calls `draw` for each tile that is on the screen, with the program's uniforms set for it. The program is
 /// in use.
@@ -38,10 +44,15 @@ void forVisibleTiles(const GlProgram& program, const CanvasView& view, const Can
                      const CanvasTiles& tiles, double marginPixels,
                      const std::function<void(std::size_t tile)>& draw);
 
+struct CanvasRender {
+  std::function<void(const CanvasTarget& target)> render;
+  std::uint64_t content = 0;  ///< of all that it draws (content_hash.h): the same pixels from the same number
+};
 /// Has `render` called when ImGui comes to this place of the list, clipped as the list is now; then restores
 /// ImGui's own state. `*render` must live until the frame is shown.
-using CanvasRender = std::function<void(const CanvasTarget& target)>;
 void addRender(ImDrawList& list, CanvasRender* render);
+/// Of a callback of addRender.
+std::uint64_t contentOf(const ImDrawCmd& command);
 
 /// Replaces what a buffer holds.
 void uploadTo(GlName<GlKind::buffer>& buffer, unsigned target, const void* data, std::size_t bytes);

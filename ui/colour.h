@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <cstdint>
 
 namespace acentric::ui {
@@ -24,22 +25,65 @@ struct Colour {
   ImU32 packed() const { return ImGui::ColorConvertFloat4ToU32(vec()); }
 };
 
-/// The one palette: dark neutral, one accent, four meanings.
+/// All colours of the interface: neutrals, one accent, four meanings. Every ink reads on every surface with a
+/// contrast of at least 4.5 : 1 (WCAG 2), and classes that stand beside each other in legends stay apart for
+/// eyes that miss one kind of cone.
+struct Palette {
+  bool light = false;
+  // Surfaces
+  Colour backdrop, panel, popup, raised, hovered, pressed, border, selected;
+  // Inks
+  Colour text, muted, faint;
+  Colour accent, accentDeep, accentHover, onAccent;  ///< deep: filled buttons; onAccent: their text
+  Colour good, warning, danger;
+  // Classes on plans and in legends
+  Colour done, partly, missing, outdated;
+  Colour alarm;                 ///< outside of a scale, and bad
+  Colour plain;                 ///< outside of a scale, and of no concern
+  std::array<Colour, 4> scale;  ///< of quantities, from little to much
+};
+
+extern const Palette kDarkPalette, kLightPalette;
+
+/// The one in force: that of the window's look (ui/theme.h); without a window the dark one.
+const Palette& currentPalette();
+
+/// A colour of the palette in force, by name: palette::text, ...
+struct PaletteEntry {
+  Colour Palette::*member;
+  const Colour& get() const { return currentPalette().*member; }
+  operator const Colour&() const { return get(); }
+  Colour withOpacity(float opacity) const { return get().withOpacity(opacity); }
+  Colour mixed(const Colour& other, float t) const { return get().mixed(other, t); }
+  ImVec4 vec() const { return get().vec(); }
+  ImU32 packed() const { return get().packed(); }
+};
+
 namespace palette {
-inline constexpr Colour backdrop = Colour::hex(0x121417);
-inline constexpr Colour panel = Colour::hex(0x1b1e23);
-inline constexpr Colour raised = Colour::hex(0x272b32);
-inline constexpr Colour hovered = Colour::hex(0x333841);
-inline constexpr Colour pressed = Colour::hex(0x3d444f);
-inline constexpr Colour border = Colour::hex(0x343a43);
-inline constexpr Colour text = Colour::hex(0xe7e9ec);
-inline constexpr Colour muted = Colour::hex(0xa0a8b3);
-inline constexpr Colour faint = Colour::hex(0x6c7581);
-inline constexpr Colour accent = Colour::hex(0x4f9dff);
-inline constexpr Colour accentDeep = Colour::hex(0x2568c4);
-inline constexpr Colour good = Colour::hex(0x45c08f);
-inline constexpr Colour warning = Colour::hex(0xe6ad4c);
-inline constexpr Colour danger = Colour::hex(0xec6a62);
+inline constexpr PaletteEntry backdrop{&Palette::backdrop};
+inline constexpr PaletteEntry panel{&Palette::panel};
+inline constexpr PaletteEntry popup{&Palette::popup};
+inline constexpr PaletteEntry raised{&Palette::raised};
+inline constexpr PaletteEntry hovered{&Palette::hovered};
+inline constexpr PaletteEntry pressed{&Palette::pressed};
+inline constexpr PaletteEntry border{&Palette::border};
+inline constexpr PaletteEntry selected{&Palette::selected};
+inline constexpr PaletteEntry text{&Palette::text};
+inline constexpr PaletteEntry muted{&Palette::muted};
+inline constexpr PaletteEntry faint{&Palette::faint};
+inline constexpr PaletteEntry accent{&Palette::accent};
+inline constexpr PaletteEntry accentDeep{&Palette::accentDeep};
+inline constexpr PaletteEntry accentHover{&Palette::accentHover};
+inline constexpr PaletteEntry onAccent{&Palette::onAccent};
+inline constexpr PaletteEntry good{&Palette::good};
+inline constexpr PaletteEntry warning{&Palette::warning};
+inline constexpr PaletteEntry danger{&Palette::danger};
+inline constexpr PaletteEntry done{&Palette::done};
+inline constexpr PaletteEntry partly{&Palette::partly};
+inline constexpr PaletteEntry missing{&Palette::missing};
+inline constexpr PaletteEntry outdated{&Palette::outdated};
+inline constexpr PaletteEntry alarm{&Palette::alarm};
+inline constexpr PaletteEntry plain{&Palette::plain};
 }  // namespace palette
 
 }  // namespace acentric::ui

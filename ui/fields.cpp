@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "ui/colour.h"
+#include "ui/text_format.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace acentric::ui {
@@ -17,7 +19,7 @@ void beginField(const char* label, float labelWidth, const char* help) {
   ImGui::AlignTextToFramePadding();
   mutedText(label);
   tooltip(help);
-  ImGui::SameLine(labelWidth);
+  ImGui::SameLine(scaled(labelWidth));
   ImGui::SetNextItemWidth(-1);
 }
 
@@ -35,7 +37,7 @@ FieldEdit numberField(const NumberField& field, double& value, float labelWidth)
   double edited = std::abs(value) < 1e-9 ? 0.0 : value;  // no "-0.00"
   const bool touched =
       ImGui::DragScalar("##value", ImGuiDataType_Double, &edited, float(field.speed), &field.least,
-                        &field.most, field.format, ImGuiSliderFlags_AlwaysClamp);
+                        &field.most, withDigits(field.format, edited).c_str(), ImGuiSliderFlags_AlwaysClamp);
   const bool changed = touched && std::isfinite(edited) && edited != value;
   if (changed) value = std::clamp(edited, field.least, field.most);
   return endField(changed, field.help);
@@ -55,7 +57,7 @@ FieldEdit numberField(const NumberField& field, int& value, float labelWidth) {
 
 FieldEdit checkField(const char* label, bool& value, float labelWidth, const char* help) {
   beginField(label, labelWidth, help);
-  const bool changed = ImGui::Checkbox("##value", &value);
+  const bool changed = checkBox("##value", &value);
   FieldEdit edit = endField(changed, help);
   edit.finished = changed;
   return edit;

@@ -22,7 +22,7 @@ struct NumberField {
   const char* help = "";
 };
 
-/// `labelWidth` pixels for the label column.
+/// `labelWidth` for the label column, unscaled.
 FieldEdit numberField(const NumberField& field, double& value, float labelWidth);
 FieldEdit numberField(const NumberField& field, int& value, float labelWidth);
 FieldEdit checkField(const char* label, bool& value, float labelWidth, const char* help = "");

@@ -10,6 +10,7 @@
 #include "ui/colour.h"
 #include "ui/keys.h"
 #include "ui/text_format.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 namespace acentric::ui {
@@ -135,9 +136,11 @@ void FileBrowser::drawPlaces() {
 }
 
 void FileBrowser::drawEntries(UiLog& log) {
-  const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 16;
+  const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + scaled(16);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::backdrop.vec());
-  ImGui::BeginChild("##entries", {0, -footer}, true);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, scaled(ImVec2(8, 6)));
+  ImGui::BeginChild("##entries", {0, -footer}, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PopStyleVar();
   const std::vector<std::size_t> shown = shownEntries();
   if (!listing_.problem.empty()) wrappedText(palette::danger, listing_.problem);
   if (shown.empty() && listing_.problem.empty()) mutedText("Nothing to open in this folder.");
@@ -180,6 +183,7 @@ void FileBrowser::drawFooter(UiLog& log) {
     question_.clear();
   }
   log.item("file.name");
+  ImGui::AlignTextToFramePadding();
   if (question_.empty()) {
     std::string filter = "All files";
     if (!request_.endings.empty()) filter = fmt::format("{}", fmt::join(request_.endings, "  "));
@@ -187,7 +191,7 @@ void FileBrowser::drawFooter(UiLog& log) {
   } else {
     wrappedText(palette::warning, question_);
   }
-  const float width = 96;
+  const float width = scaled(96);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - 2 * width - ImGui::GetStyle().ItemSpacing.x);
   if (button("Cancel", {width, 0})) open_ = false;
   log.item("file.cancel");
@@ -206,7 +210,7 @@ void FileBrowser::draw(UiLog& log) {
   }
   const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(centre, ImGuiCond_Appearing, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({760, 520}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSize(scaled(ImVec2(760, 520)), ImGuiCond_Appearing);
   bool stay = true;
   if (ImGui::BeginPopupModal(id.c_str(), &stay, ImGuiWindowFlags_NoSavedSettings)) {
     drawPlaces();

@@ -16,6 +16,8 @@ unsigned GlName<kind>::made() {
   if constexpr (kind == GlKind::texture) glGenTextures(1, &name_);
   if constexpr (kind == GlKind::vertexArray) glGenVertexArrays(1, &name_);
   if constexpr (kind == GlKind::program) name_ = glCreateProgram();
+  if constexpr (kind == GlKind::renderbuffer) glGenRenderbuffers(1, &name_);
+  if constexpr (kind == GlKind::framebuffer) glGenFramebuffers(1, &name_);
   return name_;
 }
 
@@ -26,6 +28,8 @@ void GlName<kind>::reset() {
   if constexpr (kind == GlKind::texture) glDeleteTextures(1, &name_);
   if constexpr (kind == GlKind::vertexArray) glDeleteVertexArrays(1, &name_);
   if constexpr (kind == GlKind::program) glDeleteProgram(name_);
+  if constexpr (kind == GlKind::renderbuffer) glDeleteRenderbuffers(1, &name_);
+  if constexpr (kind == GlKind::framebuffer) glDeleteFramebuffers(1, &name_);
   name_ = 0;
 }
 
@@ -33,6 +37,8 @@ template class GlName<GlKind::buffer>;
 template class GlName<GlKind::texture>;
 template class GlName<GlKind::vertexArray>;
 template class GlName<GlKind::program>;
+template class GlName<GlKind::renderbuffer>;
+template class GlName<GlKind::framebuffer>;
 
 namespace {
 

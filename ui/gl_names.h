@@ -7,7 +7,7 @@
 
 namespace acentric::ui {
 
-enum class GlKind { buffer, texture, vertexArray, program };
+enum class GlKind { buffer, texture, vertexArray, program, renderbuffer, framebuffer };
 
 /// Move only; 0 = none.
 template <GlKind kind>

@@ -1,6 +1,19 @@
 #include "ui/input_queue.h"
 
+#include "ui/keys.h"
+
 namespace acentric::ui {
+namespace {
+
+/// X11 tells of a modifier's own key what was held before it.
+int modifiersAfter(const InputEvent& event) {
+  if (event.kind == InputEvent::Kind::buttonPress || event.kind == InputEvent::Kind::buttonRelease)
+    return event.modifiers;
+  const int own = key::modifierOf(event.code);
+  return event.kind == InputEvent::Kind::keyRelease ? event.modifiers & ~own : event.modifiers | own;
+}
+
+}  // namespace
 
 void InputQueue::push(const InputEvent& event) {
   using Kind = InputEvent::Kind;
@@ -22,7 +35,7 @@ void InputQueue::push(const InputEvent& event) {
     case Kind::scroll:
       break;
   }
-  if (event.kind != Kind::scroll && event.kind != Kind::move) modifiers_ = event.modifiers;
+  if (event.kind != Kind::scroll && event.kind != Kind::move) modifiers_ = modifiersAfter(event);
   if (event.kind == Kind::move) pointer_ = event.position;
   if (event.kind == Kind::move && !events_.empty() && events_.back().kind == Kind::move) {
     events_.back() = event;

@@ -31,6 +31,9 @@ void MarkMesh::setPlaces(std::span<const CanvasMark> marks) {
       data.push_back(
           {glm::vec2(mark.place - tile.origin), {mark.lowRadians, mark.widthRadians}, tiles_.order[n]});
     }
+  ContentHash hash;
+  hash.add(marks);
+  places_ = hash.value();
   glBindVertexArray(array_.made());
   uploadTo(data_, GL_ARRAY_BUFFER, data.data(), data.size() * sizeof(Instance));
   for (const unsigned place : {0U, 1U, 2U}) {
@@ -70,7 +73,12 @@ void MarkMesh::render(const CanvasView& view, const CanvasTarget& target, const 
 
 void MarkMesh::draw(ImDrawList& list, const CanvasView& view, const MarkLook& look) {
   if (empty() || !(look.opacity > 0)) return;
-  pending_ = [this, view, look](const CanvasTarget& target) { render(view, target, look); };
+  ContentHash hash;
+  hash.add(places_);
+  hash.add(table_.content());
+  hash.add(look);
+  addView(hash, view);
+  pending_ = {[this, view, look](const CanvasTarget& target) { render(view, target, look); }, hash.value()};
   addRender(list, &pending_);
 }
 

@@ -45,6 +45,7 @@ class MarkMesh {
   GlName<GlKind::vertexArray> array_;
   GlName<GlKind::buffer> data_;
   ColourTable table_;
+  std::uint64_t places_ = 0;  ///< content of what setPlaces was given
   CanvasRender pending_;
 };
 

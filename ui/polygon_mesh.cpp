@@ -64,6 +64,10 @@ void PolygonMesh::setShapes(std::span<const glm::dvec2> corners, std::span<const
     triangles_.push_back({firstIndex, indices.size() - firstIndex});
     edges_.push_back({firstEdge, edges.size() - firstEdge});
   }
+  ContentHash hash;
+  hash.add(corners);
+  hash.add(ends);
+  shapes_ = hash.value();
   glBindVertexArray(fillArray_.made());
   uploadTo(corners_, GL_ARRAY_BUFFER, cornerData.data(), cornerData.size() * sizeof(Corner));
   uploadTo(indices_, GL_ELEMENT_ARRAY_BUFFER, indices.data(), indices.size() * sizeof(std::uint32_t));
@@ -127,7 +131,13 @@ void PolygonMesh::render(const CanvasView& view, const CanvasTarget& target, flo
 
 void PolygonMesh::draw(ImDrawList& list, const CanvasView& view, float lineOpacity) {
   if (empty()) return;
-  pending_ = [this, view, lineOpacity](const CanvasTarget& target) { render(view, target, lineOpacity); };
+  ContentHash hash;
+  hash.add(shapes_);
+  hash.add(table_.content());
+  hash.add(lineOpacity);
+  addView(hash, view);
+  pending_ = {[this, view, lineOpacity](const CanvasTarget& target) { render(view, target, lineOpacity); },
+              hash.value()};
   addRender(list, &pending_);
 }
 

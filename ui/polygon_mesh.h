@@ -45,6 +45,7 @@ class PolygonMesh {
   ColourTable table_;
   double widestLine_ = 1;
   bool anyFill_ = false;
+  std::uint64_t shapes_ = 0;  ///< content of what setShapes was given
   CanvasRender pending_;
 };
 

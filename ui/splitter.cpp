@@ -5,14 +5,17 @@
 #include <algorithm>
 
 #include "ui/colour.h"
+#include "ui/theme.h"
 
 namespace acentric::ui {
+
+float splitterPixels() { return scaled(5); }
 
 bool splitter(const char* id, SplitDirection direction, float length, float& size, float least, float most,
               bool sizesNext) {
   const bool horizontal = direction == SplitDirection::horizontal;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 extent = horizontal ? ImVec2(kSplitterPixels, length) : ImVec2(length, kSplitterPixels);
+  const ImVec2 extent = horizontal ? ImVec2(splitterPixels(), length) : ImVec2(length, splitterPixels());
   ImGui::InvisibleButton(id, extent);
   const bool active = ImGui::IsItemActive();
   const bool hovered = ImGui::IsItemHovered();

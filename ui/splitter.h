@@ -5,7 +5,8 @@ namespace acentric::ui {
 
 enum class SplitDirection { horizontal, vertical };  ///< of the drag
 
-inline constexpr float kSplitterPixels = 5;
+/// Its thickness, scaled.
+float splitterPixels();
 
 /// Draws a splitter at the cursor, `length` pixels long, that changes `size` of the pane before it (or after
 /// it, if `sizesNext`), kept in [least, most]. True while dragged.

@@ -50,6 +50,17 @@ std::string formatPercent(double fraction) {
   return std::abs(percent) < 9.95 ? fmt::format("{:.2f} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
+std::string withDigits(const std::string& format, double value) {
+  constexpr int kMost = 6;
+  const std::size_t at = format.find("%.");
+  if (at == std::string::npos || at + 3 >= format.size() || format[at + 3] != 'f') return format;
+  int decimals = format[at + 2] - '0';
+  while (value != 0 && decimals < kMost && std::abs(value) * std::pow(10, decimals) < 9.5) ++decimals;
+  std::string more = format;
+  more[at + 2] = char('0' + decimals);
+  return more;
+}
+
 std::string shortenPath(const std::string& path, std::size_t length) {
   if (path.size() <= length || length < 8) return path;
   std::size_t head = length / 4;

@@ -5,12 +5,17 @@
 #include <cstdint>
 #include <utility>
 
+#include "ui/content_hash.h"
+
 namespace acentric::ui {
 
 Texture::~Texture() { clear(); }
 
 Texture::Texture(Texture&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), width_(other.width_), height_(other.height_) {}
+    : id_(std::exchange(other.id_, 0)),
+      width_(other.width_),
+      height_(other.height_),
+      content_(other.content_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
   if (this != &other) {
@@ -18,6 +23,7 @@ Texture& Texture::operator=(Texture&& other) noexcept {
     id_ = std::exchange(other.id_, 0);
     width_ = other.width_;
     height_ = other.height_;
+    content_ = other.content_;
   }
   return *this;
 }
@@ -41,6 +47,11 @@ void Texture::upload(int width, int height, std::span<const std::uint8_t> rgba, 
   glBindTexture(GL_TEXTURE_2D, 0);
   width_ = width;
   height_ = height;
+  ContentHash hash;
+  hash.add(width);
+  hash.add(smooth);
+  hash.add(rgba.first(std::size_t(width) * std::size_t(height) * 4));
+  content_ = std::uint32_t(hash.value());
 }
 
 void Texture::clear() {
@@ -48,8 +59,10 @@ void Texture::clear() {
   id_ = 0;
 }
 
-ImTextureID Texture::imguiTexture(unsigned name) {
-  return reinterpret_cast<ImTextureID>(std::uintptr_t(name));  // what ImGui's OpenGL backend expects
+ImTextureID Texture::imguiTexture(unsigned name, std::uint32_t content) {
+  // ImGui's OpenGL backend reads the lower half.
+  static_assert(sizeof(ImTextureID) == 8 && sizeof name == 4);
+  return reinterpret_cast<ImTextureID>(std::uintptr_t(content) << 32 | name);
 }
 
 }  // namespace acentric::ui

@@ -20,15 +20,17 @@ class Texture {
   bool empty() const { return id_ == 0; }
   int width() const { return width_; }
   int height() const { return height_; }
-  ImTextureID imguiId() const { return imguiTexture(id_); }
+  ImTextureID imguiId() const { return imguiTexture(id_, content_); }
 
-  /// ImGui's handle of any OpenGL texture name.
-  static ImTextureID imguiTexture(unsigned name);
+  /// ImGui's handle of any OpenGL texture name. It says too which picture the texture holds, by a number that
+  /// other pictures do not have, so that the window knows when it must draw it again (damage.h).
+  static ImTextureID imguiTexture(unsigned name, std::uint32_t content);
 
  private:
   unsigned id_ = 0;
   int width_ = 0;
   int height_ = 0;
+  std::uint32_t content_ = 0;
 };
 
 }  // namespace acentric::ui

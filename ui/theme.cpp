@@ -1,6 +1,7 @@
 #include "ui/theme.h"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "ui/colour.h"
@@ -52,12 +53,13 @@ void setSizes(ImGuiStyle& style) {
 
 void setColours(ImGuiStyle& style) {
   using namespace palette;
+  const bool light = currentPalette().light;
   const auto set = [&style](ImGuiCol_ id, const Colour& colour) { style.Colors[id] = colour.vec(); };
   set(ImGuiCol_Text, text);
   set(ImGuiCol_TextDisabled, muted);
   set(ImGuiCol_WindowBg, panel);
   set(ImGuiCol_ChildBg, panel.withOpacity(0));
-  set(ImGuiCol_PopupBg, Colour::hex(0x22262c, 0.985F));
+  set(ImGuiCol_PopupBg, popup.withOpacity(0.985F));
   set(ImGuiCol_Border, border);
   set(ImGuiCol_BorderShadow, panel.withOpacity(0));
   set(ImGuiCol_FrameBg, raised);
@@ -77,7 +79,7 @@ void setColours(ImGuiStyle& style) {
   set(ImGuiCol_Button, raised);
   set(ImGuiCol_ButtonHovered, hovered);
   set(ImGuiCol_ButtonActive, pressed);
-  set(ImGuiCol_Header, accentDeep.withOpacity(0.45F));
+  set(ImGuiCol_Header, selected);
   set(ImGuiCol_HeaderHovered, hovered);
   set(ImGuiCol_HeaderActive, pressed);
   set(ImGuiCol_Separator, border);
@@ -95,34 +97,53 @@ void setColours(ImGuiStyle& style) {
   set(ImGuiCol_TableHeaderBg, raised);
   set(ImGuiCol_TableBorderStrong, border);
   set(ImGuiCol_TableBorderLight, border.withOpacity(0.5F));
-  set(ImGuiCol_TableRowBgAlt, Colour::hex(0xffffff, 0.02F));
-  set(ImGuiCol_TextSelectedBg, accentDeep.withOpacity(0.6F));
+  set(ImGuiCol_TableRowBgAlt, text.withOpacity(0.03F));
+  set(ImGuiCol_TextSelectedBg, accent.withOpacity(0.35F));
   set(ImGuiCol_DragDropTarget, accent);
   set(ImGuiCol_NavHighlight, accent);
-  set(ImGuiCol_ModalWindowDimBg, Colour::hex(0x000000, 0.55F));
+  set(ImGuiCol_ModalWindowDimBg, Colour::hex(0x000000, light ? 0.32F : 0.55F));
 }
 
 }  // namespace
 
-Fonts applyTheme(float scale, std::string& missingFont) {
+Fonts applyTheme(const Look& look, std::string& missingFont) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.UserData = const_cast<Look*>(&look);  // ImGui's slot for the program; read by currentLook() alone
   ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
   setSizes(style);
   setColours(style);
-  style.ScaleAllSizes(scale);
+  style.ScaleAllSizes(look.scale);
 
+  io.Fonts->Clear();
   Fonts fonts;
-  fonts.regular = loadFont(kRegularFont, 14.0F * scale);
-  fonts.bold = loadFont(kBoldFont, 14.0F * scale);
-  fonts.small = loadFont(kRegularFont, 11.5F * scale);
-  fonts.title = loadFont(kRegularFont, 24.0F * scale);
+  fonts.regular = loadFont(kRegularFont, std::round(14.0F * look.scale));
+  fonts.bold = loadFont(kBoldFont, std::round(14.0F * look.scale));
+  fonts.small = loadFont(kRegularFont, 11.5F * look.scale);
+  fonts.title = loadFont(kRegularFont, std::round(24.0F * look.scale));
   if (fonts.regular == nullptr) {
     missingFont = kRegularFont;
-    fonts.regular = ImGui::GetIO().Fonts->AddFontDefault();
+    ImFontConfig config;
+    config.SizePixels = std::round(13.0F * look.scale);
+    fonts.regular = io.Fonts->AddFontDefault(&config);
   }
   if (fonts.bold == nullptr) fonts.bold = fonts.regular;
   if (fonts.small == nullptr) fonts.small = fonts.regular;
   if (fonts.title == nullptr) fonts.title = fonts.regular;
   return fonts;
 }
+
+const Look* currentLook() {
+  return ImGui::GetCurrentContext() == nullptr ? nullptr : static_cast<const Look*>(ImGui::GetIO().UserData);
+}
+
+float interfaceScale() {
+  const Look* look = currentLook();
+  return look != nullptr ? look->scale : 1;
+}
+
+float scaled(float pixels) { return pixels * interfaceScale(); }
+
+ImVec2 scaled(const ImVec2& pixels) { return {scaled(pixels.x), scaled(pixels.y)}; }
 
 }  // namespace acentric::ui

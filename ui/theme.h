@@ -15,9 +15,22 @@ struct Fonts {
   ImFont* title = nullptr;  ///< empty states
 };
 
-/// Sets style and loads fonts into the current ImGui context; call once, before the first frame.
-/// `scale` is the display's content scale (1 = 96 dpi). `missingFont` is set to what was not found, if
-/// anything.
-Fonts applyTheme(float scale, std::string& missingFont);
+/// What the user chose of the look, or the display asks for.
+struct Look {
+  bool light = false;
+  float scale = 1;  ///< of texts, paddings, marks and reach; 1 = 96 dpi
+  bool operator==(const Look&) const = default;
+};
+
+/// Sets style and fonts of the current ImGui context, anew at any time between two frames; `look` must live
+/// as long as the context. `missingFont` is set to what was not found, if anything.
+Fonts applyTheme(const Look& look, std::string& missingFont);
+/// The one that was applied last; null without a window.
+const Look* currentLook();
+/// Of the look that was applied last; 1 without a window.
+float interfaceScale();
+/// Lengths in the code are of a display with 96 dpi: as many pixels on this one.
+float scaled(float pixels);
+ImVec2 scaled(const ImVec2& pixels);
 
 }  // namespace acentric::ui

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
 namespace acentric::ui {
 
 Colour colourOf(Tone tone) {
@@ -51,14 +54,15 @@ bool Toasts::covers(const ImVec2& place) const {
   });
 }
 
-void Toasts::draw(const ImVec2& lowerRight) {
-  constexpr float kWidth = 380;
+bool Toasts::draw(const ImVec2& lowerRight, UiLog& log) {
+  const float width = std::clamp(lowerRight.x, 1.0F, scaled(380));
+  bool details = false;
   float bottom = lowerRight.y;
   int clicked = -1;
   for (int i = int(toasts_.size()) - 1; i >= 0; --i) {
     Toast& toast = toasts_[std::size_t(i)];
     ImGui::SetNextWindowPos({lowerRight.x, bottom}, ImGuiCond_Always, {1, 1});
-    ImGui::SetNextWindowSize({kWidth, 0});
+    ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette::raised.withOpacity(0.97F).vec());
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -66,20 +70,32 @@ void Toasts::draw(const ImVec2& lowerRight) {
     if (ImGui::Begin(fmt::format("##toast{}", i).c_str(), nullptr, kFlags)) {
       const ImVec2 at = ImGui::GetWindowPos();
       const ImVec2 size = ImGui::GetWindowSize();
-      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + 4, at.y + size.y}, colourOf(toast.tone).packed(),
-                                                3);
+      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + scaled(4), at.y + size.y},
+                                                colourOf(toast.tone).packed(), 3);
       ImGui::PushTextWrapPos(0);
       ImGui::TextUnformatted(toast.text.c_str());
       ImGui::PopTextWrapPos();
-      if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) clicked = i;
+      const bool grave = toast.tone == Tone::warning || toast.tone == Tone::danger;
+      if (grave && ImGui::SmallButton("Details")) {
+        details = true;
+        clicked = i;
+      }
+      if (grave) {
+        log.item("toast.details");
+        tooltip("Shows the message among all others, where it can be copied.");
+      }
+      if (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered() &&
+          ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        clicked = i;
       toast.low = at;
       toast.high = {at.x + size.x, at.y + size.y};
-      bottom -= size.y + 8;
+      bottom -= size.y + scaled(8);
     }
     ImGui::End();
     ImGui::PopStyleColor();
   }
   if (clicked >= 0) toasts_.erase(toasts_.begin() + clicked);
+  return details;
 }
 
 }  // namespace acentric::ui

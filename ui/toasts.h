@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ui/colour.h"
+#include "ui/ui_log.h"
 
 namespace acentric::ui {
 
@@ -27,8 +28,8 @@ class Toasts {
   std::size_t count() const { return toasts_.size(); }
   /// Does a toast that was drawn last cover this place (window pixels)?
   bool covers(const ImVec2& place) const;
-  /// Stacked upwards from a corner (window pixels).
-  void draw(const ImVec2& lowerRight);
+  /// Stacked upwards from a corner (window pixels). True if the details of one were asked for.
+  bool draw(const ImVec2& lowerRight, UiLog& log);
 
  private:
   struct Toast {

@@ -18,9 +18,11 @@ void UiLog::line(const std::string& text) {
 
 void UiLog::beginFrame() {
   for (auto& [name, seen] : seen_) seen.now = false;
+  watchedPlace_.reset();
 }
 
 void UiLog::rect(std::string_view name, float x0, float y0, float x1, float y1) {
+  if (name == watched_) watchedPlace_ = Rect{x0, y0, x1, y1};
   if (!on()) return;
   std::string place = fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", x0, y0, x1, y1);
   auto found = seen_.find(name);
@@ -32,7 +34,7 @@ void UiLog::rect(std::string_view name, float x0, float y0, float x1, float y1) 
 }
 
 void UiLog::item(std::string_view name) {
-  if (!on()) return;
+  if (!on() && name != watched_) return;
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high = ImGui::GetItemRectMax();
   rect(name, low.x, low.y, high.x, high.y);

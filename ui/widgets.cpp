@@ -1,7 +1,11 @@
 #include "ui/widgets.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "ui/theme.h"
 
 namespace acentric::ui {
 namespace {
@@ -21,8 +25,11 @@ bool colouredButton(const char* label, const ImVec2& size, bool enabled, const C
 }  // namespace
 
 bool primaryButton(const char* label, const ImVec2& size, bool enabled) {
-  return colouredButton(label, size, enabled, palette::accentDeep,
-                        palette::accentDeep.mixed(palette::accent, 0.4F), palette::accent);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette::onAccent.vec());
+  const bool clicked =
+      colouredButton(label, size, enabled, palette::accentDeep, palette::accentHover, palette::accentDeep);
+  ImGui::PopStyleColor();
+  return clicked;
 }
 
 bool button(const char* label, const ImVec2& size, bool enabled) {
@@ -31,6 +38,20 @@ bool button(const char* label, const ImVec2& size, bool enabled) {
 
 bool toggleButton(const char* label, bool on, const ImVec2& size) {
   return on ? primaryButton(label, size) : button(label, size);
+}
+
+bool checkBox(const char* label, bool* value) {
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, scaled(1));
+  ImGui::PushStyleColor(ImGuiCol_Border, palette::faint.vec());
+  const bool clicked = ImGui::Checkbox(label, value);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  return clicked;
+}
+
+void closeTopPopup() {
+  const int open = GImGui->OpenPopupStack.Size;
+  if (open > 0) ImGui::ClosePopupToLevel(open - 1, true);
 }
 
 void panelTitle(ImFont* bold, const char* text) {
@@ -68,17 +89,17 @@ void wrappedText(const Colour& colour, const std::string& text) {
 
 void keyValue(const char* label, const std::string& value, float valueX) {
   mutedText(label);
-  ImGui::SameLine(valueX);
+  ImGui::SameLine(scaled(valueX));
   ImGui::TextUnformatted(value.c_str());
 }
 
 void progressBar(double fraction, const std::string& text, double seconds, const Colour& colour) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 size(std::max(20.0F, ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
+  const ImVec2 size(std::max(scaled(20), ImGui::GetContentRegionAvail().x), ImGui::GetFrameHeight());
   ImGui::Dummy(size);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);
-  list.AddRectFilled(at, end, palette::raised.packed(), 4);
+  list.AddRectFilled(at, end, palette::raised.packed(), scaled(4));
   float from = 0;
   float to = float(std::clamp(fraction, 0.0, 1.0));
   if (fraction < 0) {
@@ -88,26 +109,33 @@ void progressBar(double fraction, const std::string& text, double seconds, const
   }
   if (to > from && (to - from) * size.x >= 2)
     list.AddRectFilled({at.x + from * size.x, at.y}, {at.x + to * size.x, end.y},
-                       colour.withOpacity(0.55F).packed(), 4);
+                       colour.withOpacity(0.55F).packed(), scaled(4));
   const ImVec2 textSize = ImGui::CalcTextSize(text.c_str());
   list.PushClipRect(at, end, true);
-  list.AddText({at.x + std::max(8.0F, (size.x - textSize.x) / 2), at.y + (size.y - textSize.y) / 2},
+  list.AddText({at.x + std::max(scaled(8), (size.x - textSize.x) / 2), at.y + (size.y - textSize.y) / 2},
                palette::text.packed(), text.c_str());
   list.PopClipRect();
 }
 
-void badge(const Colour& colour, const std::string& text) {
+void badge(const Colour& colour, const std::string& text, Mark mark) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float line = ImGui::GetTextLineHeight();
-  ImGui::SetCursorScreenPos({at.x + 15, at.y});
+  ImGui::SetCursorScreenPos({at.x + scaled(15), at.y});
   ImGui::TextUnformatted(text.c_str());
   const float top = ImGui::GetItemRectMin().y;  // lower than `at` beside buttons
-  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 5, top + line / 2 + 0.5F}, 4, colour.packed());
+  const ImVec2 centre(at.x + scaled(5), top + line / 2 + 0.5F);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (mark == Mark::disc) return list.AddCircleFilled(centre, scaled(4), colour.packed());
+  list.AddCircle(centre, scaled(3.5F), colour.packed(), 0, scaled(1.4F));
+  if (mark == Mark::ring) return;
+  constexpr float kQuarter = 1.5707963F;
+  list.PathArcTo(centre, scaled(4), -kQuarter, kQuarter, 12);
+  list.PathFillConvex(colour.packed());
 }
 
 void tooltip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10, 8});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, scaled(ImVec2(10, 8)));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28);
   ImGui::TextUnformatted(text.c_str());

@@ -8,11 +8,14 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "ui/colour.h"
 #include "ui/keys.h"
+#include "ui/window_picture.h"
 
 namespace acentric::ui {
 namespace {
@@ -21,7 +24,10 @@ static_assert(key::space == GLFW_KEY_SPACE && key::digit3 == GLFW_KEY_3 && key::
 static_assert(key::a == GLFW_KEY_A && key::l == GLFW_KEY_L && key::q == GLFW_KEY_Q && key::z == GLFW_KEY_Z);
 static_assert(key::t == GLFW_KEY_T && key::v == GLFW_KEY_V);
 static_assert(key::escape == GLFW_KEY_ESCAPE && key::del == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME);
+static_assert(key::comma == GLFW_KEY_COMMA && key::k == GLFW_KEY_K && key::f10 == GLFW_KEY_F10);
+static_assert(key::leftAlt == GLFW_KEY_LEFT_ALT && key::rightAlt == GLFW_KEY_RIGHT_ALT);
 static_assert(key::up == GLFW_KEY_UP && key::f1 == GLFW_KEY_F1 && key::f5 == GLFW_KEY_F5);
+static_assert(key::k == GLFW_KEY_K && key::m == GLFW_KEY_M && key::f12 == GLFW_KEY_F12);
 static_assert(key::keypadEnter == GLFW_KEY_KP_ENTER && key::rightShift == GLFW_KEY_RIGHT_SHIFT);
 static_assert(mouse::right == GLFW_MOUSE_BUTTON_RIGHT && mouse::middle == GLFW_MOUSE_BUTTON_MIDDLE);
 static_assert(modifier::shift == GLFW_MOD_SHIFT && modifier::control == GLFW_MOD_CONTROL &&
@@ -70,18 +76,19 @@ tl::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowOpti
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // the layout is the program's own affair
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  float scaleX = 1;
-  float scaleY = 1;
-  glfwGetWindowContentScale(window->window_, &scaleX, &scaleY);
-  window->fonts_ = applyTheme(scaleX, window->missingFont_);
+  window->look_ = {options.light, options.scale > 0 ? options.scale : window->displayScale()};
+  window->wantedLook_ = {options.light, options.scale};
+  window->fonts_ = applyTheme(window->look_, window->missingFont_);
   // Chains to our callbacks, which therefore must be installed already.
   if (!ImGui_ImplGlfw_InitForOpenGL(window->window_, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
     return tl::unexpected(std::string("the interface could not be set up on this OpenGL context"));
   window->imguiReady_ = true;
+  window->picture_ = std::make_unique<WindowPicture>();
   return window;
 }
 
 Window::~Window() {
+  picture_.reset();
   if (imguiReady_) {
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
@@ -136,13 +143,74 @@ void Window::installCallbacks() {
   });
   glfwSetFramebufferSizeCallback(window_,
                                  [](GLFWwindow* handle, int, int) { windowOf(handle).pacer_.request(); });
-  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { windowOf(handle).pacer_.request(); });
+  glfwSetWindowContentScaleCallback(
+      window_, [](GLFWwindow* handle, float, float) { windowOf(handle).pacer_.request(); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) {
+    windowOf(handle).exposed_ = true;
+    windowOf(handle).pacer_.request();
+  });
+}
+
+float Window::displayScale() const {
+  float content = 1;
+  glfwGetWindowContentScale(window_, &content, nullptr);
+  // Where window coordinates are scaled by the system (Wayland), the framebuffer already has the pixels.
+  int windowWidth = 0;
+  int pixelWidth = 0;
+  glfwGetWindowSize(window_, &windowWidth, nullptr);
+  glfwGetFramebufferSize(window_, &pixelWidth, nullptr);
+  if (windowWidth > 0 && pixelWidth > windowWidth) content *= float(windowWidth) / float(pixelWidth);
+  constexpr float kLeast = 0.5F, kMost = 4;
+  return std::isfinite(content) ? std::clamp(content, kLeast, kMost) : 1;
+}
+
+void Window::setLook(bool light, float scale) {
+  wantedLook_ = {light, scale};
+  pacer_.request();
+}
+
+void Window::applyLook() {
+  const Look look{wantedLook_.light, wantedLook_.scale > 0 ? wantedLook_.scale : displayScale()};
+  if (look == look_) return;
+  look_ = look;
+  fonts_ = applyTheme(look_, missingFont_);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  picture_->forget();
+}
+
+/// ImGui polls: a key that went down and up since the last frame would be missed by it.
+void Window::feedShortPresses() {
+  ImGuiIO& io = ImGui::GetIO();
+  for (const int code : tapped_)
+    if (!input_.keyHeld(code)) io.KeysDown[code] = false;
+  tapped_.clear();
+  for (const InputEvent& event : input_.pending()) {
+    const bool known = event.code >= 0 && event.code < IM_ARRAYSIZE(io.KeysDown);
+    if (event.kind != InputEvent::Kind::keyPress || !known || io.KeysDown[event.code]) continue;
+    io.KeysDown[event.code] = true;
+    tapped_.push_back(event.code);
+  }
+  if (!tapped_.empty()) pacer_.request();
+  // ImGui's navigation presses buttons by Space alone; Enter shall, too, where it ends no text.
+  if ((io.ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) == 0 || io.WantTextInput) return;
+  const bool enter = io.KeysDown[key::enter] || io.KeysDown[key::keypadEnter];
+  const bool tapped = std::ranges::find(tapped_, key::space) != tapped_.end();
+  io.KeysDown[key::space] = enter || tapped || input_.keyHeld(key::space);
+}
+
+void Window::navigateByKeys(bool on) {
+  ImGuiConfigFlags& flags = ImGui::GetIO().ConfigFlags;
+  flags = on ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
 void Window::run(const std::function<void()>& update, const std::function<void()>& draw) {
   while (!closing_) {
     const double sleep = pacer_.sleepSeconds(seconds());
-    const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || width < 1 || height < 1;
     if (hidden)
       glfwWaitEventsTimeout(FramePacer::kIdleSleep);
     else if (sleep > 0)
@@ -157,28 +225,23 @@ void Window::run(const std::function<void()>& update, const std::function<void()
 void Window::drawFrame(const std::function<void()>& draw) {
   FrameTime time{seconds()};
   pacer_.drawn(time.beginSeconds);
+  applyLook();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  feedShortPresses();
   ImGui::NewFrame();
   draw();
   ImGui::Render();
   time.listSeconds = seconds() - time.beginSeconds;
-  int width = 0;
-  int height = 0;
-  glfwGetFramebufferSize(window_, &width, &height);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, width, height);
-  glDisable(GL_SCISSOR_TEST);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(palette::backdrop.r, palette::backdrop.g, palette::backdrop.b, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (tellFrame_) glFinish();
-  glfwSwapBuffers(window_);
+  if (picture_->draw(*ImGui::GetDrawData(), palette::backdrop) || std::exchange(exposed_, false)) {
+    picture_->show();
+    if (tellFrame_) glFinish();
+    glfwSwapBuffers(window_);
+  }
   ++frames_;
-  if (!tellFrame_) return;
   time.renderSeconds = seconds() - time.beginSeconds - time.listSeconds;
-  tellFrame_(time);
+  lastFrame_ = time;
+  if (tellFrame_) tellFrame_(time);
 }
 
 bool Window::takeCloseRequest() { return std::exchange(closeRequested_, false); }

@@ -18,11 +18,15 @@ struct GLFWwindow;
 
 namespace acentric::ui {
 
-/// How long the newest frame took, for measuring.
+class WindowPicture;
+
+/// How long a frame took.
 struct FrameTime {
-  double beginSeconds = 0;   ///< Window::seconds() at its beginning
-  double listSeconds = 0;    ///< the program's draw function
-  double renderSeconds = 0;  ///< the graphics card's work, waited for, and showing it
+  double beginSeconds = 0;  ///< Window::seconds() at its beginning
+  double listSeconds = 0;   ///< the program's draw function
+  /// Handing it to the graphics card and showing it, with what the driver makes of that; of measured frames
+  /// all of the graphics card's work.
+  double renderSeconds = 0;
 };
 
 struct WindowOptions {
@@ -30,6 +34,8 @@ struct WindowOptions {
   int width = 1600;  ///< screen coordinates
   int height = 900;
   bool maximised = false;
+  bool light = false;  ///< theme
+  float scale = 0;     ///< of the interface; 0 = the display's
 };
 
 class Window {
@@ -54,6 +60,11 @@ class Window {
   FramePacer& pacer() { return pacer_; }
   InputQueue& input() { return input_; }
   const Fonts& fonts() const { return fonts_; }
+  /// Applied before the next frame. `scale` 0: that of the display the window is on.
+  void setLook(bool light, float scale);
+  const Look& look() const { return look_; }
+  /// Do the arrow keys, Space and Enter go to widgets (ImGui's keyboard navigation)?
+  void navigateByKeys(bool on);
   /// Files dropped on the window since the last call.
   std::vector<std::filesystem::path> takeDropped();
   void setTitle(const std::string& title);
@@ -63,6 +74,7 @@ class Window {
   const std::string& missingFont() const { return missingFont_; }
   glm::ivec2 size() const;
   unsigned long framesDrawn() const { return frames_; }
+  const FrameTime& lastFrame() const { return lastFrame_; }
   /// From now on every frame is waited for and handed to `tell` (empty: no longer).
   void measureFrames(std::function<void(const FrameTime&)> tell) { tellFrame_ = std::move(tell); }
 
@@ -70,12 +82,19 @@ class Window {
   Window() = default;
   void installCallbacks();
   void drawFrame(const std::function<void()>& draw);
+  void applyLook();
+  float displayScale() const;
+  void feedShortPresses();
 
   GLFWwindow* window_ = nullptr;
   bool imguiReady_ = false;
+  std::unique_ptr<WindowPicture> picture_;
+  bool exposed_ = false;  ///< the system lost what the window showed
   FramePacer pacer_;
   InputQueue input_;
+  Look look_, wantedLook_;  // wanted: its scale may be 0
   Fonts fonts_;
+  std::vector<int> tapped_;  // keys shown to ImGui for this frame though they are up again
   std::string missingFont_;
   std::string title_;
   std::vector<std::filesystem::path> dropped_;
@@ -83,6 +102,7 @@ class Window {
   bool closeRequested_ = false;
   bool captured_ = false;
   unsigned long frames_ = 0;
+  FrameTime lastFrame_;
   std::function<void(const FrameTime&)> tellFrame_;
 };
 
