@@ -8,28 +8,42 @@
 #include <cstdio>
 
 #include "editor/panels/bake_panel.h"
+#include "editor/panels/bottom_tabs.h"
 #include "editor/panels/menu_bar.h"
-#include "editor/panels/messages_panel.h"
 #include "editor/panels/report_panel.h"
 #include "editor/panels/settings_panel.h"
 #include "editor/panels/status_bar.h"
 #include "editor/panels/welcome.h"
 #include "ui/keys.h"
 #include "ui/splitter.h"
+#include "ui/widgets.h"
 
 namespace acentric::editor {
 namespace {
 
 constexpr ImGuiWindowFlags kFixedWindow =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
+    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+    ImGuiWindowFlags_NoBackground;  // the window is cleared to the same colour
+
+constexpr double kLitSeconds = 1.5;
+constexpr int kFramesBetween = 4;  ///< two menus that arrows go from and to
 
 SessionOptions sessionOptions(const AppOptions& options) {
   SessionOptions session;
   session.importHost = options.importHost;
   session.preferencesFile = preferencesFile();
+  session.unsavedFolder = unsavedWorkFolder();
+  session.inspectAlways = true;
   session.wake = &ui::Window::wake;
   return session;
+}
+
+/// Regions above the triangle budget, as far as they are counted.
+std::size_t overBudget(const Session& session) {
+  const auto inspection = session.inspection();
+  const int most = session.project().budget.trianglesPerRegion;
+  return inspection && most > 0 ? inspection->budgets.over(std::size_t(most)).size() : 0;
 }
 
 ui::Tone toneOf(MessageLevel level) {
@@ -71,7 +85,12 @@ tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& op
     app->session_.messages().add(MessageLevel::warning,
                                  "The font " + app->window_->missingFont() +
                                      " is missing; install fonts-dejavu-core for a better look.");
-  if (!options.file.empty()) app->session_.open(options.file);
+  const Preferences& preferences = app->session_.preferences();
+  // Work that was not saved comes before what is opened by itself: the welcome offers it.
+  const bool byItself = options.file.empty() && app->session_.unsavedWork().empty();
+  const std::filesystem::path file = byItself ? startUpFile(preferences, options.sample) : options.file;
+  if (!file.empty()) app->session_.open(file);
+  app->guideWanted_ = options.file.empty() && !file.empty() && !preferences.guideSeen;
   return app;
 }
 
@@ -80,32 +99,41 @@ App::App(const AppOptions& options, std::unique_ptr<ui::Window> window)
       window_(std::move(window)),
       table_(makeActionTable()),
       session_(sessionOptions(options)),
+      centre_(session_.processors(), &ui::Window::wake),
       walk_(session_.processors(), &ui::Window::wake) {}
 
 App::~App() = default;
 
 void App::run() {
+  const std::stop_callback wakes(options_.stop, &ui::Window::wake);
   window_->run([this] { update(); }, [this] { draw(); });
+  if (options_.stop.stop_requested()) session_.keepWork();
   session_.savePreferencesNow();
 }
 
 void App::update() {
   const double now = ui::Window::seconds();
   if (session_.poll(now)) window_->pacer().request();
-  if (walk_.takeNews()) window_->pacer().request();
+  if (walk_.takeNews() || centre_.takeNews()) window_->pacer().request();
   if (options_.exitAfterSeconds > 0 && now >= options_.exitAfterSeconds) window_->close();
-  if (state_.quit) window_->close();
+  if (state_.quit || options_.stop.stop_requested()) window_->close();
+  followPreferences();
+  startGuide();
+}
+
+bool App::popupOpen() const {
+  return dialogs_.anyOpen() ||
+         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
 bool App::inputBlocked() const {
   const glm::dvec2& at = window_->input().pointer();
-  return dialogs_.anyOpen() ||
-         ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) ||
-         toasts_.covers({float(at.x), float(at.y)});
+  return popupOpen() || toasts_.covers({float(at.x), float(at.y)}) ||
+         guideCard_.covers({float(at.x), float(at.y)});
 }
 
 void App::runShortcuts(PanelContext& context) {
-  if (context.inputBlocked) return;
+  if (popupOpen()) return;  // not inputBlocked: keys reach past what lies under the pointer
   for (const ui::InputEvent& event : context.events) {
     if (event.kind != ui::InputEvent::Kind::keyPress) continue;
     const Shortcut pressed{event.code, event.modifiers & ui::modifier::all};
@@ -139,15 +167,24 @@ void App::tellNews() {
 /// One line whenever what the session holds changed, for tests to wait on.
 void App::logNews(PanelContext& context) {
   if (!log_.on()) return;
+  const auto& sweep = session_.sweeping().sweep();
+  std::string measured = fmt::format("running {} points {}", int(session_.sweeping().running()),
+                                     sweep ? sweep->points.size() : 0);
+  if (measured != loggedSweep_) log_.event("sweep", loggedSweep_ = std::move(measured));
   std::string now = "empty";
   if (session_.built() && session_.captures())
-    now = fmt::format("regions {} captures {} baked {} working {} dirty {} undo {}",
+    now = fmt::format("regions {} captures {} baked {} working {} dirty {} undo {} problems {} over {}",
                       session_.built()->layout->regions.size(), session_.captures()->cameras.size(),
                       session_.captures()->baked, int(session_.working()), int(session_.dirty()),
-                      session_.history().cursor());
+                      session_.history().cursor(), session_.problems().size(), overBudget(session_));
   if (now != loggedState_) {
     log_.event("state", now);
     loggedState_ = now;
+  }
+  if (const int finished = session_.bakeQueue().finished(); finished != loggedFinished_) {
+    log_.event("bakequeue",
+               fmt::format("finished {} of {}", finished, session_.bakeQueue().cameras().size()));
+    loggedFinished_ = finished;
   }
   if (!ready_) {
     ready_ = true;
@@ -158,89 +195,150 @@ void App::logNews(PanelContext& context) {
 void App::keepDrawing(PanelContext& context) {
   constexpr double kWorkingInterval = 0.1;  // bars move, times count down
   if (session_.working()) context.window.pacer().requestAt(context.now + kWorkingInterval);
+  constexpr double kSweepInterval = 1;
+  if (session_.sweeping().running()) context.window.pacer().requestAt(context.now + kSweepInterval);
   if (const auto change = toasts_.nextChange()) context.window.pacer().requestAt(*change);
 }
 
-void App::drawBottom(PanelContext& context, float height) {
-  const float width = ImGui::GetContentRegionAvail().x;
+void App::drawBottom(PanelContext& context, const PaneSizes& panes) {
   const float gap = 2;
-  const float bake = std::floor(width * 0.36F);
-  const float report = std::floor(width * 0.34F);
-  if (beginPane("##bakePane", {bake, height})) drawBakePanel(context);
+  if (beginPane("##bakePane", {panes.bake, panes.bottom})) drawBakePanel(context);
   endPane();
-  ImGui::SameLine(0, gap);
-  if (beginPane("##reportPane", {report, height})) drawReportPanel(context);
-  endPane();
-  ImGui::SameLine(0, gap);
-  if (beginPane("##messagesPane", {width - bake - report - 2 * gap, height})) drawMessagesPanel(context);
-  endPane();
+  if (panes.report > 0) {
+    ImGui::SameLine(0, gap);
+    if (beginPane("##reportPane", {panes.report, panes.bottom})) drawReportPanel(context);
+    endPane();
+  }
+  if (panes.messages > 0) {
+    ImGui::SameLine(0, gap);
+    if (beginPane("##messagesPane", {panes.messages, panes.bottom})) drawBottomTabs(context);
+    endPane();
+  }
 }
 
-void App::drawLayout(PanelContext& context, float top) {
+float App::drawLayout(PanelContext& context, float top) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float height = display.y - top - kStatusBarPixels;
-  Preferences& sizes = session_.preferences();
-  if (beginPane("##settingsPane", {sizes.settingsWidth, height})) drawSettingsPanel(context);
-  endPane();
-  ImGui::SameLine(0, 0);
-  ui::splitter("##split1", ui::SplitDirection::horizontal, height, sizes.settingsWidth, 220,
-               display.x * 0.4F);
-  ImGui::SameLine(0, 0);
-
+  const float scale = window_->look().scale;
+  const float bar = ui::splitterPixels();
+  const float height = std::max(1.0F, display.y - top - statusBarPixels());
+  Preferences& wanted = session_.preferences();
+  const PaneSizes panes = paneSizes(display.x, height, bar, wanted, scale);
+  // Sizes are remembered unscaled.
+  const auto split = [scale](const char* id, ui::SplitDirection direction, float length, float shown,
+                             float& kept, float least, float most, bool sizesNext) {
+    float size = shown;
+    if (ui::splitter(id, direction, length, size, least * scale, most, sizesNext)) kept = size / scale;
+  };
+  using enum ui::SplitDirection;
+  if (panes.settings > 0) {
+    if (beginPane("##settingsPane", {panes.settings, height})) drawSettingsPanel(context, configurations_);
+    endPane();
+    ImGui::SameLine(0, 0);
+    split("##split1", horizontal, height, panes.settings, wanted.settingsWidth, 220, display.x * 0.4F, false);
+    ImGui::SameLine(0, 0);
+  }
   ImGui::BeginGroup();
-  const float width = display.x - sizes.settingsWidth - ui::kSplitterPixels;
-  const float upper = height - sizes.bottomHeight - ui::kSplitterPixels;
+  const float width = std::max(1.0F, display.x - (panes.settings > 0 ? panes.settings + bar : 0));
+  const float upper = std::max(1.0F, panes.upper);
   if (!session_.hasProject()) {
     if (beginPane("##welcomePane", {width, upper})) drawWelcome(context);
     endPane();
   } else {
-    if (beginPane("##planPane", {width - sizes.walkWidth - ui::kSplitterPixels, upper}, false))
-      plan_.draw(context);
+    if (beginPane("##planPane", {std::max(1.0F, panes.plan), upper}, false)) centre_.draw(context);
     endPane();
-    ImGui::SameLine(0, 0);
-    ui::splitter("##split2", ui::SplitDirection::horizontal, upper, sizes.walkWidth, 240, width - 300, true);
-    ImGui::SameLine(0, 0);
-    if (beginPane("##walkPane", {0, upper}, false)) walk_.draw(context);
-    endPane();
+    if (panes.walk > 0) {
+      ImGui::SameLine(0, 0);
+      split("##split2", horizontal, upper, panes.walk, wanted.walkWidth, 240, width - 300 * scale, true);
+      ImGui::SameLine(0, 0);
+      if (beginPane("##walkPane", {panes.walk, upper}, false)) walk_.draw(context);
+      endPane();
+    }
   }
-  ui::splitter("##split3", ui::SplitDirection::vertical, width, sizes.bottomHeight, 120, height * 0.6F, true);
-  drawBottom(context, sizes.bottomHeight);
+  if (panes.bottom > 0) {
+    split("##split3", vertical, width, panes.bottom, wanted.bottomHeight, 120, height * 0.6F, true);
+    drawBottom(context, panes);
+  }
   ImGui::EndGroup();
+  return top + upper;
+}
+
+void App::drawStatus(PanelContext& context, float top) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetCursorPos({0, display.y - top - statusBarPixels()});
+  if (beginPane("##statusPane", {std::max(1.0F, display.x), statusBarPixels()}, false))
+    drawStatusBar(context);
+  endPane();
+}
+
+/// Arrows and Space to widgets or to the walk; Alt and F10 to the menus.
+void App::giveKeys() {
+  const bool popup = popupOpen();
+  for (const ui::InputEvent& event : events_) keyFocus_.handle(event, popup);
+  if (keyFocus_.takeAltTap()) state_.openMenus = true;
+  const bool inMenus = popup || menuBar_.focused;
+  if (inMenus && menusByKey_ > 0) menusByKey_ = kFramesBetween;
+  menusByKey_ = dialogs_.anyOpen() ? 0 : std::max(0, menusByKey_ - 1);
+  if (menusByKey_ > 0 && !inMenus) window_->pacer().request(1);
+  const bool byKeys = menusByKey_ > 0 || dialogs_.navigable() || keyFocus_.onWidgets();
+  window_->navigateByKeys(byKeys);
+  const bool escape = std::ranges::any_of(events_, [](const ui::InputEvent& event) {
+    return event.kind == ui::InputEvent::Kind::keyPress && event.code == ui::key::escape;
+  });
+  if (escape && popup && !dialogs_.anyOpen() && !byKeys) ui::closeTopPopup();
+}
+
+void App::followPreferences() {
+  const Preferences& preferences = session_.preferences();
+  const bool light = preferences.theme == Theme::light;
+  const float scale = float(preferences.scalePercent) / 100;
+  if (light == lookAsked_.light && scale == lookAsked_.scale) return;
+  lookAsked_ = {light, scale};
+  window_->setLook(light, scale);
+}
+
+void App::startGuide() {
+  if (!guideWanted_ || !session_.built() || session_.opening().running()) return;
+  guideWanted_ = false;
+  const ActionContext actions{session_, state_};
+  state_.guide.start(guideFacts(actions));
 }
 
 void App::draw() {
   events_ = window_->input().take();
   tellNews();
   log_.beginFrame();
+  giveKeys();
   dialogs_.handleKeys(events_);
-  PanelContext context{{session_, state_},   table_, *window_, log_, events_, inputBlocked(),
-                       ui::Window::seconds()};
+  PanelContext context{
+      {session_, state_},   table_, *window_, log_, events_, inputBlocked(), ui::Window::seconds(),
+      keyFocus_.onWidgets()};
   if (window_->takeCloseRequest()) proceedAfterAsking(context.actions, {Continuation::Kind::quit, {}});
   takeDropped(context);
   runShortcuts(context);
   walk_.walk(context);
+  if (state_.openMenus) menusByKey_ = kFramesBetween;
 
-  const float top = drawMenuBar(context);
+  menuBar_ = drawMenuBar(context);
+  const float top = menuBar_.height;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ui::palette::backdrop.vec());
   ImGui::SetNextWindowPos({0, top});
-  ImGui::SetNextWindowSize({display.x, display.y - top});
+  ImGui::SetNextWindowSize({std::max(1.0F, display.x), std::max(1.0F, display.y - top)});
   ImGui::Begin("##main", nullptr, kFixedWindow);
   ImGui::PopStyleVar(3);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});  // panes touch; each restores the spacing inside
-  drawLayout(context, top);
+  const float middleEnds = drawLayout(context, top);
   ImGui::PopStyleVar();
-  ImGui::SetCursorPos({0, display.y - top - kStatusBarPixels});
-  if (beginPane("##statusPane", {display.x, kStatusBarPixels}, false)) drawStatusBar(context);
-  endPane();
+  drawStatus(context, top);
   ImGui::End();
-  ImGui::PopStyleColor();
 
   dialogs_.draw(context);
-  toasts_.draw({display.x - 16, display.y - kStatusBarPixels - 14});
+  guideCard_.draw(context);
+  // Over the walk, not over the panes below, which are clicked more.
+  if (toasts_.draw({display.x - ui::scaled(16), middleEnds - ui::scaled(14)}, log_))
+    state_.messagesLitUntil = context.now + kLitSeconds;
   window_->setTitle(session_.title());
   logNews(context);
   log_.endFrame();

@@ -4,12 +4,18 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "editor/actions/action_table.h"
+#include "editor/panels/centre_pane.h"
+#include "editor/panels/configuration_picker.h"
 #include "editor/panels/dialogs.h"
-#include "editor/panels/plan_panel.h"
+#include "editor/panels/guide_card.h"
+#include "editor/panels/menu_bar.h"
 #include "editor/panels/walk_panel.h"
+#include "editor/session/pane_sizes.h"
+#include "editor/tools/key_focus.h"
 #include "ui/toasts.h"
 #include "ui/window.h"
 
@@ -17,9 +23,11 @@ namespace acentric::editor {
 
 struct AppOptions {
   std::filesystem::path file;        ///< to open at once; may be empty
+  std::filesystem::path sample;      ///< to open at once where no file is named, as preferences say
   std::filesystem::path uiLog;       ///< for tests: ui/ui_log.h; may be empty
   std::filesystem::path frameTimes;  ///< CSV to write, a line per frame; may be empty
   double exitAfterSeconds = 0;       ///< 0 = never
+  std::stop_token stop;              ///< leave at once, and keep unsaved work for the next run
   int width = 1600;
   int height = 900;
   ImportHost importHost;
@@ -36,13 +44,19 @@ class App {
   explicit App(const AppOptions& options, std::unique_ptr<ui::Window> window);
   void update();
   void draw();
-  void drawLayout(PanelContext& context, float top);
-  void drawBottom(PanelContext& context, float height);
+  /// Returns the lower edge of the plan and the walk, pixels.
+  float drawLayout(PanelContext& context, float top);
+  void drawBottom(PanelContext& context, const PaneSizes& panes);
+  void drawStatus(PanelContext& context, float top);
+  void giveKeys();
+  void followPreferences();
+  void startGuide();
   void runShortcuts(PanelContext& context);
   void takeDropped(PanelContext& context);
   void tellNews();
   void logNews(PanelContext& context);
   void keepDrawing(PanelContext& context);
+  bool popupOpen() const;
   bool inputBlocked() const;
 
   AppOptions options_;
@@ -53,12 +67,21 @@ class App {
   std::vector<Action> table_;
   Session session_;
   EditorState state_;
-  PlanPanel plan_;
+  ConfigurationPicker configurations_;
+  CentrePane centre_;
   WalkPanel walk_;
   Dialogs dialogs_;
+  GuideCard guideCard_;
+  KeyFocus keyFocus_;
+  MenuBar menuBar_;
+  int menusByKey_ = 0;        ///< frames for which the keys still belong to menus
+  bool guideWanted_ = false;  ///< as soon as a project is there
   std::vector<ui::InputEvent> events_;
   bool ready_ = false;
+  std::string loggedSweep_;
   std::string loggedState_;
+  int loggedFinished_ = 0;
+  ui::Look lookAsked_{false, 0};
 };
 
 }  // namespace acentric::editor

@@ -4,12 +4,17 @@
 #include <cstdio>
 
 #include "editor/app.h"
+#include "engine/base/interrupt.h"
 
 int main(int argc, char** argv) {
   CLI::App command("Lay, bake and walk acentric panorama views in a window.", "acentric-editor");
   acentric::editor::AppOptions options;
   std::string size;
   command.add_option("file", options.file, "a project (*.acentric.json), or a model for a new project")
+      ->type_name("FILE");
+  command
+      .add_option("--sample", options.sample,
+                  "a project to open where no file is named, as the preferences say")
       ->type_name("FILE");
   command.add_option("--size", size, "of the window, as WIDTHxHEIGHT (default 1600x900)");
   command.add_option("--importer", options.importHost.importer,
@@ -30,6 +35,7 @@ int main(int argc, char** argv) {
                  size.c_str());
     return 2;
   }
+  options.stop = acentric::stopOnInterrupt();
   const auto app = acentric::editor::App::create(options);
   if (!app) {
     std::fprintf(

@@ -3,11 +3,6 @@
 namespace acentric::editor {
 namespace {
 
-/// A new project from a model that was not touched is worth no question.
-bool wouldLoseWork(const Session& session) {
-  return session.dirty() && !(session.untitled() && !session.history().canUndo());
-}
-
 void saved(ActionContext& context, const Status& status, const Continuation& then) {
   if (status) return proceed(context, then);
   context.session.messages().addFailure("Saving", status.error());
@@ -15,8 +10,37 @@ void saved(ActionContext& context, const Status& status, const Continuation& the
 
 }  // namespace
 
+std::string whyDisabled(const Action& action, const ActionContext& context) {
+  if (action.enabled(context)) return {};
+  if (!context.session.hasProject()) return "needs an open project";
+  if (!context.session.built()) return "the project is still being opened";
+  return action.needs.empty() ? "not now" : "needs " + action.needs;
+}
+
+GuideFacts guideFacts(const ActionContext& context) {
+  const Session& session = context.session;
+  const EditorState& state = context.state;
+  GuideFacts facts;
+  facts.coverage = state.overlay == PlanOverlay::coverage;
+  facts.walkedMetres = state.walker.walkedMetres();
+  facts.commands = state.commandsOpened;
+  facts.baking = session.baking().running();
+  facts.dirty = session.dirty();
+  if (session.built()) facts.cells = int(session.built()->layout->regions.size());
+  if (session.hasProject()) facts.changes = int(session.history().cursor());
+  if (session.captures()) facts.baked = session.captures()->baked;
+  return facts;
+}
+
+void noteUse(EditorState& state, const std::string& id) {
+  constexpr std::size_t kMost = 12;
+  std::erase(state.recentActions, id);
+  state.recentActions.insert(state.recentActions.begin(), id);
+  if (state.recentActions.size() > kMost) state.recentActions.resize(kMost);
+}
+
 void proceedAfterAsking(ActionContext& context, const Continuation& continuation) {
-  if (!wouldLoseWork(context.session)) return proceed(context, continuation);
+  if (!context.session.worthAsking()) return proceed(context, continuation);
   context.state.continuation = continuation;
   context.state.dialog = Dialog::unsavedChanges;
 }
@@ -39,6 +63,9 @@ void proceed(ActionContext& context, const Continuation& continuation) {
     case Continuation::Kind::openDialog:
       context.state.dialog = Dialog::openFile;
       break;
+    case Continuation::Kind::newDialog:
+      context.state.dialog = Dialog::newFile;
+      break;
     case Continuation::Kind::bake:
       context.session.startBake(glm::dvec2(context.state.walker.pose().eye));
       break;
@@ -46,12 +73,19 @@ void proceed(ActionContext& context, const Continuation& continuation) {
 }
 
 void saveThen(ActionContext& context, const Continuation& then) {
-  if (context.session.untitled()) {
-    context.state.continuation = then;
-    context.state.dialog = Dialog::saveAs;
-    return;
-  }
-  saved(context, context.session.save(), then);
+  const SaveObstacle obstacle = context.session.saveObstacle();
+  if (obstacle == SaveObstacle::none) return saved(context, context.session.save(), then);
+  context.state.continuation = then;
+  context.state.dialog = obstacle == SaveObstacle::changedOnDisk ? Dialog::changedOnDisk : Dialog::saveAs;
+}
+
+void overwriteThen(ActionContext& context, const Continuation& then) {
+  saved(context, context.session.save(true), then);
+}
+
+void reload(ActionContext& context) {
+  if (const Status read = context.session.reload(); !read)
+    context.session.messages().addFailure("Reloading", read.error());
 }
 
 void saveAsThen(ActionContext& context, const std::filesystem::path& file, const Continuation& then) {

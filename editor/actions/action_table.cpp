@@ -10,10 +10,17 @@ std::vector<Action> makeActionTable() {
   std::vector<Action> table;
   addFileActions(table);
   addEditActions(table);
+  addScene3dActions(table);
   addPlanActions(table);
   addLayoutActions(table);
+  addOutlineActions(table);
   addWalkActions(table);
+  addWalkViewActions(table);
+  addTabActions(table);
+  addPathActions(table);
+  addAccuracyActions(table);
   addHelpActions(table);
+  addWindowActions(table);
   return table;
 }
 

@@ -2,13 +2,21 @@
 
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/layout_edits.h"
+#include "editor/commands/walk_edits.h"
 
 namespace acentric::editor {
 namespace {
 
-void selectAll(ActionContext& c) {
-  c.state.selection.clear();
-  for (const Region& region : c.session.built()->layout->regions) c.state.selection.insert(region.id);
+bool withPose(const ActionContext& c) {
+  return c.state.planTool.mode() == PlanMode::path &&
+         c.state.walkSelection.poseIn(c.session.project()).has_value();
+}
+
+void removePose(ActionContext& c) {
+  WalkSelection& selected = c.state.walkSelection;
+  const CameraPath& path = c.session.project().paths[selected.number].path;
+  if (c.session.apply(setPath(c.session.project(), selected.number, withoutPose(path, *selected.pose))))
+    selected.pose.reset();
 }
 
 /// Actions on the selected cells, in the Edit menu.
@@ -33,7 +41,8 @@ void addCellActions(std::vector<Action>& table) {
                        if (c.session.apply(edit(c.session.project(), c.state.selection)))
                          c.state.selection.clear();
                      },
-                     {}});
+                     {},
+                     "a selected cell for which it makes sense"});
   };
   onSelection("edit.split", "Split selected cells", {key::x, 0},
               "Into four of half the size, where more is to be seen or triangles are too many "
@@ -42,7 +51,10 @@ void addCellActions(std::vector<Action>& table) {
   onSelection(
       "edit.join", "Join what was split", {key::x, ui::modifier::shift},
       "The parts around the selected ones become one cell again",
-      [](const LayoutSpec&, const CellId& cell) { return cell.level > 0; }, joinCells);
+      [](const LayoutSpec& spec, const CellId& cell) {
+        return canSplit(spec.configuration) && cell.level > 0;
+      },
+      joinCells);
 }
 
 }  // namespace
@@ -58,7 +70,8 @@ void addEditActions(std::vector<Action>& table) {
        false,
        [](const ActionContext& c) { return c.session.hasProject() && c.session.history().canUndo(); },
        [](ActionContext& c) { c.session.undo(); },
-       {}});
+       {},
+       "something to undo"});
   table.push_back(
       {"edit.redo",
        "Edit",
@@ -69,31 +82,26 @@ void addEditActions(std::vector<Action>& table) {
        false,
        [](const ActionContext& c) { return c.session.hasProject() && c.session.history().canRedo(); },
        [](ActionContext& c) { c.session.redo(); },
-       {}});
-  table.push_back({"edit.selectAll",
+       {},
+       "something that was undone"});
+  addSelectionActions(table);
+  table.push_back({"edit.remove",
                    "Edit",
-                   "Select all cells",
-                   {key::a, kCtrl},
-                   {},
+                   "Remove selected cells or key pose",
+                   {key::del, 0},
+                   {key::backspace, 0},
                    "",
                    true,
-                   withBuilt,
-                   selectAll,
-                   {}});
-  table.push_back(
-      {"edit.remove",
-       "Edit",
-       "Remove selected cells",
-       {key::del, 0},
-       {key::backspace, 0},
-       "",
-       false,
-       [](const ActionContext& c) { return c.session.hasProject() && !c.state.selection.empty(); },
-       [](ActionContext& c) {
-         c.session.apply(removeCells(c.session.project(), c.state.selection));
-         c.state.selection.clear();
-       },
-       {}});
+                   [](const ActionContext& c) {
+                     return c.session.hasProject() && (!c.state.selection.empty() || withPose(c));
+                   },
+                   [](ActionContext& c) {
+                     if (withPose(c)) return removePose(c);
+                     c.session.apply(removeCells(c.session.project(), c.state.selection));
+                     c.state.selection.clear();
+                   },
+                   {},
+                   "a selected cell or key pose"});
   addCellActions(table);
 }
 

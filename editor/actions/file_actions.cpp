@@ -2,7 +2,73 @@
 
 namespace acentric::editor {
 
+namespace {
+
+/// On the model that the project is made of, and on the project's own file as others leave it.
+void addOutsideActions(std::vector<Action>& table) {
+  table.push_back({"file.reimport",
+                   "File",
+                   "Import the model again",
+                   {key::f5, 0},
+                   {},
+                   "Reads the model and its textures from disk as they are now",
+                   true,
+                   [](const ActionContext& c) { return withBuilt(c) && !c.session.rebuilding().running(); },
+                   [](ActionContext& c) { c.session.reimport(); },
+                   {}});
+  table.push_back({"file.reimportAutomatically",
+                   "File",
+                   "Import by itself when it changes",
+                   {},
+                   {},
+                   "",
+                   false,
+                   always,
+                   [](ActionContext& c) {
+                     bool& automatic = c.session.preferences().reimportAutomatically;
+                     automatic = !automatic;
+                     c.session.savePreferencesNow();
+                   },
+                   [](const ActionContext& c) { return c.session.preferences().reimportAutomatically; }});
+  table.push_back({"file.locate",
+                   "File",
+                   "Locate the model…",
+                   {},
+                   {},
+                   "Where the model lies now, or another one to take its place",
+                   false,
+                   withProject,
+                   [](ActionContext& c) { c.state.dialog = Dialog::locateScene; },
+                   {}});
+  table.push_back(
+      {"file.reload",
+       "File",
+       "Reload from disk",
+       {},
+       {},
+       "The project as another program has saved it; undo brings back what was here",
+       false,
+       [](const ActionContext& c) { return c.session.hasProject() && c.session.projectFileChanged(); },
+       [](ActionContext& c) { reload(c); },
+       {},
+       "a project that another program has changed"});
+}
+
+}  // namespace
+
 void addFileActions(std::vector<Action>& table) {
+  table.push_back({"file.new",
+                   "File",
+                   "New project…",
+                   {key::n, kCtrl},
+                   {},
+                   "Choose a model; cells are laid over its floor",
+                   false,
+                   always,
+                   [](ActionContext& c) {
+                     proceedAfterAsking(c, {Continuation::Kind::newDialog, {}});
+                   },
+                   {}});
   table.push_back({"file.open",
                    "File",
                    "Open…",
@@ -24,7 +90,8 @@ void addFileActions(std::vector<Action>& table) {
                    true,
                    [](const ActionContext& c) { return c.session.dirty(); },
                    [](ActionContext& c) { saveThen(c, {}); },
-                   {}});
+                   {},
+                   "unsaved changes"});
   table.push_back({"file.saveAs",
                    "File",
                    "Save as…",
@@ -38,18 +105,20 @@ void addFileActions(std::vector<Action>& table) {
                      c.state.dialog = Dialog::saveAs;
                    },
                    {}});
+  addOutsideActions(table);
   table.push_back({"file.close",
                    "File",
                    "Close project",
                    {key::w, kCtrl},
                    {},
                    "",
-                   false,
+                   true,
                    withProject,
                    [](ActionContext& c) {
                      proceedAfterAsking(c, {Continuation::Kind::close, {}});
                    },
                    {}});
+  addPreferenceActions(table);
   table.push_back({"file.quit",
                    "File",
                    "Quit",

@@ -21,7 +21,8 @@ void addStoreyActions(std::vector<Action>& table) {
                        c.session.apply(
                            showStorey(c.session.project(), *storeyBeside(c.session.project(), steps)));
                      },
-                     {}});
+                     {},
+                     "a storey there"});
   };
   beside("storey.up", "Storey above", key::pageUp, 1, true);
   beside("storey.down", "Storey below", key::pageDown, -1, false);
@@ -35,7 +36,8 @@ void addStoreyActions(std::vector<Action>& table) {
        false,
        [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
        [](ActionContext& c) { c.session.findStoreys(); },
-       {}});
+       {},
+       "that no search runs"});
   table.push_back({"storey.remove",
                    "Plan",
                    "Remove this storey",
@@ -50,7 +52,8 @@ void addStoreyActions(std::vector<Action>& table) {
                      c.state.selection.clear();
                      c.session.apply(removeStorey(c.session.project()));
                    },
-                   {}});
+                   {},
+                   "a second storey"});
 }
 
 void addBudgetActions(std::vector<Action>& table) {
@@ -69,7 +72,8 @@ void addBudgetActions(std::vector<Action>& table) {
                               (!onlySplit || canSplit(c.session.project().layout().configuration));
                      },
                      [run](ActionContext& c) { (c.session.*run)(); },
-                     {}});
+                     {},
+                     "a triangle budget"});
   };
   search("budget.fit", "Fit cells to the budget",
          "The largest cells whose regions all keep to the triangle budget", false, &Session::fitCells);
@@ -87,7 +91,8 @@ void addBudgetActions(std::vector<Action>& table) {
                      return c.session.searching().running() && !c.session.searching().cancelling();
                    },
                    [](ActionContext& c) { c.session.cancelSearch(); },
-                   {}});
+                   {},
+                   "a running search"});
 }
 
 }  // namespace

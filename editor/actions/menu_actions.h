@@ -21,11 +21,29 @@ inline bool withBuilt(const ActionContext& c) {
 
 void addFileActions(std::vector<Action>& table);
 void addEditActions(std::vector<Action>& table);
+/// What is selected, and copies and moves of it: part of the Edit menu.
+void addSelectionActions(std::vector<Action>& table);
 /// Tools and what the plan shows.
 void addPlanActions(std::vector<Action>& table);
 /// Storeys, and cells that keep to the triangle budget.
 void addLayoutActions(std::vector<Action>& table);
+/// Of the walkable area.
+void addOutlineActions(std::vector<Action>& table);
 void addWalkActions(std::vector<Action>& table);
+/// In the File menu, after closing: preferences and the window's layout.
+void addPreferenceActions(std::vector<Action>& table);
+/// In no menu: size of the interface, and the menus themselves.
+void addWindowActions(std::vector<Action>& table);
+/// Plan or 3D, and what the 3D view shows.
+void addScene3dActions(std::vector<Action>& table);
+/// What the walk shows of its frames, and over them.
+void addWalkViewActions(std::vector<Action>& table);
+/// Recording, replay, paths and bookmarks.
+void addPathActions(std::vector<Action>& table);
+/// What accuracy costs in time, and presets of it: part of the Walk menu.
+void addAccuracyActions(std::vector<Action>& table);
 void addHelpActions(std::vector<Action>& table);
+/// Which tab the pane at the lower right shows.
+void addTabActions(std::vector<Action>& table);
 
 }  // namespace acentric::editor

@@ -5,22 +5,52 @@
 namespace acentric::editor {
 namespace {
 
-void addCoverageActions(std::vector<Action>& table) {
-  const auto kind = [&table](const char* id, const char* label, CoverageKind what, const char* help) {
+/// One at a time; what is chosen again gives way to what is baked.
+void addOverlayActions(std::vector<Action>& table) {
+  const auto overlay = [&table](const char* id, const char* label, int code, PlanOverlay what,
+                                const char* help) {
     table.push_back(
         {id,
          "Plan",
          label,
-         {},
+         {code, 0},
          {},
          help,
-         false,
+         what == PlanOverlay::bake,
          withProject,
-         [what](ActionContext& c) {
-           c.state.showCoverage = true;
-           c.state.coverageKind = what;
-         },
-         [what](const ActionContext& c) { return c.state.showCoverage && c.state.coverageKind == what; }});
+         [what](ActionContext& c) { c.state.overlay = c.state.overlay == what ? PlanOverlay::bake : what; },
+         [what](const ActionContext& c) { return c.state.overlay == what; }});
+  };
+  overlay("overlay.bake", "Overlay: bake state", 0, PlanOverlay::bake,
+          "Which cells are baked, being baked, out of date or failed");
+  overlay("view.triangles", "Overlay: triangles", key::t, PlanOverlay::triangles,
+          "Cells coloured by their triangles of local geometry, against the budget");
+  overlay("overlay.bytes", "Overlay: bytes", 0, PlanOverlay::bytes,
+          "Cells coloured by what their captures take on disk");
+  overlay("view.checks", "Overlay: placement checks", key::p, PlanOverlay::checks,
+          "Where cameras stand badly, and where they would stand free");
+  overlay("view.coverage", "Overlay: sampling coverage", key::v, PlanOverlay::coverage,
+          "How finely places are sampled");
+  overlay("overlay.none", "No overlay", 0, PlanOverlay::none, "Borders of cells alone");
+}
+
+void addCoverageActions(std::vector<Action>& table) {
+  const auto kind = [&table](const char* id, const char* label, CoverageKind what, const char* help) {
+    table.push_back({id,
+                     "Plan",
+                     label,
+                     {},
+                     {},
+                     help,
+                     false,
+                     withProject,
+                     [what](ActionContext& c) {
+                       c.state.overlay = PlanOverlay::coverage;
+                       c.state.coverageKind = what;
+                     },
+                     [what](const ActionContext& c) {
+                       return c.state.overlay == PlanOverlay::coverage && c.state.coverageKind == what;
+                     }});
   };
   kind("coverage.surfaces", "Coverage of surfaces", CoverageKind::surfaces,
        "For each point of a surface that an eye in the walkable area can see: how finely the captures would "
@@ -39,7 +69,7 @@ void addCoverageActions(std::vector<Action>& table) {
                    false,
                    withProject,
                    [](ActionContext& c) {
-                     if (std::exchange(c.state.showCoverage, true))
+                     if (std::exchange(c.state.overlay, PlanOverlay::coverage) == PlanOverlay::coverage)
                        c.state.coverageKind = CoverageKind((int(c.state.coverageKind) + 1) % 3);
                    },
                    {}});
@@ -69,6 +99,15 @@ void addPlanActions(std::vector<Action>& table) {
        "change it.");
   tool("tool.panorama", "Single APV", key::digit4, PlanMode::panorama,
        "Click to place a panorama beside the lattice, or drag to choose how far its cameras stand out.");
+  tool("tool.lattice", "Lay lattice", key::digit5, PlanMode::lattice,
+       "Drag the middle to move the lattice, the handle above to turn it, the one at a corner to change the "
+       "cells' size; Shift snaps.");
+  tool("tool.measure", "Measure", key::digit6, PlanMode::measure,
+       "Drag for a distance and a direction; lands on corners of walls, outline and cells.");
+  tool("tool.path", "Path", key::digit7, PlanMode::path,
+       "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
+       "press on "
+       "the selected path's line for a new pose. Del removes, Ctrl+click too.");
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {
     table.push_back({id,
@@ -85,19 +124,21 @@ void addPlanActions(std::vector<Action>& table) {
   flag("view.backdrop", "Show scene", key::b, &EditorState::showBackdrop, true);
   flag("view.lattice", "Show free lattice", key::g, &EditorState::showLattice, false);
   flag("view.cameras", "Show cameras", key::c, &EditorState::showCameras, false);
-  flag("view.triangles", "Colour cells by triangles", key::t, &EditorState::showTriangles, false);
-  flag("view.checks", "Show placement checks", key::p, &EditorState::showChecks, false);
-  flag("view.coverage", "Show sampling coverage", key::v, &EditorState::showCoverage, false);
+  flag("view.table", "Table of regions", key::l, &EditorState::showTable, false);
+  addOverlayActions(table);
   addCoverageActions(table);
   table.push_back({"view.fit",
                    "Plan",
-                   "Fit plan",
+                   "Show everything",
                    {key::f, 0},
                    {},
-                   "Show everything that is laid out",
+                   "All that is laid out; in 3D the selected cells, if any are",
                    true,
                    withProject,
-                   [](ActionContext& c) { c.state.fitPlan = true; },
+                   [](ActionContext& c) {
+                     const bool plan = c.state.centreView == CentreView::plan;
+                     (plan ? c.state.fitPlan : c.state.scene3d.frame) = true;
+                   },
                    {}});
 }
 

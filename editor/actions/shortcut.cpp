@@ -26,6 +26,14 @@ std::string nameOfKey(int code) {
       return "Page Down";
     case key::home:
       return "Home";
+    case key::left:
+      return "Left";
+    case key::right:
+      return "Right";
+    case key::up:
+      return "Up";
+    case key::down:
+      return "Down";
     default:
       break;
   }

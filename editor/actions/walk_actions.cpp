@@ -16,7 +16,8 @@ void addWalkActions(std::vector<Action>& table) {
                      if (c.session.untitled()) return saveThen(c, {Continuation::Kind::bake, {}});
                      c.session.startBake(glm::dvec2(c.state.walker.pose().eye));
                    },
-                   {}});
+                   {},
+                   "that no bake runs"});
   table.push_back({"bake.cancel",
                    "Walk",
                    "Cancel bake",
@@ -28,7 +29,8 @@ void addWalkActions(std::vector<Action>& table) {
                      return c.session.baking().running() && !c.session.baking().cancelling();
                    },
                    [](ActionContext& c) { c.session.cancelBake(); },
-                   {}});
+                   {},
+                   "a running bake"});
   table.push_back({"bake.pause",
                    "Walk",
                    "Pause bake",
@@ -40,7 +42,8 @@ void addWalkActions(std::vector<Action>& table) {
                      return c.session.baking().running() && !c.session.baking().cancelling();
                    },
                    [](ActionContext& c) { c.session.pauseBake(!c.session.bakePaused()); },
-                   [](const ActionContext& c) { return c.session.bakePaused(); }});
+                   [](const ActionContext& c) { return c.session.bakePaused(); },
+                   "a running bake"});
   table.push_back({"bake.estimate",
                    "Walk",
                    "Estimate the bake",
@@ -53,7 +56,8 @@ void addWalkActions(std::vector<Action>& table) {
                             !c.session.estimating().running();
                    },
                    [](ActionContext& c) { c.session.estimateBake(); },
-                   {}});
+                   {},
+                   "that no bake or estimate runs"});
   table.push_back({"walk.restart",
                    "Walk",
                    "Go to start",
@@ -77,24 +81,6 @@ void addWalkActions(std::vector<Action>& table) {
                      c.session.apply(setSpawn(c.session.project(), {glm::dvec2(pose.eye), pose.yawRadians}));
                    },
                    {}});
-  const auto look = [&table](const char* id, const char* name, int code, const char* help, WalkLook shown) {
-    table.push_back({id,
-                     "Walk",
-                     name,
-                     {code, 0},
-                     {},
-                     help,
-                     true,
-                     withProject,
-                     [shown](ActionContext& c) {
-                       c.state.walkLook = c.state.walkLook == shown ? WalkLook::picture : shown;
-                     },
-                     [shown](const ActionContext& c) { return c.state.walkLook == shown; }});
-  };
-  look("view.holes", "Mark holes", key::h,
-       "Pixels without a real sample in magenta, those filled in by guesswork too", WalkLook::holes);
-  look("view.sources", "Cameras by colour", key::r,
-       "Which camera painted each pixel; point at one for its name", WalkLook::sources);
 }
 
 }  // namespace acentric::editor

@@ -4,17 +4,17 @@
 
 #include <limits>
 
+#include "editor/commands/stored_angle.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::editor {
-namespace {
 
-void place(LayoutSpec& spec, const CellId& cell) {
+void placeCell(LayoutSpec& spec, const CellId& cell) {
   spec.removed.erase(cell);
   if (!isPlaced(spec, cell)) spec.added.insert(cell);
 }
 
-void take(LayoutSpec& spec, const CellId& cell) {
+void takeCell(LayoutSpec& spec, const CellId& cell) {
   if (cell.slot == kFreeSlot) {
     spec.freeApvs.erase(cell.i);
     return;
@@ -22,6 +22,8 @@ void take(LayoutSpec& spec, const CellId& cell) {
   spec.added.erase(cell);
   if (isPlaced(spec, cell)) spec.removed.insert(cell);
 }
+
+namespace {
 
 /// Is a cell a part, of whatever size, of `whole`?
 bool isPartOf(const LayoutSpec& spec, CellId cell, const CellId& whole) {
@@ -52,23 +54,14 @@ Edit edited(const Project& project, std::string label, Change change) {
 }  // namespace
 
 Edit addCell(const Project& project, const CellId& cell) {
-  return edited(project, "Add cell " + nameOf(cell), [&](LayoutSpec& spec) { place(spec, cell); });
+  return edited(project, "Add cell " + nameOf(cell), [&](LayoutSpec& spec) { placeCell(spec, cell); });
 }
 
 Edit removeCells(const Project& project, const std::set<CellId>& cells) {
   const std::string label = cells.size() == 1 ? "Remove cell " + nameOf(*cells.begin())
                                               : fmt::format("Remove {} cells", cells.size());
   return edited(project, label, [&](LayoutSpec& spec) {
-    for (const CellId& cell : cells) take(spec, cell);
-  });
-}
-
-Edit moveCell(const Project& project, const CellId& from, const CellId& to) {
-  const bool possible = from != to && isPlaced(project.layout(), from) && !isPlaced(project.layout(), to);
-  return edited(project, fmt::format("Move cell {} to {}", nameOf(from), nameOf(to)), [&](LayoutSpec& spec) {
-    if (!possible) return;
-    take(spec, from);
-    place(spec, to);
+    for (const CellId& cell : cells) takeCell(spec, cell);
   });
 }
 
@@ -87,6 +80,7 @@ Edit joinCells(const Project& project, const std::set<CellId>& cells) {
                 cells.size() == 1 ? "Join the parts around " + nameOf(*cells.begin())
                                   : fmt::format("Join the parts around {} cells", cells.size()),
                 [&](LayoutSpec& spec) {
+                  if (!canSplit(spec.configuration)) return;  // cells of another configuration
                   for (const CellId& cell : cells)
                     if (cell.level > 0 && cell.slot != kFreeSlot) join(spec, wholeOf(spec, cell));
                 });
@@ -134,7 +128,21 @@ Edit setLatticeOrigin(const Project& project, const glm::dvec2& origin) {
 
 Edit setRotation(const Project& project, double radiansValue) {
   return edited(project, fmt::format("Lattice rotation {:.1f}°", degrees(radiansValue)),
-                [&](LayoutSpec& spec) { spec.rotationRadians = radiansValue; });
+                [&](LayoutSpec& spec) { spec.rotationRadians = storedAngle(radiansValue); });
+}
+
+Edit setLattice(const Project& project, const LatticePlace& place, std::string label) {
+  return edited(project, std::move(label), [&](LayoutSpec& spec) { placeLattice(spec, place); });
+}
+
+void placeLattice(LayoutSpec& spec, const LatticePlace& place) {
+  spec.latticeOrigin = place.origin;
+  spec.rotationRadians = storedAngle(place.rotationRadians);
+  spec.cellSize = place.cellSize;
+}
+
+LatticePlace latticePlaceOf(const LayoutSpec& spec) {
+  return {spec.latticeOrigin, spec.rotationRadians, spec.cellSize};
 }
 
 Edit setOutline(const Project& project, Outline outline) {

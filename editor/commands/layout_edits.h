@@ -9,12 +9,14 @@
 
 namespace acentric::editor {
 
+/// Where a cell stands, in a spec: what other edits are made of.
+void placeCell(LayoutSpec& spec, const CellId& cell);
+/// A free APV too.
+void takeCell(LayoutSpec& spec, const CellId& cell);
+
 Edit addCell(const Project& project, const CellId& cell);
 /// Free APVs among them too.
 Edit removeCells(const Project& project, const std::set<CellId>& cells);
-/// To a free place; the same cell, or a place that is taken, changes nothing.
-Edit moveCell(const Project& project, const CellId& from, const CellId& to);
-
 /// Into four of half the size each; those that cannot be split are left.
 Edit splitCells(const Project& project, const std::set<CellId>& cells);
 /// Undoes the splits that the cells came from, and all splits within.
@@ -31,13 +33,22 @@ Edit setConfiguration(const Project& project, Configuration configuration);
 Edit setCellSize(const Project& project, double metres);
 Edit setLatticeOrigin(const Project& project, const glm::dvec2& origin);
 Edit setRotation(const Project& project, double radiansValue);
+/// How the lattice lies in the plan.
+struct LatticePlace {
+  glm::dvec2 origin{0};  ///< metres
+  double rotationRadians = 0;
+  double cellSize = 1;  ///< metres
+  bool operator==(const LatticePlace&) const = default;
+};
+LatticePlace latticePlaceOf(const LayoutSpec& spec);
+void placeLattice(LayoutSpec& spec, const LatticePlace& place);
+Edit setLattice(const Project& project, const LatticePlace& place, std::string label);
 Edit setOutline(const Project& project, Outline outline);
 Edit setEyeHeight(const Project& project, double metres);
 Edit setFloorHeight(const Project& project, double metres);
 Edit setNearBand(const Project& project, double metres);
 
-/// Where a cell that is dragged by one of its points would land: the cell of the same kind (slot) nearest to
-/// `centre`.
+/// The cell of the same kind (slot) and size nearest to `centre`.
 CellId nearestSlot(const LayoutSpec& spec, const CellId& like, const glm::dvec2& centre);
 
 }  // namespace acentric::editor

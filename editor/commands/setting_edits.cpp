@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "editor/commands/stored_angle.h"
+
 namespace acentric::editor {
 
 Edit setBakeSettings(const Project& project, const BakeSettings& bake, const char* field) {
@@ -36,7 +38,7 @@ Edit setExposure(const Project& project, float exposure) {
 
 Edit setSpawn(const Project& project, const Spawn& spawn) {
   Edit edit{project, "Set start of the walk"};
-  edit.project.spawn() = spawn;
+  edit.project.spawn() = {spawn.position, storedAngle(spawn.yawRadians)};
   return edit;
 }
 
@@ -47,6 +49,12 @@ Edit setEffect(const Project& project, Effect effect, std::optional<bool> overri
     edit.project.effects[effect] = *override;
   else
     edit.project.effects.erase(effect);
+  return edit;
+}
+
+Edit setScene(const Project& project, const std::filesystem::path& scene) {
+  Edit edit{project, "Model: " + scene.filename().string()};
+  edit.project.scene = scene;
   return edit;
 }
 

@@ -16,6 +16,8 @@ Edit setExposure(const Project& project, float exposure);
 Edit setSpawn(const Project& project, const Spawn& spawn);
 /// Nothing: as the scene calls for.
 Edit setEffect(const Project& project, Effect effect, std::optional<bool> override);
+/// Another model file: relative to the project file's folder.
+Edit setScene(const Project& project, const std::filesystem::path& scene);
 Edit setImport(const Project& project, const ImportOptions& import, const char* field);
 
 }  // namespace acentric::editor

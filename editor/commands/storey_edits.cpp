@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/pipeline/pipeline.h"
+
 namespace acentric::editor {
 
 Edit showStorey(const Project& project, int storey) {
@@ -30,9 +32,7 @@ Edit renameStorey(const Project& project, std::string name) {
 
 Edit removeStorey(const Project& project) {
   Edit edit{project, "Remove " + project.current().name};
-  if (project.storeys.size() < 2) return edit;
-  edit.project.storeys.erase(edit.project.storeys.begin() + project.storey);
-  edit.project.storey = std::max(0, project.storey - 1);
+  acentric::removeStorey(edit.project, project.storey);
   return edit;
 }
 

@@ -20,8 +20,8 @@ constexpr double kLeastRate = 0.125, kMostRate = 2;  ///< ends of the scale, sam
 double rateOf(const PointCoverage& point) { return point.samplesPerMetre / point.pixelsPerMetre; }
 
 ui::Colour colourOf(const PointCoverage& point) {
-  if (point.surfaceClass == SurfaceClass::neverSampled) return palette::danger;
-  if (point.surfaceClass == SurfaceClass::local) return palette::faint;
+  if (point.surfaceClass == SurfaceClass::neverSampled) return palette::alarm;
+  if (point.surfaceClass == SurfaceClass::local) return palette::plain;
   return scaleColour(std::log(rateOf(point) / kLeastRate) / std::log(kMostRate / kLeastRate));
 }
 
@@ -41,7 +41,7 @@ struct CountScale {
     high = std::max(picture.mostCameras, low + (cell ? 3 : 1));
   }
   ui::Colour colour(int count) const {
-    return count == 0 ? palette::danger : scaleColour(double(count - low) / (high - low));
+    return count == 0 ? ui::Colour(palette::alarm) : scaleColour(double(count - low) / (high - low));
   }
 };
 
@@ -63,15 +63,14 @@ ScaleLegend surfaceLegend(const CoveragePicture& picture) {
   const double never = all.share(SurfaceClass::neverSampled);
   ScaleLegend legend{
       "Samples, share of what the nearest eye needs", percent(kLeastRate), percent(kMostRate), {}};
-  legend.lines.push_back(
-      {fmt::format("{} never sampled", percent(never)), never > 0 ? palette::danger : palette::good});
+  legend.lines.push_back({fmt::format("{} never sampled", percent(never)), palette::alarm});
   legend.lines.push_back(
       {fmt::format("median {}; under half {}, over double {}", percent(picture.medianRate),
                    percent(all.share(SurfaceClass::under)), percent(all.share(SurfaceClass::over))),
        palette::text});
   legend.lines.push_back(
       {fmt::format("{} only near, drawn as geometry", percent(all.share(SurfaceClass::local))),
-       palette::muted});
+       palette::plain});
   const std::string points =
       fmt::format("{} points, from {} eyes", ui::formatCount(all.points), ui::formatCount(picture.eyes));
   legend.lines.push_back(
@@ -88,8 +87,7 @@ ScaleLegend countLegend(const CoveragePicture& picture) {
                      fmt::format("{}", scale.low),
                      fmt::format("{}", scale.high),
                      {}};
-  legend.lines.push_back({fmt::format("{} held by none", percent(shares.none)),
-                          shares.none > 0 ? palette::danger : palette::good});
+  legend.lines.push_back({fmt::format("{} held by none", percent(shares.none)), palette::alarm});
   legend.lines.push_back({fmt::format("{:.1f} on average; by one {}, by more {}", shares.mean,
                                       percent(shares.once), percent(shares.more)),
                           palette::text});
@@ -108,7 +106,7 @@ ScaleLegend countLegend(const CoveragePicture& picture) {
 
 std::optional<CoverageRequest> wantedCoverage(const EditorState& state,
                                               const std::optional<CellId>& hovered) {
-  if (!state.showCoverage) return std::nullopt;
+  if (state.overlay != PlanOverlay::coverage) return std::nullopt;
   CoverageRequest wanted{state.coverageKind, {}};
   if (wanted.kind == CoverageKind::cell)
     wanted.cell = state.selection.size() == 1 ? std::optional(*state.selection.begin()) : hovered;
@@ -148,8 +146,9 @@ void CoverageLayer::sendPoints() {
 
 void CoverageLayer::drawBelow(ImDrawList& list, const ui::CanvasView& view,
                               const CoveragePicturePtr& picture) {
-  if (picture != shown_) {
+  if (const ui::Palette* palette = &ui::currentPalette(); picture != shown_ || palette != palette_) {
     shown_ = picture;
+    palette_ = palette;
     if (shown_ && shown_->surfaces)
       sendPoints();
     else if (shown_)

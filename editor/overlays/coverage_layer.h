@@ -10,6 +10,7 @@
 #include "editor/session/coverage.h"
 #include "editor/tools/editor_state.h"
 #include "ui/canvas_view.h"
+#include "ui/colour.h"
 #include "ui/mark_mesh.h"
 #include "ui/texture.h"
 
@@ -37,6 +38,7 @@ class CoverageLayer {
   float pointPixels(const ui::CanvasView& view) const;
 
   CoveragePicturePtr shown_;
+  const ui::Palette* palette_ = nullptr;  ///< with whose colours it was sent
   ui::Texture raster_;
   ui::MarkMesh points_;
 };

@@ -25,8 +25,11 @@ void FreeCells::update(const std::shared_ptr<const Layout>& layout, const ui::Ca
   const glm::dvec2 a = view.worldFromScreen(view.areaMin());
   const glm::dvec2 b = view.worldFromScreen(view.areaMin() + view.areaSize());
   const ui::CanvasBox visible{glm::min(a, b), glm::max(a, b)};
-  if (layout_ == layout && (tooSmall ? cells_.empty() : within(visible, sought_))) return;
+  const ui::Palette* palette = &ui::currentPalette();
+  if (layout_ == layout && palette_ == palette && (tooSmall ? cells_.empty() : within(visible, sought_)))
+    return;
   layout_ = layout;
+  palette_ = palette;
   cells_.clear();
   sought_ = {};
   if (!tooSmall) {

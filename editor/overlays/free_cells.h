@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/layout/layout.h"
+#include "ui/colour.h"
 #include "ui/polygon_mesh.h"
 
 namespace acentric::editor {
@@ -20,6 +21,7 @@ class FreeCells {
 
  private:
   std::shared_ptr<const Layout> layout_;
+  const ui::Palette* palette_ = nullptr;
   ui::CanvasBox sought_;
   std::vector<LatticeCell> cells_;
   ui::PolygonMesh mesh_;

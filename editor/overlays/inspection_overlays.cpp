@@ -6,6 +6,7 @@
 #include "editor/overlays/scale_legend.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/theme.h"
 
 namespace acentric::editor {
 namespace {
@@ -25,6 +26,28 @@ ui::Colour colourOf(Severity severity) {
   return palette::danger;
 }
 
+/// An error is a filled triangle, a warning a ring, both with an exclamation mark; a note is a small ring.
+void drawFinding(ImDrawList& list, const ImVec2& at, Severity severity, float size) {
+  const ui::Colour colour = colourOf(severity);
+  const float r = ui::scaled(severity == Severity::note ? 3.5F : 5.5F) * size;
+  const ui::Colour ground = palette::backdrop.withOpacity(0.85F);
+  if (severity == Severity::error) {
+    const auto corners = [&at](float reach, auto draw) {
+      draw(ImVec2(at.x, at.y - 1.25F * reach), ImVec2(at.x + 1.15F * reach, at.y + 0.8F * reach),
+           ImVec2(at.x - 1.15F * reach, at.y + 0.8F * reach));
+    };
+    corners(r * 1.35F, [&](auto a, auto b, auto c) { list.AddTriangleFilled(a, b, c, ground.packed()); });
+    corners(r, [&](auto a, auto b, auto c) { list.AddTriangleFilled(a, b, c, colour.packed()); });
+  } else {
+    list.AddCircleFilled(at, r, ground.packed(), 16);
+    list.AddCircle(at, r, colour.packed(), 16, ui::scaled(1.8F));
+  }
+  if (severity == Severity::note) return;
+  const ui::Colour ink = severity == Severity::error ? palette::backdrop : colour;
+  list.AddLine({at.x, at.y - 0.55F * r}, {at.x, at.y + 0.15F * r}, ink.packed(), ui::scaled(1.6F));
+  list.AddCircleFilled({at.x, at.y + 0.5F * r}, ui::scaled(0.9F), ink.packed(), 6);
+}
+
 }  // namespace
 
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
@@ -33,15 +56,40 @@ void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Insp
   ScaleLegend legend{"Triangles of local geometry", "0", ui::formatCount(most), {}};
   if (budget > 0) {
     const std::size_t over = inspection.budgets.over(budget).size();
-    legend.lines.push_back({fmt::format("{} over {}", over, ui::formatCount(budget)),
-                            over > 0 ? palette::danger : palette::good});
+    legend.lines.push_back({fmt::format("{} over {}", over, ui::formatCount(budget)), palette::alarm});
   }
+  drawScaleLegend(list, view, legend, font);
+}
+
+void drawBytesLegend(ImDrawList& list, const ui::CanvasView& view, std::uint64_t most, std::uint64_t all,
+                     ImFont* font) {
+  if (all == 0) return drawScaleLegend(list, view, {"Bytes on disk: nothing is baked yet", "", "", {}}, font);
+  ScaleLegend legend{"Bytes on disk of the captures that a region shows", "0", ui::formatBytes(most), {}};
+  legend.lines.push_back({ui::formatBytes(all) + " in all; captures serve several regions", palette::muted});
+  drawScaleLegend(list, view, legend, font);
+}
+
+void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const PlacementReport& report,
+                      ImFont* font) {
+  ScaleLegend legend{"Where cameras stand", "", "", {}};
+  const auto add = [&](Severity severity, const char* what) {
+    const int count = report.count(severity);
+    if (count == 0) return;
+    legend.lines.push_back(
+        {fmt::format("{}  {}", what, count), palette::muted,
+         [severity](ImDrawList& on, const ImVec2& at) { drawFinding(on, at, severity, 0.9F); }});
+  };
+  add(Severity::error, "badly: inside a solid, or too near");
+  add(Severity::warning, "deserves a look: floor, nearness");
+  add(Severity::note, "note");
+  if (legend.lines.empty())
+    legend.lines.push_back({fmt::format("all {} stand free", report.centres), palette::good});
   drawScaleLegend(list, view, legend, font);
 }
 
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
                                      const PlacementReport& report, const glm::dvec2& pointer) {
-  constexpr double kReach = 9;  // pixels
+  const double reach = double(ui::scaled(9));
   const PlacementFinding* under = nullptr;
   // The worst come first: they are drawn last, over the others.
   for (std::size_t f = report.findings.size(); f-- > 0;) {
@@ -50,14 +98,9 @@ const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& vie
     if (!view.contains(screen)) continue;
     const ui::Colour colour = colourOf(finding.severity);
     const ImVec2 at = imVec(screen);
-    const bool near = glm::distance(screen, pointer) <= kReach;
+    const bool near = glm::distance(screen, pointer) <= reach;
     if (near) under = &finding;
-    list.AddCircleFilled(at, near ? 6.5F : 5, palette::backdrop.withOpacity(0.85F).packed(), 16);
-    list.AddCircle(at, near ? 6.5F : 5, colour.packed(), 16, 1.8F);
-    if (finding.severity != Severity::note) {
-      list.AddLine({at.x, at.y - 2.6F}, {at.x, at.y + 0.6F}, colour.packed(), 1.6F);
-      list.AddCircleFilled({at.x, at.y + 2.6F}, 0.9F, colour.packed(), 6);
-    }
+    drawFinding(list, at, finding.severity, near ? 1.3F : 1);
     if (!finding.push) continue;
     const glm::dvec2 moved = view.screenFromWorld(finding.place + *finding.push);
     if (glm::distance(moved, screen) < 8) continue;

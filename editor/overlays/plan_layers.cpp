@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "editor/overlays/plan_overlays.h"
+#include "editor/overlays/bake_signs.h"
 #include "editor/overlays/scale_colour.h"
 #include "ui/canvas_draw.h"
+#include "ui/theme.h"
 
 namespace acentric::editor {
 namespace {
@@ -20,14 +21,17 @@ constexpr double kCamerasFrom = 6, kCamerasWhole = 16;
 
 ui::PolygonStyle bakeStyle(const Region& region, BakeState state) {
   const ui::Colour colour = colourOf(state);
-  return {colour.withOpacity(region.kind == RegionKind::ring ? 0.20F : 0.11F).packed(),
+  // Lighter and darker besides the hue: for eyes that miss it.
+  const float value = state == BakeState::baked ? 1 : state == BakeState::partial ? 0.7F : 0.45F;
+  return {colour.withOpacity(value * (region.kind == RegionKind::ring ? 0.22F : 0.13F)).packed(),
           colour.withOpacity(0.75F).packed(), 1.2F};
 }
 
 ui::PolygonStyle triangleStyle(std::size_t count, std::size_t most, std::size_t budget) {
   const bool over = budget > 0 && count > budget;
   // By the root: most cells hold few, some very many.
-  const ui::Colour colour = over ? palette::danger : scaleColour(std::sqrt(double(count) / double(most)));
+  const ui::Colour colour =
+      over ? ui::Colour(palette::alarm) : scaleColour(std::sqrt(double(count) / double(most)));
   return {colour.withOpacity(0.6F).packed(), colour.withOpacity(over ? 1.0F : 0.8F).packed(),
           over ? 2.2F : 1.0F};
 }
@@ -60,7 +64,7 @@ void PlanLayers::update(const PlanContents& contents) {
   const bool sameLayout = before.layout == shown_.layout;
   if (!sameLayout) sendShapes();
   sendRegionColours();
-  if (sameLayout && before.captures == shown_.captures) return;
+  if (sameLayout && before.captures == shown_.captures && before.palette == shown_.palette) return;
   sectorsSent_ = false;
   sendCameraColours();
 }
@@ -69,7 +73,11 @@ void PlanLayers::sendShapes() {
   const Layout& layout = *shown_.layout;
   std::vector<const ConvexPolygon*> polygons;
   polygons.reserve(layout.regions.size());
-  for (const Region& region : layout.regions) polygons.push_back(&region.polygon);
+  middles_.clear();
+  for (const Region& region : layout.regions) {
+    polygons.push_back(&region.polygon);
+    middles_.push_back(region.polygon.centroid());
+  }
   setPolygons(regions_, polygons);
   // Cameras at one centre of projection follow one another.
   std::vector<ui::CanvasMark> dots;
@@ -97,20 +105,54 @@ void PlanLayers::sendSectors() {
   sectorsSent_ = true;
 }
 
-void PlanLayers::sendRegionColours() {
-  const std::vector<Region>& regions = shown_.layout->regions;
-  std::vector<ui::PolygonStyle> styles(regions.size());
-  const Inspection* triangles =
-      shown_.triangles && shown_.triangles->layout == shown_.layout ? shown_.triangles.get() : nullptr;
-  const std::size_t most = triangles ? std::max<std::size_t>(triangles->budgets.worst(), 1) : 1;
-  const CaptureStatus* captures = shown_.captures.get();
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    const bool known = captures != nullptr && r < captures->regions.size();
-    styles[r] = triangles ? triangleStyle(triangles->budgets.triangles[r], most, shown_.budget)
-                          : bakeStyle(regions[r], known ? captures->regions[r] : BakeState::missing);
-    if (shown_.faint) styles[r] = {0, palette::text.withOpacity(0.28F).packed(), 1};
+ui::PolygonStyle PlanLayers::styleOf(std::size_t region, double most) const {
+  switch (shown_.overlay) {
+    case PlanOverlay::bake:
+    case PlanOverlay::checks:
+      return bakeStyle(shown_.layout->regions[region], states_[region]);
+    case PlanOverlay::triangles:
+      if (!shown_.inspection) break;
+      return triangleStyle(shown_.inspection->budgets.triangles[region], std::size_t(most), shown_.budget);
+    case PlanOverlay::bytes: {
+      if (bytes_[region] == 0) break;
+      const ui::Colour colour = scaleColour(std::sqrt(double(bytes_[region]) / most));
+      return {colour.withOpacity(0.6F).packed(), colour.withOpacity(0.8F).packed(), 1};
+    }
+    case PlanOverlay::coverage:
+    case PlanOverlay::none:
+      break;
   }
+  return {0, palette::text.withOpacity(0.28F).packed(), 1};
+}
+
+void PlanLayers::sendRegionColours() {
+  const Layout& layout = *shown_.layout;
+  const bool known = shown_.captures && shown_.captures->cameras.size() == layout.cameras.size();
+  states_ = !known         ? std::vector<BakeState>(layout.regions.size(), BakeState::missing)
+            : shown_.marks ? regionStates(layout, *shown_.captures, *shown_.marks)
+                           : shown_.captures->regions;
+  bytes_.clear();
+  double most = 1;
+  if (shown_.overlay == PlanOverlay::bytes) {
+    bytes_ = regionBytes(
+        layout, known ? shown_.captures->bytes : std::vector<std::uint64_t>(layout.cameras.size(), 0));
+    if (!bytes_.empty()) most = std::max(1.0, double(std::ranges::max(bytes_)));
+  } else if (shown_.overlay == PlanOverlay::triangles && shown_.inspection) {
+    most = double(std::max<std::size_t>(shown_.inspection->budgets.worst(), 1));
+  }
+  std::vector<ui::PolygonStyle> styles(layout.regions.size());
+  for (std::size_t r = 0; r < styles.size(); ++r) styles[r] = styleOf(r, most);
   regions_.setStyles(styles);
+}
+
+void PlanLayers::drawSigns(ImDrawList& list, const ui::CanvasView& view) const {
+  constexpr double kRoom = 44;  // pixels per cell edge
+  if (!shown_.layout || cellPixels(view) < kRoom) return;
+  const float radius = float(std::clamp(cellPixels(view) * 0.06, 4.0, 7.0));
+  for (std::size_t r = 0; r < middles_.size(); ++r) {
+    const glm::dvec2 at = view.screenFromWorld(middles_[r]);
+    if (view.contains(at)) drawBakeSign(list, ui::imVec(at), states_[r], radius);
+  }
 }
 
 void PlanLayers::sendCameraColours() {
@@ -150,7 +192,8 @@ void PlanLayers::drawSelection(ImDrawList& list, const ui::CanvasView& view,
                        palette::accent, kWidth);
     return;
   }
-  if (selection != selection_ || selectedIn_ != &layout) {
+  if (selection != selection_ || selectedIn_ != &layout || selectedWith_ != shown_.palette) {
+    selectedWith_ = shown_.palette;
     std::vector<const ConvexPolygon*> polygons;
     for (const CellId& cell : selection)
       if (const auto region = layout.findRegion(cell))
@@ -173,7 +216,7 @@ void PlanLayers::drawCameras(ImDrawList& list, const ui::CanvasView& view) {
     if (!sectorsSent_) sendSectors();
     sectors_.draw(list, view, {0, rim, float(std::min(26.0, cell * 0.18)), opacity});
   }
-  dots_.draw(list, view, {float(std::clamp(cell * 0.05, 1.2, 3.5)), rim, 0, opacity});
+  dots_.draw(list, view, {ui::scaled(float(std::clamp(cell * 0.05, 1.2, 3.5))), rim, 0, opacity});
 }
 
 const std::string& PlanLayers::problem() const {

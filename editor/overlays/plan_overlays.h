@@ -17,8 +17,6 @@
 
 namespace acentric::editor {
 
-ui::Colour colourOf(BakeState state);
-
 /// The cell under the pointer: what a click would take, or add.
 void drawHovered(ImDrawList& list, const ui::CanvasView& view, const ConvexPolygon& polygon, bool placed);
 /// Cells that were placed or taken away since the layout was laid, until it is laid anew.
@@ -27,6 +25,12 @@ void drawPending(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec&
 /// What the colours of cells by triangles mean, in the lower left corner.
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
                         std::size_t budget, ImFont* font);
+/// The same of signs where cameras stand badly, with how many of each there are.
+void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const PlacementReport& report,
+                      ImFont* font);
+/// The same of the bytes on disk.
+void drawBytesLegend(ImDrawList& list, const ui::CanvasView& view, std::uint64_t most, std::uint64_t all,
+                     ImFont* font);
 /// Marks where findings lie, and with an arrow where a centre would stand free. Returns the one under the
 /// pointer.
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
@@ -41,11 +45,9 @@ void drawFreeApvs(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec
 /// The corners of an outline that is being drawn, with a line to the pointer.
 void drawOutlineInHand(ImDrawList& list, const ui::CanvasView& view, std::span<const glm::dvec2> corners,
                        const glm::dvec2& pointer);
-/// A cell on its way: where it comes from and where it would land; `possible` if that place is free.
-void drawCellDrag(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec& spec,
-                  const PlanTool::CellDrag& drag, bool possible);
+/// `size` 1: as on the plan.
 void drawEye(ImDrawList& list, const ui::CanvasView& view, const WalkPose& pose, double fovRadians,
-             const Region* region);
+             const Region* region, float size = 1);
 void drawStart(ImDrawList& list, const ui::CanvasView& view, const glm::dvec2& position, double yawRadians);
 
 }  // namespace acentric::editor

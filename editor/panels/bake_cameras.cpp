@@ -65,9 +65,9 @@ void drawBakeCameras(PanelContext& context) {
   if (!ImGui::BeginTable("##cameras", 3, kFlags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn(severalStoreys ? "Storey / camera" : "Camera", ImGuiTableColumnFlags_WidthFixed,
-                          severalStoreys ? 104.0F : 56.0F);
+                          ui::scaled(severalStoreys ? 104 : 56));
   ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Traced", ImGuiTableColumnFlags_WidthFixed, 104);
+  ImGui::TableSetupColumn("Traced", ImGuiTableColumnFlags_WidthFixed, ui::scaled(104));
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(int(queue.cameras().size()));

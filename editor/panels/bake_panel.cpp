@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "editor/panels/bake_cameras.h"
+#include "editor/panels/preference_fields.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -30,7 +31,8 @@ void drawProgress(PanelContext& context) {
   } else if (captures != nullptr) {
     const int total = int(captures->cameras.size());
     const double fraction = total == 0 ? 0 : double(captures->baked) / total;
-    const std::string text = captures->complete()
+    const std::string text = total == 0 ? std::string("no cells, nothing to bake")
+                             : captures->complete()
                                  ? fmt::format("all {} captures baked", total)
                                  : fmt::format("{} of {} captures baked", captures->baked, total);
     ui::progressBar(fraction, text, context.now, ui::palette::good);
@@ -64,7 +66,7 @@ void drawDisk(Session& session) {
     text += fmt::format(", about {} needed", ui::formatBytes(std::uint64_t(*needed)));
   const bool tight = needed && *needed > 0.9 * double(*session.freeBytes());
   ui::mutedText("Disk");
-  ImGui::SameLine(kValueX);
+  ImGui::SameLine(ui::scaled(kValueX));
   ui::wrappedText(tight ? ui::palette::warning : ui::palette::text, text);
 }
 
@@ -112,30 +114,20 @@ void drawFacts(PanelContext& context) {
     ui::tooltip(fmt::format("{:.1f} million pixels, {:.1f} million samples", estimate->pixels / 1e6,
                             estimate->samples.value / 1e6));
   }
-  int threads = session.bakeThreads();
-  const ui::FieldEdit edit =
-      ui::numberField({"Threads", "%.0f", 0.05, 1, double(session.processors()),
-                       "For baking and loading. One fewer than the processors keeps the window quick."},
-                      threads, kValueX);
-  if (edit.changed) session.preferences().bakeThreads = threads;
-  const ui::FieldEdit memory = ui::numberField(
-      {"Memory", "%.0f MB", 16, 16, 65536,
-       "That captures may take from when they are traced until they are written, with what regions "
-       "see. More: less waiting, less traced twice. The scene itself comes on top."},
-      session.preferences().bakeMegabytes, kValueX);
-  if (edit.finished || memory.finished) session.savePreferencesNow();
+  bakeThreadsField(context, kValueX);
+  bakeMemoryField(context, kValueX);
 }
 
 void drawLegend() {
-  const auto entry = [](const ui::Colour& colour, const char* text) {
+  const auto entry = [](const ui::Colour& colour, const char* text, ui::Mark mark) {
     ImGui::BeginGroup();
-    ui::badge(colour, text);
+    ui::badge(colour, text, mark);
     ImGui::EndGroup();
-    ImGui::SameLine(0, 14);
+    ImGui::SameLine(0, ui::scaled(14));
   };
-  entry(ui::palette::good, "baked");
-  entry(ui::palette::warning, "partly");
-  entry(ui::Colour::hex(0x9aa6b8), "missing");
+  entry(ui::palette::done, "baked", ui::Mark::disc);
+  entry(ui::palette::partly, "partly", ui::Mark::half);
+  entry(ui::palette::missing, "missing", ui::Mark::ring);
   ImGui::NewLine();
 }
 
@@ -161,14 +153,14 @@ void drawBakePanel(PanelContext& context) {
     ui::wrappedText(ui::palette::faint, "Nothing to bake: no project is open.");
     return;
   }
-  constexpr float kButtonWidth = 104;
+  const float buttonWidth = ui::scaled(104);
   if (context.session().baking().running()) {
-    actionButton(context, "bake.cancel", ButtonLook::plain, {kButtonWidth, 0}, "Cancel");
+    actionButton(context, "bake.cancel", ButtonLook::plain, {buttonWidth, 0}, "Cancel");
     ImGui::SameLine();
     actionButton(context, "bake.pause", ButtonLook::plain, {},
                  context.session().bakePaused() ? "Go on" : "Pause");
   } else {
-    actionButton(context, "bake.start", ButtonLook::primary, {kButtonWidth, 0});
+    actionButton(context, "bake.start", ButtonLook::primary, {buttonWidth, 0});
     ImGui::SameLine();
     actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
   }
@@ -181,9 +173,9 @@ void drawBakePanel(PanelContext& context) {
     ui::tooltip(help);
   };
   view("Overview", "Pace, disk, settings", false);
-  ImGui::SameLine(0, 3);
+  ImGui::SameLine(0, ui::scaled(3));
   view("Cameras", "What became of each camera", true);
-  ImGui::SameLine(0, 14);
+  ImGui::SameLine(0, ui::scaled(14));
   drawLegend();
   if (context.state().showBakeCameras) return drawBakeCameras(context);
   ImGui::BeginChild("##facts");

@@ -1,56 +1,40 @@
 #include "editor/panels/dialogs.h"
 
-#include <array>
 #include <utility>
 
 #include "editor/panels/bake_panel.h"
+#include "editor/panels/dialog_frame.h"
+#include "editor/panels/document_dialogs.h"
+#include "editor/panels/preferences_dialog.h"
 #include "editor/session/project_files.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
 namespace {
 
-constexpr float kButtonWidth = 112;
-
-/// A modal in the middle of the window; call endDialog() if true. `id` is also its title.
-bool beginDialog(const char* id, float width) {
-  if (!ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {18, 14});
-  const bool open = ImGui::BeginPopupModal(
-      id, nullptr, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-  ImGui::PopStyleVar();
-  return open;
-}
-
-void endDialog(bool close) {
-  if (close) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-}
-
-void alignRight(int buttons) {
-  const float spacing = ImGui::GetStyle().ItemSpacing.x;
-  ImGui::Dummy({0, 6});
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - float(buttons) * kButtonWidth -
-                       float(buttons - 1) * spacing);
-}
-
 std::vector<std::string> modelEndings() {
-  return {kProjectEnding, ".glb", ".gltf", ".obj", ".ply",   ".stl",
-          ".fbx",         ".dae", ".off",  ".3ds", ".blend", ".x"};
+  return {".glb", ".gltf", ".obj", ".ply", ".stl", ".fbx", ".dae", ".off", ".3ds", ".blend", ".x"};
+}
+
+std::vector<std::string> allEndings() {
+  std::vector<std::string> endings = modelEndings();
+  endings.insert(endings.begin(), kProjectEnding);
+  return endings;
 }
 
 }  // namespace
 
-bool Dialogs::anyOpen() const { return open_ || browser_.isOpen() || !failures_.empty(); }
+bool Dialogs::anyOpen() const {
+  return open_ || browser_.isOpen() || commands_.isOpen() || !failures_.empty();
+}
 
 void Dialogs::handleKeys(std::vector<ui::InputEvent>& events) {
   enter_ = escape_ = false;
   std::erase_if(events, [this](const ui::InputEvent& event) {
-    if (browser_.handleKey(event)) return true;
+    if (browser_.handleKey(event) || commands_.handleKey(event)) return true;
     if (!open_ || event.kind != ui::InputEvent::Kind::keyPress) return false;
-    enter_ = enter_ || event.code == ui::key::enter || event.code == ui::key::keypadEnter;
+    const bool enter = event.code == ui::key::enter || event.code == ui::key::keypadEnter;
+    enter_ = enter_ || (enter && !ImGui::GetIO().NavVisible);  // else it presses what is lit
     escape_ = escape_ || event.code == ui::key::escape;
     return true;
   });
@@ -60,17 +44,42 @@ void Dialogs::openFileDialogs(PanelContext& context) {
   EditorState& state = context.state();
   Session& session = context.session();
   if (browser_.isOpen()) return;
-  if (state.dialog == Dialog::openFile) {
+  const auto browse = [&](const char* title, const std::filesystem::path& folder,
+                          std::vector<std::string> endings, ui::FileBrowser::Chosen chosen) {
     state.dialog = Dialog::none;
-    browser_.open({"Open a project or a model", false, session.preferences().lastFolder, "", modelEndings()},
-                  [&session](const std::filesystem::path& file) { session.open(file); });
+    browser_.open({title, false, folder, "", std::move(endings)}, std::move(chosen));
+  };
+  const std::filesystem::path& last = session.preferences().lastFolder;
+  if (state.dialog == Dialog::openFile) {
+    browse("Open a project or a model", last, allEndings(),
+           [&session](const std::filesystem::path& file) { session.open(file); });
+  } else if (state.dialog == Dialog::newFile) {
+    browse("Choose a model for a new project", last, modelEndings(),
+           [&session, &state](const std::filesystem::path& file) {
+             session.open(file);
+             state.draft = {file};
+             state.dialog = Dialog::newProject;
+           });
+  } else if (state.dialog == Dialog::locateScene) {
+    browse("Where is the model?", session.file().parent_path(), modelEndings(),
+           [&session](const std::filesystem::path& file) { session.locateScene(file); });
+  } else if (state.dialog == Dialog::exportPath) {
+    state.dialog = Dialog::none;
+    const WalkPath* path = state.walkSelection.path(session.project());
+    if (path == nullptr) return;
+    browser_.open(
+        {"Export " + path->name, true, session.file().parent_path(), path->name + ".json", {".json"}},
+        [&session, number = state.walkSelection.number](const std::filesystem::path& file) {
+          session.exportPath(number, file);
+        });
   } else if (state.dialog == Dialog::saveAs) {
     state.dialog = Dialog::none;
     const Continuation then = std::exchange(state.continuation, {});
     browser_.open({"Save the project",
                    true,
                    session.file().parent_path(),
-                   session.file().filename().string(),
+                   session.readOnly() ? freeCopyName(session.file()).filename().string()
+                                      : session.file().filename().string(),
                    {kProjectEnding}},
                   [&session, &state, then](const std::filesystem::path& file) {
                     ActionContext actions{session, state};
@@ -82,8 +91,8 @@ void Dialogs::openFileDialogs(PanelContext& context) {
 void Dialogs::drawFailure(PanelContext& context) {
   if (!beginDialog("That did not work", 560)) return;
   ui::wrappedText(ui::palette::text, failures_.front());
-  alignRight(1);
-  const bool done = ui::primaryButton("OK", {kButtonWidth, 0}) || enter_ || escape_;
+  alignButtons(1);
+  const bool done = ui::primaryButton("OK", {dialogButtonWidth(), 0}) || enter_ || escape_;
   context.log.item("dialog.ok");
   if (done) failures_.pop_front();
   endDialog(done);
@@ -94,14 +103,14 @@ void Dialogs::drawUnsavedChanges(PanelContext& context) {
   if (!beginDialog("Unsaved changes", 520)) return;
   ui::wrappedText(ui::palette::text,
                   "Save the changes to " + context.session().file().filename().string() + " first?");
-  alignRight(3);
-  const bool cancel = ui::button("Cancel", {kButtonWidth, 0}) || escape_;
+  alignButtons(3);
+  const bool cancel = ui::button("Cancel", {dialogButtonWidth(), 0}) || escape_;
   context.log.item("dialog.cancel");
   ImGui::SameLine();
-  const bool discard = ui::button("Discard", {kButtonWidth, 0});
+  const bool discard = ui::button("Discard", {dialogButtonWidth(), 0});
   context.log.item("dialog.discard");
   ImGui::SameLine();
-  const bool save = ui::primaryButton("Save", {kButtonWidth, 0}) || enter_;
+  const bool save = ui::primaryButton("Save", {dialogButtonWidth(), 0}) || enter_;
   context.log.item("dialog.save");
   if (cancel || discard || save) {
     state.dialog = Dialog::none;
@@ -120,11 +129,11 @@ void Dialogs::drawRecovery(PanelContext& context) {
       ui::palette::text,
       "The last run ended without saving. Its last autosave differs from the file. The file itself is as you "
       "saved it.");
-  alignRight(2);
-  const bool discard = ui::button("Discard", {kButtonWidth, 0});
+  alignButtons(2);
+  const bool discard = ui::button("Discard", {dialogButtonWidth(), 0});
   context.log.item("dialog.discard");
   ImGui::SameLine();
-  const bool recover = ui::primaryButton("Recover", {kButtonWidth, 0}) || enter_;
+  const bool recover = ui::primaryButton("Recover", {dialogButtonWidth(), 0}) || enter_;
   context.log.item("dialog.recover");
   if (discard || recover) context.session().answerRecovery(recover);
   endDialog(discard || recover);
@@ -135,38 +144,16 @@ void Dialogs::drawOpening(PanelContext& context) {
   if (!beginDialog("Opening", 520)) return;
   ui::wrappedText(ui::palette::text, job.label());
   ui::progressBar(progressFraction(job), progressText(job), context.now);
-  alignRight(1);
-  const bool cancel = ui::button("Cancel", {kButtonWidth, 0}, !job.cancelling()) || escape_;
+  alignButtons(1);
+  const bool cancel = ui::button("Cancel", {dialogButtonWidth(), 0}, !job.cancelling()) || escape_;
   context.log.item("dialog.cancel");
   if (cancel) context.session().cancelOpening();
   endDialog(false);
 }
 
-void Dialogs::drawShortcuts(PanelContext& context) {
-  if (!beginDialog("Keys and mouse", 620)) return;
-  const auto row = [](const std::string& keys, const std::string& what) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ui::wrappedText(ui::palette::accent, keys);
-    ImGui::TableNextColumn();
-    ui::wrappedText(ui::palette::text, what);
-  };
-  if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingStretchProp)) {
-    ImGui::TableSetupColumn("", 0, 0.36F);
-    ImGui::TableSetupColumn("", 0, 0.64F);
-    row("W A S D, arrows", "walk; Shift: faster");
-    row("Page Up, Page Down", "raise and lower the eye within the range that is baked");
-    row("Q E, or drag in the walk", "look around");
-    row("Wheel, right or middle drag", "zoom and pan the plan");
-    row("Ctrl+click, Shift+click a cell", "remove it; add it to the selection");
-    row("Double click a number", "type a value");
-    for (const Action& action : context.table)
-      if (action.shortcut.key != 0) row(describe(action.shortcut), action.label);
-    ImGui::EndTable();
-  }
-  alignRight(1);
-  const bool done = ui::primaryButton("Close", {kButtonWidth, 0}) || enter_ || escape_;
-  context.log.item("dialog.ok");
+void Dialogs::drawPreferencesDialog(PanelContext& context) {
+  if (!beginDialog("Preferences", 560)) return;
+  const bool done = drawPreferences(context) || escape_;
   if (done) context.state().dialog = Dialog::none;
   endDialog(done);
 }
@@ -177,8 +164,8 @@ void Dialogs::drawAbout(PanelContext& context) {
                   "Acentric: walkthroughs made of acentric panorama views. Lay a tessellation, bake, walk.");
   ImGui::Dummy({0, 2});
   ui::wrappedText(ui::palette::faint, context.window.graphicsDescription());
-  alignRight(1);
-  const bool done = ui::primaryButton("Close", {kButtonWidth, 0}) || enter_ || escape_;
+  alignButtons(1);
+  const bool done = ui::primaryButton("Close", {dialogButtonWidth(), 0}) || enter_ || escape_;
   context.log.item("dialog.ok");
   if (done) context.state().dialog = Dialog::none;
   endDialog(done);
@@ -192,19 +179,32 @@ void Dialogs::draw(PanelContext& context) {
   if (!failures_.empty()) return drawFailure(context);
   if (context.session().opening().running()) return drawOpening(context);
   if (context.session().recoveryOffered()) return drawRecovery(context);
+  const DialogKeys keys{enter_, escape_};
+  if (context.session().lockQuestion()) return drawLockQuestion(context, keys);
+  if (context.session().locateQuestion()) return drawMissingModel(context, keys);
   switch (context.state().dialog) {
+    case Dialog::newProject:
+      return drawNewProject(context, keys);
+    case Dialog::changedOnDisk:
+      return drawChangedOnDisk(context, keys);
     case Dialog::unsavedChanges:
       return drawUnsavedChanges(context);
-    case Dialog::shortcuts:
-      return drawShortcuts(context);
+    case Dialog::preferences:
+      return drawPreferencesDialog(context);
     case Dialog::about:
       return drawAbout(context);
     case Dialog::none:
     case Dialog::openFile:
+    case Dialog::newFile:
+    case Dialog::locateScene:
+    case Dialog::exportPath:
     case Dialog::saveAs:
+    case Dialog::commands:
+    case Dialog::shortcuts:
       break;
   }
   open_ = false;
+  commands_.draw(context);
 }
 
 }  // namespace acentric::editor

@@ -9,7 +9,7 @@ namespace {
 void drawEffect(PanelContext& context, Effect effect, const EffectState& effectState) {
   ImGui::PushID(int(effect));
   bool on = effectState.on;
-  if (ImGui::Checkbox(labelOf(effect), &on)) {
+  if (ui::checkBox(labelOf(effect), &on)) {
     const Project& project = context.session().project();
     const bool asCalledFor = on == effectState.calledFor;
     context.session().apply(setEffect(project, effect, asCalledFor ? std::nullopt : std::optional(on)));
@@ -41,9 +41,9 @@ void drawEffects(PanelContext& context) {
       continue;
     }
     drawEffect(context, Effect(i), state);
-    ImGui::Indent(24);
+    ImGui::Indent(ui::scaled(24));
     ui::wrappedText(ui::palette::faint, state.reason);
-    ImGui::Unindent(24);
+    ImGui::Unindent(ui::scaled(24));
   }
   if (notCalledFor == 0) return;
   if (ImGui::TreeNode("##others", "%d not called for by this scene", notCalledFor)) {

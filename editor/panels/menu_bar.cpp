@@ -1,5 +1,9 @@
 #include "editor/panels/menu_bar.h"
 
+// Where the arrows are in the menu bar is not in the public interface of 1.86.
+#define IMGUI_DEFINE_MATH_OPERATORS
+#include <imgui_internal.h>
+
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -19,6 +23,9 @@ void drawItem(PanelContext& context, const Action& action) {
                       action.enabled(context.actions)))
     runAction(context, action);
   context.log.item("menu." + action.id);
+  if (ImGui::IsItemFocused()) context.log.item("lit." + action.id);
+  const std::string why = whyDisabled(action, context.actions);
+  ui::tooltip(why.empty() || action.help.empty() ? action.help + why : action.help + " (" + why + ")");
 }
 
 void drawRecent(PanelContext& context) {
@@ -32,12 +39,22 @@ void drawRecent(PanelContext& context) {
 
 }  // namespace
 
-float drawMenuBar(PanelContext& context) {
-  if (!ImGui::BeginMainMenuBar()) return 0;
-  for (const char* menu : {"File", "Edit", "Plan", "Walk", "Help"}) {
+MenuBar drawMenuBar(PanelContext& context) {
+  MenuBar result;
+  if (!ImGui::BeginMainMenuBar()) return result;
+  if (context.state().openMenus) {
+    context.state().openMenus = false;
+    ImGui::OpenPopup("File");
+  }
+  ImGuiWindow& bar = *ImGui::GetCurrentWindow();
+  for (const char* menu : {"File", "Edit", "View", "Plan", "Walk", "Help"}) {
+    const ImVec2 at = ImGui::GetCursorScreenPos() - bar.Pos;
     const bool open = ImGui::BeginMenu(menu);
     context.log.item(std::string("menu.") + menu);
     if (!open) continue;
+    // From here left and right go on, also when the menu was not opened from the bar.
+    bar.NavLastIds[ImGuiNavLayer_Menu] = bar.GetID(menu);
+    bar.NavRectRel[ImGuiNavLayer_Menu] = ImRect(at, at + ImGui::CalcTextSize(menu));
     for (const Action& action : context.table) {
       if (action.menu != menu) continue;
       drawItem(context, action);
@@ -45,9 +62,10 @@ float drawMenuBar(PanelContext& context) {
     }
     ImGui::EndMenu();
   }
-  const float height = ImGui::GetWindowSize().y;
+  result.height = ImGui::GetWindowSize().y;
+  result.focused = ImGui::IsWindowFocused();
   ImGui::EndMainMenuBar();
-  return height;
+  return result;
 }
 
 }  // namespace acentric::editor

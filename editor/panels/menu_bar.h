@@ -5,7 +5,10 @@
 
 namespace acentric::editor {
 
-/// Returns its height in pixels.
-float drawMenuBar(PanelContext& context);
+struct MenuBar {
+  float height = 0;      ///< pixels
+  bool focused = false;  ///< arrows walk it, no menu being open
+};
+MenuBar drawMenuBar(PanelContext& context);
 
 }  // namespace acentric::editor

@@ -17,7 +17,8 @@ ui::Colour colourOf(MessageLevel level) {
 }
 
 void drawMessagesPanel(PanelContext& context) {
-  ui::panelTitle(context.window.fonts().bold, "Messages");
+  if (context.session().messages().all().empty())
+    return ui::wrappedText(ui::palette::faint, "What happens is told here.");
   ImGui::BeginChild("##lines");
   const bool atEnd = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1;
   for (const Message& message : context.session().messages().all()) {
@@ -31,8 +32,13 @@ void drawMessagesPanel(PanelContext& context) {
     if (ImGui::IsItemClicked()) ImGui::SetClipboardText(message.text.c_str());
     ui::tooltip("Click to copy");
   }
-  if (atEnd) ImGui::SetScrollHereY(1);
+  const bool lit = context.now < context.state().messagesLitUntil;
+  if (atEnd || lit) ImGui::SetScrollHereY(1);
   ImGui::EndChild();
+  if (!lit) return;
+  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                      ui::palette::accent.packed(), ui::scaled(4), 0, ui::scaled(2));
+  context.window.pacer().requestAt(context.state().messagesLitUntil);
 }
 
 }  // namespace acentric::editor

@@ -9,6 +9,7 @@ namespace acentric::editor {
 void runAction(PanelContext& context, const Action& action) {
   if (!action.enabled(context.actions)) return;
   context.log.event("action", action.id);
+  noteUse(context.state(), action.id);
   action.run(context.actions);
   context.window.pacer().request();
 }
@@ -32,6 +33,8 @@ void actionButton(PanelContext& context, const char* id, ButtonLook look, const 
   context.log.item(id);
   std::string help = action->help.empty() ? action->label : action->help;
   if (const std::string key = describe(action->shortcut); !key.empty()) help += fmt::format("  [{}]", key);
+  if (const std::string why = whyDisabled(*action, context.actions); !why.empty())
+    help += "\nNot now: " + why;
   ui::tooltip(help);
   if (clicked) runAction(context, *action);
 }
@@ -41,7 +44,7 @@ bool beginPane(const char* id, const ImVec2& size, bool padded) {
   if (!padded) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   const bool visible = ImGui::BeginChild(id, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (!padded) ImGui::PopStyleVar();
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8, 6});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ui::scaled(ImVec2(8, 6)));
   return visible;
 }
 

@@ -6,6 +6,7 @@
 
 #include "editor/actions/action_table.h"
 #include "ui/fields.h"
+#include "ui/theme.h"
 #include "ui/ui_log.h"
 #include "ui/widgets.h"
 #include "ui/window.h"
@@ -20,6 +21,7 @@ struct PanelContext {
   const std::vector<ui::InputEvent>& events;  ///< of this frame, oldest first
   bool inputBlocked = false;                  ///< a dialog, menu or toast takes the pointer and the keys
   double now = 0;                             ///< seconds, monotonic
+  bool keysOnWidgets = false;                 ///< arrows go to widgets, not to the walk
 
   Session& session() { return actions.session; }
   EditorState& state() { return actions.state; }

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "editor/actions/path_walk.h"
 #include "editor/commands/layout_edits.h"
+#include "editor/commands/selection.h"
+#include "editor/overlays/bake_signs.h"
 #include "editor/overlays/plan_overlays.h"
+#include "editor/overlays/tool_overlays.h"
+#include "editor/overlays/walk_overlay.h"
+#include "editor/panels/array_panel.h"
+#include "editor/panels/plan_toolbar.h"
 #include "engine/geometry/conventions.h"
-#include "engine/pipeline/camera_path.h"
 #include "ui/canvas_draw.h"
-#include "ui/keys.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -19,11 +24,6 @@ namespace {
 
 std::span<const std::uint8_t> bytesOf(const ColourImage& image) {
   return {&image.pixels.front().x, image.pixels.size() * sizeof(Rgba8)};
-}
-
-PlanSituation situationOf(PanelContext& context, const ui::CanvasView& view) {
-  return {&context.session().project().layout(), &context.state().selection,
-          glm::dvec2(context.state().walker.pose().eye), view.pixelsPerMetre()};
 }
 
 }  // namespace
@@ -40,49 +40,14 @@ void PlanPanel::fit(const Session& session) {
   view_.fit(low, high, 0.08);
 }
 
-void PlanPanel::drawToolbar(PanelContext& context) {
-  constexpr float kNear = 3, kApart = 16;
-  struct Entry {
-    const char* id;
-    const char* label;
-    float gap;
-    ButtonLook look = ButtonLook::toggle;
-  };
-  static constexpr std::array<Entry, 11> kEntries{{{"tool.cells", "Cells", 0},
-                                                   {"tool.eye", "Eye", kNear},
-                                                   {"tool.outline", "Outline", kNear},
-                                                   {"tool.panorama", "APV", kNear},
-                                                   {"view.backdrop", "Scene", kApart},
-                                                   {"view.lattice", "Lattice", kNear},
-                                                   {"view.cameras", "Cameras", kNear},
-                                                   {"view.triangles", "Triangles", kNear},
-                                                   {"view.checks", "Checks", kNear},
-                                                   {"view.coverage", "Coverage", kNear},
-                                                   {"view.fit", "Fit", kApart, ButtonLook::plain}}};
-  const float right = ImGui::GetWindowSize().x - 8;
-  for (const Entry& entry : kEntries) {
-    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
-    if (entry.gap > 0) ImGui::SameLine(0, entry.gap);
-    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
-    actionButton(context, entry.id, entry.look, {}, entry.label);
-  }
-  if (!context.state().showCoverage) return;
-  ImGui::AlignTextToFramePadding();
-  ui::mutedText("Coverage of");
-  for (const auto& [id, label] :
-       {std::pair("coverage.surfaces", "surfaces"), std::pair("coverage.layout", "the plan"),
-        std::pair("coverage.cell", "a cell")}) {
-    ImGui::SameLine(0, id == std::string_view("coverage.surfaces") ? 10.0F : 3.0F);
-    actionButton(context, id, ButtonLook::toggle, {}, label);
-  }
-}
-
 void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {
   const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
                                        ui::formatCount(layout.cameras.size()));
   const float width = font->CalcTextSizeA(font->FontSize, 1000, 0, text.c_str()).x;
-  const ImVec2 corner = ui::imVec(view_.areaMin() + glm::dvec2(view_.areaSize().x, ui::kRulerPixels));
-  ui::drawLabel(list, font, {corner.x - width - 16, corner.y + 10}, ui::palette::text, text.c_str());
+  const ImVec2 corner =
+      ui::imVec(view_.areaMin() + glm::dvec2(view_.areaSize().x, double(ui::scaled(ui::kRulerPixels))));
+  ui::drawLabel(list, font, {corner.x - width - ui::scaled(16), corner.y + ui::scaled(10)}, ui::palette::text,
+                text.c_str());
 }
 
 void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::optional<CellId>& hovered) {
@@ -90,14 +55,23 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   const EditorState& state = context.state();
   const OpenProject& open = *session.built();
   const LayoutSpec& spec = session.project().layout();
+  const bool tried = state.trial || state.planTool.latticeTool().dragging();
   if (state.showLattice || context.log.on()) freeCells_.update(open.layout, view_);
-  if (state.showLattice) freeCells_.draw(list, view_);
-  layers_.update({open.layout, session.captures(), state.showTriangles ? session.inspection() : nullptr,
-                  std::size_t(session.project().budget.trianglesPerRegion), state.showCoverage});
-  layers_.drawRegions(list, view_);
+  if (state.showLattice && !tried) freeCells_.draw(list, view_);
+  if (BakeMarks marks = bakeMarks(session.bakeQueue(), session.project().storey); marks != *marks_)
+    marks_ = std::make_shared<const BakeMarks>(std::move(marks));
+  layers_.update({open.layout, session.captures(), marks_, state.overlay,
+                  state.overlay == PlanOverlay::triangles ? session.inspection() : nullptr,
+                  std::size_t(session.project().budget.trianglesPerRegion)});
   if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
     session.messages().add(MessageLevel::error,
                            "The plan cannot be drawn on this OpenGL. " + layers_.problem());
+  if (tried) {
+    LayoutSpec wanted = state.trial.value_or(spec);
+    if (!state.trial) placeLattice(wanted, state.planTool.latticeTool().place());
+    return trial_.draw(list, view_, wanted);
+  }
+  layers_.drawRegions(list, view_);
   if (session.rebuilding().running()) drawPending(list, view_, open.layout->spec, spec);
   if (hovered) {
     const bool placed = isPlaced(spec, *hovered);
@@ -106,86 +80,34 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   layers_.drawSelection(list, view_, state.selection);
 }
 
-std::optional<CellId> PlanPanel::hoveredCell(const PanelContext& context) const {
-  const EditorState& state = context.actions.state;
-  const LayoutSpec& spec = context.actions.session.project().layout();
-  const bool pointing = state.planTool.mode() == PlanMode::cells && !context.inputBlocked &&
-                        view_.contains(pointer_) && !state.planTool.capturing() &&
-                        spec.cellSize * view_.pixelsPerMetre() >= kLeastCellPixels;
-  if (!pointing) return std::nullopt;
-  return cellAt(spec, view_.worldFromScreen(pointer_)).id;
-}
-
-void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
+void PlanPanel::askForFigures(PanelContext& context, const std::optional<CellId>& hovered) {
   Session& session = context.session();
   EditorState& state = context.state();
-  const Project& project = session.project();
-  const auto placeEye = [&](const glm::dvec2& position) {
-    WalkPose pose = state.walker.pose();
-    pose.eye = glm::dvec3(clampToPlan(*session.built()->layout, position), pose.eye.z);
-    state.walker.setPose(pose);
-  };
-  if (const auto* add = std::get_if<AddCellIntent>(&intent)) {
-    if (session.apply(addCell(project, add->cell))) state.selection = {add->cell};
-  } else if (const auto* remove = std::get_if<RemoveCellIntent>(&intent)) {
-    session.apply(removeCells(project, {remove->cell}));
-    state.selection.erase(remove->cell);
-  } else if (const auto* select = std::get_if<SelectIntent>(&intent)) {
-    state.selection = select->cells;
-  } else if (const auto* move = std::get_if<MoveCellIntent>(&intent)) {
-    if (session.apply(moveCell(project, move->from, move->to))) state.selection = {move->to};
-  } else if (const auto* pan = std::get_if<PanIntent>(&intent)) {
-    view_.panPixels(pan->pixels);
-  } else if (const auto* place = std::get_if<PlaceEyeIntent>(&intent)) {
-    placeEye(place->position);
-  } else if (const auto* turn = std::get_if<TurnEyeIntent>(&intent)) {
-    WalkPose pose = state.walker.pose();
-    pose.yawRadians = turn->yawRadians;
-    state.walker.setPose(pose);
-  } else if (const auto* outline = std::get_if<OutlineIntent>(&intent)) {
-    session.applyLive(setOutline(project, outline->outline), outline->finished);
-  } else if (const auto* apv = std::get_if<FreeApvIntent>(&intent)) {
-    const int number = apv->number.value_or(nextFreeNumber(project.layout()));
-    Edit edit = apv->number ? setFreeApv(project, number, apv->apv) : addFreeApv(project, apv->apv);
-    if (!apv->finished)
-      session.applyLive(std::move(edit), false);
-    else if (session.apply(std::move(edit)))
-      state.selection = {{number, 0, kFreeSlot}};
-  }
+  session.askForInspection(state.overlay == PlanOverlay::triangles || state.overlay == PlanOverlay::checks ||
+                           state.selectionWish != SelectionWish::none || state.showTable);
+  session.askForCoverage(wantedCoverage(state, hovered));
+  const PlanMode mode = state.planTool.mode();
+  session.askForWalls(mode == PlanMode::lattice || mode == PlanMode::measure);
+  snapCorners_.clear();
+  if (const auto walls = session.walls()) snapCorners_ = walls->corners;
+  if (mode != PlanMode::lattice && mode != PlanMode::measure) return;
+  for (const auto& loop : session.project().layout().outline.loops)
+    snapCorners_.insert(snapCorners_.end(), loop.begin(), loop.end());
 }
 
-void PlanPanel::handleEvents(PanelContext& context) {
-  using Kind = ui::InputEvent::Kind;
-  PlanTool& tool = context.state().planTool;
-  for (const ui::InputEvent& event : context.events) {
-    const bool inside = view_.contains(event.position) && !context.inputBlocked;
-    if (event.kind == Kind::scroll && inside) view_.zoomAt(event.position, std::pow(1.18, event.scroll.y));
-    if (event.kind == Kind::keyPress && !context.inputBlocked && tool.mode() == PlanMode::outline &&
-        (event.code == ui::key::enter || event.code == ui::key::keypadEnter))
-      act(context, tool.closeOutline());
-    if (event.kind == Kind::keyPress && event.code == ui::key::escape && !context.inputBlocked) {
-      if (tool.cancel())
-        context.session().cancelLive();
-      else
-        context.state().selection.clear();
-    }
-    PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
-                         view_.worldFromScreen(event.position)};
-    if (event.kind == Kind::buttonPress && inside)
-      pointer.kind = PointerEvent::Kind::press;
-    else if (event.kind == Kind::buttonRelease && tool.capturing())
-      pointer.kind = PointerEvent::Kind::release;
-    else if (event.kind != Kind::move || !tool.capturing())
-      continue;
-    act(context, tool.handle(pointer, situationOf(context, view_)));
-  }
+void PlanPanel::frame(PanelContext& context) {
+  const auto cell = std::exchange(context.state().frameCell, std::nullopt);
+  const Layout& layout = *context.session().built()->layout;
+  const auto region = cell ? layout.findRegion(*cell) : std::nullopt;
+  if (!region) return;
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (const glm::dvec2& corner : layout.regions[std::size_t(*region)].grown.corners)
+    low = glm::min(low, corner), high = glm::max(high, corner);
+  view_.fit(low, high, 0.3);
 }
 
-void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
+void PlanPanel::drawBackdrop(PanelContext& context, ImDrawList& list) {
   Session& session = context.session();
-  EditorState& state = context.state();
-  const Layout& layout = *session.built()->layout;
-  const LayoutSpec& spec = session.project().layout();
   if (session.backdrop() != shownBackdrop_) {
     shownBackdrop_ = session.backdrop();
     if (shownBackdrop_)
@@ -194,57 +116,142 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
     else
       backdropTexture_.clear();
   }
-  if (state.showBackdrop && shownBackdrop_ && !backdropTexture_.empty()) {
-    const glm::dvec2 upperLeft = view_.screenFromWorld({shownBackdrop_->min.x, shownBackdrop_->max.y});
-    const glm::dvec2 lowerRight = view_.screenFromWorld({shownBackdrop_->max.x, shownBackdrop_->min.y});
-    list.AddImage(backdropTexture_.imguiId(), ui::imVec(upperLeft), ui::imVec(lowerRight));
-  }
+  if (!context.state().showBackdrop || !shownBackdrop_ || backdropTexture_.empty()) return;
+  const ImVec2 upperLeft = ui::imVec(view_.screenFromWorld({shownBackdrop_->min.x, shownBackdrop_->max.y}));
+  const ImVec2 lowerRight = ui::imVec(view_.screenFromWorld({shownBackdrop_->max.x, shownBackdrop_->min.y}));
+  list.AddImage(backdropTexture_.imguiId(), upperLeft, lowerRight);
+  if (ui::currentPalette().light)  // so that dark marks read on it
+    list.AddRectFilled(upperLeft, lowerRight, ui::palette::panel.withOpacity(0.5F).packed());
+}
+
+void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
+  Session& session = context.session();
+  EditorState& state = context.state();
+  const Layout& layout = *session.built()->layout;
+  drawBackdrop(context, list);
   ui::drawGrid(list, view_);
   const std::optional<CellId> hovered = hoveredCell(context);
-  session.askForInspection(state.showTriangles || state.showChecks);
-  const std::shared_ptr<const Inspection> inspection = session.inspection();
-  session.askForCoverage(wantedCoverage(state, hovered));
-  const CoveragePicturePtr coverage = session.coverage();
-  coverage_.drawBelow(list, view_, coverage);
+  askForFigures(context, hovered);
+  fulfilWish(context);
+  coverage_.drawBelow(list, view_, session.coverage());
   drawLayout(context, list, hovered);
-  drawOutline(list, view_, spec.outline);
+  drawOutline(list, view_, session.project().layout().outline);
   coverage_.drawAbove(list, view_);
-  if (state.showCameras && !(state.showCoverage && state.coverageKind == CoverageKind::surfaces))
-    layers_.drawCameras(list, view_);
+  const bool covered = state.overlay == PlanOverlay::coverage && state.coverageKind == CoverageKind::surfaces;
+  const bool tried = state.trial || state.planTool.latticeTool().dragging();
+  if (state.showCameras && !covered && !tried) layers_.drawCameras(list, view_);
+  if (state.overlay == PlanOverlay::bake && !tried) layers_.drawSigns(list, view_);
   drawStart(list, view_, session.project().spawn().position, session.project().spawn().yawRadians);
+  if (state.showPaths) drawWalks(context, list);
   const WalkPose& pose = state.walker.pose();
   const auto region = layout.regionAt(glm::dvec2(pose.eye));
   drawEye(list, view_, pose, radians(session.project().fovDegrees),
           region ? &layout.regions[std::size_t(*region)] : nullptr);
-  if (const auto drag = state.planTool.cellDrag())
-    drawCellDrag(list, view_, spec, *drag, drag->from != drag->to && !isPlaced(spec, drag->to));
-  if (state.showCoverage) {
-    coverage_.drawLegend(list, view_, coverage.get(), state.coverageKind, context.window.fonts().small);
-    if (const std::string text = coverage_.textAt(view_, coverage.get(), pointer_);
-        !text.empty() && view_.contains(pointer_) && !context.inputBlocked && !state.planTool.capturing())
-      ui::tooltip(text);
-  }
-  if (inspection) tellInspection(context, list, *inspection, hovered);
-  const glm::dvec2 pointer = view_.worldFromScreen(pointer_);
-  if (state.planTool.mode() == PlanMode::outline) {
-    const OutlineTool& tool = state.planTool.outlineTool();
-    drawOutlineHandles(list, view_, spec.outline, tool.corners().empty() ? &pointer : nullptr);
-    drawOutlineInHand(list, view_, tool.corners(), pointer);
-  }
-  drawFreeApvs(list, view_, spec, state.selection, state.planTool.panoramaTool().inHand());
+  drawFreeApvs(list, view_, session.project().layout(), state.selection,
+               state.planTool.panoramaTool().inHand());
+  tellHovered(context, list, hovered);
+  drawLegend(context, list);
+  drawTools(context, list);
 }
 
-void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const Inspection& inspection,
-                               const std::optional<CellId>& hovered) const {
+void PlanPanel::drawWalks(PanelContext& context, ImDrawList& list) const {
   const EditorState& state = context.state();
-  const glm::dvec2 pointer = context.inputBlocked ? glm::dvec2(-1e9) : pointer_;
-  const PlacementFinding* finding =
-      state.showChecks ? drawFindings(list, view_, inspection.placement, pointer) : nullptr;
-  if (state.showTriangles)
-    drawTriangleLegend(list, view_, inspection,
-                       std::size_t(context.session().project().budget.trianglesPerRegion),
-                       context.window.fonts().small);
-  if (finding != nullptr) {
+  const Project& project = context.session().project();
+  const bool pointing = state.planTool.mode() == PlanMode::path && view_.contains(pointer_) &&
+                        !context.inputBlocked && !state.planTool.capturing();
+  const glm::dvec2 pointer = view_.worldFromScreen(pointer_);
+  drawPaths(list, view_, pathSituation(context.actions), *context.session().built()->layout,
+            pointing ? &pointer : nullptr);
+  drawBookmarks(list, view_, project, state.walkSelection.bookmark(project), context.window.fonts().small);
+}
+
+void PlanPanel::drawLegend(PanelContext& context, ImDrawList& list) {
+  Session& session = context.session();
+  const EditorState& state = context.state();
+  ImFont* font = context.window.fonts().small;
+  const auto inspection = session.inspection();
+  switch (state.overlay) {
+    case PlanOverlay::bake:
+      return drawBakeLegend(list, view_, layers_.states(), font);
+    case PlanOverlay::triangles:
+      if (inspection)
+        drawTriangleLegend(list, view_, *inspection, std::size_t(session.project().budget.trianglesPerRegion),
+                           font);
+      return;
+    case PlanOverlay::bytes: {
+      std::uint64_t all = 0;
+      if (session.captures())
+        for (const std::uint64_t bytes : session.captures()->bytes) all += bytes;
+      const auto& bytes = layers_.bytes();
+      return drawBytesLegend(list, view_, bytes.empty() ? 0 : std::ranges::max(bytes), all, font);
+    }
+    case PlanOverlay::coverage:
+      return coverage_.drawLegend(list, view_, session.coverage().get(), state.coverageKind, font);
+    case PlanOverlay::checks:
+      if (inspection) drawChecksLegend(list, view_, inspection->placement, font);
+      return;
+    case PlanOverlay::none:
+      break;
+  }
+}
+
+void PlanPanel::drawOutlineTools(PanelContext& context, ImDrawList& list) {
+  const Outline& outline = context.session().project().layout().outline;
+  const glm::dvec2 pointer = view_.worldFromScreen(pointer_);
+  const OutlineTool& tool = context.state().planTool.outlineTool();
+  ImFont* font = context.window.fonts().small;
+  if (outline != checkedOutline_) {
+    checkedOutline_ = outline;
+    faults_ = outlineFaults(outline);
+    areas_ = loopAreas(outline);
+  }
+  drawOutlineHandles(list, view_, outline,
+                     tool.corners().empty() && tool.rectangle().empty() ? &pointer : nullptr);
+  drawLoopAreas(list, view_, areas_, font);
+  drawOutlineFaults(list, view_, faults_, font);
+  drawOutlineInHand(list, view_, tool.corners(), pointer);
+  drawOutlineRectangle(list, view_, tool.rectangle(), font);
+}
+
+void PlanPanel::drawTools(PanelContext& context, ImDrawList& list) {
+  Session& session = context.session();
+  const EditorState& state = context.state();
+  const PlanTool& tool = state.planTool;
+  const LayoutSpec& spec = session.project().layout();
+  ImFont* font = context.window.fonts().small;
+  if (const PlanTool::CellDrag* drag = tool.cellDrag(); drag != nullptr && drag->step != LatticeStep{}) {
+    ghost_.show(spec, drag->group, {drag->step}, true);
+    ghost_.draw(list, view_);
+    if (ghost_.blocked() > 0)
+      ui::drawLabel(list, font, ui::imVec(pointer_ + glm::dvec2(16, 14)), ui::palette::danger,
+                    fmt::format("{} of {} places taken", ghost_.blocked(), ghost_.places()).c_str());
+  } else {
+    ghost_.clear();
+  }
+  array_.draw(list, view_, spec, state.selection, state.array);
+  if (const auto box = tool.marquee())
+    drawMarquee(list, view_, *box, cellsTouching(*session.built()->layout, box->low, box->high).size(), font);
+  if (tool.mode() == PlanMode::outline) drawOutlineTools(context, list);
+  if (tool.mode() == PlanMode::lattice) {
+    const PlanSituation now = situation(context);
+    LayoutSpec shown = spec;
+    if (tool.latticeTool().dragging()) placeLattice(shown, tool.latticeTool().place());
+    drawLatticeHandles(list, view_, latticeHandles(shown, now.viewLow, now.viewHigh, now.pixelsPerMetre),
+                       tool.latticeTool(), pointer_, font);
+  }
+  if (tool.measureTool().ruler()) drawRuler(list, view_, *tool.measureTool().ruler(), font);
+}
+
+void PlanPanel::tellHovered(PanelContext& context, ImDrawList& list,
+                            const std::optional<CellId>& hovered) const {
+  const EditorState& state = context.state();
+  Session& session = context.session();
+  const bool pointing = !context.inputBlocked && contains(pointer_) && !state.planTool.capturing();
+  const auto inspection = session.inspection();
+  if (state.overlay == PlanOverlay::checks && inspection) {
+    const PlacementFinding* finding =
+        drawFindings(list, view_, inspection->placement, pointing ? pointer_ : glm::dvec2(-1e9));
+    if (finding == nullptr) return;
     std::string text = finding->reason;
     if (finding->push)
       text += fmt::format("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).",
@@ -252,10 +259,48 @@ void PlanPanel::tellInspection(PanelContext& context, ImDrawList& list, const In
                           finding->place.y + finding->push->y);
     return ui::tooltip(text);
   }
-  if (!state.showTriangles || !hovered) return;
-  if (const auto region = inspection.layout->findRegion(*hovered))
-    ui::tooltip(fmt::format("{} triangles of local geometry",
-                            ui::formatCount(inspection.budgets.triangles[std::size_t(*region)])));
+  if (!pointing) return;
+  if (state.overlay == PlanOverlay::coverage)
+    return ui::tooltip(coverage_.textAt(view_, session.coverage().get(), pointer_));
+  const Layout& layout = *session.built()->layout;
+  const auto region = hovered ? layout.findRegion(*hovered) : std::nullopt;
+  if (!region) return;
+  const auto r = std::size_t(*region);
+  if (state.overlay == PlanOverlay::triangles && inspection)
+    ui::tooltip(
+        fmt::format("{} triangles of local geometry", ui::formatCount(inspection->budgets.triangles[r])));
+  if (state.overlay == PlanOverlay::bytes && r < layers_.bytes().size())
+    ui::tooltip(fmt::format("{} on disk, in the captures of {} cameras", ui::formatBytes(layers_.bytes()[r]),
+                            camerasOf(layout.regions[r]).size()));
+  if (state.overlay == PlanOverlay::bake && r < layers_.states().size() && session.captures()) {
+    const std::vector<int> cameras = camerasOf(layout.regions[r]);
+    const auto& baked = session.captures()->cameras;
+    const auto there = std::ranges::count_if(
+        cameras, [&](int c) { return std::size_t(c) < baked.size() && baked[std::size_t(c)]; });
+    ui::tooltip(
+        fmt::format("{}: {} of {} captures on disk", nameOf(layers_.states()[r]), there, cameras.size()));
+  }
+}
+
+void PlanPanel::log(PanelContext& context) {
+  if (!context.log.on()) return;
+  if (const std::size_t selected = context.state().selection.size(); selected != loggedSelection_) {
+    context.log.event("selection", std::to_string(selected));
+    loggedSelection_ = selected;
+  }
+  const PlanTool& tool = context.state().planTool;
+  const auto point = [&](const char* name, const glm::dvec2& world) {
+    const glm::dvec2 at = view_.screenFromWorld(world);
+    context.log.rect(name, float(at.x), float(at.y), float(at.x), float(at.y));
+  };
+  if (tool.mode() == PlanMode::lattice) {
+    const PlanSituation now = situation(context);
+    const LatticeHandles handles =
+        latticeHandles(context.session().project().layout(), now.viewLow, now.viewHigh, now.pixelsPerMetre);
+    point("lattice.origin", handles.centre);
+    point("lattice.turn", handles.turn);
+    point("lattice.size", handles.size);
+  }
 }
 
 void PlanPanel::logCells(PanelContext& context) const {
@@ -268,22 +313,16 @@ void PlanPanel::logCells(PanelContext& context) const {
     logPoint(polygon.centroid(), [&] { return fmt::format("{}.{}.{}.{}", kind, id.i, id.j, id.slot); });
   };
   logPoint(glm::dvec2(context.actions.state.walker.pose().eye), [] { return std::string("plan.eye"); });
+  if (const WalkPath* path = context.actions.state.walkSelection.path(context.actions.session.project()))
+    for (std::size_t i = 0; i < path->path.poses.size(); ++i)
+      logPoint(glm::dvec2(path->path.poses[i].eye), [i] { return fmt::format("pose.{}", i); });
   const Layout& layout = *context.actions.session.built()->layout;
   if (layout.spec.cellSize * view_.pixelsPerMetre() < kLeastCellPixels) return;
   for (const LatticeCell& cell : freeCells_.cells()) logCell("free", cell.id, cell.polygon);
   for (const Region& region : layout.regions) logCell("cell", region.id, region.polygon);
 }
 
-void PlanPanel::draw(PanelContext& context) {
-  ImGui::SetCursorPos({8, 7});
-  ImGui::BeginGroup();
-  drawToolbar(context);
-  ImGui::EndGroup();
-  const float top = ImGui::GetItemRectSize().y + 14;
-  ImGui::SetCursorPos({0, top});
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 size = ImGui::GetContentRegionAvail();
-  if (size.x < 40 || size.y < 40) return;
+void PlanPanel::drawCanvas(PanelContext& context, const ImVec2& at, const ImVec2& size) {
   view_.setArea(ui::fromIm(at), ui::fromIm(size));
   ImGui::InvisibleButton("##plan", size);
   context.log.item("plan");
@@ -297,9 +336,13 @@ void PlanPanel::draw(PanelContext& context) {
       fit(context.session());
       context.state().fitPlan = false;
     }
+    frame(context);
+    if (const auto frame = std::exchange(context.state().framePlan, std::nullopt))
+      view_.fit(frame->low, frame->high);
     handleEvents(context);
     drawContents(context, list);
     logCells(context);
+    log(context);
   } else {
     ui::drawGrid(list, view_);
   }
@@ -310,6 +353,27 @@ void PlanPanel::draw(PanelContext& context) {
   if (context.session().built()) drawCounts(list, *context.session().built()->layout, small);
   if (inside) ui::drawCoordinates(list, view_, small, view_.worldFromScreen(pointer_));
   list.PopClipRect();
+}
+
+void PlanPanel::draw(PanelContext& context) {
+  ImGui::SetCursorPos(ui::scaled(ImVec2(8, 7)));
+  ImGui::BeginGroup();
+  drawPlanToolbar(context);
+  ImGui::EndGroup();
+  const float top = ImGui::GetItemRectSize().y + ui::scaled(14);
+  ImGui::SetCursorPos({0, top});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  if (size.x < 40 || size.y < 40) return;
+  const bool table = context.state().showTable && context.session().built();
+  const float tableHeight = table ? std::floor(size.y * 0.45F) : 0;
+  drawCanvas(context, at, {size.x, size.y - tableHeight});
+  if (table) table_.draw(context, {0, top + size.y - tableHeight}, {size.x, tableHeight});
+  arrayLow_ = arrayHigh_ = {0, 0};
+  if (!context.state().array || !context.session().built()) return;
+  const ImVec2 corner(at.x + ui::scaled(ui::kRulerPixels + 10), at.y + ui::scaled(ui::kRulerPixels + 10));
+  arrayLow_ = ui::fromIm(corner);
+  arrayHigh_ = ui::fromIm(drawArrayPanel(context, corner, array_.ghost().places(), array_.ghost().blocked()));
 }
 
 }  // namespace acentric::editor

@@ -6,7 +6,7 @@ namespace {
 void lines(const char* heading, const std::vector<std::string>& entries, const ui::Colour& colour) {
   for (const std::string& entry : entries) {
     ui::badge(colour, heading);
-    ImGui::SameLine(92);
+    ImGui::SameLine(ui::scaled(92));
     ui::wrappedText(ui::palette::text, entry);
   }
 }

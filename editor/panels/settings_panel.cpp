@@ -2,51 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
 #include "editor/commands/storey_edits.h"
+#include "editor/panels/pose_section.h"
+#include "editor/panels/project_field.h"
 #include "engine/geometry/conventions.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace {
 
-constexpr float kLabelWidth = 136;
-
-void drawConfiguration(PanelContext& context) {
-  const Project& project = context.session().project();
-  std::vector<ui::Choice> choices;
-  for (int i = 0; i <= int(Configuration::g); ++i) {
-    const auto configuration = Configuration(i);
-    choices.push_back({fmt::format("{}   {}", nameOf(configuration), describe(configuration)), "", true,
-                       nameOf(configuration)});
+/// A section that other parts of the window may ask to be opened (EditorState::openSection).
+bool askedSection(PanelContext& context, const char* label, bool openAtFirst = true) {
+  const bool asked = context.state().openSection == label;
+  if (asked) {
+    context.state().openSection.clear();
+    ImGui::SetNextItemOpen(true);
   }
-  int index = int(project.layout().configuration);
-  const ui::FieldEdit edit =
-      ui::choiceField("Configuration", choices, index, kLabelWidth,
-                      "How panoramas are placed: angle of a camera and the polygons of the lattice.");
-  context.log.item("settings.configuration");
-  applyFieldEdit(context, edit, setConfiguration(project, Configuration(index)));
-  ui::wrappedText(ui::palette::faint, describe(project.layout().configuration));
-}
-
-/// A number of the project in one line: `get` from it, `edit` from the new value.
-template <class MakeEdit>
-void number(PanelContext& context, const char* logName, const ui::NumberField& field, double value,
-            MakeEdit makeEdit) {
-  const ui::FieldEdit edit = ui::numberField(field, value, kLabelWidth);
-  context.log.item(std::string("settings.") + logName);
-  if (edit) applyFieldEdit(context, edit, makeEdit(value));
+  const bool open = ui::section(label, openAtFirst);
+  std::string name = std::string("section.") + label;
+  std::ranges::replace(name, ' ', '-');
+  context.log.item(name);
+  if (asked) ImGui::SetScrollHereY(0.1F);
+  return open;
 }
 
 void drawStoreyName(PanelContext& context) {
   const Project& project = context.session().project();
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Name");
-  ImGui::SameLine(kLabelWidth);
+  ImGui::SameLine(ui::scaled(kLabelWidth));
   std::array<char, 101> name{};
   project.current().name.copy(name.data(), name.size() - 1);
   ImGui::SetNextItemWidth(-1);
@@ -60,9 +50,11 @@ void drawStoreys(PanelContext& context) {
   if (!ui::section("Storey")) return;
   const Project& project = context.session().project();
   std::vector<ui::Choice> choices;
-  for (const Storey& storey : project.storeys)
-    choices.push_back({fmt::format("{}   {:.2f} m", storey.name, storey.layout.floorHeight), "", true,
-                       fmt::format("{} ({:.2f} m)", storey.name, storey.layout.floorHeight)});
+  for (const Storey& storey : project.storeys) {
+    const double floor = std::round(storey.layout.floorHeight * 100) / 100 + 0.0;  // + 0: no "-0.00"
+    choices.push_back({fmt::format("{}   {:.2f} m", storey.name, floor), "", true,
+                       fmt::format("{} ({:.2f} m)", storey.name, floor)});
+  }
   int index = project.storey;
   const ui::FieldEdit edit =
       ui::choiceField("Storey", choices, index, kLabelWidth,
@@ -70,15 +62,15 @@ void drawStoreys(PanelContext& context) {
   context.log.item("settings.storey");
   applyFieldEdit(context, edit, showStorey(project, index));
   drawStoreyName(context);
-  ImGui::SetCursorPosX(kLabelWidth);
+  ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
   actionButton(context, "storey.find", ButtonLook::plain, {}, "Find more");
   ImGui::SameLine();
   actionButton(context, "storey.remove", ButtonLook::plain, {}, "Remove");
 }
 
-void drawLayout(PanelContext& context) {
-  if (!ui::section("Layout")) return;
-  drawConfiguration(context);
+void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
+  if (!askedSection(context, "Layout")) return;
+  configurations.draw(context, kLabelWidth);
   const Project& project = context.session().project();
   const LayoutSpec& spec = project.layout();
   number(context, "cellSize",
@@ -107,15 +99,12 @@ void drawLayout(PanelContext& context) {
          degrees(spec.rotationRadians), [&](double v) { return setRotation(project, radians(v)); });
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Outline");
-  ImGui::SameLine(kLabelWidth);
+  ImGui::SameLine(ui::scaled(kLabelWidth));
   if (spec.outline.empty()) {
     ui::mutedText("none: cells only by hand");
   } else {
     ImGui::Text("%.1f m², %zu loop%s", spec.outline.area(), spec.outline.loops.size(),
                 spec.outline.loops.size() == 1 ? "" : "s");
-    ImGui::SameLine();
-    if (ImGui::SmallButton("Clear")) context.session().apply(setOutline(project, {}));
-    ui::tooltip("Cells are then placed by hand only.");
   }
 }
 
@@ -164,16 +153,18 @@ void drawPanorama(PanelContext& context) {
 }
 
 void drawBudget(PanelContext& context) {
-  if (!ui::section("Triangle budget", false)) return;
+  if (!askedSection(context, "Triangle budget", false)) return;
   const Project& project = context.session().project();
   TriangleBudget budget = project.budget;
   int most = budget.trianglesPerRegion;
-  if (const ui::FieldEdit edit =
-          ui::numberField({"Per region", most == 0 ? "no limit" : "%.0f", 200, 0, 2e9,
-                           "Triangles of local geometry that a region may have. 0: no limit."},
-                          most, kLabelWidth)) {
+  const ui::FieldEdit limited =
+      ui::numberField({"Per region", most == 0 ? "no limit" : "%.0f", 200, 0, 2e9,
+                       "Triangles of local geometry that a region may have. 0: no limit."},
+                      most, kLabelWidth);
+  context.log.item("settings.budget.most");
+  if (limited) {
     budget.trianglesPerRegion = most;
-    applyFieldEdit(context, edit, setBudget(project, budget, "triangles per region"));
+    applyFieldEdit(context, limited, setBudget(project, budget, "triangles per region"));
   }
   number(context, "budget.error",
          {"Largest error", "%.4f m", 0.0001, 1e-6, 10, "That simplified surfaces may lie from the scene's."},
@@ -209,7 +200,7 @@ void bakeNumber(PanelContext& context, const char* logName, const ui::NumberFiel
 }
 
 void drawBake(PanelContext& context) {
-  if (!ui::section("Bake quality")) return;
+  if (!askedSection(context, "Bake quality")) return;
   bakeNumber(context, "samplesPerDegree",
              {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,
               "Resolution of captures. Time and bytes grow with its square."},
@@ -251,77 +242,14 @@ void drawBake(PanelContext& context) {
   bakeNumber(context, "eyeRange",
              {"Eye range", "%.2f m", 0.005, 0, 10, "How far above and below eye height the walk may go."},
              &BakeSettings::eyeRange, "eye range");
-}
-
-void drawView(PanelContext& context) {
-  if (!ui::section("Walk", false)) return;
-  const Project& project = context.session().project();
-  number(context, "fov", {"Field of view", "%.0f°", 0.2, 10, 150, "Horizontal."}, project.fovDegrees,
-         [&](double v) { return setFieldOfView(project, v); });
-  number(
-      context, "exposure",
-      {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
-      double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
-
-  Preferences& preferences = context.session().preferences();
-  const ui::FieldEdit speed = ui::numberField(
-      {"Walking speed", "%.1f m/s", 0.02, Walker::kLeastMetresPerSecond, Walker::kMostMetresPerSecond,
-       "Shift walks three times as fast. Remembered for all projects."},
-      preferences.walkMetresPerSecond, kLabelWidth);
-  const ui::FieldEdit memory = ui::numberField(
-      {"Memory", "%.0f MB", 32, 0, 1'000'000,
-       "For captures of the walk; what has no room is shown coarsely until the eye comes near. 0: "
-       "half of the machine's. Remembered for all projects."},
-      preferences.walkMegabytes, kLabelWidth);
-  if (speed.finished || memory.finished) context.session().savePreferencesNow();
-  if (memory.finished) context.session().walkMemoryChanged();
-  ViewSettings view = project.view;
-  const std::array<ui::Choice, std::size(kReconstructions)> kChoices = {
-      ui::Choice{"Points", "One pixel a sample: shows the sampling.", true, ""},
-      ui::Choice{"Splats", "Squares as large as a sample's footprint.", true, ""},
-      ui::Choice{"Surface",
-                 "Rectangles that follow the surface: neighbours are joined however it is turned, and edges "
-                 "do not grow.",
-                 true, ""},
-      ui::Choice{
-          "Filtered",
-          "The same rectangles, then each pixel the mean of the samples around it: smooth edges. Takes "
-          "one more pass over the picture.",
-          true, ""}};
-  int reconstruction = int(view.reconstruction);
-  if (const ui::FieldEdit edit = ui::choiceField("Reconstruction", kChoices, reconstruction, kLabelWidth)) {
-    view.reconstruction = kReconstructions[reconstruction];
-    applyFieldEdit(context, edit, setViewSettings(project, view, "reconstruction"));
-  }
-  if (const ui::FieldEdit edit = ui::numberField(
-          {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
-          view.maxSplatPixels, kLabelWidth))
-    applyFieldEdit(context, edit, setViewSettings(project, view, "largest splat"));
-  if (const ui::FieldEdit edit = ui::numberField(
-          {"Mesh error", "%.2f samples", 0.01, 0.01, 64,
-           "Of OpenGL meshes: how far a surface may shift in the picture. Larger: fewer triangles."},
-          view.meshError, kLabelWidth))
-    applyFieldEdit(context, edit, setViewSettings(project, view, "mesh error"));
-  if (const ui::FieldEdit edit =
-          ui::numberField({"Mesh triangles", "%.0f", 1000, 0, 2e9,
-                           "Of one capture at most, with a larger error where it must be. 0: any number."},
-                          view.maxMeshTriangles, kLabelWidth))
-    applyFieldEdit(context, edit, setViewSettings(project, view, "mesh triangles"));
-  const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
-    bool value = view.*member;
-    if (const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help)) {
-      view.*member = value;
-      applyFieldEdit(context, edit, setViewSettings(project, view, label));
-    }
-  };
-  check("Near geometry", &ViewSettings::localGeometry, "Polygons within the near band, over the captures.");
-  check("Other hand behind", &ViewSettings::secondaryCover,
-        "In rings: the other ring's samples fill what the first leaves open.");
-  check("Fill holes", &ViewSettings::fillHoles, "By guesswork; still counted as holes.");
+  bakeNumber(context, "distanceShift",
+             {"Distance shift", "%.3f samples", 0.005, 0, kLargestDistanceShift,
+              "How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16."},
+             &BakeSettings::distanceShift, "distance shift");
 }
 
 void drawImport(PanelContext& context) {
-  if (!ui::section("Scene", false)) return;
+  if (!askedSection(context, "Scene", false)) return;
   const Project& project = context.session().project();
   ui::keyValue("Model", ui::shortenPath(project.scene.string(), 30), kLabelWidth);
   ui::tooltip(project.scene.string());
@@ -338,7 +266,7 @@ void drawImport(PanelContext& context) {
   // Typed, not dragged live: each value is a new import.
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Metres per unit");
-  ImGui::SameLine(kLabelWidth);
+  ImGui::SameLine(ui::scaled(kLabelWidth));
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputDouble("##metresPerUnit", &metres, 0, 0, metres == 0 ? "by the file" : "%.6g",
                          ImGuiInputTextFlags_EnterReturnsTrue)) {
@@ -356,18 +284,18 @@ void drawImport(PanelContext& context) {
 
 }  // namespace
 
-void drawSettingsPanel(PanelContext& context) {
+void drawSettingsPanel(PanelContext& context, ConfigurationPicker& configurations) {
   ui::panelTitle(context.window.fonts().bold, "Project");
   if (!context.session().hasProject()) {
     ui::wrappedText(ui::palette::faint, "No project is open.");
     return;
   }
+  drawPoseSection(context, kLabelWidth);
   drawStoreys(context);
-  drawLayout(context);
+  drawLayout(context, configurations);
   drawPanorama(context);
   drawBudget(context);
   drawBake(context);
-  drawView(context);
   drawEffects(context);
   drawImport(context);
   ImGui::Dummy({0, 8});

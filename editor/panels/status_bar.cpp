@@ -1,61 +1,137 @@
 #include "editor/panels/status_bar.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include <algorithm>
 
 #include "editor/panels/bake_panel.h"
+#include "editor/panels/problems_panel.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace {
 
-const char* hintOf(PlanMode mode) {
+const char* hintOf(PlanMode mode, bool selected) {
   switch (mode) {
     case PlanMode::cells:
-      return "Click adds or selects a cell, drag moves it, Del removes it   ·   right drag pans, wheel zooms "
-             "  ·   WASD walks";
+      return selected
+                 ? "Drag or Ctrl+arrows move the selection, Ctrl+D copies it, Del removes it, Esc clears it  "
+                   " "
+                   "·   Shift+drag adds, Ctrl+drag toggles"
+                 : "Click adds or selects a cell, drag moves it, Shift+drag selects   ·   right drag pans, "
+                   "wheel zooms   ·   WASD walks";
     case PlanMode::eye:
       return "Press to put the eye there, drag to turn it   ·   WASD walks";
     case PlanMode::outline:
-      return "Click free ground to draw a loop (Enter closes it); drag corners and sides, Ctrl+click takes a "
-             "corner away; Esc gives up";
+      return "Click for corners (Enter closes) or drag a rectangle, inside for a hole; drag corners and "
+             "sides, "
+             "Ctrl+click takes a corner away";
     case PlanMode::panorama:
       return "Click or drag free ground to place a panorama; click one to select it, drag moves it, "
              "Ctrl+click "
              "removes it";
+    case PlanMode::lattice:
+      return "Drag the middle to move the lattice, the handle on the circle to turn it, the square for the "
+             "cells' size   ·   Shift snaps";
+    case PlanMode::measure:
+      return "Drag to measure, corners attract (Alt: anywhere)   ·   Esc clears, and again ends";
+    case PlanMode::path:
+      return "Click a path or key pose to select it, drag poses and ticks, press on the line for a new pose, "
+             "Del removes";
   }
   return "";
 }
 
-std::string workText(const Session& session) {
-  const Job* jobs[] = {&session.opening(),   &session.rebuilding(),      &session.baking(),
-                       &session.loading(),   &session.drawingBackdrop(), &session.searching(),
-                       &session.estimating()};
+constexpr const char* kAccuracyHint = "Point at a mark for its worst frame and its figures, click to keep it";
+constexpr const char* kSceneHint =
+    "Drag orbits, right drag pans, wheel comes nearer   ·   click selects a cell, Alt+click asks a surface, "
+    "double click centres or opens a camera";
+
+/// The first that runs, of those that are worth waiting for; null if none.
+const Job* workOf(const Session& session) {
+  const Job* jobs[] = {&session.opening(),         &session.rebuilding(),        &session.baking(),
+                       &session.estimating(),      &session.searching(),         &session.loading(),
+                       &session.drawingBackdrop(), &session.measuringCoverage(), &session.inspecting()};
   for (const Job* job : jobs)
-    if (job->running()) return progressText(*job);
-  return {};
+    if (job->running()) return job;
+  return nullptr;
+}
+
+/// A thin bar of its own, behind the words.
+void drawShare(double share) {
+  const ImVec2 size = ui::scaled(ImVec2(90, 4));
+  ImGui::SameLine(0, ui::scaled(10));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float y = std::floor(at.y + (ImGui::GetTextLineHeight() - size.y) / 2);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x, y}, {at.x + size.x, y + size.y}, ui::palette::border.packed(), size.y / 2);
+  const float done = size.x * float(std::clamp(share, 0.0, 1.0));
+  if (done >= 1)
+    list.AddRectFilled({at.x, y}, {at.x + done, y + size.y}, ui::palette::accent.packed(), size.y / 2);
+  ImGui::Dummy({size.x, ImGui::GetTextLineHeight()});
+}
+
+void drawWork(const Session& session, const Job& job) {
+  const bool baking = &job == &session.baking();
+  const bool paused = baking && session.bakePaused();
+  std::string text = paused ? "bake paused" : job.cancelling() ? "stopping…" : progressText(job);
+  ui::badge(paused ? ui::palette::warning : ui::palette::accent, text);
+  const double share =
+      baking && !session.bakeQueue().cameras().empty() ? session.bakeQueue().share() : progressFraction(job);
+  if (share >= 0) drawShare(share);
+}
+
+void drawSaved(const Session& session) {
+  if (!session.hasProject()) return ui::badge(ui::palette::faint, "ready");
+  const char* text = session.untitled() ? "not saved yet" : session.dirty() ? "unsaved changes" : "saved";
+  ui::badge(session.dirty() ? ui::palette::warning : ui::palette::good, text);
+}
+
+/// A click opens the list.
+void drawProblemCount(PanelContext& context) {
+  const ProblemMark mark = problemMark(context.session());
+  if (mark.text.empty()) return;
+  ImGui::SameLine(0, 18);
+  ImGui::BeginGroup();
+  ui::badge(mark.colour, mark.text + (mark.text == "1" ? " problem" : " problems"));
+  ImGui::EndGroup();
+  context.log.item("status.problems");
+  ui::tooltip("Click for the list");
+  if (ImGui::IsItemClicked()) runAction(context, *findAction(context.table, std::string("tab.problems")));
 }
 
 }  // namespace
 
+float statusBarPixels() { return ui::scaled(26); }
+
 void drawStatusBar(PanelContext& context) {
   Session& session = context.session();
-  ImGui::SetCursorPos({12, (kStatusBarPixels - ImGui::GetTextLineHeight()) / 2});
-  const std::string work = workText(session);
-  if (!work.empty())
-    ui::badge(ui::palette::accent, work);
-  else if (session.hasProject())
-    ui::badge(session.dirty() ? ui::palette::warning : ui::palette::good, session.untitled() ? "not saved yet"
-                                                                          : session.dirty()
-                                                                              ? "unsaved changes"
-                                                                              : "saved");
+  const float margin = ui::scaled(12);
+  ImGui::SetCursorPos({margin, (statusBarPixels() - ImGui::GetTextLineHeight()) / 2});
+  if (const Job* job = workOf(session))
+    drawWork(session, *job);
   else
-    ui::badge(ui::palette::faint, "ready");
+    drawSaved(session);
   if (!session.hasProject()) return;
-  const char* hint = hintOf(context.state().planTool.mode());
-  const std::string file = ui::shortenPath(session.file().string(), 52);
-  ImGui::SameLine(324);
+  drawProblemCount(context);
+  ImGui::SameLine(0, 2 * margin);
+  // What has no room is left out: the file first, then the hint.
+  const CentreView view = context.state().centreView;
+  const char* hint = view == CentreView::scene3d ? kSceneHint
+                     : view == CentreView::accuracy
+                         ? kAccuracyHint
+                         : hintOf(context.state().planTool.mode(), !context.state().selection.empty());
+  const float from = std::max(ImGui::GetCursorPosX(), ui::scaled(324));
+  const float to = ImGui::GetWindowSize().x - margin;
+  const float hintEnd = from + ImGui::CalcTextSize(hint).x;
+  if (hintEnd > to) return;
+  ImGui::SameLine(from);
   ui::mutedText(hint);
-  ImGui::SameLine(ImGui::GetWindowSize().x - ImGui::CalcTextSize(file.c_str()).x - 12);
+  const std::string file = ui::shortenPath(session.file().string(), 52);
+  const float fileFrom = to - ImGui::CalcTextSize(file.c_str()).x;
+  if (fileFrom < hintEnd + 2 * margin) return;
+  ImGui::SameLine(fileFrom);
   ui::mutedText(file);
   ui::tooltip(session.file().string());
 }

@@ -5,7 +5,8 @@
 
 namespace acentric::editor {
 
-inline constexpr float kStatusBarPixels = 26;
+/// Its height, scaled.
+float statusBarPixels();
 
 void drawStatusBar(PanelContext& context);
 

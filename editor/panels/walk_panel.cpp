@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "editor/commands/setting_edits.h"
+#include "editor/actions/path_walk.h"
+#include "editor/panels/walk_settings.h"
 #include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
@@ -14,45 +16,9 @@ namespace {
 
 constexpr double kRadiansPerPixel = 0.0035;
 
-const char* labelOf(Renderer renderer) {
-  switch (renderer) {
-    case Renderer::list:
-      return "List priority";
-    case Renderer::scalar:
-      return "Scalar reference";
-    case Renderer::zbuffer:
-      return "Depth buffer";
-    case Renderer::gl:
-      return "OpenGL";
-    case Renderer::glZbuffer:
-      return "OpenGL, depth test";
-    case Renderer::glMesh:
-      return "OpenGL, meshes";
-  }
-  return "";
-}
-
-const char* helpFor(Renderer renderer) {
-  switch (renderer) {
-    case Renderer::list:
-      return "List priority without a depth buffer: the fast one on the processor.";
-    case Renderer::scalar:
-      return "List priority, one sample at a time: the reference.";
-    case Renderer::zbuffer:
-      return "The same splats with a depth buffer, for comparison.";
-    case Renderer::gl:
-      return "List priority on the graphics card.";
-    case Renderer::glZbuffer:
-      return "The same splats on the graphics card with a depth test, for comparison.";
-    case Renderer::glMesh:
-      return "Captures as triangles, within the mesh error: no cracks near walls; points until they are "
-             "built.";
-  }
-  return "";
-}
-
 WalkKeys keysHeld(const PanelContext& context) {
   namespace key = ui::key;
+  if ((context.window.input().modifiers() & ui::modifier::control) != 0) return {};  // a shortcut
   // A tap shorter than a frame still counts for that frame.
   const auto held = [&](int code) {
     if (context.window.input().keyHeld(code)) return true;
@@ -62,22 +28,17 @@ WalkKeys keysHeld(const PanelContext& context) {
     });
   };
   WalkKeys keys;
-  keys.forward = held(key::w) || held(key::up);
-  keys.back = held(key::s) || held(key::down);
-  keys.left = held(key::a) || held(key::left);
-  keys.right = held(key::d) || held(key::right);
+  const auto arrow = [&](int code) { return !context.keysOnWidgets && held(code); };
+  keys.forward = held(key::w) || arrow(key::up);
+  keys.back = held(key::s) || arrow(key::down);
+  keys.left = held(key::a) || arrow(key::left);
+  keys.right = held(key::d) || arrow(key::right);
   keys.turnLeft = held(key::q);
   keys.turnRight = held(key::e);
   keys.up = held(key::pageUp);
   keys.down = held(key::pageDown);
   keys.fast = held(key::leftShift) || held(key::rightShift);
   return keys;
-}
-
-/// Those that captures are baked for.
-EyeHeights eyeHeights(const OpenProject& open) {
-  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
-  return {z - range, z + range};
 }
 
 }  // namespace
@@ -107,12 +68,13 @@ void WalkPanel::followProject(PanelContext& context) {
     problem_.clear();
     state.fitPlan = true;
     state.selection.clear();
+    state.walkSelection = {};
+    state.recorder = {};
+    state.replay = {};
+    state.goTo.reset();
   }
   // Cells may have gone from under the eye, or the eye height changed.
-  WalkPose pose = state.walker.pose();
-  const EyeHeights heights = eyeHeights(*session.built());
-  pose.eye = glm::dvec3(nearestStanding(layout, glm::dvec2(pose.eye)),
-                        std::clamp(pose.eye.z, heights.low, heights.high));
+  const WalkPose pose = standing(*session.built(), state.walker.pose());
   if (pose != state.walker.pose()) state.walker.setPose(pose);
 }
 
@@ -123,6 +85,7 @@ void WalkPanel::walk(PanelContext& context) {
                       (context.window.input().modifiers() & ui::modifier::control) != 0;
   const WalkKeys keys = typing ? WalkKeys{} : keysHeld(context);
   Walker& walker = context.state().walker;
+  if (followPath(context.actions, context.now, keys.any())) context.window.pacer().request(1);
   const double seconds = lastStep_ < 0 ? 1.0 / 60 : context.now - lastStep_;
   lastStep_ = -1;
   if (keys.any() || walker.moving()) {
@@ -138,45 +101,62 @@ void WalkPanel::walk(PanelContext& context) {
                       fmt::format("{:.3f} {:.3f} {:.3f} {:.4f} {:.4f}", loggedPose_.eye.x, loggedPose_.eye.y,
                                   loggedPose_.eye.z, loggedPose_.yawRadians, loggedPose_.pitchRadians));
   }
+  recordEye(context.actions, context.now);
   context.session().walkAt({glm::dvec2(walker.pose().eye), walker.pose().yawRadians, walker.velocity()});
 }
 
 void WalkPanel::drawToolbar(PanelContext& context) {
-  const Project& project = context.session().project();
-  ImGui::SetNextItemWidth(150);
-  const bool open = ImGui::BeginCombo("##renderer", labelOf(project.view.renderer));
-  context.log.item("walk.renderer");
-  if (open) {
-    for (const Renderer renderer : kRenderers) {
-      const bool broken = onOpenGl(renderer) && !glProblem_.empty();
-      const auto flags = broken ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
-      if (ImGui::Selectable(labelOf(renderer), renderer == project.view.renderer, flags)) {
-        ViewSettings view = project.view;
-        view.renderer = renderer;
-        context.session().apply(setViewSettings(project, view, "renderer"));
-      }
-      context.log.item(std::string("walk.renderer.") + nameOf(renderer));
-      ui::tooltip(broken ? glProblem_ : helpFor(renderer));
-    }
-    ImGui::EndCombo();
-  } else {
-    ui::tooltip("Renderer of the walk");
+  constexpr float kNear = 3, kApart = 16;
+  struct Entry {
+    const char* id;  ///< nullptr: the settings
+    const char* label;
+    float gap;
+    ButtonLook look = ButtonLook::toggle;
+  };
+  static constexpr std::array<Entry, 11> kEntries{
+      {{"view.holes", "Holes", 0},
+       {"view.sources", "Sources", kNear},
+       {"view.split", "Split", kNear},
+       {"view.difference", "Difference", kNear},
+       {"view.minimap", "Map", kApart},
+       {"view.images", "Images", kNear},
+       {"view.frameTimes", "Times", kNear},
+       {nullptr, "Settings…", kApart},
+       {"walk.screenshot", "Save picture", kNear, ButtonLook::plain},
+       {"walk.restart", "To start", kApart, ButtonLook::plain},
+       {"walk.setStart", "Start here", kNear, ButtonLook::plain}}};
+  const float right = ImGui::GetWindowSize().x - ui::scaled(8);
+  for (const Entry& entry : kEntries) {
+    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (entry.gap > 0) ImGui::SameLine(0, ui::scaled(entry.gap));
+    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+    if (entry.id == nullptr)
+      drawWalkSettingsButton(context, glProblem_);
+    else
+      actionButton(context, entry.id, entry.look, {}, entry.label);
   }
-  ImGui::SameLine();
-  actionButton(context, "view.holes", ButtonLook::toggle);
-  ImGui::SameLine(0, 3);
-  actionButton(context, "view.sources", ButtonLook::toggle);
-  ImGui::SameLine(0, 16);
-  actionButton(context, "walk.restart");
-  ImGui::SameLine(0, 3);
-  actionButton(context, "walk.setStart");
+  if (!compares(context.state().walkLook)) return;
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Rays per pixel");
+  for (const int rays : kTruthRays) {
+    ImGui::SameLine(0, rays == kTruthRays[0] ? ui::scaled(10) : ui::scaled(kNear));
+    actionButton(context, fmt::format("compare.rays.{}", rays).c_str(), ButtonLook::toggle);
+  }
+  if (context.state().walkLook != WalkLook::difference) return;
+  for (const int gain : kDifferenceGains) {
+    ImGui::SameLine(0, gain == kDifferenceGains[0] ? ui::scaled(kApart) : ui::scaled(kNear));
+    if (gain == kDifferenceGains[0] && ImGui::GetCursorPosX() + ui::scaled(180) > right) ImGui::NewLine();
+    actionButton(context, fmt::format("compare.gain.{}", gain).c_str(), ButtonLook::toggle);
+  }
 }
 
 void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& high) {
   using Kind = ui::InputEvent::Kind;
   for (const ui::InputEvent& event : context.events) {
+    if (!looking_ && compare_.handle(context, event)) continue;
     const bool inside = event.position.x >= double(low.x) && event.position.y >= double(low.y) &&
-                        event.position.x < double(high.x) && event.position.y < double(high.y);
+                        event.position.x < double(high.x) && event.position.y < double(high.y) &&
+                        !overlays_.cover(event.position);
     if (event.kind == Kind::buttonPress && inside && !context.inputBlocked) {
       looking_ = true;
       lookFrom_ = event.position;
@@ -186,20 +166,22 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
       context.window.capturePointer(false);
     } else if (event.kind == Kind::move && looking_) {
       // The mouse turns the head: to the right looks right.
-      context.state().walker.look(event.position - lookFrom_, kRadiansPerPixel);
+      const Preferences& preferences = context.session().preferences();
+      glm::dvec2 pixels = event.position - lookFrom_;
+      if (preferences.invertLook) pixels.y = -pixels.y;
+      context.state().walker.look(pixels, kRadiansPerPixel * preferences.lookSensitivity);
       lookFrom_ = event.position;
     }
   }
 }
 
 void WalkPanel::draw(PanelContext& context) {
-  ImGui::SetCursorPos({8, 7});
-  if (context.session().hasProject()) {
-    ImGui::BeginGroup();
-    drawToolbar(context);
-    ImGui::EndGroup();
-  }
-  ImGui::SetCursorPos({0, ImGui::GetFrameHeight() + 14});
+  ImGui::SetCursorPos(ui::scaled(ImVec2(8, 7)));
+  ImGui::BeginGroup();
+  if (context.session().hasProject()) drawToolbar(context);
+  ImGui::EndGroup();
+  const float top = ImGui::GetItemRectSize().y + ui::scaled(14);
+  ImGui::SetCursorPos({0, top});
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
   if (size.x < 40 || size.y < 40) return;
@@ -212,11 +194,18 @@ void WalkPanel::draw(PanelContext& context) {
     return;
   }
   look(context, low, {low.x + size.x, low.y + size.y});
+  times_.presented(context.window.lastFrame().renderSeconds);
   takePicture(context);
   requestFrame(context);
-  drawPicture(context, low, size);
+  keepRested(context);
+  askForTruth(context);
+  savePicture(context);
+  drawPicture(low, size);
+  compare_.draw(context, *ImGui::GetWindowDrawList(), place_, rested_);
   nameSource(ui::fromIm(ImGui::GetMousePos()));
-  drawStatistics(context, low, size);
+  drawStatistics(context, low, {size.x, size.y - overlays_.graphHeight(context, size.y)});
+  drawOverlays(context, low, size);
+  drawNotice(context, low, size);
 }
 
 }  // namespace acentric::editor

@@ -5,13 +5,11 @@
 #include <memory>
 #include <optional>
 
-#include "editor/panels/panel_context.h"
+#include "editor/panels/walk_compare.h"
+#include "editor/panels/walk_overlays.h"
 #include "editor/session/adaptive_resolution.h"
 #include "editor/session/walk_renderer.h"
-#include "engine/measure/source_colours.h"
 #include "engine/view_gl/gl_renderer.h"
-#include "ui/image_view.h"
-#include "ui/texture.h"
 
 namespace acentric::editor {
 
@@ -44,16 +42,26 @@ class WalkPanel {
   bool stale(const PanelContext& context, const PerspectiveView& full) const;
   void requestFrame(PanelContext& context);
   void takePicture(PanelContext& context);
-  void openGl();
+  /// The first time; tells where it cannot be had.
+  void openGl(Session& session);
+  /// As the project says, on the processor where OpenGL cannot be had.
+  ViewSettings settingsOf(const Session& session) const;
   void drawWithGl(PanelContext& context);
   /// Captures and meshes readied in the background; true if there is one that the picture lacks.
   bool receive(PanelContext& context);
-  /// The frame as `shown_.look` says.
+  /// The frame as `shown_.look` says, without the truth.
+  ColourImage pictureOf(const Frame& frame);
   void show(const Frame& frame);
+  /// Keeps the frame that is shown where something else needs to know its pixels.
+  void keepRested(PanelContext& context);
+  void askForTruth(PanelContext& context);
+  void savePicture(PanelContext& context);
   const SourceColours& coloursOf(const std::shared_ptr<const Layout>& layout);
   /// The name of the camera that painted what the pointer is at.
   void nameSource(const glm::dvec2& pointer) const;
-  void drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size);
+  void drawOverlays(PanelContext& context, const ImVec2& low, const ImVec2& size);
+  void drawPicture(const ImVec2& low, const ImVec2& size);
+  void drawNotice(const PanelContext& context, const ImVec2& low, const ImVec2& size) const;
   void drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const;
 
   std::atomic<bool> news_ = false;
@@ -64,14 +72,19 @@ class WalkPanel {
   std::unique_ptr<GlRenderer> gl_;
   std::string glProblem_;
   bool showingGl_ = false;
+  std::uint32_t glPictures_ = 0;  ///< drawn so far
 
   ui::Texture texture_;
-  std::vector<std::uint8_t> pixels_;
   Frame lastFrame_;
+  /// lastFrame_ where it is what the walk wants to show, at full size, and is asked for; else null.
+  std::shared_ptr<const Frame> rested_;
   std::shared_ptr<const Layout> colouredLayout_;
   std::optional<SourceColours> colours_;  ///< of colouredLayout_
   ui::FittedImage place_;                 ///< of the picture, last drawn
   Shown shown_;
+  FrameTimes times_;
+  WalkCompare compare_;
+  WalkOverlays overlays_;
   std::string problem_;
   glm::ivec2 area_{0};
   int generation_ = -1;
@@ -80,6 +93,7 @@ class WalkPanel {
   bool requested_ = false;
   glm::dvec2 lookFrom_{0};
   WalkPose loggedPose_;
+  std::shared_ptr<const Compared> loggedCompared_;
 };
 
 }  // namespace acentric::editor

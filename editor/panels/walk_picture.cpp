@@ -5,6 +5,7 @@
 
 #include "editor/panels/walk_panel.h"
 #include "editor/session/mesh_text.h"
+#include "editor/session/screenshot.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
 #include "ui/image_view.h"
@@ -15,9 +16,10 @@ namespace {
 
 constexpr Rgba8 kHoleColour{13, 14, 16, 255};
 
-bool samePlace(const PerspectiveView& a, const PerspectiveView& b) {
-  return a.eye == b.eye && a.yawRadians == b.yawRadians && a.pitchRadians == b.pitchRadians &&
-         a.fovRadians == b.fovRadians;
+/// Nothing to walk on, and nothing on the way.
+bool nothingBaked(const Session& session) {
+  return session.captures() && session.captures()->baked == 0 && !session.baking().running() &&
+         (!session.walk() || session.walk()->coarse == 0);
 }
 
 }  // namespace
@@ -34,23 +36,33 @@ PerspectiveView WalkPanel::viewAt(PanelContext& context, double scale) const {
   return view;
 }
 
+ViewSettings WalkPanel::settingsOf(const Session& session) const {
+  ViewSettings settings = session.project().view;
+  if (!glProblem_.empty()) settings.renderer = withoutOpenGl(settings.renderer);
+  return settings;
+}
+
 bool WalkPanel::stale(const PanelContext& context, const PerspectiveView& full) const {
   const Session& session = context.actions.session;
   return !shown_.valid || shown_.loaded != session.walk() || !samePlace(shown_.view, full) ||
          shown_.view.width != full.width || shown_.view.height != full.height ||
-         shown_.settings != session.project().view;
+         shown_.settings != settingsOf(session);
 }
 
 void WalkPanel::requestFrame(PanelContext& context) {
   Session& session = context.session();
   if (!session.walk() || area_.x < 16 || area_.y < 16) return;
-  if (onOpenGl(session.project().view.renderer)) return drawWithGl(context);
+  if (shown_.valid && shown_.loaded != session.walk() &&
+      rendersTheSame(shown_.loaded->walk, session.walk()->walk, shown_.view, shown_.settings))
+    shown_.loaded = session.walk();
+  if (onOpenGl(session.project().view.renderer)) openGl(session);
+  if (onOpenGl(settingsOf(session).renderer)) return drawWithGl(context);
   if (gl_) gl_->stopBuilding();
   const PerspectiveView full = viewAt(context, 1);
   if (requested_ || !stale(context, full)) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
-  renderer_.request({session.walk(), viewAt(context, scale), session.project().view, scale});
+  renderer_.request({session.walk(), viewAt(context, scale), settingsOf(session), scale});
   requested_ = true;
 }
 
@@ -60,32 +72,84 @@ const SourceColours& WalkPanel::coloursOf(const std::shared_ptr<const Layout>& l
   return *colours_;
 }
 
-void WalkPanel::show(const Frame& frame) {
+ColourImage WalkPanel::pictureOf(const Frame& frame) {
   const auto& layout = shown_.loaded->walk.layout;
-  const ColourImage colour = shown_.look == WalkLook::sources
-                                 ? sourcePicture(frame, coloursOf(layout), SourceRoles(*layout, shown_.view))
-                                 : ColourImage();
-  const ColourImage& from = shown_.look == WalkLook::sources ? colour : frame.colour;
-  pixels_.resize(from.pixels.size() * 4);
-  for (std::size_t i = 0; i < from.pixels.size(); ++i) {
+  ColourImage picture = shown_.look == WalkLook::sources
+                            ? sourcePicture(frame, coloursOf(layout), SourceRoles(*layout, shown_.view))
+                            : frame.colour;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const PixelSource source = frame.source.pixels[i];
-    Rgba8 pixel = from.pixels[i];
     if (shown_.look == WalkLook::holes && (source == kSourceHole || source == kSourceInvented))
-      pixel = kInventedColour;
+      picture.pixels[i] = kInventedColour;
     else if (source == kSourceHole)
-      pixel = kHoleColour;
-    pixels_[4 * i] = pixel.r;
-    pixels_[4 * i + 1] = pixel.g;
-    pixels_[4 * i + 2] = pixel.b;
-    pixels_[4 * i + 3] = 255;
+      picture.pixels[i] = kHoleColour;
+    picture.pixels[i].a = 255;
   }
-  texture_.upload(from.width, from.height, pixels_);
+  return picture;
+}
+
+void WalkPanel::show(const Frame& frame) {
+  const ColourImage picture = pictureOf(frame);
+  texture_.upload(picture.width, picture.height,
+                  {&picture.pixels.front().x, picture.pixels.size() * sizeof(Rgba8)});
   showingGl_ = false;
+}
+
+void WalkPanel::keepRested(PanelContext& context) {
+  const EditorState& state = context.state();
+  const bool wanted = compares(state.walkLook) || state.showImages || state.takePicture;
+  if (!wanted || !context.session().walk() || !problem_.empty() || stale(context, viewAt(context, 1)))
+    return rested_.reset();
+  if (rested_) return;
+  if (showingGl_) lastFrame_ = gl_->readBack();
+  rested_ = std::make_shared<const Frame>(lastFrame_);
+  if (showingGl_)  // it was not known before
+    shown_.holeShare =
+        double(rested_->holeCount()) / double(std::max<std::size_t>(1, rested_->source.pixels.size()));
+}
+
+void WalkPanel::askForTruth(PanelContext& context) {
+  Session& session = context.session();
+  const EditorState& state = context.state();
+  const PerspectiveView full = viewAt(context, 1);
+  const bool rests = compares(state.walkLook) && session.walk() && !state.walker.moving() && shown_.valid &&
+                     samePlace(shown_.view, full) && full.check();
+  if (!rests) return session.comparing().follow(std::nullopt);
+  session.comparing().follow(
+      CompareRequest{session.built(), full, session.walk()->walk.exposure, state.truthRays, rested_});
+  const std::shared_ptr<const Compared>& compared = session.comparing().compared();
+  if (!context.log.on() || compared == loggedCompared_) return;
+  loggedCompared_ = compared;
+  if (compared) context.log.event("compared", figuresText(*compared) + " " + againstText(*compared));
+}
+
+void WalkPanel::savePicture(PanelContext& context) {
+  EditorState& state = context.state();
+  if (!state.takePicture || (!rested_ && problem_.empty())) return;
+  state.takePicture = false;
+  Session& session = context.session();
+  if (!rested_)
+    return session.messages().add(MessageLevel::warning, "There is no picture to save: " + problem_);
+  ColourImage picture = pictureOf(*rested_);
+  if (const auto& truth = session.comparing().truth(); truth && compares(state.walkLook))
+    picture = state.walkLook == WalkLook::split
+                  ? splitPicture(picture, truth->frame.colour, state.splitAt)
+                  : differenceImage(picture, truth->frame.colour, state.differenceGain);
+  session.savePicture(std::move(picture));
+}
+
+void WalkPanel::drawOverlays(PanelContext& context, const ImVec2& low, const ImVec2& size) {
+  const bool colours = WalkOverlays::needColours(context.state()) && shown_.loaded;
+  overlays_.draw(context, *ImGui::GetWindowDrawList(), low, {low.x + size.x, low.y + size.y}, place_,
+                 {shown_.loaded, shown_.view, shown_.settings, rested_},
+                 colours ? &coloursOf(shown_.loaded->walk.layout) : nullptr, times_);
 }
 
 void WalkPanel::nameSource(const glm::dvec2& pointer) const {
   const Image<PixelSource>& source = lastFrame_.source;
-  if (shown_.look != WalkLook::sources || showingGl_ || source.empty() || looking_) return;
+  if (shown_.look != WalkLook::sources || showingGl_ || source.empty() || looking_ ||
+      overlays_.cover(pointer))
+    return;
   const glm::dvec2 at = (pointer - place_.min) / place_.size * glm::dvec2(source.width, source.height);
   if (at.x < 0 || at.y < 0 || at.x >= source.width || at.y >= source.height) return;
   const PixelSource here = source.at(int(at.x), int(at.y));
@@ -103,6 +167,7 @@ void WalkPanel::takePicture(PanelContext& context) {
     requested_ = false;
     context.window.pacer().request(1);
     const WalkRequest& request = picture->request;
+    rested_.reset();
     shown_ = {request.loaded,
               request.view,
               request.settings,
@@ -112,9 +177,11 @@ void WalkPanel::takePicture(PanelContext& context) {
               true};
     problem_ = picture->problem;
     if (problem_.empty()) {
+      ++context.state().picturesShown;
       renderer_.recycle(std::move(lastFrame_));
       lastFrame_ = std::move(picture->frame);
       resolution_.measured(request.scale, lastFrame_.stats.totalSeconds);
+      times_.add(lastFrame_.stats);
       shown_.holeShare =
           double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
       show(lastFrame_);
@@ -129,14 +196,18 @@ void WalkPanel::takePicture(PanelContext& context) {
   }
 }
 
-void WalkPanel::openGl() {
+void WalkPanel::openGl(Session& session) {
   if (gl_ || !glProblem_.empty()) return;
   auto created = GlRenderer::create(
       {.waitForCaptures = false, .backgroundThreads = std::max(1, threads_ / 2), .wake = wake_});
-  if (created)
+  if (created) {
     gl_ = std::move(*created);
-  else
-    glProblem_ = created.error().describe();
+    return;
+  }
+  glProblem_ = created.error().message;
+  session.messages().add(MessageLevel::warning,
+                         fmt::format("{}. Until then the walk is drawn with \"{}\".", glProblem_,
+                                     nameOf(settingsOf(session).renderer)));
 }
 
 bool WalkPanel::receive(PanelContext& context) {
@@ -148,25 +219,23 @@ bool WalkPanel::receive(PanelContext& context) {
 
 void WalkPanel::drawWithGl(PanelContext& context) {
   Session& session = context.session();
-  openGl();
-  if (!gl_) {
-    problem_ = "The OpenGL renderer is not available here: " + glProblem_;
-    return;
-  }
   const PerspectiveView full = viewAt(context, 1);
   const WalkLook look = context.state().walkLook;
-  const bool plain = look == WalkLook::picture;
+  const bool plain = look == WalkLook::picture || compares(look);
   const bool news = receive(context);
   if (!news && !stale(context, full) && shown_.look == look && showingGl_ == plain) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
   const PerspectiveView view = viewAt(context, scale);
   const auto stats = gl_->draw(session.walk()->walk, view, session.project().view);
+  rested_.reset();
   shown_ = {session.walk(), view, session.project().view, look, stats ? *stats : FrameStats{}, -1, true};
   if (stats) resolution_.measured(scale, stats->totalSeconds);
+  if (stats) times_.add(*stats);
   if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
   problem_ = stats ? "" : stats.error().describe();
   if (!stats) return;
+  ++context.state().picturesShown;
   if (context.log.on())
     context.log.event(
         "glframe",
@@ -174,6 +243,7 @@ void WalkPanel::drawWithGl(PanelContext& context) {
                     view.height, stats->images, stats->meshes.size(), stats->meshesAwaited,
                     stats->pointsForMeshes, stats->capturesAwaited, stats->missingImages));
   showingGl_ = true;
+  ++glPictures_;
   if (plain) return;
   lastFrame_ = gl_->readBack();
   shown_.holeShare =
@@ -181,36 +251,46 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   show(lastFrame_);
 }
 
-void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ui::palette::backdrop.packed());
+void WalkPanel::drawPicture(const ImVec2& low, const ImVec2& size) {
+  const bool picture = shown_.valid && (showingGl_ ? gl_ != nullptr : !texture_.empty());
+  if (picture)
+    place_ = ui::fitImage(ui::fromIm(low), ui::fromIm(size), double(shown_.view.width) / shown_.view.height);
+  const bool covers = picture && place_.size.x > double(size.x) - 1 && place_.size.y > double(size.y) - 1;
+  if (!covers)  // software rasterisers take long over pixels that nobody sees
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                                              ui::palette::backdrop.packed());
+  if (!picture) return;
+  ui::drawImage(
+      showingGl_ ? ui::Texture::imguiTexture(gl_->colourTexture(), glPictures_) : texture_.imguiId(), place_,
+      showingGl_);
+}
+
+/// Why there is no picture, or none worth looking at; over all else.
+void WalkPanel::drawNotice(const PanelContext& context, const ImVec2& low, const ImVec2& size) const {
   const auto say = [&](const ui::Colour& colour, const std::string& text) {
-    const ImVec2 textSize = ImGui::CalcTextSize(text.c_str(), nullptr, false, size.x - 60);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float room = size.x - ui::scaled(60), margin = ui::scaled(14);
+    const ImVec2 textSize = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
     const ImVec2 at(low.x + (size.x - textSize.x) / 2, low.y + size.y / 2 - textSize.y / 2);
-    list.AddRectFilled({at.x - 14, at.y - 10}, {at.x + textSize.x + 14, at.y + textSize.y + 10},
-                       ui::palette::backdrop.withOpacity(0.86F).packed(), 5);
+    list.AddRectFilled({at.x - margin, at.y - margin},
+                       {at.x + textSize.x + margin, at.y + textSize.y + margin},
+                       ui::palette::backdrop.withOpacity(0.86F).packed(), ui::scaled(5));
     ImFont* font = context.window.fonts().regular;
-    list.AddText(font, font->FontSize, at, colour.packed(), text.c_str(), nullptr, size.x - 60);
+    list.AddText(font, font->FontSize, at, colour.packed(), text.c_str(), nullptr, room);
   };
-  const bool picture = showingGl_ ? gl_ != nullptr : !texture_.empty();
-  if (shown_.valid && picture) {
-    const double aspect = double(shown_.view.width) / shown_.view.height;
-    place_ = ui::fitImage(ui::fromIm(low), ui::fromIm(size), aspect);
-    ui::drawImage(showingGl_ ? ui::Texture::imguiTexture(gl_->colourTexture()) : texture_.imguiId(), place_,
-                  showingGl_);
-  }
-  const Session& session = context.session();
-  if (!problem_.empty())
+  const Session& session = context.actions.session;
+  if (session.built() && session.built()->layout->regions.empty())
+    say(ui::palette::text, "No cells yet. Click a free place on the plan to add one.");
+  else if (!problem_.empty())
     say(ui::palette::danger, problem_);
-  else if (session.captures() && session.captures()->baked == 0 && !session.baking().running() &&
-           (!session.walk() || session.walk()->coarse == 0))
+  else if (nothingBaked(session))
     say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
   else if (!session.walk())
     say(ui::palette::muted, "Loading captures…");
 }
 
 void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const {
-  const Session& session = context.actions.session;
+  Session& session = context.actions.session;
   const Layout& layout = *session.built()->layout;
   const auto region = layout.regionAt(glm::dvec2(context.state().walker.pose().eye));
   std::string where = "outside";
@@ -227,18 +307,24 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
                         shown_.stats.totalSeconds * 1000);
   }
   ImFont* small = context.window.fonts().small;
-  float y = low.y + size.y - 11;  // lines go upwards from here
+  float y = low.y + size.y - ui::scaled(11);  // lines go upwards from here
   const auto line = [&](const std::string& words) {
     y -= small->FontSize;
-    ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + 12, y}, ui::palette::text, words.c_str());
-    y -= 8;
+    ui::drawLabel(*ImGui::GetWindowDrawList(), small, {low.x + ui::scaled(12), y}, ui::palette::text,
+                  words.c_str());
+    y -= ui::scaled(8);
   };
   line(text);
+  if (const auto& compared = session.comparing().compared()) {
+    line(againstText(*compared) + (session.comparing().tracing() ? ", more on the way" : ""));
+    line(figuresText(*compared));
+  }
   if (shown_.valid)
     for (const std::string& words :
          {meshSumText(shown_.stats), meshesAwaitedText(shown_.stats), capturesAwaitedText(shown_.stats)})
       if (!words.empty()) line(words);
-  if (session.walk() && !session.walk()->walk.surfaceLight) line("near geometry unlit until a bake ends");
+  if (session.walk() && !session.walk()->walk.surfaceLight && !nothingBaked(session))
+    line("near geometry unlit until a bake ends");
   if (session.streaming()) line("captures are being read");
   if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
 }

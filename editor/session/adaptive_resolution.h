@@ -5,7 +5,7 @@ namespace acentric::editor {
 
 class AdaptiveResolution {
  public:
-  static constexpr double kTargetSeconds = 0.045;  ///< a moving frame
+  static constexpr double kTargetSeconds = 0.033;  ///< a moving frame
   static constexpr double kLeast = 0.2;            ///< of the full width
 
   /// Fraction of the full width and height for a moving eye.

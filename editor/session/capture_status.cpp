@@ -3,32 +3,104 @@
 #include <algorithm>
 
 #include "engine/base/contract.h"
+#include "engine/pipeline/bake_plan.h"
 
 namespace acentric::editor {
 namespace {
 
-BakeState stateOf(const Region& region, const std::vector<bool>& cameras) {
-  bool some = false;
-  bool all = true;
+BakeState stateOf(const Region& region, const CaptureStatus& status, const BakeMarks& marks) {
+  bool some = false, all = true, stale = false, baking = false, failed = false;
   for (const Cover& cover : region.covers)
     for (const Piece& piece : cover.pieces) {
-      const bool there = cameras[std::size_t(piece.camera)];
-      some = some || there;
-      all = all && there;
+      const auto camera = std::size_t(piece.camera);
+      some = some || status.cameras[camera];
+      all = all && status.cameras[camera];
+      stale = stale || status.stale[camera];
+      baking = baking || std::ranges::binary_search(marks.baking, piece.camera);
+      failed = failed || std::ranges::binary_search(marks.failed, piece.camera);
     }
-  return some && all ? BakeState::baked : some ? BakeState::partial : BakeState::missing;
+  if (failed) return BakeState::failed;
+  if (baking) return BakeState::baking;
+  if (some && all) return BakeState::baked;
+  if (stale) return BakeState::stale;
+  return some ? BakeState::partial : BakeState::missing;
 }
 
 }  // namespace
 
-CaptureStatus captureStatus(const Layout& layout, std::vector<bool> cameras) {
-  require(cameras.size() == layout.cameras.size(), "one flag per camera of the layout");
+const char* nameOf(BakeState state) {
+  switch (state) {
+    case BakeState::missing:
+      return "missing";
+    case BakeState::partial:
+      return "partly";
+    case BakeState::stale:
+      return "stale";
+    case BakeState::baked:
+      return "done";
+    case BakeState::baking:
+      return "baking";
+    case BakeState::failed:
+      break;
+  }
+  return "failed";
+}
+
+CaptureStatus captureStatus(const Layout& layout, CapturesOnDisk there) {
+  require(there.baked.size() == layout.cameras.size(), "one flag per camera of the layout");
   CaptureStatus status;
-  status.cameras = std::move(cameras);
+  status.cameras = std::move(there.baked);
+  status.stale = std::move(there.stale);
+  status.bytes = std::move(there.bytes);
   status.baked = int(std::count(status.cameras.begin(), status.cameras.end(), true));
-  status.regions.reserve(layout.regions.size());
-  for (const Region& region : layout.regions) status.regions.push_back(stateOf(region, status.cameras));
+  status.regions = regionStates(layout, status, {});
   return status;
+}
+
+CaptureStatus emptyStatus(const Layout& layout) {
+  const std::size_t cameras = layout.cameras.size();
+  return captureStatus(layout, {std::vector<bool>(cameras, false), std::vector<bool>(cameras, false),
+                                std::vector<std::uint64_t>(cameras, 0)});
+}
+
+BakeMarks bakeMarks(const BakeQueue& queue, int storey) {
+  BakeMarks marks;
+  for (const QueuedCamera& row : queue.cameras()) {
+    if (row.storey != storey) continue;
+    if (row.stage == CameraStage::tracing || row.stage == CameraStage::writing)
+      marks.baking.push_back(row.camera);
+    if (row.stage == CameraStage::failed) marks.failed.push_back(row.camera);
+  }
+  std::ranges::sort(marks.baking);
+  std::ranges::sort(marks.failed);
+  return marks;
+}
+
+std::vector<BakeState> regionStates(const Layout& layout, const CaptureStatus& status,
+                                    const BakeMarks& marks) {
+  std::vector<BakeState> states;
+  states.reserve(layout.regions.size());
+  for (const Region& region : layout.regions) states.push_back(stateOf(region, status, marks));
+  return states;
+}
+
+std::vector<int> camerasOf(const Region& region) {
+  std::vector<int> cameras;
+  for (const Cover& cover : region.covers)
+    for (const Piece& piece : cover.pieces) cameras.push_back(piece.camera);
+  std::ranges::sort(cameras);
+  cameras.erase(std::ranges::unique(cameras).begin(), cameras.end());
+  return cameras;
+}
+
+std::vector<std::uint64_t> regionBytes(const Layout& layout, const std::vector<std::uint64_t>& cameras) {
+  std::vector<std::uint64_t> bytes;
+  bytes.reserve(layout.regions.size());
+  for (const Region& region : layout.regions) {
+    bytes.push_back(0);
+    for (const int camera : camerasOf(region)) bytes.back() += cameras[std::size_t(camera)];
+  }
+  return bytes;
 }
 
 }  // namespace acentric::editor

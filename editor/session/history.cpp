@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "editor/session/project_size.h"
 #include "engine/base/contract.h"
 
 namespace acentric::editor {
@@ -9,29 +10,53 @@ namespace {
 const std::string kNothing;
 }
 
-History::History(Project initial, bool saved) : everSaved_(saved) {
+History::Entry History::makeEntry(Project project, std::string label) {
+  const std::size_t bytes = approximateBytes(project) + label.capacity();
+  return {std::move(label), std::move(project), bytes};
+}
+
+History::History(Project initial, bool saved, std::size_t mostBytes)
+    : mostBytes_(mostBytes), everSaved_(saved) {
   if (saved) saved_ = initial;
-  entries_.push_back({"Open", std::move(initial)});
+  entries_.push_back(makeEntry(std::move(initial), "Open"));
+  forgetOldest();
   compareWithSaved();
 }
 
 void History::append(Project project, std::string label) {
   entries_.resize(cursor_ + 1);
-  entries_.push_back({std::move(label), std::move(project)});
-  if (entries_.size() > kMostEntries) entries_.erase(entries_.begin());
+  entries_.push_back(makeEntry(std::move(project), std::move(label)));
   cursor_ = entries_.size() - 1;
   compareWithSaved();
+}
+
+/// Not while previewing: what is rolled back has to leave no trace.
+void History::forgetOldest() {
+  bytes_ = 0;
+  for (const Entry& entry : entries_) bytes_ += entry.bytes;
+  std::size_t oldest = 0;
+  while (oldest + 1 < cursor_ && (entries_.size() - oldest > kMostEntries || bytes_ > mostBytes_))
+    bytes_ -= entries_[oldest++].bytes;
+  entries_.erase(entries_.begin(), entries_.begin() + std::ptrdiff_t(oldest));
+  cursor_ -= oldest;
+  dropped_ += oldest;
+}
+
+void History::setMostBytes(std::size_t bytes) {
+  mostBytes_ = bytes;
+  if (!previewing_) forgetOldest();
 }
 
 void History::push(Project project, std::string label) {
   commitPreview();
   if (project == current()) return;
   append(std::move(project), std::move(label));
+  forgetOldest();
 }
 
 void History::preview(Project project, std::string label) {
   if (previewing_) {
-    entries_[cursor_] = {std::move(label), std::move(project)};
+    entries_[cursor_] = makeEntry(std::move(project), std::move(label));
     return compareWithSaved();
   }
   if (project == current()) return;
@@ -47,6 +72,7 @@ void History::commitPreview() {
   if (cursor_ > 0 && entries_[cursor_].project == entries_[cursor_ - 1].project) return rollbackPreview();
   previewing_ = false;
   hiddenRedo_.clear();
+  forgetOldest();
 }
 
 void History::rollbackPreview() {
@@ -75,11 +101,28 @@ void History::redo() {
   compareWithSaved();
 }
 
+void History::goTo(std::size_t entry) {
+  commitPreview();
+  require(entry < entries_.size(), "an entry of the history");
+  cursor_ = entry;
+  compareWithSaved();
+}
+
+std::optional<std::size_t> History::find(const Project& project) const {
+  for (std::size_t away = 0; away < entries_.size(); ++away) {
+    if (away <= cursor_ && entries_[cursor_ - away].project == project) return cursor_ - away;
+    if (cursor_ + away < entries_.size() && entries_[cursor_ + away].project == project)
+      return cursor_ + away;
+  }
+  return std::nullopt;
+}
+
 void History::discardCurrent() {
   if (previewing_) return rollbackPreview();
   if (!canUndo()) return;
   entries_.resize(cursor_);
   --cursor_;
+  forgetOldest();
   compareWithSaved();
 }
 

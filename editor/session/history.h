@@ -1,9 +1,10 @@
 #pragma once
 /// Undo and redo: snapshots of the whole Project with a cursor. A drag or a slider is one entry: while it
 /// lasts it is a preview that replaces itself, then it is committed or rolled back. Bakes are never on the
-/// history.
+/// history. The oldest entries go beyond a number of them or an amount of memory, but never the last edit.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace acentric::editor {
 class History {
  public:
   static constexpr std::size_t kMostEntries = 1000;
+  static constexpr std::size_t kUsualBytes = 256'000'000;
 
   /// `saved`: the project is on disk as it is.
-  History(Project initial, bool saved);
+  History(Project initial, bool saved, std::size_t mostBytes = kUsualBytes);
 
   const Project& current() const { return entries_[cursor_].project; }
   /// A finished edit; what could be redone is gone. An edit that changes nothing is no entry.
@@ -33,6 +35,10 @@ class History {
   const std::string& redoLabel() const;
   void undo();
   void redo();
+  /// To any entry: as many steps back or forth as lie between.
+  void goTo(std::size_t entry);
+  /// The entry nearest to the current one that holds this project.
+  std::optional<std::size_t> find(const Project& project) const;
   /// Takes back the current entry and forgets it: it turned out to be impossible.
   void discardCurrent();
 
@@ -42,17 +48,27 @@ class History {
   std::size_t size() const { return entries_.size(); }
   std::size_t cursor() const { return cursor_; }
   const std::string& label(std::size_t entry) const { return entries_[entry].label; }
+  /// Of all entries, as approximateBytes() tells.
+  std::size_t bytes() const { return bytes_; }
+  std::size_t dropped() const { return dropped_; }  ///< oldest entries that had no room
+  void setMostBytes(std::size_t bytes);
 
  private:
   struct Entry {
     std::string label;
     Project project;
+    std::size_t bytes = 0;
   };
+  static Entry makeEntry(Project project, std::string label);
   void append(Project project, std::string label);
+  void forgetOldest();
   void compareWithSaved() { dirty_ = !everSaved_ || saved_ != current(); }
 
   std::vector<Entry> entries_;
   std::size_t cursor_ = 0;
+  std::size_t mostBytes_ = kUsualBytes;
+  std::size_t bytes_ = 0;
+  std::size_t dropped_ = 0;
   Project saved_;
   bool everSaved_ = false;
   bool dirty_ = false;  // asked for in every frame: projects with many cells are not compared each time

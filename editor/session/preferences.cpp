@@ -1,10 +1,13 @@
 #include "editor/session/preferences.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "editor/session/project_files.h"
 #include "engine/base/file.h"
 
 namespace acentric::editor {
@@ -15,11 +18,36 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMostBytes = std::size_t(1) << 20;
 
-float readLength(const Json& json, const char* name, float otherwise) {
+/// A value that is missing, of another kind or not finite leaves `value`; one out of range is put into it.
+template <class Number>
+void readNumber(const Json& json, const char* name, Number& value, double least, double most) {
   const auto found = json.find(name);
-  if (found == json.end() || !found->is_number()) return otherwise;
-  const double value = found->get<double>();
-  return std::isfinite(value) && value >= 50 && value <= 10000 ? float(value) : otherwise;
+  if (found == json.end() || !found->is_number()) return;
+  const double read = found->get<double>();
+  if (std::isfinite(read)) value = Number(std::clamp(read, least, most));
+}
+
+void readFlag(const Json& json, const char* name, bool& value) {
+  if (const auto found = json.find(name); found != json.end() && found->is_boolean())
+    value = found->get<bool>();
+}
+
+template <class Enum>
+void readName(const Json& json, const char* name, Enum& value, std::span<const char* const> names) {
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_string()) return;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (found->get<std::string>() == names[i]) value = Enum(i);
+}
+
+constexpr std::array<const char*, 2> kThemes = {"dark", "light"};
+constexpr std::array<const char*, 3> kStartUps = {"sample", "lastProject", "nothing"};
+
+/// A splitter that was dragged off the window is of no use: such a length is left at its default.
+void readLength(const Json& json, const char* name, float& value) {
+  float read = value;
+  readNumber(json, name, read, 0, 1e6);
+  if (read >= 50 && read <= 10000) value = read;
 }
 
 }  // namespace
@@ -30,6 +58,36 @@ void Preferences::addRecent(const fs::path& file) {
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);
 }
 
+void Preferences::resetSettings() {
+  Preferences fresh;
+  fresh.recent = std::move(recent);
+  fresh.lastFolder = std::move(lastFolder);
+  fresh.guideSeen = guideSeen;
+  fresh.settingsWidth = settingsWidth;
+  fresh.walkWidth = walkWidth;
+  fresh.bottomHeight = bottomHeight;
+  *this = std::move(fresh);
+}
+
+void Preferences::resetLayout() {
+  const Preferences fresh;
+  settingsWidth = fresh.settingsWidth;
+  walkWidth = fresh.walkWidth;
+  bottomHeight = fresh.bottomHeight;
+}
+
+fs::path startUpFile(const Preferences& preferences, const fs::path& sample) {
+  switch (preferences.startUp) {
+    case StartUp::sample:
+      return sample;
+    case StartUp::lastProject:
+      return preferences.recent.empty() ? sample : preferences.recent.front();
+    case StartUp::nothing:
+      break;
+  }
+  return {};
+}
+
 fs::path preferencesFile() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
   if (config != nullptr && *config == '/') return fs::path(config) / "acentric" / "editor.json";
@@ -38,30 +96,50 @@ fs::path preferencesFile() {
   return {};
 }
 
-Preferences loadPreferences(const fs::path& file) {
+Preferences loadPreferences(const fs::path& file, std::string* problem) {
   Preferences preferences;
   if (file.empty()) return preferences;
   const auto text = readText(file, kMostBytes);
-  if (!text) return preferences;
+  if (!text) {
+    if (problem != nullptr && text.error().kind != ErrorKind::notFound)
+      *problem = "The preferences cannot be read: " + text.error().describe();
+    return preferences;
+  }
   const Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object()) return preferences;
+  if (!json.is_object()) {
+    const fs::path aside = putAside(file);
+    if (problem != nullptr)
+      *problem = "The preferences were damaged and begin anew" +
+                 (aside.empty() ? std::string(".") : "; the old ones are in " + aside.string());
+    return preferences;
+  }
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
     for (const Json& entry : *recent)
       if (entry.is_string() && preferences.recent.size() < Preferences::kMostRecent)
         preferences.recent.emplace_back(entry.get<std::string>());
   if (const auto folder = json.find("lastFolder"); folder != json.end() && folder->is_string())
     preferences.lastFolder = folder->get<std::string>();
-  if (const auto threads = json.find("bakeThreads"); threads != json.end() && threads->is_number_integer())
-    preferences.bakeThreads = std::clamp(threads->get<int>(), 0, 256);
-  if (const auto memory = json.find("bakeMegabytes"); memory != json.end() && memory->is_number_integer())
-    preferences.bakeMegabytes = std::clamp(memory->get<int>(), 16, 1'000'000);
-  if (const auto memory = json.find("walkMegabytes"); memory != json.end() && memory->is_number_integer())
-    preferences.walkMegabytes = std::clamp(memory->get<int>(), 0, 1'000'000);
-  if (const auto speed = json.find("walkMetresPerSecond"); speed != json.end() && speed->is_number())
-    preferences.walkMetresPerSecond = std::clamp(speed->get<double>(), 0.1, 20.0);
-  preferences.settingsWidth = readLength(json, "settingsWidth", preferences.settingsWidth);
-  preferences.walkWidth = readLength(json, "walkWidth", preferences.walkWidth);
-  preferences.bottomHeight = readLength(json, "bottomHeight", preferences.bottomHeight);
+  using P = Preferences;
+  readNumber(json, "bakeThreads", preferences.bakeThreads, 0, 256);
+  readNumber(json, "bakeMegabytes", preferences.bakeMegabytes, 16, 1'000'000);
+  readNumber(json, "walkMegabytes", preferences.walkMegabytes, 0, 1'000'000);
+  readNumber(json, "walkMetresPerSecond", preferences.walkMetresPerSecond, 0.1, 20);
+  readNumber(json, "historyMegabytes", preferences.historyMegabytes, 1, 1'000'000);
+  readFlag(json, "reimportAutomatically", preferences.reimportAutomatically);
+  readNumber(json, "lookSensitivity", preferences.lookSensitivity, P::kLeastLookSensitivity,
+             P::kMostLookSensitivity);
+  readFlag(json, "invertLook", preferences.invertLook);
+  readNumber(json, "autosaveSeconds", preferences.autosaveSeconds, P::kLeastAutosaveSeconds,
+             P::kMostAutosaveSeconds);
+  readName(json, "theme", preferences.theme, kThemes);
+  readNumber(json, "scalePercent", preferences.scalePercent, 0, P::kMostScalePercent);
+  if (preferences.scalePercent > 0)
+    preferences.scalePercent = std::max(preferences.scalePercent, P::kLeastScalePercent);
+  readName(json, "startUp", preferences.startUp, kStartUps);
+  readFlag(json, "guideSeen", preferences.guideSeen);
+  readLength(json, "settingsWidth", preferences.settingsWidth);
+  readLength(json, "walkWidth", preferences.walkWidth);
+  readLength(json, "bottomHeight", preferences.bottomHeight);
   return preferences;
 }
 
@@ -75,6 +153,15 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"bakeMegabytes", preferences.bakeMegabytes},
                      {"walkMegabytes", preferences.walkMegabytes},
                      {"walkMetresPerSecond", preferences.walkMetresPerSecond},
+                     {"historyMegabytes", preferences.historyMegabytes},
+                     {"reimportAutomatically", preferences.reimportAutomatically},
+                     {"lookSensitivity", preferences.lookSensitivity},
+                     {"invertLook", preferences.invertLook},
+                     {"autosaveSeconds", preferences.autosaveSeconds},
+                     {"theme", kThemes[std::size_t(preferences.theme)]},
+                     {"scalePercent", preferences.scalePercent},
+                     {"startUp", kStartUps[std::size_t(preferences.startUp)]},
+                     {"guideSeen", preferences.guideSeen},
                      {"settingsWidth", preferences.settingsWidth},
                      {"walkWidth", preferences.walkWidth},
                      {"bottomHeight", preferences.bottomHeight}};

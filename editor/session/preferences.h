@@ -1,16 +1,25 @@
 #pragma once
 /// What the editor remembers between runs: $XDG_CONFIG_HOME/acentric/editor.json (else ~/.config). A file
-/// that cannot be read, or is damaged, is as none; unknown or wrong values are left at their defaults.
+/// that cannot be read, or is damaged, is as none (and told of); unknown or wrong values are left at their
+/// defaults.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "engine/base/result.h"
 
 namespace acentric::editor {
 
+enum class Theme { dark, light };
+/// What the editor opens when no file is named.
+enum class StartUp { sample, lastProject, nothing };
+
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
+  static constexpr int kLeastScalePercent = 75, kMostScalePercent = 200;
+  static constexpr double kLeastAutosaveSeconds = 5, kMostAutosaveSeconds = 3600;
+  static constexpr double kLeastLookSensitivity = 0.1, kMostLookSensitivity = 5;
 
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
   std::filesystem::path lastFolder;
@@ -18,15 +27,30 @@ struct Preferences {
   int bakeMegabytes = 1536;  ///< that what is baked may take until it is written
   int walkMegabytes = 0;     ///< for captures of the walk in memory; 0 = half of the machine's
   double walkMetresPerSecond = 1.4;
-  float settingsWidth = 324;  ///< pixels
+  int historyMegabytes = 256;          ///< for what can be undone
+  bool reimportAutomatically = false;  ///< a model that changed on disk, without being asked
+  double lookSensitivity = 1;          ///< of the mouse; 1 turns 0.2° a pixel
+  bool invertLook = false;             ///< moving the mouse up looks down
+  double autosaveSeconds = 20;
+  Theme theme = Theme::dark;
+  int scalePercent = 0;  ///< of the interface; 0 = as the display asks
+  StartUp startUp = StartUp::sample;
+  bool guideSeen = false;     ///< the guided start is not shown by itself any more
+  float settingsWidth = 324;  ///< pixels of a display with 96 dpi, as the two below
   float walkWidth = 600;
   float bottomHeight = 214;
 
   void addRecent(const std::filesystem::path& file);
+  /// All that the preferences dialog shows, as it was at first; files and the window's layout stay.
+  void resetSettings();
+  void resetLayout();
 };
 
+/// What to open when no file is named; empty = nothing. `sample` may be empty: there is none.
+std::filesystem::path startUpFile(const Preferences& preferences, const std::filesystem::path& sample);
 std::filesystem::path preferencesFile();
-Preferences loadPreferences(const std::filesystem::path& file);
+/// `problem` is told what was wrong with a file that is there but cannot be used; it is put aside.
+Preferences loadPreferences(const std::filesystem::path& file, std::string* problem = nullptr);
 Status savePreferences(const Preferences& preferences, const std::filesystem::path& file);
 
 }  // namespace acentric::editor

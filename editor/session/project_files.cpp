@@ -38,25 +38,53 @@ void removeAutosave(const fs::path& projectFile) {
   fs::remove(autosaveFileFor(projectFile), error);
 }
 
-std::optional<Project> recoverableAutosave(const fs::path& projectFile, const Project& saved) {
+Result<std::optional<Project>> recoverableAutosave(const fs::path& projectFile, const Project& saved) {
   const fs::path file = autosaveFileFor(projectFile);
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::optional<Project>();
   const auto text = readText(file, kMostProjectBytes);
-  if (!text) return std::nullopt;
+  if (!text) return tl::unexpected(text.error());
   auto project = parseProject(*text, file.string());
-  if (!project || *project == saved) return std::nullopt;
-  return *project;
+  if (!project) return tl::unexpected(project.error());
+  return *project == saved ? std::nullopt : std::optional(std::move(*project));
+}
+
+fs::path putAside(const fs::path& file) {
+  fs::path aside = file;
+  aside += ".damaged";
+  std::error_code error;
+  fs::rename(file, aside, error);
+  return error ? fs::path() : aside;
+}
+
+fs::path freeCopyName(const fs::path& projectFile) {
+  std::string stem = projectFile.filename().string();
+  if (isProjectFile(projectFile)) stem.resize(stem.size() - std::string_view(kProjectEnding).size());
+  std::error_code error;
+  for (int number = 1;; ++number) {
+    const std::string name = stem + (number == 1 ? " copy" : " copy " + std::to_string(number));
+    fs::path file = projectFile.parent_path() / (name + kProjectEnding);
+    if (!fs::exists(file, error)) return file;
+  }
+}
+
+Result<fs::path> scenePathFor(const fs::path& model, const fs::path& projectFile) {
+  std::error_code error;
+  const fs::path absolute = fs::weakly_canonical(model, error);
+  const fs::path relative = error ? fs::path() : fs::relative(absolute, folderOf(projectFile), error);
+  if (error || relative.empty() || relative.is_absolute())
+    return fail(ErrorKind::invalidArgument,
+                "no relative path leads from the project to the model; keep both on one file system",
+                model.string());
+  return relative;
 }
 
 Result<Project> movedProject(const Project& project, const fs::path& from, const fs::path& to) {
   if (folderOf(from) == folderOf(to)) return project;
-  std::error_code error;
-  const fs::path model = fs::weakly_canonical(folderOf(from) / project.scene, error);
+  const auto scene = scenePathFor(folderOf(from) / project.scene, to);
+  if (!scene) return tl::unexpected(scene.error());
   Project moved = project;
-  if (!error) moved.scene = fs::relative(model, folderOf(to), error);
-  if (error || moved.scene.empty() || moved.scene.is_absolute())
-    return fail(ErrorKind::invalidArgument,
-                "no relative path leads from there to the model; choose a folder on the model's file system",
-                to.string());
+  moved.scene = *scene;
   return moved;
 }
 

@@ -19,8 +19,18 @@ std::filesystem::path autosaveFileFor(const std::filesystem::path& projectFile);
 /// Never touches the project file itself.
 Status writeAutosave(const Project& project, const std::filesystem::path& projectFile);
 void removeAutosave(const std::filesystem::path& projectFile);
-/// What a crashed run left behind, if it is readable and differs from `saved`.
-std::optional<Project> recoverableAutosave(const std::filesystem::path& projectFile, const Project& saved);
+/// What a crashed run left behind, if it differs from `saved`; the error says that it cannot be read.
+Result<std::optional<Project>> recoverableAutosave(const std::filesystem::path& projectFile,
+                                                   const Project& saved);
+/// Puts a file that cannot be read out of the way, "x" -> "x.damaged", so that nothing is written over it.
+/// Where it lies then; empty where that failed.
+std::filesystem::path putAside(const std::filesystem::path& file);
+/// "walk.acentric.json" -> "walk copy.acentric.json", or the first of "walk copy 2" ... that is free.
+std::filesystem::path freeCopyName(const std::filesystem::path& projectFile);
+
+/// The way to a model as a project states it; the error says why there is none.
+Result<std::filesystem::path> scenePathFor(const std::filesystem::path& model,
+                                           const std::filesystem::path& projectFile);
 
 /// The same project as seen from another file: the path to its model is made relative to the new folder.
 Result<Project> movedProject(const Project& project, const std::filesystem::path& from,

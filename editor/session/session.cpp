@@ -1,15 +1,26 @@
 #include "editor/session/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <thread>
 
+#include "editor/session/screenshot.h"
+
 namespace acentric::editor {
+namespace fs = std::filesystem;
+
 Session::Session(SessionOptions options)
     : options_(std::move(options)),
       processors_(options_.processors > 0 ? options_.processors
                                           : std::max(1, int(std::thread::hardware_concurrency()))),
       inbox_(options_.wake),
-      preferences_(loadPreferences(options_.preferencesFile)) {}
+      sweeping_(options_.program) {
+  std::string problem;
+  preferences_ = loadPreferences(options_.preferencesFile, &problem);
+  if (!problem.empty()) messages_.add(MessageLevel::warning, problem);
+  listUnsaved();
+}
 
 Session::~Session() { bakeGate_.open(); }  // a paused bake must see that it is to stop
 
@@ -17,6 +28,8 @@ bool onlyViewDiffers(const Project& a, const Project& b) {
   Project same = b;
   same.view = a.view;
   same.fovDegrees = a.fovDegrees;
+  same.bookmarks = a.bookmarks;
+  same.paths = a.paths;
   if (same.storeys.size() == a.storeys.size())
     for (std::size_t s = 0; s < a.storeys.size(); ++s) same.storeys[s].spawn = a.storeys[s].spawn;
   return same == a;
@@ -37,13 +50,16 @@ bool Session::poll(double now) {
     loadCaptures();
   }
   autosave(now);
-  return delivered;
+  lookAround(now);
+  inspectWhenStill(now);
+  const bool measured = sweeping_.poll(now);
+  return refreshProblems() || delivered || measured;
 }
 
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
          streaming() || drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
-         searching_.running() || estimating_.running();
+         picking_.running() || searching_.running() || estimating_.running() || savingPicture_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -89,6 +105,17 @@ void Session::redo() {
   projectChanged();
 }
 
+void Session::goTo(std::size_t entry) {
+  if (!hasProject() || entry >= history_->size() || entry == history_->cursor()) return;
+  history_->goTo(entry);
+  messages_.add(MessageLevel::info, "Gone to: " + history_->label(history_->cursor()));
+  projectChanged();
+}
+
+void Session::historyMemoryChanged() {
+  if (hasProject()) history_->setMostBytes(historyBytes());
+}
+
 void Session::projectChanged() {
   if (!built_ || built_->project == project()) {
     if (built_ && rebuilding_.running()) rebuild();  // what is being built is no longer wanted
@@ -107,19 +134,32 @@ void Session::rebuild() {
   rebuilding_.restart("Laying the tessellation", [this, former = built_, wanted = project(),
                                                   host = options_.importHost](const Job::Context& context) {
     auto result = reopenProject(*former, wanted, host, context.progress(), context.stop());
-    context.post([this, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
-      if (*result) return rebuilt(std::move(**result));
-      if (result->error().kind == ErrorKind::cancelled) return;
-      messages_.addFailure(history_->undoLabel().empty() ? "The change" : history_->undoLabel(),
-                           result->error());
-      history_->discardCurrent();
-      projectChanged();
+    std::error_code error;
+    const bool gone = !fs::exists(sceneFileOf(former->file, wanted), error);
+    const bool withoutModel = !result && gone;
+    if (withoutModel)
+      result = openWithoutModel(former->file, wanted, host, context.progress(), context.stop());
+    context.post([this, gone, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
+      if (*result) return rebuilt(std::move(**result), gone);
+      if (result->error().kind != ErrorKind::cancelled) giveUpBuilding(result->error());
     });
   });
 }
 
-void Session::rebuilt(OpenProject open) {
+void Session::giveUpBuilding(const Error& error) {
+  messages_.addFailure(history_->undoLabel().empty() ? "The change" : history_->undoLabel(), error);
+  if (!history_->canRedo() && history_->canUndo())
+    history_->discardCurrent();
+  else if (const auto shown = history_->find(built_->project))
+    history_->goTo(*shown);
+  else
+    return;
+  projectChanged();
+}
+
+void Session::rebuilt(OpenProject open, bool withoutModel) {
   show(std::move(open));
+  watchScene(withoutModel);
   loadCaptures();
   drawBackdropIfStale();
 }
@@ -131,8 +171,7 @@ void Session::show(OpenProject open) {
   // What is baked is asked of the disk in the background; until then regions of a new layout count as
   // missing.
   if (!sameLayout || !captures_)
-    captures_ = std::make_shared<const CaptureStatus>(
-        captureStatus(*built_->layout, std::vector<bool>(built_->layout->cameras.size(), false)));
+    captures_ = std::make_shared<const CaptureStatus>(emptyStatus(*built_->layout));
 }
 
 void Session::loadCaptures() {
@@ -151,7 +190,7 @@ void Session::loadCaptures() {
   streaming.wake = options_.wake;
   loading_.restart("Looking for captures", [this, open = built_, former = walk_,
                                             streaming](const Job::Context& context) {
-    CaptureStatus status = captureStatus(*open->layout, bakedCameras(*open));
+    CaptureStatus status = captureStatus(*open->layout, capturesOnDisk(*open));
     context.post([this, open, status] {
       if (built_->layout == open->layout) captures_ = std::make_shared<const CaptureStatus>(status);
     });
@@ -162,6 +201,15 @@ void Session::loadCaptures() {
     }
     const auto stream = std::make_shared<WalkStream>(std::move(*start), streaming);
     context.post([this, open, status, stream] { loaded(stream, status, *open); });
+  });
+}
+
+void Session::countCaptures() {
+  counting_.restart("Counting captures", [this, open = built_](const Job::Context& context) {
+    auto status = std::make_shared<const CaptureStatus>(captureStatus(*open->layout, capturesOnDisk(*open)));
+    context.post([this, open, status] {
+      if (built_->layout == open->layout) captures_ = status;
+    });
   });
 }
 
@@ -176,9 +224,15 @@ void Session::loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, c
 
 void Session::followStream() {
   if (!stream_) return;
-  if (auto newest = stream_->walk(); newest != walk_) {
-    walk_ = std::move(newest);
-    for (const std::string& warning : stream_->takeWarnings()) messages_.add(MessageLevel::warning, warning);
+  walk_ = stream_->walk();
+  if (const auto warnings = stream_->takeWarnings(); !warnings.empty()) {
+    constexpr std::size_t kEach = 3;  // of a whole damaged folder, the first ones say enough
+    for (std::size_t w = 0; w < std::min(kEach, warnings.size()); ++w)
+      messages_.add(MessageLevel::warning, warnings[w]);
+    if (warnings.size() > kEach)
+      messages_.add(MessageLevel::warning,
+                    fmt::format("... and {} more like these", warnings.size() - kEach));
+    countCaptures();  // what could not be read is no longer there
   }
   if (walk_->simplified.empty() || stream_->busy()) return;
   if (std::string text = simplifiedText(*walk_); text != simplifiedTold_) {
@@ -201,6 +255,19 @@ void Session::walkAt(const Whereabouts& where) {
 
 void Session::walkMemoryChanged() {
   if (built_) loadCaptures();
+}
+
+void Session::savePicture(ColourImage picture) {
+  savingPicture_.restart("Writing the picture",
+                         [this, file = file_, picture = std::move(picture)](const Job::Context& context) {
+                           auto written = writeScreenshot(picture, file);
+                           context.post([this, written] {
+                             if (written)
+                               messages_.add(MessageLevel::good, "The picture is in " + written->string());
+                             else
+                               messages_.addFailure("Writing the picture", written.error());
+                           });
+                         });
 }
 
 void Session::drawBackdropIfStale() {
@@ -226,16 +293,26 @@ void Session::drawBackdropIfStale() {
 
 std::shared_ptr<const Inspection> Session::inspection() const {
   const bool current = inspection_ && built_ && inspection_->layout == built_->layout;
-  return current && inspectionWanted_ ? inspection_ : nullptr;
+  return current && (inspectionWanted_ || options_.inspectAlways) ? inspection_ : nullptr;
 }
 
 void Session::askForInspection(bool wanted) {
   inspectionWanted_ = wanted;
-  inspectIfStale();
+  if (wanted) inspectIfStale();
+}
+
+void Session::inspectWhenStill(double now) {
+  constexpr double kStill = 0.7;  // seconds: a drag in between is not slowed down
+  if (!options_.inspectAlways || !built_ || inspected_ == built_->layout) return;
+  if (stillLayout_ != built_->layout || rebuilding_.running() || history_->previewing()) {
+    stillLayout_ = built_->layout;
+    inspectAt_ = now + kStill;
+  }
+  if (now >= inspectAt_) inspectIfStale();
 }
 
 void Session::inspectIfStale() {
-  if (!inspectionWanted_ || !built_ || inspected_ == built_->layout) return;
+  if (!built_ || inspected_ == built_->layout) return;
   inspected_ = built_->layout;
   inspecting_.restart("Inspecting the layout", [this, open = built_, inspector = inspector_,
                                                 threads = bakeThreads()](const Job::Context& context) {
@@ -247,6 +324,19 @@ void Session::inspectIfStale() {
       else if (made->error().kind != ErrorKind::cancelled)
         messages_.addFailure("Inspecting the layout", made->error());
     });
+  });
+}
+
+void Session::askForWalls(bool wanted) {
+  wallsWanted_ = wanted;
+  if (!wanted || !built_) return;
+  const WallsKey key{built_->scene, built_->layout->eyeZ()};
+  if (wallsKey_ == key) return;
+  wallsKey_ = key;
+  walls_.reset();
+  slicingWalls_.restart("Looking for walls", [this, key](const Job::Context& context) {
+    auto walls = std::make_shared<const WallSlice>(sliceWalls(*key.scene, key.height, context.stop()));
+    context.post([this, walls] { walls_ = walls; });
   });
 }
 
@@ -274,10 +364,37 @@ void Session::askForCoverage(const std::optional<CoverageRequest>& wanted) {
     TaskRunner runner(threads - 1);
     const Status measured = measureCoverage(
         *open, request, runner,
-        [&](const CoveragePicturePtr& picture) { context.post([this, picture] { coverage_ = picture; }); },
+        [&](const CoveragePicturePtr& picture) {
+          context.post([this, picture] {
+            coverage_ = picture;
+            if (picture->exact && picture->surfaces) foretold_ = picture;
+          });
+        },
         context.stop());
     if (!measured && measured.error().kind != ErrorKind::cancelled)
       context.post([this, error = measured.error()] { messages_.addFailure("Measuring coverage", error); });
+  });
+}
+
+ScenePickPtr Session::scenePick() const {
+  return pick_ && pickKey_ && pick_->of == pickKey_->of && pick_->point.position == pickKey_->position
+             ? pick_
+             : nullptr;
+}
+
+void Session::askForPick(const std::optional<SurfacePoint>& wanted) {
+  if (!wanted || !built_) {
+    if (pickKey_) picking_.abandon();
+    pickKey_.reset();
+    pick_.reset();
+    return;
+  }
+  const PickKey key{built_, wanted->position};
+  if (pickKey_ == key) return;
+  pickKey_ = key;
+  picking_.restart("Asking the cameras", [this, open = built_, point = *wanted](const Job::Context& context) {
+    auto pick = std::make_shared<const ScenePick>(pickOf(open, point));
+    context.post([this, pick] { pick_ = pick; });
   });
 }
 

@@ -4,7 +4,6 @@
 /// through the inbox.
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,27 +14,31 @@
 #include "editor/session/capture_status.h"
 #include "editor/session/coverage.h"
 #include "editor/session/eta.h"
+#include "editor/session/file_watch.h"
 #include "editor/session/history.h"
 #include "editor/session/inbox.h"
 #include "editor/session/inspection.h"
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
+#include "editor/session/problems.h"
+#include "editor/session/project_lock.h"
+#include "editor/session/scene_pick.h"
+#include "editor/session/session_options.h"
+#include "editor/session/sweep_watch.h"
+#include "editor/session/truth_compare.h"
+#include "editor/session/unsaved_work.h"
 #include "engine/bake/effect_costs.h"
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
+#include "engine/inspect/wall_slice.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/walk_stream.h"
 
 namespace acentric::editor {
 
-struct SessionOptions {
-  ImportHost importHost;
-  std::filesystem::path preferencesFile;  ///< empty = nothing is remembered
-  int processors = 0;                     ///< 0 = what the machine has
-  double autosaveSeconds = 20;
-  std::function<void()> wake;  ///< ends the main thread's sleep; any thread
-};
+/// Why a project cannot simply be saved to its file.
+enum class SaveObstacle { none, untitled, readOnly, changedOnDisk };
 
 class Session {
  public:
@@ -50,10 +53,19 @@ class Session {
   // ------------------------------------------------------------------------------------------------------
   /// A project file, or a model file for a new project. What is open stays until the new one is ready.
   void open(const std::filesystem::path& file);
+  /// A new project of a model, laid out as chosen.
+  void openNew(const std::filesystem::path& model, const NewProjectOptions& options);
   void cancelOpening() { opening_.cancel(); }
   void close();
-  Status save();
+  /// Why save() would refuse. Looks at the file.
+  SaveObstacle saveObstacle();
+  /// Refused where there is an obstacle; `overwrite`: also over what another program has saved.
+  Status save(bool overwrite = false);
   Status saveAs(const std::filesystem::path& file);
+  /// What another program has saved, as an edit: what was here can be had back by undo.
+  Status reload();
+  /// One of the project's, as a file of its own that the command line plays.
+  void exportPath(std::size_t path, const std::filesystem::path& file);
   bool hasProject() const { return history_.has_value(); }
   bool untitled() const { return untitled_; }
   bool dirty() const { return history_ && history_->dirty(); }
@@ -63,6 +75,32 @@ class Session {
   /// An autosave that a crashed run left, until it is answered.
   bool recoveryOffered() const { return recovery_.has_value(); }
   void answerRecovery(bool recover);
+  /// Autosaves what is unsaved now.
+  void keepWork();
+  /// Projects that crashed runs had not saved anywhere yet.
+  const std::vector<UnsavedWork>& unsavedWork() const { return unsavedWork_; }
+  /// Would closing lose work?
+  bool worthAsking() const;
+
+  // Others on the same files
+  // -------------------------------------------------------------------------------------------
+  /// Another editor has the project open: it is read-only here, and save() is refused.
+  bool readOnly() const { return lockedBy_.has_value(); }
+  const std::optional<LockOwner>& lockedBy() const { return lockedBy_; }
+  /// Until it is answered.
+  bool lockQuestion() const { return lockQuestion_; }
+  void answerLock(LockAnswer answer);
+  /// The model and what it names, against what was imported.
+  const SceneFiles& sceneFiles() const { return sceneFiles_; }
+  void reimport();
+  /// As an edit: the model was moved, or another one takes its place.
+  void locateScene(const std::filesystem::path& model);
+  /// Asked once after opening a project whose model is gone.
+  bool locateQuestion() const { return locateQuestion_; }
+  void answerLocate() { locateQuestion_ = false; }
+  bool projectFileChanged() const { return projectFileChanged_; }
+  /// Everything that is wrong, or deserves a look, the worst first.
+  const std::vector<Problem>& problems() const { return problems_; }
 
   // Edits
   // ------------------------------------------------------------------------------------------------------
@@ -76,6 +114,10 @@ class Session {
   void cancelLive();
   void undo();
   void redo();
+  /// To an entry of the history.
+  void goTo(std::size_t entry);
+  /// The preference for the history's memory was changed.
+  void historyMemoryChanged();
 
   // What was made of it
   // ----------------------------------------------------------------------------------------
@@ -95,10 +137,18 @@ class Session {
   std::shared_ptr<const Inspection> inspection() const;
   /// Does the plan show it? Called each frame.
   void askForInspection(bool wanted);
+  /// Corners and direction of the walls at eye height; null until they are found.
+  std::shared_ptr<const WallSlice> walls() const { return wallsWanted_ ? walls_ : nullptr; }
+  /// Does a tool land on them? Called each frame.
+  void askForWalls(bool wanted);
   /// The newest picture of the layout that is built, as asked for; null until there is one.
   CoveragePicturePtr coverage() const;
   /// What the plan shows of it; called each frame. Measuring begins anew when this or the project changed.
   void askForCoverage(const std::optional<CoverageRequest>& wanted);
+  /// The cameras that sample the picked point in the project as it is built; null while they are sought.
+  ScenePickPtr scenePick() const;
+  /// The point that the 3D view asks about. Called each frame.
+  void askForPick(const std::optional<SurfacePoint>& wanted);
   /// Grows by one with each opened project: views start afresh.
   int generation() const { return generation_; }
 
@@ -129,10 +179,21 @@ class Session {
 
   /// Adds a storey for each walk plane found in the scene that has none.
   void findStoreys();
+  /// The walkable area about the current floor, as `acentric new` finds it.
+  void outlineFromScene();
   /// The largest cells whose regions all keep to the project's triangle budget.
   void fitCells();
   /// Splits the cells of e and g that exceed the budget.
   void splitOverBudget();
+
+  /// The walk against ray-traced truth.
+  TruthCompare& comparing() { return comparing_; }
+  /// What accuracy costs in time.
+  SweepWatch& sweeping() { return sweeping_; }
+  const SweepWatch& sweeping() const { return sweeping_; }
+  /// Writes what the walk shows beside the project, under a new name, and tells where.
+  void savePicture(ColourImage picture);
+  const Job& savingPicture() const { return savingPicture_; }
 
   const Job& opening() const { return opening_; }
   const Job& rebuilding() const { return rebuilding_; }
@@ -141,7 +202,7 @@ class Session {
   const Job& drawingBackdrop() const { return drawingBackdrop_; }
   const Job& inspecting() const { return inspecting_; }
   const Job& measuringCoverage() const { return measuringCoverage_; }
-  /// For storeys, or for cells that fit: one at a time.
+  /// For storeys, an outline, or for cells that fit: one at a time.
   const Job& searching() const { return searching_; }
   void cancelSearch() { searching_.cancel(); }
   bool working() const;
@@ -154,17 +215,25 @@ class Session {
   struct Opened {
     OpenProject open;
     bool untitled = false;
-    std::optional<Project> recovery;
+    bool withoutModel = false;
+    std::filesystem::path recovered;  ///< the autosave that it comes from
+    FileStamp saved;                  ///< of the project file, as it was read
   };
-  Result<Opened> openNow(const std::filesystem::path& file, const Job::Context& context) const;
+  Result<Opened> openNow(const std::filesystem::path& file, const NewProjectOptions& options,
+                         const Job::Context& context) const;
+  void openWith(const std::filesystem::path& file, const NewProjectOptions& options);
   void opened(Opened opened);
   void projectChanged();
   void rebuild();
-  void rebuilt(OpenProject open);
+  void rebuilt(OpenProject open, bool withoutModel);
+  /// The project that was to be built cannot be: back to what is shown.
+  void giveUpBuilding(const Error& error);
   void show(OpenProject open);
   void loadCaptures();
   void loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, const OpenProject& from);
   void followStream();
+  /// Asks the disk again which captures are there.
+  void countCaptures();
   /// Waits for what it is reading, elsewhere.
   void dropStream();
   void drawBackdropIfStale();
@@ -179,6 +248,24 @@ class Session {
                    const std::string& found);
   void remember(const std::filesystem::path& file);
   void autosave(double now);
+  std::filesystem::path autosaveFile() const;
+  void forgetAutosave();
+  void lookForAutosave();
+  void savedNow();
+  std::size_t historyBytes() const { return std::size_t(preferences_.historyMegabytes) * 1'000'000; }
+  bool isUnsavedWork(const std::filesystem::path& file) const;
+  void listUnsaved();
+  void takeLock(bool force);
+  void leaveLock();
+  void leaveFiles();
+  void lookAround(double now);
+  void lookAtLock();
+  void inspectWhenStill(double now);
+  void watchScene(bool missing);
+  void sceneCompared(const std::vector<std::filesystem::path>& different);
+  /// True if they are others now.
+  bool refreshProblems();
+  ProblemFacts problemFacts() const;
 
   SessionOptions options_;
   int processors_;
@@ -191,6 +278,22 @@ class Session {
   bool untitled_ = false;
   std::optional<Project> recovery_;
   int generation_ = 0;
+
+  std::vector<UnsavedWork> unsavedWork_;
+  std::filesystem::path recovered_;  // another process's autosave, removed once this one keeps the work
+  std::string notKept_;              // why there is no autosave; empty: there is one, or no need
+  FileStamp savedStamp_;             // of the project file as it was read or written
+  bool projectFileChanged_ = false;
+  std::optional<ProjectLock> lock_;
+  std::optional<LockOwner> lockedBy_;
+  bool lockQuestion_ = false;
+  std::optional<FileWatch> sceneWatch_;
+  ScenePtr watchedScene_;
+  SceneFiles sceneFiles_;
+  bool locateQuestion_ = false;
+  double nextLook_ = 0;
+  std::optional<ProblemFacts> problemFacts_;
+  std::vector<Problem> problems_;
 
   std::shared_ptr<const OpenProject> built_;
   std::shared_ptr<const LoadedWalk> walk_;
@@ -209,7 +312,18 @@ class Session {
   bool inspectionWanted_ = false;
   std::shared_ptr<Inspector> inspector_ = std::make_shared<Inspector>();  // used by the job alone
   std::shared_ptr<const Inspection> inspection_;
-  std::shared_ptr<const Layout> inspected_;  // what the job was last asked for
+  std::shared_ptr<const Layout> inspected_;    // what the job was last asked for
+  std::shared_ptr<const Layout> stillLayout_;  // inspected without being asked, once it has kept still
+  double inspectAt_ = 0;
+
+  bool wallsWanted_ = false;
+  std::shared_ptr<const WallSlice> walls_;
+  struct WallsKey {
+    ScenePtr scene;
+    double height = 0;
+    bool operator==(const WallsKey&) const = default;
+  };
+  WallsKey wallsKey_;  // what the job was last asked for
 
   /// All that a picture of the coverage depends on.
   struct CoverageKey {
@@ -224,6 +338,15 @@ class Session {
   };
   std::optional<CoverageKey> coverageKey_;  // what the job was last asked for
   CoveragePicturePtr coverage_;
+  CoveragePicturePtr foretold_;  // the newest exact one of surfaces
+
+  struct PickKey {
+    std::shared_ptr<const OpenProject> of;
+    glm::dvec3 position{0};
+    bool operator==(const PickKey&) const = default;
+  };
+  std::optional<PickKey> pickKey_;  // what the job was last asked for
+  ScenePickPtr pick_;
 
   struct Estimate {
     std::shared_ptr<const OpenProject> of;
@@ -244,17 +367,25 @@ class Session {
   double nextAutosave_ = 0;
   std::optional<Project> autosaved_;
 
+  SweepWatch sweeping_;
+
   // Last: they are stopped and joined first.
   Job opening_{inbox_};
   Job rebuilding_{inbox_};
   Job baking_{inbox_};
   Job loading_{inbox_};
+  Job counting_{inbox_};
   Job dropping_{inbox_};
   Job drawingBackdrop_{inbox_};
   Job inspecting_{inbox_};
+  Job watching_{inbox_};
   Job measuringCoverage_{inbox_};
+  Job picking_{inbox_};
+  Job slicingWalls_{inbox_};
   Job searching_{inbox_};
   Job estimating_{inbox_};
+  Job savingPicture_{inbox_};
+  TruthCompare comparing_{inbox_, processors_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -11,35 +11,50 @@
 namespace acentric::editor {
 namespace fs = std::filesystem;
 
-Result<Session::Opened> Session::openNow(const fs::path& file, const Job::Context& context) const {
+Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectOptions& options,
+                                         const Job::Context& context) const {
   std::error_code error;
   if (!fs::exists(file, error)) return fail(ErrorKind::notFound, "no such file", file.string());
   Opened opened;
+  fs::path projectFile = file;
+  Result<Project> project = Project{};
   if (isProjectFile(file)) {
-    auto open = openProject(file, options_.importHost, context.progress(), context.stop());
-    if (!open) return tl::unexpected(open.error());
-    opened.recovery = recoverableAutosave(file, open->project);
-    opened.open = std::move(*open);
-    return opened;
+    opened.saved = stampOf(file);
+    project = loadProject(file);
+  } else if (isUnsavedWork(file)) {
+    const auto work = readUnsavedWork(file);
+    if (!work) return tl::unexpected(work.error());
+    projectFile = work->projectFile;
+    project = work->project;
+    opened.recovered = file;
+  } else {
+    TaskRunner runner(processors_ - 1);
+    projectFile = suggestedProjectFile(file);
+    project = makeProject(file, projectFile, options, options_.importHost, runner, context.progress(),
+                          context.stop());
   }
-  TaskRunner runner(processors_ - 1);
-  const fs::path projectFile = suggestedProjectFile(file);
-  const auto project =
-      makeProject(file, projectFile, {}, options_.importHost, runner, context.progress(), context.stop());
   if (!project) return tl::unexpected(project.error());
+  opened.untitled = !isProjectFile(file);
   auto open = openUnsaved(projectFile, *project, options_.importHost, context.progress(), context.stop());
+  if (!open && !fs::exists(sceneFileOf(projectFile, *project), error)) {
+    opened.withoutModel = true;
+    open = openWithoutModel(projectFile, *project, options_.importHost, context.progress(), context.stop());
+  }
   if (!open) return tl::unexpected(open.error());
   opened.open = std::move(*open);
-  opened.untitled = true;
   return opened;
 }
 
-void Session::open(const fs::path& given) {
+void Session::open(const fs::path& file) { openWith(file, {}); }
+
+void Session::openNew(const fs::path& model, const NewProjectOptions& options) { openWith(model, options); }
+
+void Session::openWith(const fs::path& given, const NewProjectOptions& options) {
   std::error_code error;
   const fs::path absolute = fs::absolute(given, error);
   const fs::path file = error ? given : absolute.lexically_normal();
-  opening_.restart("Opening " + file.filename().string(), [this, file](const Job::Context& context) {
-    auto result = openNow(file, context);
+  opening_.restart("Opening " + file.filename().string(), [this, file, options](const Job::Context& context) {
+    auto result = openNow(file, options, context);
     context.post([this, file, result = std::make_shared<Result<Opened>>(std::move(result))] {
       if (*result) return opened(std::move(**result));
       messages_.addFailure("Opening " + file.filename().string(), result->error());
@@ -51,16 +66,24 @@ void Session::opened(Opened opened) {
   close();
   file_ = opened.open.file;
   untitled_ = opened.untitled;
-  recovery_ = std::move(opened.recovery);
-  history_.emplace(opened.open.project, !untitled_);
+  savedStamp_ = opened.saved;
+  sweeping_.watch(untitled_ ? fs::path() : file_);
+  recovered_ = opened.recovered;
+  history_.emplace(opened.open.project, !untitled_, historyBytes());
   ++generation_;
+  takeLock(false);
+  lookForAutosave();
   remember(file_);
   const std::size_t regions = opened.open.layout->regions.size();
   const std::size_t cameras = opened.open.layout->cameras.size();
   show(std::move(opened.open));
-  const std::string from = untitled_ ? "New project from " + built_->project.scene.filename().string()
-                                     : "Opened " + file_.filename().string();
+  const std::string from = !untitled_ ? "Opened " + file_.filename().string()
+                           : recovered_.empty()
+                               ? "New project from " + built_->project.scene.filename().string()
+                               : "Recovered " + file_.filename().string();
   messages_.add(MessageLevel::good, fmt::format("{}: {} regions, {} cameras", from, regions, cameras));
+  watchScene(opened.withoutModel);
+  locateQuestion_ = opened.withoutModel;
   loadCaptures();
   drawBackdropIfStale();
 }
@@ -69,16 +92,21 @@ void Session::close() {
   baking_.abandon();
   bakeGate_.open();
   loading_.abandon();
+  counting_.abandon();
   rebuilding_.abandon();
   drawingBackdrop_.abandon();
   inspecting_.abandon();
   searching_.abandon();
   estimating_.abandon();
+  watching_.abandon();
+  comparing_.follow(std::nullopt);
+  sweeping_.watch({});
   estimate_.reset();
   inspection_.reset();
   inspected_.reset();
-  if (hasProject() && !untitled_ && !recovery_) removeAutosave(file_);
+  if (hasProject() && !recovery_) forgetAutosave();
   history_.reset();
+  leaveFiles();
   built_.reset();
   dropStream();
   walk_.reset();
@@ -92,16 +120,49 @@ void Session::close() {
   loadWanted_ = false;
 }
 
-Status Session::save() {
+SaveObstacle Session::saveObstacle() {
+  if (untitled_) return SaveObstacle::untitled;
+  lookAtLock();
+  if (readOnly()) return SaveObstacle::readOnly;
+  // A file that is gone is simply written again.
+  projectFileChanged_ = lookAt(file_).exists && differs(savedStamp_);
+  return projectFileChanged_ ? SaveObstacle::changedOnDisk : SaveObstacle::none;
+}
+
+Status Session::save(bool overwrite) {
   if (!hasProject()) return {};
   history_->commitPreview();
+  const SaveObstacle obstacle = saveObstacle();
+  if (obstacle == SaveObstacle::readOnly)
+    return fail(ErrorKind::unreadable, "is open in another editor: save under another name", file_.string());
+  if (obstacle == SaveObstacle::changedOnDisk && !overwrite)
+    return fail(ErrorKind::unreadable, "was changed by another program meanwhile", file_.string());
   if (Status saved = saveProject(project(), file_); !saved) return saved;
+  forgetAutosave();
   untitled_ = false;
+  savedNow();
+  return {};
+}
+
+void Session::savedNow() {
   history_->markSaved();
-  removeAutosave(file_);
+  savedStamp_ = stampOf(file_);
+  projectFileChanged_ = false;
   autosaved_.reset();
+  if (!lock_) takeLock(true);
   remember(file_);
   messages_.add(MessageLevel::good, "Saved " + file_.filename().string());
+}
+
+Status Session::reload() {
+  if (!hasProject() || untitled_) return {};
+  const FileStamp stamp = stampOf(file_);
+  const auto found = loadProject(file_);
+  if (!found) return tl::unexpected(found.error());
+  if (!apply({*found, "Reload what another program saved"})) return {};
+  history_->markSaved();
+  savedStamp_ = stamp;
+  projectFileChanged_ = false;
   return {};
 }
 
@@ -112,20 +173,20 @@ Status Session::saveAs(const fs::path& target) {
   const fs::path file = fs::absolute(target, error).lexically_normal();
   const auto moved = movedProject(project(), file_, file);
   if (!moved) return tl::unexpected(moved.error());
+  if (const auto other = readLock(file); other && !isStale(*other) && !(lock_ && file == file_))
+    return fail(ErrorKind::unreadable, "is open in another editor, at " + describe(*other), file.string());
   if (Status saved = saveProject(*moved, file); !saved) return saved;
   if (const auto shared = shareCaptures(file_, file); !shared)
     messages_.add(MessageLevel::warning,
                   "The captures stayed behind and have to be baked again. " + shared.error().describe());
-  if (!untitled_) removeAutosave(file_);
+  forgetAutosave();
 
   // The history speaks of the model's path as seen from the old folder: it begins anew when that changed.
-  if (*moved != project())
-    history_.emplace(*moved, true);
-  else
-    history_->markSaved();
+  if (*moved != project()) history_.emplace(*moved, true, historyBytes());
+  leaveLock();
   file_ = file;
   untitled_ = false;
-  autosaved_.reset();
+  sweeping_.watch(file_);
   if (built_) {
     OpenProject open = *built_;
     open.file = file_;
@@ -134,14 +195,28 @@ Status Session::saveAs(const fs::path& target) {
     projectChanged();
     loadCaptures();
   }
-  remember(file_);
-  messages_.add(MessageLevel::good, "Saved " + file_.filename().string());
+  savedNow();
   return {};
+}
+
+void Session::exportPath(std::size_t path, const fs::path& file) {
+  const WalkPath& walk = project().paths[path];
+  if (const Status saved = savePath(walk.path, file); !saved)
+    return messages_.addFailure("Exporting " + walk.name, saved.error());
+  messages_.add(MessageLevel::good,
+                fmt::format("Exported {} as {}: acentric walk {} --path {}", walk.name,
+                            file.filename().string(), file_.filename().string(), file.filename().string()));
 }
 
 std::string Session::title() const {
   if (!hasProject()) return "Acentric";
-  return fmt::format("{}{} – Acentric", dirty() ? "• " : "", file_.filename().string());
+  return fmt::format("{}{}{} – Acentric", dirty() ? "• " : "", file_.filename().string(),
+                     readOnly() ? " (read-only)" : "");
+}
+
+bool Session::worthAsking() const {
+  // A new project of a model that was not touched is made again in a moment.
+  return dirty() && !(untitled_ && !history_->canUndo() && recovered_.empty());
 }
 
 void Session::answerRecovery(bool recover) {
@@ -149,8 +224,9 @@ void Session::answerRecovery(bool recover) {
   const Project found = *std::exchange(recovery_, std::nullopt);
   if (recover) {
     apply({found, "Recover unsaved changes"});
+    nextAutosave_ = 0;  // from now on this editor's own autosave keeps it
   } else {
-    removeAutosave(file_);
+    forgetAutosave();
   }
 }
 
@@ -165,14 +241,61 @@ void Session::savePreferencesNow() {
     messages_.add(MessageLevel::warning, "Preferences are not kept. " + saved.error().describe());
 }
 
+/// Beside the project, unless it has no file yet or the file is another editor's.
+fs::path Session::autosaveFile() const {
+  if (!untitled_ && !readOnly()) return autosaveFileFor(file_);
+  return options_.unsavedFolder.empty() ? fs::path() : unsavedWorkFile(options_.unsavedFolder, file_);
+}
+
+void Session::forgetAutosave() {
+  std::error_code error;  // one that is not there is as good as removed
+  if (const fs::path own = autosaveFile(); !own.empty()) fs::remove(own, error);
+  if (!recovered_.empty()) fs::remove(recovered_, error);
+  recovered_.clear();
+}
+
+void Session::lookForAutosave() {
+  if (readOnly()) return;  // another editor's, which is at work on it
+  if (untitled_) {
+    if (!recovered_.empty()) return;
+    for (UnsavedWork& work : unsavedWork_)
+      if (work.projectFile == file_ && work.project != project()) {
+        recovery_ = std::move(work.project);
+        recovered_ = work.autosave;
+        return;
+      }
+    return;
+  }
+  auto found = recoverableAutosave(file_, project());
+  if (found) {
+    recovery_ = std::move(*found);
+    return;
+  }
+  const fs::path aside = putAside(autosaveFileFor(file_));
+  messages_.add(MessageLevel::warning, "What the last run autosaved cannot be read, and is kept as " +
+                                           aside.filename().string() + ". " + found.error().describe());
+}
+
 void Session::autosave(double now) {
-  // An unanswered recovery must not be overwritten, and an untitled project has no place of its own yet.
-  if (!dirty() || untitled_ || recovery_ || now < nextAutosave_) return;
-  nextAutosave_ = now + options_.autosaveSeconds;
-  if (autosaved_ == project()) return;
-  autosaved_ = project();
-  if (const Status written = writeAutosave(project(), file_); !written)
-    messages_.add(MessageLevel::warning, "Autosave failed. " + written.error().describe());
+  if (!worthAsking() || now < nextAutosave_) return;
+  nextAutosave_ = now + options_.autosaveSeconds.value_or(preferences_.autosaveSeconds);
+  keepWork();
+}
+
+void Session::keepWork() {
+  // An unanswered recovery must not be overwritten.
+  if (!worthAsking() || recovery_ || autosaveFile().empty() || autosaved_ == project()) return;
+  const Status written = untitled_ || readOnly() ? writeUnsavedWork(options_.unsavedFolder, file_, project())
+                                                 : writeAutosave(project(), file_);
+  notKept_.clear();
+  if (written) {
+    autosaved_ = project();
+    std::error_code error;  // it is in this editor's own autosave now
+    if (!recovered_.empty() && recovered_ != autosaveFile()) fs::remove(recovered_, error);
+    return;
+  }
+  notKept_ = "Unsaved changes are not autosaved: " + written.error().describe();
+  messages_.add(MessageLevel::warning, "Autosave failed. " + written.error().describe());
 }
 
 }  // namespace acentric::editor

@@ -34,6 +34,25 @@ void Session::findStoreys() {
   });
 }
 
+void Session::outlineFromScene() {
+  if (!built_ || searching_.running()) return;
+  searching_.restart("Finding the walkable area", [this, open = built_](const Job::Context& context) {
+    context.progress()({0, 0, "finding the walkable area"});
+    const LayoutSpec& laid = open->project.layout();
+    const auto outline = findOutlineAt(*open->rays, laid.floorHeight, laid.eyeHeight);
+    context.post([this, open, outline] {
+      if (!outline) return messages_.addFailure("Finding the walkable area", outline.error());
+      if (*outline == open->project.layout().outline)
+        return messages_.add(MessageLevel::info, "The outline is the scene's walkable area already");
+      LayoutSpec spec = open->project.layout();
+      spec.outline = *outline;
+      offerLayout(
+          *open, spec, "Outline from the scene",
+          fmt::format("The walkable area about {:.2f} m is {:.1f} m²", spec.floorHeight, outline->area()));
+    });
+  });
+}
+
 void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
                           const std::string& found) {
   if (!hasProject() || project().layout() != from.project.layout())

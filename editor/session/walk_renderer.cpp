@@ -1,8 +1,26 @@
 #include "editor/session/walk_renderer.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "engine/view/view_cameras.h"
+
 namespace acentric::editor {
+
+bool rendersTheSame(const WalkScene& a, const WalkScene& b, const PerspectiveView& view,
+                    const ViewSettings& settings) {
+  const auto on = [](const EffectState& effect) { return effect.on; };
+  if (a.scene != b.scene || a.layout != b.layout || a.exposure != b.exposure ||
+      a.surfaceLight != b.surfaceLight || a.mirrors != b.mirrors ||
+      !std::ranges::equal(a.plan.effects, b.plan.effects, {}, on, on))
+    return false;
+  const ViewCameras used = camerasOf(*a.layout, view, settings);
+  const auto sameCapture = [&](int camera) {
+    return a.captures[std::size_t(camera)] == b.captures[std::size_t(camera)];
+  };
+  return std::ranges::all_of(used.cameras, sameCapture) &&
+         (used.region < 0 || a.local[std::size_t(used.region)] == b.local[std::size_t(used.region)]);
+}
 
 WalkRenderer::WalkRenderer(int threads, std::function<void()> wake)
     : threads_(threads),

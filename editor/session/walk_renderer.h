@@ -22,6 +22,11 @@ struct WalkRequest {
   double scale = 1;  ///< of the full resolution, for the adaptation
 };
 
+/// Does a picture of this view read the very same parts of both? What comes and goes while a walk is loaded
+/// is mostly for other places.
+bool rendersTheSame(const WalkScene& a, const WalkScene& b, const PerspectiveView& view,
+                    const ViewSettings& settings);
+
 struct WalkPicture {
   WalkRequest request;
   Frame frame;          ///< empty if it failed

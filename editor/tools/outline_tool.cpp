@@ -73,6 +73,8 @@ std::optional<OutlineIntent> OutlineTool::press(const PointerEvent& event, const
   outline_ = outline;
   const OutlineHit hit = corners_.empty() ? hitOutline(outline, event.world, pixelsPerMetre) : OutlineHit{};
   onFreeGround_ = hit.kind == OutlineHit::Kind::nothing;
+  pressScreen_ = event.screen;
+  pressWorld_ = event.world;
   if (onFreeGround_) return std::nullopt;
   Outline changed = outline;
   Loop& loop = changed.loops[hit.loop];
@@ -89,6 +91,8 @@ std::optional<OutlineIntent> OutlineTool::press(const PointerEvent& event, const
 }
 
 std::optional<OutlineIntent> OutlineTool::move(const PointerEvent& event) {
+  const bool dragged = glm::distance(event.screen, pressScreen_) > kDragPixels;
+  if (onFreeGround_ && corners_.empty() && (dragged || opposite_)) opposite_ = event.world;
   if (!drag_) return std::nullopt;
   drag_->outline.loops[drag_->loop][drag_->corner] = event.world + drag_->offset;
   drag_->changed = true;
@@ -99,11 +103,24 @@ std::optional<OutlineIntent> OutlineTool::release(const PointerEvent& event, dou
   if (const auto drag = std::exchange(drag_, std::nullopt))
     return drag->changed ? std::optional(OutlineIntent{drag->outline, true}) : std::nullopt;
   if (!std::exchange(onFreeGround_, false)) return std::nullopt;
+  if (opposite_) {
+    opposite_ = event.world;
+    std::vector<glm::dvec2> loop = rectangle();
+    opposite_.reset();
+    if (loop.empty()) return std::nullopt;
+    return OutlineIntent{withLoop(outline_, std::move(loop)), true};
+  }
   const bool closes =
       corners_.size() >= 3 && glm::distance(event.world, corners_.front()) * pixelsPerMetre <= kGrabPixels;
   if (closes) return close();
   corners_.push_back(event.world);
   return std::nullopt;
+}
+
+std::vector<glm::dvec2> OutlineTool::rectangle() const {
+  if (!opposite_ || opposite_->x == pressWorld_.x || opposite_->y == pressWorld_.y) return {};
+  const glm::dvec2 low = glm::min(pressWorld_, *opposite_), high = glm::max(pressWorld_, *opposite_);
+  return {low, {high.x, low.y}, high, {low.x, high.y}};
 }
 
 std::optional<OutlineIntent> OutlineTool::close() {
@@ -112,7 +129,8 @@ std::optional<OutlineIntent> OutlineTool::close() {
 }
 
 bool OutlineTool::cancel() {
-  const bool afoot = drag_ || !corners_.empty();
+  const bool afoot = drag_ || !corners_.empty() || opposite_;
+  opposite_.reset();
   drag_.reset();
   corners_.clear();
   onFreeGround_ = false;

@@ -1,7 +1,8 @@
 #pragma once
 /// Draws and changes the walkable outline: click corners on free ground to draw a loop (the first corner or
-/// Enter closes it), drag a corner to move it, press on a side to put a corner there, Ctrl+click a corner to
-/// take it away. Events in, changed outlines out; it changes nothing itself.
+/// Enter closes it), drag free ground for a rectangle, drag a corner to move it, press on a side to put a
+/// corner there, Ctrl+click a corner to take it away. Events in, changed outlines out; it changes nothing
+/// itself.
 
 #include <optional>
 #include <vector>
@@ -45,6 +46,8 @@ class OutlineTool {
 
   bool dragging() const { return drag_.has_value(); }
   const std::vector<glm::dvec2>& corners() const { return corners_; }  ///< of the loop in hand
+  /// That is being dragged, counter-clockwise; empty: none.
+  std::vector<glm::dvec2> rectangle() const;
 
  private:
   struct Drag {
@@ -56,6 +59,8 @@ class OutlineTool {
   std::vector<glm::dvec2> corners_;
   Outline outline_;            // as it was at the last press
   bool onFreeGround_ = false;  // where the button went down
+  glm::dvec2 pressScreen_{0}, pressWorld_{0};
+  std::optional<glm::dvec2> opposite_;  // corner of the rectangle
   std::optional<Drag> drag_;
 };
 

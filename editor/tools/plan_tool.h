@@ -2,11 +2,14 @@
 /// What the pointer does in the plan, as a state machine: pointer events in, intentions out. It changes
 /// nothing itself.
 ///   cells:   click a free place to add a cell, a placed one to select it (Shift: add to the selection, Ctrl:
-///   remove it),
-///            drag a placed one to move it; drag the eye to put it elsewhere
+///            add or take off), drag a placed one to move it, with all others where it is selected; drag with
+///            Shift or Ctrl to do the same to all cells that a box touches; drag the eye to put it elsewhere
 ///   eye:     press to put the eye there, drag to turn it
 ///   outline: see outline_tool.h
 ///   panorama: see panorama_tool.h
+///   lattice:  see lattice_tool.h
+///   measure:  see measure_tool.h
+///   path:     see path_tool.h; free ground pans, and selects no key pose
 /// In every mode the middle or right button pans.
 
 #include <glm/glm.hpp>
@@ -14,14 +17,19 @@
 #include <set>
 #include <variant>
 
+#include "editor/commands/group_edits.h"
+#include "editor/commands/selection.h"
+#include "editor/tools/lattice_tool.h"
+#include "editor/tools/measure_tool.h"
 #include "editor/tools/outline_tool.h"
 #include "editor/tools/panorama_tool.h"
+#include "editor/tools/path_tool.h"
 #include "editor/tools/pointer_event.h"
 #include "engine/layout/layout.h"
 
 namespace acentric::editor {
 
-enum class PlanMode { cells, eye, outline, panorama };
+enum class PlanMode { cells, eye, outline, panorama, lattice, measure, path };
 
 /// What the tool needs to know at the moment of an event.
 struct PlanSituation {
@@ -29,6 +37,9 @@ struct PlanSituation {
   const std::set<CellId>* selection = nullptr;
   glm::dvec2 eye{0};
   double pixelsPerMetre = 1;
+  glm::dvec2 viewLow{-1e3}, viewHigh{1e3};  ///< what the plan shows, metres
+  SnapTargets targets = {};
+  PathSituation paths = {};
 };
 
 struct AddCellIntent {
@@ -40,8 +51,14 @@ struct RemoveCellIntent {
 struct SelectIntent {
   std::set<CellId> cells;
 };
-struct MoveCellIntent {
-  CellId from, to;
+/// Of all cells that a box touches.
+struct MarqueeIntent {
+  glm::dvec2 low{0}, high{0};  ///< plan, metres
+  Combine how = Combine::add;
+};
+struct MoveCellsIntent {
+  std::set<CellId> cells;
+  LatticeStep step;
 };
 struct PanIntent {
   glm::dvec2 pixels;
@@ -52,8 +69,9 @@ struct PlaceEyeIntent {
 struct TurnEyeIntent {
   double yawRadians;
 };
-using PlanIntent = std::variant<std::monostate, AddCellIntent, RemoveCellIntent, SelectIntent, MoveCellIntent,
-                                PanIntent, PlaceEyeIntent, TurnEyeIntent, OutlineIntent, FreeApvIntent>;
+using PlanIntent = std::variant<std::monostate, AddCellIntent, RemoveCellIntent, SelectIntent, MarqueeIntent,
+                                MoveCellsIntent, PanIntent, PlaceEyeIntent, TurnEyeIntent, OutlineIntent,
+                                FreeApvIntent, LatticeIntent, PathIntent>;
 
 class PlanTool {
  public:
@@ -70,29 +88,43 @@ class PlanTool {
   /// A button is down: events belong to the plan wherever the pointer is.
   bool capturing() const { return state_ != State::rest; }
   struct CellDrag {
-    CellId from, to;
+    std::set<CellId> cells;
+    CellGroup group;
+    LatticeStep step;
   };
-  std::optional<CellDrag> cellDrag() const { return drag_; }
+  /// Null unless cells are on their way.
+  const CellDrag* cellDrag() const { return drag_ ? &*drag_ : nullptr; }
+  /// The box that is being drawn.
+  std::optional<MarqueeIntent> marquee() const;
   const OutlineTool& outlineTool() const { return outline_; }
   const PanoramaTool& panoramaTool() const { return panorama_; }
+  const LatticeTool& latticeTool() const { return lattice_; }
+  const MeasureTool& measureTool() const { return measure_; }
 
  private:
-  /// `tool`: the outline's or the panoramas' has the pointer.
-  enum class State { rest, pan, pressedFree, pressedCell, dragCell, dragEye, turnEye, tool };
+  /// `tool`: one of the other modes' tools has the pointer.
+  enum class State { rest, pan, pressedFree, pressedCell, dragCell, marquee, dragEye, turnEye, tool };
   PlanIntent press(const PointerEvent& event, const PlanSituation& situation);
   PlanIntent move(const PointerEvent& event, const PlanSituation& situation);
   PlanIntent release(const PointerEvent& event, const PlanSituation& situation);
+  PlanIntent beginDrag(const PointerEvent& event, const PlanSituation& situation);
+  std::optional<PlanIntent> pressTool(const PointerEvent& event, const PlanSituation& situation);
+  PlanIntent moveTool(const PointerEvent& event, const PlanSituation& situation);
+  PlanIntent releaseTool(const PointerEvent& event, const PlanSituation& situation);
   PlanIntent clickCell(const PointerEvent& event, const PlanSituation& situation) const;
 
   PlanMode mode_ = PlanMode::cells;
   State state_ = State::rest;
   int button_ = 0;
-  glm::dvec2 pressScreen_{0}, pressWorld_{0}, lastScreen_{0};
+  int modifiers_ = 0;  // as the button went down
+  glm::dvec2 pressScreen_{0}, pressWorld_{0}, lastScreen_{0}, lastWorld_{0};
   CellId pressed_;
-  glm::dvec2 grabOffset_{0};  // from the pointer to the pressed cell's centre
   std::optional<CellDrag> drag_;
   OutlineTool outline_;
   PanoramaTool panorama_;
+  LatticeTool lattice_;
+  MeasureTool measure_;
+  PathTool path_;
 };
 
 }  // namespace acentric::editor

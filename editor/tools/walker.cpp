@@ -13,6 +13,12 @@ void Walker::setPose(const WalkPose& pose) {
   pose_.pitchRadians = std::clamp(pose.pitchRadians, -kMaxPitchRadians, kMaxPitchRadians);
 }
 
+void Walker::standAt(const WalkPose& pose) {
+  setPose(pose);
+  velocity_ = glm::dvec2(0);
+  turning_ = false;
+}
+
 void Walker::setSpeed(double metresPerSecond) {
   speed_ = std::clamp(metresPerSecond, kLeastMetresPerSecond, kMostMetresPerSecond);
 }
@@ -48,6 +54,7 @@ bool Walker::step(double seconds, const WalkKeys& keys, const EyeHeights& height
     const glm::dvec2 walked = (next - place) / dt;
     if (glm::length(walked) < glm::length(velocity_)) velocity_ = walked;
   }
+  walkedMetres_ += glm::distance(place, next);
   const double z = std::clamp(pose_.eye.z + rise * kRiseMetresPerSecond * dt, heights.low, heights.high);
   pose_.eye = glm::dvec3(next, z);
   return moving();

@@ -42,6 +42,8 @@ class Walker {
 
   const WalkPose& pose() const { return pose_; }
   void setPose(const WalkPose& pose);
+  /// Standing there, whatever it did before.
+  void standAt(const WalkPose& pose);
   /// Kept within the limits above.
   void setSpeed(double metresPerSecond);
   double speed() const { return speed_; }
@@ -51,6 +53,8 @@ class Walker {
   void look(const glm::dvec2& pixels, double radiansPerPixel);
   /// True while the eye moves or still glides.
   bool step(double seconds, const WalkKeys& keys, const EyeHeights& heights, const Ground& ground);
+  /// On all walks together.
+  double walkedMetres() const { return walkedMetres_; }
   bool moving() const { return velocity_ != glm::dvec2(0) || turning_; }
 
  private:
@@ -58,6 +62,7 @@ class Walker {
   glm::dvec2 velocity_{0};  // plan, metres per second
   double speed_ = kMetresPerSecond;
   bool turning_ = false;
+  double walkedMetres_ = 0;
 };
 
 }  // namespace acentric::editor

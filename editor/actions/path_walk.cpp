@@ -1,0 +1,162 @@
+#include "editor/actions/path_walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "editor/commands/storey_edits.h"
+#include "editor/commands/walk_edits.h"
+#include "engine/pipeline/walk_ground.h"
+
+namespace acentric::editor {
+namespace {
+
+/// Is the storey that is worked on also the one that is laid out?
+bool settled(const Session& session) {
+  return session.built() && session.built()->project.storey == session.project().storey &&
+         session.built()->project.storeys.size() == session.project().storeys.size();
+}
+
+void showStoreyOf(ActionContext& c, const WalkPath& path) {
+  const Project& project = c.session.project();
+  if (path.storey == project.storey) return;
+  c.state.selection.clear();
+  c.session.apply(showStorey(project, path.storey));
+}
+
+void placeOnPath(ActionContext& c, const WalkPath& path) {
+  Walker& walker = c.state.walker;
+  const WalkPose before = walker.pose();
+  walker.standAt(standing(*c.session.built(), walkPose(poseAt(path.path, c.state.replay.at()))));
+  c.state.replayed = walker.pose();
+  if (walker.pose() == before) c.state.replay.resting();
+}
+
+void tellReplay(ActionContext& c, const std::string& name) {
+  if (const auto report = c.state.replay.takeReport()) {
+    c.state.replayReport = describe(*report);
+    c.session.messages().add(MessageLevel::info, "Replay of " + name + ": " + c.state.replayReport);
+  }
+}
+
+}  // namespace
+
+WalkPose standing(const OpenProject& open, WalkPose pose) {
+  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
+  pose.eye = glm::dvec3(nearestStanding(*open.layout, glm::dvec2(pose.eye)),
+                        std::clamp(pose.eye.z, z - range, z + range));
+  return pose;
+}
+
+bool followPath(ActionContext& c, double now, bool walking) {
+  EditorState& state = c.state;
+  if (!settled(c.session)) {
+    if (state.replay.playing()) state.replay.play();  // no time passes until there is something to walk on
+    return false;
+  }
+  if (const auto there = std::exchange(state.goTo, std::nullopt)) {
+    state.replay.pause();
+    state.walker.standAt(standing(*c.session.built(), *there));
+    return true;
+  }
+  if (!state.replay.playing()) return false;
+  const WalkPath* path = state.walkSelection.path(c.session.project());
+  const bool takenOver = walking || (state.replayed && state.walker.pose() != *state.replayed);
+  if (path == nullptr || path->storey != c.session.project().storey || takenOver) {
+    state.replay.pause();
+    return false;
+  }
+  state.replay.picturesShown(now, state.picturesShown);
+  state.replay.advance(now, path->path.seconds());
+  placeOnPath(c, *path);
+  tellReplay(c, path->name);
+  return state.replay.playing();
+}
+
+void recordEye(ActionContext& c, double now) {
+  WalkRecorder& recorder = c.state.recorder;
+  if (!recorder.recording()) return;
+  if (recorder.full() || recorder.storey() != c.session.project().storey) return startOrStopRecording(c);
+  recorder.take(now, c.state.walker.pose());
+}
+
+void startOrStopRecording(ActionContext& c) {
+  WalkRecorder& recorder = c.state.recorder;
+  c.state.bottomTab = BottomTab::paths;
+  if (!recorder.recording()) {
+    c.state.replay.pause();
+    return recorder.start(c.session.project().storey);
+  }
+  const int storey = recorder.storey();
+  const CameraPath path = recorder.stop();
+  if (path.poses.size() < 2) {
+    c.session.messages().add(MessageLevel::warning, "Nothing was recorded: the eye did not move");
+    return;
+  }
+  if (!c.session.apply(addPath(c.session.project(), path, storey))) return;
+  const std::vector<WalkPath>& paths = c.session.project().paths;
+  selectWalk(c, {WalkSelection::Kind::path, paths.size() - 1, {}});
+  c.session.messages().add(MessageLevel::good,
+                           fmt::format("Recorded {}: {:.1f} s, {} key poses", paths.back().name,
+                                       path.seconds(), path.poses.size()));
+}
+
+void playOrPause(ActionContext& c) {
+  if (c.state.replay.playing()) return c.state.replay.pause();
+  const WalkPath* path = c.state.walkSelection.path(c.session.project());
+  if (path == nullptr) return;
+  c.state.replayed.reset();
+  c.state.replay.play();
+  showStoreyOf(c, *path);  // the path may be another one now
+}
+
+void stopReplay(ActionContext& c) {
+  c.state.replay.stop();
+  if (const WalkPath* path = c.state.walkSelection.path(c.session.project())) tellReplay(c, path->name);
+}
+
+void scrub(ActionContext& c, double seconds) {
+  const WalkPath* path = c.state.walkSelection.path(c.session.project());
+  if (path == nullptr) return;
+  c.state.replay.seek(std::clamp(seconds, 0.0, path->path.seconds()));
+  if (path->storey == c.session.project().storey && settled(c.session)) return placeOnPath(c, *path);
+  c.state.goTo = walkPose(poseAt(path->path, c.state.replay.at()));
+  showStoreyOf(c, *path);
+}
+
+void goToBookmark(ActionContext& c, std::size_t bookmark) {
+  const Project& project = c.session.project();
+  const Bookmark& there = project.bookmarks[bookmark];
+  c.state.goTo = WalkPose{there.eye, there.yawRadians, there.pitchRadians};
+  if (there.storey != project.storey) c.state.selection.clear();
+  c.session.apply(goToBookmark(project, bookmark));
+}
+
+void selectWalk(ActionContext& c, const WalkSelection& selection) {
+  WalkSelection& selected = c.state.walkSelection;
+  if (selected.kind != selection.kind || selected.number != selection.number) {
+    stopReplay(c);
+    c.state.replayReport.clear();
+  }
+  selected = selection;
+}
+
+PathSituation pathSituation(const ActionContext& c) {
+  const Project& project = c.session.project();
+  return {project.paths, project.storey, c.state.walkSelection};
+}
+
+void takePathIntent(ActionContext& c, const PathIntent& intent) {
+  if (!intent.path) return c.state.walkSelection.pose.reset();
+  selectWalk(c, {WalkSelection::Kind::path, *intent.path, intent.pose});
+  if (intent.changed)
+    c.session.applyLive(setPath(c.session.project(), *intent.path, *intent.changed), intent.finished);
+}
+
+int posesOutside(const WalkPath& path, const OpenProject& open) {
+  return int(std::ranges::count_if(
+      path.path.poses, [&](const PathPose& pose) { return !mayStand(*open.layout, glm::dvec2(pose.eye)); }));
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,141 @@
+#include "editor/actions/menu_actions.h"
+
+namespace acentric::editor {
+namespace {
+
+bool inScene3d(const ActionContext& c) { return withBuilt(c) && c.state.centreView == CentreView::scene3d; }
+
+bool lookingThrough(const ActionContext& c) {
+  return inScene3d(c) && c.state.scene3d.lookThrough &&
+         cameraAtPlace(*c.session.built()->layout, *c.state.scene3d.lookThrough);
+}
+
+/// The first camera of the selected cells.
+std::optional<CameraPlace> selectedCamera(const ActionContext& c) {
+  if (!withBuilt(c)) return std::nullopt;
+  for (const CellId& cell : c.state.selection)
+    if (const auto place = firstPlace(*c.session.built()->layout, cell)) return place;
+  return std::nullopt;
+}
+
+void addTabs(std::vector<Action>& table) {
+  const auto tab = [&table](const char* id, const char* label, int code, const char* help, CentreView view) {
+    table.push_back({id,
+                     "View",
+                     label,
+                     {code, 0},
+                     {},
+                     help,
+                     false,
+                     withProject,
+                     [view](ActionContext& c) { c.state.centreView = view; },
+                     [view](const ActionContext& c) { return c.state.centreView == view; }});
+  };
+  tab("view.plan", "Plan", key::f2, "The layout from above", CentreView::plan);
+  tab("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", CentreView::scene3d);
+  tab("view.accuracy", "Accuracy", key::f6,
+      "How near settings come to the truth, and what they cost in time and bytes", CentreView::accuracy);
+}
+
+void addSwitches(std::vector<Action>& table) {
+  table.push_back(
+      {"scene3d.cut",
+       "View",
+       "Cut the ceiling away",
+       {key::u, 0},
+       {},
+       "Takes away all that is above the eyes, as on the plan",
+       true,
+       inScene3d,
+       [](ActionContext& c) {
+         c.state.scene3d.cutCeiling = !c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling);
+       },
+       [](const ActionContext& c) { return c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling); },
+       "the 3D view"});
+  table.push_back({"scene3d.frusta",
+                   "View",
+                   "Show sectors of all cameras",
+                   {},
+                   {},
+                   "Of every camera, not of the selected cells' alone",
+                   false,
+                   inScene3d,
+                   [](ActionContext& c) { c.state.scene3d.allFrusta = !c.state.scene3d.allFrusta; },
+                   [](const ActionContext& c) { return c.state.scene3d.allFrusta; },
+                   "the 3D view"});
+  table.push_back({"scene3d.pick",
+                   "View",
+                   "Pick surfaces",
+                   {key::i, 0},
+                   {},
+                   "Click a surface to ask which cameras sample it, and how finely; Alt+click does too",
+                   true,
+                   inScene3d,
+                   [](ActionContext& c) { c.state.scene3d.picking = !c.state.scene3d.picking; },
+                   [](const ActionContext& c) { return c.state.scene3d.picking; },
+                   "the 3D view"});
+}
+
+void addCameraSteps(std::vector<Action>& table) {
+  table.push_back(
+      {"scene3d.lookThrough",
+       "View",
+       "Look through a camera",
+       {key::o, 0},
+       {},
+       "The picture that a camera of the selected cell will take; double click on a camera for its own",
+       false,
+       [](const ActionContext& c) {
+         return inScene3d(c) && (c.state.scene3d.lookThrough || selectedCamera(c));
+       },
+       [](ActionContext& c) {
+         auto& place = c.state.scene3d.lookThrough;
+         place = place ? std::nullopt : selectedCamera(c);
+       },
+       [](const ActionContext& c) { return c.state.scene3d.lookThrough.has_value(); },
+       "the 3D view and a selected cell"});
+  const auto step = [&table](const char* id, const char* label, int code, int steps) {
+    table.push_back({id,
+                     "View",
+                     label,
+                     {code, 0},
+                     {},
+                     "",
+                     false,
+                     lookingThrough,
+                     [steps](ActionContext& c) {
+                       c.state.scene3d.lookThrough =
+                           stepped(*c.session.built()->layout, *c.state.scene3d.lookThrough, steps);
+                     },
+                     {},
+                     "a camera that is looked through"});
+  };
+  step("scene3d.previousCamera", "Previous camera of the ring", key::comma, -1);
+  step("scene3d.nextCamera", "Next camera of the ring", key::period, 1);
+  table.push_back(
+      {"scene3d.otherHand",
+       "View",
+       "Camera of the other hand",
+       {key::slash, 0},
+       {},
+       "Of the ring that turns the other way, the camera that looks most nearly the same way",
+       false,
+       [](const ActionContext& c) {
+         return lookingThrough(c) && otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
+       },
+       [](ActionContext& c) {
+         c.state.scene3d.lookThrough = otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
+       },
+       {},
+       "a camera that is looked through, of a cell with both hands"});
+}
+
+}  // namespace
+
+void addScene3dActions(std::vector<Action>& table) {
+  addTabs(table);
+  addSwitches(table);
+  addCameraSteps(table);
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include "editor/actions/menu_actions.h"
+
+namespace acentric::editor {
+namespace {
+
+void addLooks(std::vector<Action>& table) {
+  const auto look = [&table](const char* id, const char* name, const Shortcut& shortcut, const char* help,
+                             WalkLook shown) {
+    table.push_back({id,
+                     "Walk",
+                     name,
+                     shortcut,
+                     {},
+                     help,
+                     shown == WalkLook::holes,
+                     withProject,
+                     [shown](ActionContext& c) {
+                       c.state.walkLook = c.state.walkLook == shown ? WalkLook::picture : shown;
+                     },
+                     [shown](const ActionContext& c) { return c.state.walkLook == shown; }});
+  };
+  look("view.holes", "Mark holes", {key::h, 0},
+       "Pixels without a real sample in magenta, those filled in by guesswork too", WalkLook::holes);
+  look("view.sources", "Cameras by colour", {key::r, 0},
+       "Which camera painted each pixel; point at one for its name", WalkLook::sources);
+  look("view.split", "Split with the truth", {key::k, 0},
+       "The walk left, the ray-traced truth right of a border that can be dragged", WalkLook::split);
+  look("view.difference", "Difference from the truth", {key::k, ui::modifier::shift},
+       "How far each pixel is from the ray-traced truth, amplified", WalkLook::difference);
+}
+
+/// Shown beside the picture where they matter, not in a menu.
+void addCompareSettings(std::vector<Action>& table) {
+  for (const int rays : kTruthRays)
+    table.push_back(
+        {fmt::format("compare.rays.{}", rays),
+         "",
+         fmt::format("{}", rays),
+         {},
+         {},
+         "Rays per pixel that the truth ends with: a regular grid, averaged. More: smoother edges, "
+         "as many times longer.",
+         false,
+         withProject,
+         [rays](ActionContext& c) { c.state.truthRays = rays; },
+         [rays](const ActionContext& c) { return c.state.truthRays == rays; }});
+  for (const int gain : kDifferenceGains)
+    table.push_back({fmt::format("compare.gain.{}", gain),
+                     "",
+                     fmt::format("×{}", gain),
+                     {},
+                     {},
+                     "Differences of sRGB codes are multiplied by this",
+                     false,
+                     withProject,
+                     [gain](ActionContext& c) { c.state.differenceGain = gain; },
+                     [gain](const ActionContext& c) { return c.state.differenceGain == gain; }});
+}
+
+}  // namespace
+
+void addWalkViewActions(std::vector<Action>& table) {
+  addLooks(table);
+  addCompareSettings(table);
+  const auto flag = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,
+                             bool EditorState::*member, bool first) {
+    table.push_back({id,
+                     "Walk",
+                     label,
+                     shortcut,
+                     {},
+                     help,
+                     first,
+                     withProject,
+                     [member](ActionContext& c) { c.state.*member = !(c.state.*member); },
+                     [member](const ActionContext& c) { return c.state.*member; }});
+  };
+  flag("view.minimap", "Show minimap", {key::m, 0},
+       "The plan in a corner of the walk, with the eye and the cameras that the picture is painted from",
+       &EditorState::showMinimap, true);
+  flag("view.images", "List images in use", {key::m, ui::modifier::shift},
+       "In the order in which they are painted; point at one to see what it paints", &EditorState::showImages,
+       false);
+  flag("view.frameTimes", "Graph frame times", {key::f3, 0},
+       "What the newest frames of the walk took, part by part", &EditorState::showFrameTimes, false);
+  table.push_back({"walk.screenshot",
+                   "Walk",
+                   "Save picture",
+                   {key::f12, 0},
+                   {},
+                   "Writes what the walk shows as a PNG beside the project, under a new name",
+                   true,
+                   [](const ActionContext& c) {
+                     return withBuilt(c) && c.session.walk() && !c.session.savingPicture().running();
+                   },
+                   [](ActionContext& c) { c.state.takePicture = true; },
+                   {}});
+}
+
+}  // namespace acentric::editor

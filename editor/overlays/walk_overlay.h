@@ -1,0 +1,20 @@
+#pragma once
+/// Paths and bookmarks on the plan.
+
+#include <imgui.h>
+
+#include "editor/tools/path_tool.h"
+#include "engine/layout/layout.h"
+#include "ui/canvas_view.h"
+
+namespace acentric::editor {
+
+/// Lines of the storey's paths with the way they go; of the selected one its key poses with a tick where each
+/// looks, red where one cannot walk. With a pointer (the path tool is at work), what a press there would
+/// take.
+void drawPaths(ImDrawList& list, const ui::CanvasView& view, const PathSituation& situation,
+               const Layout& layout, const glm::dvec2* pointer);
+void drawBookmarks(ImDrawList& list, const ui::CanvasView& view, const Project& project,
+                   const Bookmark* selected, ImFont* font);
+
+}  // namespace acentric::editor

@@ -1,0 +1,35 @@
+#include "editor/panels/dialog_frame.h"
+
+#include <algorithm>
+
+namespace acentric::editor {
+
+float dialogButtonWidth() { return ui::scaled(112); }
+
+bool beginDialog(const char* id, float width) {
+  if (!ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(ui::scaled(width), std::max(1.0F, display.x)), 0});
+  ImGui::SetNextWindowSizeConstraints({1, 1}, {std::max(1.0F, display.x), std::max(1.0F, display.y)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(18, 14)));
+  const bool open = ImGui::BeginPopupModal(
+      id, nullptr, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  ImGui::PopStyleVar();
+  return open;
+}
+
+void endDialog(bool close) {
+  if (close) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void alignButtons(int buttons, float width) {
+  const float spacing = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::Dummy({0, ui::scaled(6)});
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x -
+                       float(buttons) * (width > 0 ? width : dialogButtonWidth()) -
+                       float(buttons - 1) * spacing);
+}
+
+}  // namespace acentric::editor

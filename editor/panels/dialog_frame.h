@@ -1,0 +1,22 @@
+#pragma once
+/// What all modal dialogs look like.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+/// Pressed this frame, while a dialog is open.
+struct DialogKeys {
+  bool enter = false;
+  bool escape = false;
+};
+
+/// Of a dialog's buttons, scaled.
+float dialogButtonWidth();
+/// A modal in the middle of the window, `width` unscaled; call endDialog() if true. `id` is also its title.
+bool beginDialog(const char* id, float width);
+void endDialog(bool close);
+/// So many buttons, of `width` (0 = the usual one), stand at the lower right.
+void alignButtons(int buttons, float width = 0);
+
+}  // namespace acentric::editor

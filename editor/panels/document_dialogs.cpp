@@ -1,0 +1,169 @@
+#include "editor/panels/document_dialogs.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr float kLabelWidth = 150;
+constexpr float kWideButton = 128;
+
+/// Buttons from left to right; logged as "dialog.NAME".
+class ButtonRow {
+ public:
+  ButtonRow(PanelContext& context, int buttons, float width) : context_(context), width_(width) {
+    alignButtons(buttons, width);
+  }
+  bool button(const char* label, const char* name, bool primary = false) {
+    if (!std::exchange(first_, false)) ImGui::SameLine();
+    const bool pressed = primary ? ui::primaryButton(label, {width_, 0}) : ui::button(label, {width_, 0});
+    context_.log.item(std::string("dialog.") + name);
+    return pressed;
+  }
+
+ private:
+  PanelContext& context_;
+  float width_;
+  bool first_ = true;
+};
+
+/// What was derived for the model that has just been opened.
+void fillDraft(NewProjectDraft& draft, const Session& session) {
+  const LayoutSpec& spec = session.project().layout();
+  draft.configuration = spec.configuration;
+  draft.cellSize = spec.cellSize;
+  draft.eyeHeight = spec.eyeHeight;
+  draft.derived = true;
+  draft.generation = session.generation();
+}
+
+void drawDraft(PanelContext& context, NewProjectDraft& draft) {
+  std::vector<ui::Choice> choices;
+  for (int i = 0; i <= int(Configuration::g); ++i)
+    choices.push_back(
+        {fmt::format("{}   {}", nameOf(Configuration(i)), describe(Configuration(i))), "", true});
+  int index = int(draft.configuration);
+  ui::choiceField("Configuration", choices, index, kLabelWidth,
+                  "How panoramas are placed: angle of a camera and the polygons of the lattice.");
+  context.log.item("new.configuration");
+  draft.configuration = Configuration(index);
+  if (draft.derived)
+    draft.cellSize = firstCellSize(context.session().project().layout().outline.area(), draft.configuration);
+  const ui::FieldEdit size =
+      ui::numberField({"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
+                       "Edge length of the polygons. At first about a dozen rings fill the walkable area."},
+                      draft.cellSize, kLabelWidth);
+  context.log.item("new.cellSize");
+  if (size.changed) draft.derived = false;
+  ui::numberField(
+      {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
+      draft.eyeHeight, kLabelWidth);
+  context.log.item("new.eyeHeight");
+  ui::checkField("All storeys", draft.everyStorey, kLabelWidth,
+                 "A layout on each floor that is found, not only on the largest.");
+  context.log.item("new.everyStorey");
+}
+
+}  // namespace
+
+void drawNewProject(PanelContext& context, const DialogKeys& keys) {
+  EditorState& state = context.state();
+  Session& session = context.session();
+  NewProjectDraft& draft = state.draft;
+  std::error_code error;
+  const bool ready =
+      session.hasProject() && session.untitled() &&
+      std::filesystem::equivalent(sceneFileOf(session.file(), session.project()), draft.model, error);
+  if (!ready) {  // opening it failed, or was cancelled
+    state.dialog = Dialog::none;
+    return;
+  }
+  if (draft.generation != session.generation()) fillDraft(draft, session);
+  if (!beginDialog("New project", 560)) return;
+  ui::wrappedText(ui::palette::muted,
+                  fmt::format("{}: {:.1f} m² to walk on were found. All of this can be changed later.",
+                              draft.model.filename().string(), session.project().layout().outline.area()));
+  ImGui::Dummy({0, 4});
+  drawDraft(context, draft);
+  ButtonRow row(context, 2, dialogButtonWidth());
+  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
+  const bool create = row.button("Create", "create", true) || keys.enter;
+  if (cancel) session.close();
+  if (create) {
+    NewProjectOptions options;
+    options.configuration = draft.configuration;
+    options.cellSize = draft.derived ? 0 : draft.cellSize;
+    options.eyeHeight = draft.eyeHeight;
+    options.everyStorey = draft.everyStorey;
+    const LayoutSpec& spec = session.project().layout();
+    const bool asDerived = draft.configuration == spec.configuration && draft.derived &&
+                           draft.eyeHeight == spec.eyeHeight && !draft.everyStorey;
+    if (!asDerived) session.openNew(draft.model, options);
+  }
+  if (cancel || create) state.dialog = Dialog::none;
+  endDialog(cancel || create);
+}
+
+void drawLockQuestion(PanelContext& context, const DialogKeys& keys) {
+  Session& session = context.session();
+  if (!beginDialog("Open in another editor", 600)) return;
+  ui::wrappedText(ui::palette::text,
+                  fmt::format("{} is open at {}. What both save would overwrite each other.",
+                              session.file().filename().string(), describe(*session.lockedBy())));
+  ButtonRow row(context, 3, ui::scaled(kWideButton));
+  const bool takeOver = row.button("Take over", "takeOver");
+  ui::tooltip("The other editor becomes read-only. For one that no longer answers.");
+  const bool copy = row.button("Open a copy", "copy");
+  ui::tooltip("Saved beside it under a name of its own, with the captures.");
+  const bool readOnly = row.button("Read-only", "readOnly", true) || keys.enter || keys.escape;
+  if (takeOver) session.answerLock(LockAnswer::takeOver);
+  if (copy) session.answerLock(LockAnswer::copy);
+  if (readOnly) session.answerLock(LockAnswer::readOnly);
+  endDialog(takeOver || copy || readOnly);
+}
+
+void drawChangedOnDisk(PanelContext& context, const DialogKeys& keys) {
+  EditorState& state = context.state();
+  if (!beginDialog("Changed by another program", 620)) return;
+  ui::wrappedText(
+      ui::palette::text,
+      context.session().file().filename().string() +
+          " was changed on disk since it was opened or saved here. Reloading takes that state as an "
+          "edit: undo brings yours back.");
+  ButtonRow row(context, 4, ui::scaled(kWideButton));
+  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
+  const bool overwrite = row.button("Overwrite", "overwrite");
+  const bool reloading = row.button("Reload", "reload");
+  const bool elsewhere = row.button("Save as…", "saveAs", true) || keys.enter;
+  if (cancel || overwrite || reloading || elsewhere) {
+    state.dialog = elsewhere ? Dialog::saveAs : Dialog::none;
+    const Continuation then = elsewhere ? state.continuation : std::exchange(state.continuation, {});
+    if (overwrite) overwriteThen(context.actions, then);
+    if (reloading) reload(context.actions);
+  }
+  endDialog(cancel || overwrite || reloading || elsewhere);
+}
+
+void drawMissingModel(PanelContext& context, const DialogKeys& keys) {
+  Session& session = context.session();
+  if (!beginDialog("The model is missing", 600)) return;
+  ui::wrappedText(
+      ui::palette::text,
+      fmt::format("{} is not there. {}", sceneFileOf(session.file(), session.project()).string(),
+                  session.sceneFiles().fromCache ? "The project is shown with the model as it was last "
+                                                   "imported: it can be edited, baked and walked."
+                                                 : "The layout can be edited, but there is nothing to bake "
+                                                   "or to walk through until the model is found."));
+  ButtonRow row(context, 2, ui::scaled(kWideButton));
+  const bool later = row.button("Not now", "later") || keys.escape;
+  const bool locate = row.button("Locate…", "locate", true) || keys.enter;
+  if (later || locate) session.answerLocate();
+  if (locate) context.state().dialog = Dialog::locateScene;
+  endDialog(later || locate);
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,135 @@
+#include "editor/panels/plan_toolbar.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace acentric::editor {
+namespace {
+
+constexpr float kNear = 3, kApart = 16;
+
+/// On this line if there is room for it, else on the next.
+void flow(float width, float gap) {
+  if (gap > 0) ImGui::SameLine(0, ui::scaled(gap));
+  if (ImGui::GetCursorPosX() + width > ImGui::GetWindowSize().x - ui::scaled(8)) ImGui::NewLine();
+}
+
+float buttonWidth(const char* label) {
+  return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+const char* nameOf(PlanOverlay overlay) {
+  switch (overlay) {
+    case PlanOverlay::none:
+      return "none";
+    case PlanOverlay::bake:
+      return "bake state";
+    case PlanOverlay::triangles:
+      return "triangles";
+    case PlanOverlay::bytes:
+      return "bytes";
+    case PlanOverlay::checks:
+      return "checks";
+    case PlanOverlay::coverage:
+      break;
+  }
+  return "coverage";
+}
+
+void drawOverlayMenu(PanelContext& context) {
+  static constexpr std::array<std::pair<const char*, PlanOverlay>, 6> kOverlays{
+      {{"overlay.bake", PlanOverlay::bake},
+       {"view.triangles", PlanOverlay::triangles},
+       {"overlay.bytes", PlanOverlay::bytes},
+       {"view.checks", PlanOverlay::checks},
+       {"view.coverage", PlanOverlay::coverage},
+       {"overlay.none", PlanOverlay::none}}};
+  EditorState& state = context.state();
+  const float comboWidth = ui::scaled(176);
+  flow(comboWidth, kApart);
+  ImGui::SetNextItemWidth(comboWidth);
+  const std::string shown = fmt::format("Overlay: {}", nameOf(state.overlay));
+  const bool open = ImGui::BeginCombo("##overlay", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  context.log.item("overlay");
+  if (!open)
+    return ui::tooltip("What the colours of the cells tell. One at a time; T, P and V are keys for it.");
+  for (const auto& [id, overlay] : kOverlays) {
+    const Action* action = findAction(context.table, std::string(id));
+    if (action == nullptr) continue;
+    std::string label = nameOf(overlay);
+    if (const std::string key = describe(action->shortcut); !key.empty()) label += "   [" + key + "]";
+    if (ImGui::Selectable(label.c_str(), state.overlay == overlay) && state.overlay != overlay)
+      runAction(context, *action);
+    context.log.item(std::string("overlay.") + nameOf(overlay));
+    ui::tooltip(action->help);
+  }
+  ImGui::EndCombo();
+}
+
+void drawCoverageRow(PanelContext& context) {
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Coverage of");
+  for (const auto& [id, label] :
+       {std::pair("coverage.surfaces", "surfaces"), std::pair("coverage.layout", "the plan"),
+        std::pair("coverage.cell", "a cell")}) {
+    ImGui::SameLine(0, id == std::string_view("coverage.surfaces") ? ui::scaled(10) : ui::scaled(kNear));
+    actionButton(context, id, ButtonLook::toggle, {}, label);
+  }
+}
+
+void drawOutlineRow(PanelContext& context) {
+  const Outline& outline = context.session().project().layout().outline;
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText(outline.empty() ? std::string("No outline")
+                                : fmt::format("Outline of {:.1f} m²", outline.area()));
+  ImGui::SameLine(0, ui::scaled(10));
+  actionButton(context, "outline.fromScene", ButtonLook::plain, {}, "From the scene");
+  ImGui::SameLine(0, ui::scaled(kNear));
+  actionButton(context, "outline.simplify", ButtonLook::plain, {}, "Simplify within");
+  ImGui::SameLine(0, ui::scaled(kNear));
+  ImGui::SetNextItemWidth(ui::scaled(70));
+  const float speed = 0.002F;
+  auto metres = float(context.state().simplifyMetres);
+  if (ImGui::DragFloat("##simplify", &metres, speed, 0.001F, 10, "%.3f m", ImGuiSliderFlags_AlwaysClamp))
+    context.state().simplifyMetres = double(metres);
+  context.log.item("outline.tolerance");
+  ImGui::SameLine(0, ui::scaled(kNear));
+  actionButton(context, "outline.clear", ButtonLook::plain, {}, "Clear");
+}
+
+}  // namespace
+
+void drawPlanToolbar(PanelContext& context) {
+  struct Entry {
+    const char* id;
+    const char* label;
+    float gap;
+    ButtonLook look = ButtonLook::toggle;
+  };
+  static constexpr std::array<Entry, 10> kEntries{{{"tool.cells", "Cells", 0},
+                                                   {"tool.eye", "Eye", kNear},
+                                                   {"tool.outline", "Outline", kNear},
+                                                   {"tool.panorama", "APV", kNear},
+                                                   {"tool.lattice", "Lattice", kNear},
+                                                   {"tool.measure", "Measure", kNear},
+                                                   {"tool.path", "Path", kNear},
+                                                   {"view.backdrop", "Scene", kApart},
+                                                   {"view.lattice", "Free cells", kNear},
+                                                   {"view.cameras", "Cameras", kNear}}};
+  for (const Entry& entry : kEntries) {
+    flow(buttonWidth(entry.label), entry.gap);
+    actionButton(context, entry.id, entry.look, {}, entry.label);
+  }
+  drawOverlayMenu(context);
+  flow(buttonWidth("Regions"), kApart);
+  actionButton(context, "view.table", ButtonLook::toggle, {}, "Regions");
+  flow(buttonWidth("Fit"), kNear);
+  actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
+  if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);
+  if (context.state().planTool.mode() == PlanMode::outline && context.session().hasProject())
+    drawOutlineRow(context);
+}
+
+}  // namespace acentric::editor

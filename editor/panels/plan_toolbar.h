@@ -1,0 +1,10 @@
+#pragma once
+/// The buttons above the plan: tools, what is shown, and the tool's own row.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+void drawPlanToolbar(PanelContext& context);
+
+}  // namespace acentric::editor

@@ -1,0 +1,133 @@
+#include "editor/panels/preferences_dialog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "editor/panels/dialog_frame.h"
+#include "editor/panels/preference_fields.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr float kLabelWidth = 168;
+constexpr std::array<int, 9> kScales = {0, 75, 90, 100, 110, 125, 150, 175, 200};  ///< per cent; 0: automatic
+
+void heading(PanelContext& context, const char* text) {
+  ImGui::Dummy({0, ui::scaled(4)});
+  ui::panelTitle(context.window.fonts().bold, text);
+}
+
+void saveIf(PanelContext& context, const ui::FieldEdit& edit, const char* logName) {
+  context.log.item(logName);
+  if (edit.finished) context.session().savePreferencesNow();
+}
+
+void drawLook(PanelContext& context) {
+  Preferences& preferences = context.session().preferences();
+  heading(context, "Look");
+  const std::array<ui::Choice, 2> kThemes = {ui::Choice{"Dark", "", true, ""},
+                                             ui::Choice{"Light", "", true, ""}};
+  int theme = int(preferences.theme);
+  const ui::FieldEdit themed =
+      ui::choiceField("Theme", kThemes, theme, kLabelWidth, "Colours of the window.");
+  if (themed.changed) preferences.theme = Theme(theme);
+  saveIf(context, themed, "preferences.theme");
+
+  std::vector<ui::Choice> choices;
+  for (const int percent : kScales)
+    choices.push_back({percent == 0 ? "As the display asks" : fmt::format("{} %", percent), "", true, ""});
+  const int now = preferences.scalePercent;
+  int index = int(std::ranges::find(kScales, now) - kScales.begin());
+  if (index == int(kScales.size())) {
+    choices.push_back({fmt::format("{} %", now), "", true, ""});
+  } else if (now == 0) {
+    choices.front().label += fmt::format(" ({:.0f} %)", 100 * context.window.look().scale);
+  }
+  const ui::FieldEdit sized = ui::choiceField(
+      "Interface", choices, index, kLabelWidth,
+      "Size of texts, buttons and marks. Also with Ctrl+= and Ctrl+-; Ctrl+0: as the display asks.");
+  if (sized.changed) preferences.scalePercent = kScales[std::size_t(index)];
+  saveIf(context, sized, "preferences.scale");
+}
+
+void drawWork(PanelContext& context) {
+  Preferences& preferences = context.session().preferences();
+  heading(context, "Baking and saving");
+  bakeThreadsField(context, kLabelWidth);
+  bakeMemoryField(context, kLabelWidth);
+  saveIf(context,
+         ui::numberField({"Autosave every", "%.0f s", 0.5, Preferences::kLeastAutosaveSeconds,
+                          Preferences::kMostAutosaveSeconds,
+                          "Beside the project, never over it; offered again after a crash."},
+                         preferences.autosaveSeconds, kLabelWidth),
+         "preferences.autosave");
+}
+
+void drawWalk(PanelContext& context) {
+  Preferences& preferences = context.session().preferences();
+  heading(context, "Walk");
+  ImGui::PushID("walk");
+  walkSpeedField(context, kLabelWidth);
+  saveIf(context,
+         ui::numberField({"Mouse sensitivity", "%.2f", 0.01, Preferences::kLeastLookSensitivity,
+                          Preferences::kMostLookSensitivity, "1 turns a fifth of a degree a pixel."},
+                         preferences.lookSensitivity, kLabelWidth),
+         "preferences.sensitivity");
+  saveIf(context,
+         ui::checkField("Inverted look", preferences.invertLook, kLabelWidth,
+                        "Moving the mouse up looks down, as in aircraft."),
+         "preferences.invert");
+  walkMemoryField(context, kLabelWidth);
+  ImGui::PopID();
+}
+
+void drawStart(PanelContext& context) {
+  Preferences& preferences = context.session().preferences();
+  heading(context, "Start");
+  const std::array<ui::Choice, 3> kChoices = {
+      ui::Choice{"The sample project", "Where the program was started with one, as by ./run.", true, ""},
+      ui::Choice{"The last project", "The sample, while there is none.", true, ""},
+      ui::Choice{"Nothing", "", true, ""}};
+  int startUp = int(preferences.startUp);
+  const ui::FieldEdit edit = ui::choiceField("Open at start", kChoices, startUp, kLabelWidth,
+                                             "When no file is named on the command line.");
+  if (edit.changed) preferences.startUp = StartUp(startUp);
+  saveIf(context, edit, "preferences.startUp");
+  bool guide = !preferences.guideSeen;
+  const ui::FieldEdit guided = ui::checkField("Guided start", guide, kLabelWidth,
+                                              "Shown at the next start. It is in the Help menu, too.");
+  if (guided.changed) preferences.guideSeen = !guide;
+  saveIf(context, guided, "preferences.guide");
+}
+
+}  // namespace
+
+bool drawPreferences(PanelContext& context) {
+  const float footer = ImGui::GetFrameHeightWithSpacing() + ui::scaled(14);
+  const float most = std::max(ui::scaled(60), ImGui::GetIO().DisplaySize.y - ui::scaled(90) - footer);
+  ImGui::BeginChild("##fields", {0, std::min(most, ui::scaled(520))});
+  drawLook(context);
+  drawWork(context);
+  drawWalk(context);
+  drawStart(context);
+  ImGui::EndChild();
+  ImGui::Dummy({0, ui::scaled(4)});
+  if (ui::button("Reset to defaults")) {
+    context.session().preferences().resetSettings();
+    context.session().savePreferencesNow();
+    context.session().walkMemoryChanged();
+  }
+  context.log.item("preferences.reset");
+  ui::tooltip("All of the above as at the first start. Recent projects and the window's layout stay.");
+  ImGui::SameLine();
+  actionButton(context, "window.resetLayout", ButtonLook::plain);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - dialogButtonWidth());
+  const bool close = ui::primaryButton("Close", {dialogButtonWidth(), 0});
+  context.log.item("dialog.ok");
+  return close;
+}
+
+}  // namespace acentric::editor

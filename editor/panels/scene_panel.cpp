@@ -1,0 +1,212 @@
+#include "editor/panels/scene_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "editor/overlays/pick_table.h"
+#include "editor/session/scene_view.h"
+#include "editor/tools/scene_hits.h"
+#include "ui/canvas_draw.h"
+#include "ui/keys.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr double kDollyStep = 0.84;  ///< of the distance, per notch of the wheel
+
+}  // namespace
+
+bool ScenePanel::Area::holds(const glm::dvec2& at) const {
+  return at.x >= min.x && at.y >= min.y && at.x < min.x + size.x && at.y < min.y + size.y;
+}
+
+ScenePanel::ScenePanel(int threads, std::function<void()> wake)
+    : wake_([this, wake = std::move(wake)] {
+        news_ = true;
+        if (wake) wake();
+      }),
+      stream_(threads, wake_),
+      look_(threads, wake_) {}
+
+void ScenePanel::drawToolbar(PanelContext& context) const {
+  struct Entry {
+    const char* id;
+    const char* label;
+    float gap;
+    ButtonLook look = ButtonLook::toggle;
+  };
+  static constexpr std::array<Entry, 6> kEntries{{{"scene3d.pick", "Pick", 0},
+                                                  {"scene3d.lookThrough", "Look through", 3},
+                                                  {"scene3d.cut", "Cut ceiling", 16},
+                                                  {"view.cameras", "Cameras", 3},
+                                                  {"scene3d.frusta", "All sectors", 3},
+                                                  {"view.fit", "Frame", 16, ButtonLook::plain}}};
+  const float right = ImGui::GetWindowSize().x - 8;
+  for (const Entry& entry : kEntries) {
+    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (entry.gap > 0) ImGui::SameLine(0, entry.gap);
+    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+    actionButton(context, entry.id, entry.look, {}, entry.label);
+  }
+}
+
+void ScenePanel::followProject(PanelContext& context) {
+  Session& session = context.session();
+  Scene3dState& state = context.state().scene3d;
+  const OpenProject& open = *session.built();
+  const bool fresh = generation_ != session.generation();
+  if (fresh) {
+    generation_ = session.generation();
+    openedAt_ = context.now;
+    stream_.clear();
+    texture_.clear();
+    layers_.clearDistances();
+    look_.close();
+    state = {};
+    asked_.reset();
+  }
+  if (!tracer_ || tracer_->rays().sharedScene() != open.scene || &tracer_->rays() != open.rays.get())
+    tracer_ = std::make_shared<const PreviewTracer>(open.rays);
+  if (asked_ != open.layout) {
+    asked_ = open.layout;
+    state.ceiling = underCeiling(*open.rays, *open.layout);
+    if (state.lookThrough && !cameraAtPlace(*open.layout, *state.lookThrough)) state.lookThrough.reset();
+  }
+  if (std::exchange(state.frame, false)) {
+    const SceneBox box = boxToFrame(open.scene->bounds, *open.layout, context.state().selection);
+    camera_.frame(box.low, box.high, fresh);
+  }
+}
+
+double ScenePanel::cutHeight(const PanelContext& context) const {
+  const OpenProject& open = *context.actions.session.built();
+  const Scene3dState& state = context.actions.state.scene3d;
+  const bool cut = state.cutCeiling.value_or(state.ceiling);
+  return cut ? ceilingCut(*open.layout, open.project.bake.eyeRange) : kNoCut;
+}
+
+PreviewSeen ScenePanel::seenAt(const PanelContext& context, const glm::dvec2& pixel) const {
+  return tracer_->along({glm::vec3(camera_.eye()), glm::vec3(camera_.rayThrough(pixel))}, cutHeight(context));
+}
+
+glm::dvec3 ScenePanel::holdAt(const PanelContext& context, const glm::dvec2& pixel) const {
+  const PreviewSeen seen = seenAt(context, pixel);
+  return seen.found() ? camera_.eye() + double(seen.distance) * camera_.rayThrough(pixel)
+                      : camera_.besideTarget(pixel);
+}
+
+bool ScenePanel::pointing(const PanelContext& context) const {
+  return area_.holds(pointer_) && !context.inputBlocked && !tool_.capturing() &&
+         std::ranges::none_of(panels_, [&](const Area& panel) { return panel.holds(pointer_); });
+}
+
+void ScenePanel::handleKey(PanelContext& context, int code) {
+  EditorState& state = context.state();
+  if (code != ui::key::escape) return;
+  if (state.scene3d.lookThrough)
+    state.scene3d.lookThrough.reset();
+  else if (state.scene3d.picked)
+    state.scene3d.picked.reset();
+  else if (state.scene3d.picking)
+    state.scene3d.picking = false;
+  else
+    state.selection.clear();
+}
+
+void ScenePanel::handleEvents(PanelContext& context) {
+  using Kind = ui::InputEvent::Kind;
+  for (const ui::InputEvent& event : context.events) {
+    const bool inside =
+        area_.holds(event.position) && !context.inputBlocked &&
+        std::ranges::none_of(panels_, [&](const Area& panel) { return panel.holds(event.position); });
+    const glm::dvec2 pixel = event.position - area_.min;
+    if (event.kind == Kind::scroll && inside)
+      camera_.dolly(std::pow(kDollyStep, event.scroll.y), holdAt(context, pixel));
+    if (event.kind == Kind::keyPress && !context.inputBlocked) handleKey(context, event.code);
+    ScenePointer pointer{ScenePointer::Kind::move, event.code, event.modifiers, pixel, event.seconds};
+    if (event.kind == Kind::buttonPress && inside)
+      pointer.kind = ScenePointer::Kind::press;
+    else if (event.kind == Kind::buttonRelease && tool_.capturing())
+      pointer.kind = ScenePointer::Kind::release;
+    else if (event.kind != Kind::move || !tool_.capturing())
+      continue;
+    act(context, tool_.handle(pointer, context.state().scene3d.picking));
+  }
+}
+
+void ScenePanel::act(PanelContext& context, const SceneIntent& intent) {
+  EditorState& state = context.state();
+  const Layout& layout = *context.session().built()->layout;
+  if (const auto* orbit = std::get_if<OrbitIntent>(&intent)) {
+    camera_.orbit(orbit->pixels);
+  } else if (const auto* hold = std::get_if<HoldIntent>(&intent)) {
+    held_ = holdAt(context, hold->pixel);
+  } else if (const auto* pan = std::get_if<PanViewIntent>(&intent)) {
+    camera_.pan(pan->pixels, held_);
+  } else if (const auto* select = std::get_if<SelectAtIntent>(&intent)) {
+    const auto cell = cellUnder(layout, camera_.eye(), camera_.rayThrough(select->pixel),
+                                seenAt(context, select->pixel).distance);
+    if (!select->add) state.selection.clear();
+    if (cell && !state.selection.erase(*cell)) state.selection.insert(*cell);
+  } else if (const auto* pick = std::get_if<PickAtIntent>(&intent)) {
+    const PreviewSeen seen = seenAt(context, pick->pixel);
+    state.scene3d.picked.reset();
+    if (!seen.found() || seen.cap) return;
+    state.scene3d.picked =
+        SurfacePoint{camera_.eye() + double(seen.distance) * camera_.rayThrough(pick->pixel),
+                     glm::dvec3(seen.normal), seen.mesh, seen.triangle};
+  } else if (const auto* opened = std::get_if<OpenAtIntent>(&intent)) {
+    open(context, opened->pixel);
+  }
+}
+
+void ScenePanel::open(PanelContext& context, const glm::dvec2& pixel) {
+  EditorState& state = context.state();
+  const Layout& layout = *context.session().built()->layout;
+  const PreviewSeen seen = seenAt(context, pixel);
+  const auto camera =
+      state.showCameras ? cameraUnder(layout, camera_.view(), pixel, seen.distance) : std::nullopt;
+  if (camera) {
+    const auto preferred = state.selection.empty() ? std::nullopt : std::optional(*state.selection.begin());
+    state.scene3d.lookThrough = placeOf(layout, *camera, preferred);
+  } else if (seen.found()) {
+    camera_.centreOn(camera_.eye() + double(seen.distance) * camera_.rayThrough(pixel));
+  }
+}
+
+void ScenePanel::draw(PanelContext& context) {
+  ImGui::SetCursorPos(ui::scaled(ImVec2(8, 7)));
+  ImGui::BeginGroup();
+  drawToolbar(context);
+  ImGui::EndGroup();
+  ImGui::SetCursorPos({0, ImGui::GetItemRectSize().y + ui::scaled(14)});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size = ImGui::GetContentRegionAvail();
+  if (size.x < 40 || size.y < 40) return;
+  area_ = {ui::fromIm(at), ui::fromIm(size)};
+  camera_.setSize(glm::ivec2(area_.size));
+  ImGui::InvisibleButton("##scene3d", size);
+  ImGui::SetItemAllowOverlap();
+  context.log.item("scene3d");
+  pointer_ = context.window.input().pointer();
+
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ui::palette::backdrop.packed());
+  if (context.session().built()) {
+    followProject(context);
+    handleEvents(context);
+    context.session().askForPick(context.state().scene3d.picked);
+    drawPicture(context, list);
+    drawLayers(context, list);
+    drawTexts(context, list);
+    logPlaces(context);
+  }
+  list.PopClipRect();
+  if (context.session().built()) drawPanels(context);
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,222 @@
+#include "editor/panels/walk_settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "editor/commands/setting_edits.h"
+#include "editor/panels/preference_fields.h"
+#include "editor/panels/project_field.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr const char* kPopup = "##walkSettings";
+constexpr float kWidth = 344;
+
+const char* labelOf(Renderer renderer) {
+  switch (renderer) {
+    case Renderer::list:
+      return "List priority";
+    case Renderer::scalar:
+      return "Scalar reference";
+    case Renderer::precise:
+      return "Double precision";
+    case Renderer::zbuffer:
+      return "Depth buffer";
+    case Renderer::gl:
+      return "OpenGL";
+    case Renderer::glZbuffer:
+      return "OpenGL, depth test";
+    case Renderer::glMesh:
+      return "OpenGL, meshes";
+  }
+  return "";
+}
+
+const char* helpFor(Renderer renderer) {
+  switch (renderer) {
+    case Renderer::list:
+      return "List priority without a depth buffer: the fast one on the processor.";
+    case Renderer::scalar:
+      return "List priority, one sample at a time: the reference.";
+    case Renderer::precise:
+      return "The reference in double precision: what floats cost.";
+    case Renderer::zbuffer:
+      return "The same splats with a depth buffer, for comparison.";
+    case Renderer::gl:
+      return "List priority on the graphics card.";
+    case Renderer::glZbuffer:
+      return "The same splats on the graphics card with a depth test, for comparison.";
+    case Renderer::glMesh:
+      return "Captures as triangles, within the mesh error: no cracks near walls; points until they are "
+             "built.";
+  }
+  return "";
+}
+
+const char* labelOf(Reconstruction reconstruction) {
+  switch (reconstruction) {
+    case Reconstruction::point:
+      return "Points";
+    case Reconstruction::splat:
+      return "Splats";
+    case Reconstruction::surface:
+      return "Surface";
+    case Reconstruction::filtered:
+      return "Filtered";
+  }
+  return "";
+}
+
+const char* helpFor(Reconstruction reconstruction) {
+  switch (reconstruction) {
+    case Reconstruction::point:
+      return "One pixel a sample: shows the sampling. The least time.";
+    case Reconstruction::splat:
+      return "Squares as large as a sample's footprint. Costs the pixels that they paint over.";
+    case Reconstruction::surface:
+      return "Rectangles that follow the surface: neighbours are joined however it is turned, and edges do "
+             "not grow. Costs two more bytes read per sample.";
+    case Reconstruction::filtered:
+      return "The same rectangles, then each pixel the mean of the samples around it: smooth edges. Costs "
+             "one more pass over the picture: frames take a tenth to a third longer than with splats.";
+  }
+  return "";
+}
+
+/// A list of `all` in one line; `broken`: why one cannot be chosen, empty if it can.
+template <class Value, std::size_t kCount, class Broken>
+std::optional<Value> chooseOf(PanelContext& context, const char* label, const char* logName,
+                              const Value (&all)[kCount], Value now, Broken broken) {
+  std::optional<Value> chosen;
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText(label);
+  ImGui::SameLine(ui::scaled(kLabelWidth));
+  ImGui::SetNextItemWidth(-1);
+  const bool open = ImGui::BeginCombo((std::string("##") + logName).c_str(), labelOf(now));
+  context.log.item(logName);
+  if (!open) {
+    ui::tooltip(helpFor(now));
+    return chosen;
+  }
+  for (const Value value : all) {
+    const std::string problem = broken(value);
+    const auto flags = problem.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable(labelOf(value), value == now, flags)) chosen = value;
+    context.log.item(std::string(logName) + "." + nameOf(value));
+    ui::tooltip(problem.empty() ? helpFor(value) : problem);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+void drawRenderer(PanelContext& context, const std::string& glProblem) {
+  const Project& project = context.session().project();
+  ViewSettings view = project.view;
+  if (const auto renderer =
+          chooseOf(context, "Renderer", "walk.renderer", kRenderers, view.renderer,
+                   [&](Renderer each) { return onOpenGl(each) ? glProblem : std::string(); })) {
+    view.renderer = *renderer;
+    context.session().apply(setViewSettings(project, view, "renderer"));
+  }
+  if (const auto reconstruction = chooseOf(context, "Reconstruction", "walk.reconstruction", kReconstructions,
+                                           view.reconstruction, [](Reconstruction) { return ""; })) {
+    view.reconstruction = *reconstruction;
+    context.session().apply(setViewSettings(project, view, "reconstruction"));
+  }
+}
+
+/// Of the walk now; captures are baked for the range around the layout's.
+void drawEyeHeight(PanelContext& context) {
+  Walker& walker = context.state().walker;
+  const EyeHeights heights = eyeHeights(*context.session().built());
+  const double floor = context.session().project().layout().floorHeight;
+  WalkPose pose = walker.pose();
+  double height = pose.eye.z - floor;
+  const std::string help =
+      heights.high > heights.low
+          ? fmt::format("Page Up and Page Down too. Captures are baked for {:.2f} to {:.2f} m.",
+                        heights.low - floor, heights.high - floor)
+          : "Captures are baked for this height alone: set an eye range under bake quality.";
+  ImGui::BeginDisabled(heights.high <= heights.low);
+  const ui::FieldEdit edit =
+      ui::numberField({"Eye above floor", "%.2f m", 0.002, heights.low - floor, heights.high - floor, ""},
+                      height, kLabelWidth);
+  ImGui::EndDisabled();
+  context.log.item("walk.eyeHeight");
+  ui::tooltip(help);
+  if (!edit.changed) return;
+  pose.eye.z = floor + height;
+  walker.setPose(pose);
+}
+
+void drawWalking(PanelContext& context) {
+  const Project& project = context.session().project();
+  number(context, "fov", {"Field of view", "%.0f°", 0.2, 10, 150, "Horizontal."}, project.fovDegrees,
+         [&](double v) { return setFieldOfView(project, v); });
+  number(
+      context, "exposure",
+      {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
+      double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
+  drawEyeHeight(context);
+  walkSpeedField(context, kLabelWidth);
+  context.log.item("walk.speed");
+  walkMemoryField(context, kLabelWidth);
+}
+
+void drawPainting(PanelContext& context) {
+  const Project& project = context.session().project();
+  ViewSettings view = project.view;
+  const auto apply = [&](const ui::FieldEdit& edit, const char* what) {
+    if (edit) applyFieldEdit(context, edit, setViewSettings(project, view, what));
+  };
+  apply(ui::numberField(
+            {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
+            view.maxSplatPixels, kLabelWidth),
+        "largest splat");
+  apply(ui::numberField(
+            {"Mesh error", "%.2f samples", 0.01, 0.01, 64,
+             "Of OpenGL meshes: how far a surface may shift in the picture. Larger: fewer triangles."},
+            view.meshError, kLabelWidth),
+        "mesh error");
+  apply(ui::numberField({"Mesh triangles", view.maxMeshTriangles == 0 ? "any number" : "%.0f", 1000, 0, 2e9,
+                         "Of one capture at most, with a larger error where it must be. 0: any number."},
+                        view.maxMeshTriangles, kLabelWidth),
+        "mesh triangles");
+  const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
+    bool value = view.*member;
+    const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help);
+    view.*member = value;
+    apply(edit, label);
+  };
+  check("Near geometry", &ViewSettings::localGeometry, "Polygons within the near band, over the captures.");
+  check("Other hand behind", &ViewSettings::secondaryCover,
+        "In rings: the other ring's samples fill what the first leaves open.");
+  check("Fill holes", &ViewSettings::fillHoles, "By guesswork; still counted as holes.");
+}
+
+}  // namespace
+
+EyeHeights eyeHeights(const OpenProject& open) {
+  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
+  return {z - range, z + range};
+}
+
+void drawWalkSettingsButton(PanelContext& context, const std::string& glProblem) {
+  if (ui::button("Settings…")) ImGui::OpenPopup(kPopup);
+  context.log.item("walk.settings");
+  ui::tooltip("Renderer, field of view, eye height, speed");
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float right = ImGui::GetIO().DisplaySize.x - 8;
+  ImGui::SetNextWindowPos({std::min(low.x, right - ui::scaled(kWidth)), high.y + 4});
+  ImGui::SetNextWindowSize({ui::scaled(kWidth), 0});
+  if (!ImGui::BeginPopup(kPopup)) return;
+  drawRenderer(context, glProblem);
+  if (context.session().built()) drawWalking(context);
+  ImGui::Separator();
+  drawPainting(context);
+  ImGui::EndPopup();
+}
+
+}  // namespace acentric::editor

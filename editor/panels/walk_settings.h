@@ -1,0 +1,15 @@
+#pragma once
+/// How the walk is drawn and walked: the home of all its settings, as a button of the walk's toolbar with a
+/// pop-over.
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+/// `glProblem`: why OpenGL renderers cannot be chosen; empty if they can.
+void drawWalkSettingsButton(PanelContext& context, const std::string& glProblem);
+
+/// Those that captures are baked for.
+EyeHeights eyeHeights(const OpenProject& open);
+
+}  // namespace acentric::editor

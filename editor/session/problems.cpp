@@ -1,0 +1,229 @@
+#include "editor/session/problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "engine/base/contract.h"
+
+namespace acentric::editor {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+std::string nameOf(const Region& region) {
+  return region.id.slot == kFreeSlot ? fmt::format("Panorama {}", region.id.i)
+         : region.id.slot == 0       ? fmt::format("Cell ({}, {})", region.id.i, region.id.j)
+                               : fmt::format("Cell ({}, {}, {})", region.id.i, region.id.j, region.id.slot);
+}
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+ProblemPlace placeOf(const Region& region, PlanLook look) {
+  ProblemPlace place{{region.id}, region.polygon.corners.front(), region.polygon.corners.front(), look};
+  for (const glm::dvec2& corner : region.polygon.corners)
+    place.low = glm::min(place.low, corner), place.high = glm::max(place.high, corner);
+  return place;
+}
+
+/// Around a point of the plan, as wide as some cells.
+ProblemPlace placeAt(const glm::dvec2& point, double cellSize, PlanLook look) {
+  return {{}, point - 1.5 * cellSize, point + 1.5 * cellSize, look};
+}
+
+/// Of each camera, a region that uses it.
+std::vector<int> regionsOfCameras(const Layout& layout) {
+  std::vector<int> regions(layout.cameras.size(), -1);
+  for (std::size_t r = 0; r < layout.regions.size(); ++r)
+    for (const Cover& cover : layout.regions[r].covers)
+      for (const Piece& piece : cover.pieces) {
+        int& region = regions[std::size_t(piece.camera)];
+        if (region < 0) region = int(r);
+      }
+  return regions;
+}
+
+void addPlacement(Problems& problems, const Inspection& inspection) {
+  const Layout& layout = *inspection.layout;
+  const auto& findings = inspection.placement.findings;
+  const std::size_t notes = std::size_t(inspection.placement.count(Severity::note));
+  if (notes < findings.size()) {
+    const std::vector<int> regionOf = regionsOfCameras(layout);
+    std::size_t listed = 0;
+    for (const PlacementFinding& finding : findings) {
+      if (finding.severity == Severity::note || listed == kMostOfAKind) break;  // the worst come first
+      ++listed;
+      const int of = finding.region >= 0        ? finding.region
+                     : !finding.cameras.empty() ? regionOf[std::size_t(finding.cameras.front())]
+                                                : -1;
+      Problem problem{finding.severity, finding.reason,
+                      placeAt(finding.place, layout.spec.cellSize, PlanLook::checks)};
+      const Region* region = of >= 0 ? &layout.regions[std::size_t(of)] : nullptr;
+      if (region != nullptr) {
+        problem.place.cells = {region->id};
+        problem.text = nameOf(*region) + ": " + finding.reason;
+      }
+      if (finding.push) {
+        const bool free = region != nullptr && region->id.slot == kFreeSlot;
+        problem.fix =
+            ProblemFix{fmt::format("{} {:.2f} m", free ? "Move" : "Shift", glm::length(*finding.push)), "",
+                       *finding.push, free ? std::optional(region->id.i) : std::nullopt};
+      }
+      problems.push_back(std::move(problem));
+    }
+    if (const std::size_t more = findings.size() - notes - listed; more > 0)
+      problems.push_back({Severity::warning,
+                          fmt::format("{} more where cameras or cells stand badly", more),
+                          {.look = PlanLook::checks}});
+  }
+  if (notes > 0)
+    problems.push_back(
+        {Severity::note,
+         plural(notes, "centre or cell is", "centres or cells are") + " worth a look in the placement checks",
+         {.look = PlanLook::checks}});
+}
+
+void addBudget(Problems& problems, const Inspection& inspection, const TriangleBudget& budget) {
+  if (budget.trianglesPerRegion == 0) return;
+  const Layout& layout = *inspection.layout;
+  const auto over = inspection.budgets.over(std::size_t(budget.trianglesPerRegion));
+  const Severity severity = budget.simplifies() ? Severity::note : Severity::warning;
+  const ProblemFix fix = canSplit(layout.spec.configuration) ? ProblemFix{"Split", "budget.split"}
+                                                             : ProblemFix{"Fit cells", "budget.fit"};
+  for (std::size_t i = 0; i < std::min(over.size(), kMostOfAKind); ++i) {
+    const Region& region = layout.regions[std::size_t(over[i])];
+    ProblemPlace place = placeOf(region, PlanLook::triangles);
+    place.section = "Triangle budget";
+    problems.push_back(
+        {severity,
+         fmt::format("{} has {} triangles of local geometry, the budget is {}{}", nameOf(region),
+                     inspection.budgets.triangles[std::size_t(over[i])], budget.trianglesPerRegion,
+                     budget.simplifies() ? ": it is simplified" : ""),
+         std::move(place), budget.simplifies() ? std::nullopt : std::optional(fix)});
+  }
+  if (over.size() > kMostOfAKind)
+    problems.push_back(
+        {severity,
+         fmt::format("{} more cells are above the triangle budget", over.size() - kMostOfAKind),
+         {.look = PlanLook::triangles, .section = "Triangle budget"}});
+}
+
+void addLayout(Problems& problems, const Layout& layout) {
+  const auto laid =
+      std::ranges::count_if(layout.regions, [](const Region& region) { return region.id.slot != kFreeSlot; });
+  if (layout.regions.empty() && layout.spec.outline.empty())
+    problems.push_back(
+        {Severity::error, "There is no outline and no cell: nowhere to walk", {.section = "Layout"}});
+  else if (laid == 0 && !layout.spec.outline.empty())
+    problems.push_back({Severity::error,
+                        "There is no cell in the outline: all of them were removed",
+                        {.section = "Layout"}});
+}
+
+void addCaptures(Problems& problems, const ProblemFacts& facts) {
+  for (const FailedCamera& failed : facts.failed) {
+    Problem problem{Severity::error,
+                    fmt::format("Camera {} could not be baked: {}", failed.camera, failed.error),
+                    {.bakeCameras = true},
+                    ProblemFix{"Bake", "bake.start"}};
+    problems.push_back(std::move(problem));
+  }
+  if (facts.captures == nullptr) return;
+  const CaptureStatus& captures = *facts.captures;
+  const std::size_t missing = captures.cameras.size() - std::size_t(captures.baked);
+  const auto stale = std::size_t(std::ranges::count(captures.stale, true));
+  const ProblemFix bake{"Bake", "bake.start"};
+  if (stale > 0)
+    problems.push_back(
+        {Severity::warning,
+         plural(stale, "capture is", "captures are") + " out of date: what is shown was changed since",
+         {.section = "Bake quality"},
+         bake});
+  if (missing > stale)
+    problems.push_back({captures.baked > 0 ? Severity::warning : Severity::note,
+                        captures.baked == 0 && stale == 0
+                            ? "Nothing is baked yet"
+                            : plural(missing - stale, "capture is", "captures are") + " not baked yet",
+                        {},
+                        bake});
+  if (facts.previews > 0)
+    problems.push_back({Severity::note,
+                        plural(std::size_t(facts.previews), "capture is", "captures are") +
+                            " only a preview or a draft so far",
+                        {},
+                        bake});
+}
+
+void addScene(Problems& problems, const ProblemFacts& facts) {
+  const std::string model = facts.built->project.scene.filename().string();
+  if (facts.scene.state == SceneFiles::State::missing)
+    problems.push_back({Severity::error,
+                        fmt::format("The model {} is not where it was; {}", model,
+                                    facts.scene.fromCache ? "it is shown as it was last imported"
+                                                          : "nothing of it can be shown"),
+                        {.section = "Scene"},
+                        ProblemFix{"Locate…", "file.locate"}});
+  if (facts.scene.state == SceneFiles::State::changed)
+    problems.push_back({Severity::warning,
+                        fmt::format("{} changed on disk since it was imported",
+                                    facts.scene.changed.size() == 1
+                                        ? facts.scene.changed.front().filename().string()
+                                        : fmt::format("{} files of the model", facts.scene.changed.size())),
+                        {.section = "Scene"},
+                        ProblemFix{"Import again", "file.reimport"}});
+  for (const std::string& line : facts.built->scene->report.ignored)
+    if (line.starts_with("texture "))
+      problems.push_back({Severity::warning, "Not shown: " + line, {.section = "Scene"}});
+}
+
+void addFiles(Problems& problems, const ProblemFacts& facts) {
+  if (facts.lockedBy)
+    problems.push_back({Severity::warning,
+                        "The project is read-only here: it is open at " + describe(*facts.lockedBy),
+                        {},
+                        ProblemFix{"Save as…", "file.saveAs"}});
+  if (facts.projectFileChanged)
+    problems.push_back({Severity::warning,
+                        "Another program has changed the project's file",
+                        {},
+                        ProblemFix{"Reload", "file.reload"}});
+  if (facts.lost) problems.push_back({Severity::error, *facts.lost});
+  if (facts.diskShort)
+    problems.push_back(
+        {Severity::error,
+         fmt::format("The disk has {:.1f} GB free: too little for what the bake is expected to take",
+                     double(facts.freeBytes) / 1e9)});
+}
+
+}  // namespace
+
+std::vector<Problem> findProblems(const ProblemFacts& facts) {
+  Problems problems;
+  if (facts.built == nullptr) return problems;
+  addFiles(problems, facts);
+  addScene(problems, facts);
+  addLayout(problems, *facts.built->layout);
+  addCaptures(problems, facts);
+  if (facts.inspection != nullptr && facts.inspection->layout == facts.built->layout) {
+    addPlacement(problems, *facts.inspection);
+    addBudget(problems, *facts.inspection, facts.built->project.budget);
+  }
+  if (facts.foretoldHoles && *facts.foretoldHoles > kToleratedHoles)
+    problems.push_back(
+        {Severity::warning,
+         fmt::format("Captures will miss {:.1f} % of what is seen from the walkable area: holes",
+                     100 * *facts.foretoldHoles),
+         {.look = PlanLook::coverage}});
+  std::ranges::stable_sort(problems, std::greater(), &Problem::severity);
+  return problems;
+}
+
+int countProblems(const std::vector<Problem>& problems, Severity severity) {
+  return int(std::ranges::count(problems, severity, &Problem::severity));
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,140 @@
+#include "editor/session/sweep_watch.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "engine/base/contract.h"
+#include "engine/base/file.h"
+#include "engine/base/spawn.h"
+#include "engine/pipeline/knobs.h"
+
+namespace acentric::editor {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kLookInterval = 1;  // seconds
+constexpr int kNice = 10;
+constexpr const char* kLogFile = "last-run.log";
+
+/// What it wrote of a failure.
+std::string lastLineOf(const fs::path& log) {
+  constexpr std::size_t kMostLog = std::size_t(1) << 20;
+  auto text = readText(log, kMostLog);
+  if (!text) return {};
+  while (!text->empty() && text->back() == '\n') text->pop_back();
+  return text->substr(text->find_last_of("\n\r") + 1);
+}
+
+}  // namespace
+
+SweepWatch::SweepWatch(fs::path program) : program_(std::move(program)) {
+  std::error_code error;
+  if (program_.empty()) program_ = fs::read_symlink("/proc/self/exe", error).parent_path() / "acentric";
+}
+
+SweepWatch::~SweepWatch() { forgetProcess(); }
+
+/// Asked to end, it writes what it knows; what does not end soon is ended.
+void SweepWatch::forgetProcess() {
+  if (process_ <= 0) return;
+  stop();
+  constexpr int kPatience = 30;
+  for (int i = 0; i < kPatience && running(); ++i) {
+    lookAtProcess();
+    if (running()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  if (!running()) return;
+  ::kill(process_, SIGKILL);
+  while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  process_ = 0;
+}
+
+void SweepWatch::watch(const fs::path& project) {
+  if (project == project_) return;
+  forgetProcess();
+  project_ = project;
+  folder_ = project.empty() ? fs::path() : sweepFolderFor(project);
+  sweep_.reset();
+  trouble_.clear();
+  seen_ = {};
+  nextLook_ = 0;
+}
+
+Status SweepWatch::start(const SweepRequest& request) {
+  require(!project_.empty() && !running(), "a sweep is of a project's file, one at a time");
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) return fail(ErrorKind::unreadable, "cannot be made: " + error.message(), folder_.string());
+  std::vector<std::string> words{program_.string(),
+                                 "sweep",
+                                 project_.string(),
+                                 "--budget-minutes",
+                                 std::to_string(request.minutes),
+                                 "--frames",
+                                 std::to_string(request.frames),
+                                 "--size",
+                                 fmt::format("{}x{}", request.width, request.height)};
+  if (request.again) words.push_back("--again");
+  const auto started = spawnProgram(words, {-1, folder_ / kLogFile});
+  if (!started) return tl::unexpected(started.error());
+  process_ = *started;
+  ::setpriority(PRIO_PROCESS, id_t(process_), kNice);
+  stopping_ = false;
+  trouble_.clear();
+  nextLook_ = 0;
+  return {};
+}
+
+void SweepWatch::stop() {
+  if (!running()) return;
+  stopping_ = true;
+  ::kill(process_, SIGINT);
+}
+
+bool SweepWatch::lookAtProcess() {
+  if (process_ <= 0) return false;
+  int status = 0;
+  const pid_t got = ::waitpid(process_, &status, WNOHANG);
+  if (got == 0 || (got < 0 && errno == EINTR)) return false;
+  process_ = 0;
+  if (got > 0 && !stopping_ && !(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {
+    const std::string said = lastLineOf(folder_ / kLogFile);
+    trouble_ = said.empty() ? "The measuring ended without a word" : said;
+  }
+  return true;
+}
+
+bool SweepWatch::look() {
+  if (folder_.empty()) return false;
+  const fs::path file = folder_ / kSweepFile;
+  const FileLook now = lookAt(file);
+  if (now == seen_) return false;
+  seen_ = now;
+  const auto text = readText(file);
+  auto parsed = text ? parseSweep(*text, file.string()) : Result<Sweep>(tl::unexpected(text.error()));
+  if (parsed) {
+    sweep_ = std::make_shared<const Sweep>(std::move(*parsed));
+  } else {
+    sweep_.reset();
+    std::error_code error;
+    if (fs::exists(file, error)) trouble_ = parsed.error().describe();
+  }
+  return true;
+}
+
+bool SweepWatch::poll(double now) {
+  const bool ended = lookAtProcess();
+  if (!ended && now < nextLook_) return false;
+  nextLook_ = now + kLookInterval;
+  return look() || ended;
+}
+
+}  // namespace acentric::editor

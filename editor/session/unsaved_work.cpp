@@ -1,0 +1,111 @@
+#include "editor/session/unsaved_work.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "editor/session/project_lock.h"
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+
+namespace acentric::editor {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostBytes = std::size_t(64) << 20;
+constexpr const char* kEnding = ".unsaved.json";
+constexpr const char* kFormat = "acentric-unsaved";
+
+/// Or of one of another machine, of which nobody knows.
+bool isOfLivingProcess(const Json& json) {
+  LockOwner owner;
+  try {
+    owner.process = json.at("process");
+    owner.processStart = json.at("processStart");
+    owner.machine = json.at("machine");
+  } catch (const Json::exception&) {
+    return false;
+  }
+  return !isStale(owner);
+}
+
+Result<Json> readJson(const fs::path& autosave) {
+  const auto text = readText(autosave, kMostBytes);
+  if (!text) return tl::unexpected(text.error());
+  Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || json.value("format", "") != kFormat)
+    return fail(ErrorKind::malformed, "is no autosave that could be read", autosave.string());
+  return json;
+}
+
+}  // namespace
+
+fs::path unsavedWorkFolder() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  if (state != nullptr && *state == '/') return fs::path(state) / "acentric" / "unsaved";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && *home != '\0') return fs::path(home) / ".local/state/acentric/unsaved";
+  return {};
+}
+
+fs::path unsavedWorkFile(const fs::path& folder, const fs::path& projectFile) {
+  const std::string key = Hasher().text(projectFile.string()).finish().toHex();
+  return folder / fmt::format("{}-{}{}", key, ::getpid(), kEnding);
+}
+
+Status writeUnsavedWork(const fs::path& folder, const fs::path& projectFile, const Project& project) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(), folder.string());
+  const LockOwner owner = thisOwner();
+  const Json json = {{"format", kFormat},
+                     {"file", projectFile.string()},
+                     {"since", owner.since},
+                     {"process", owner.process},
+                     {"processStart", owner.processStart},
+                     {"machine", owner.machine},
+                     {"project", Json::parse(formatProject(project))}};
+  return writeTextAtomically(unsavedWorkFile(folder, projectFile),
+                             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Result<UnsavedWork> readUnsavedWork(const fs::path& autosave) {
+  const auto json = readJson(autosave);
+  if (!json) return tl::unexpected(json.error());
+  try {
+    auto project = parseProject(json->at("project").dump(), autosave.string());
+    if (!project) return tl::unexpected(project.error());
+    return UnsavedWork{autosave, json->at("file").get<std::string>(), json->at("since"), std::move(*project)};
+  } catch (const Json::exception&) {
+    return fail(ErrorKind::malformed, "is no autosave that could be read", autosave.string());
+  }
+}
+
+UnsavedWorks listUnsavedWork(const fs::path& folder) {
+  UnsavedWorks list;
+  std::error_code error;
+  if (folder.empty()) return list;
+  std::vector<std::pair<fs::file_time_type, UnsavedWork>> found;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.path().filename().string().ends_with(kEnding)) continue;
+    const auto json = readJson(entry.path());
+    if (json && isOfLivingProcess(*json)) continue;
+    std::error_code ignored;
+    auto work = readUnsavedWork(entry.path());
+    if (work)
+      found.emplace_back(entry.last_write_time(ignored), std::move(*work));
+    else
+      list.damaged.push_back(entry.path());
+  }
+  std::ranges::sort(found, std::greater(), [](const auto& each) { return each.first; });
+  for (auto& [time, work] : found) list.works.push_back(std::move(work));
+  return list;
+}
+
+}  // namespace acentric::editor
