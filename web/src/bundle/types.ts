@@ -1,0 +1,143 @@
+/** A bundle's index, as bundle.json has it (engine/export/FORMAT.md), checked. Metres, radians, Z up. */
+
+import type { Polygon } from '../geometry/polygon';
+import type { Vec2, Vec3 } from '../geometry/vector';
+
+export interface FileRef {
+  file: string; // relative to bundle.json
+  bytes: number;
+  hash: string; // XXH3-128 of the file
+}
+
+/** A camera whose picture's columns are vertical half-planes (engine/geometry/column_camera.h). */
+export interface ColumnCamera {
+  centre: Vec3;
+  lowAzimuth: number;
+  fov: number;
+  topElevation: number;
+  bottomElevation: number;
+  columns: number;
+  rows: number;
+}
+
+export interface CaptureRef extends FileRef {
+  samples: number; // reflections included
+}
+
+export interface CameraRef {
+  middle: number; // azimuth that it looks to
+  position: Vec2;
+  full: CaptureRef | undefined;
+  coarse: CaptureRef | undefined;
+}
+
+/** One side of the line through two points; with `left`, points left of it. */
+export interface HalfPlane {
+  from: Vec2;
+  to: Vec2;
+  left: boolean;
+}
+
+export interface Piece {
+  camera: number;
+  clip: HalfPlane | undefined; // samples beyond it are another piece's
+  roles: number; // bits of the samples that it draws
+}
+
+export type Hand = 'counterClockwise' | 'clockwise';
+
+export interface Cover {
+  hand: Hand;
+  pieces: Piece[];
+}
+
+export interface LocalRef extends FileRef {
+  triangles: number;
+}
+
+export interface Region {
+  polygon: Polygon; // where the eye stands
+  grown: Polygon; // nothing in it is drawn from captures
+  neighbours: number[];
+  covers: Cover[];
+  panoramas: Cover[];
+  local: LocalRef | undefined;
+}
+
+export interface Start {
+  position: Vec2;
+  yaw: number;
+}
+
+export interface Storey {
+  name: string;
+  eyeZ: number;
+  nearBand: number;
+  start: Start;
+  outline: Polygon[]; // rings, the border and its holes; empty: the regions alone bound the walk
+  cameras: CameraRef[];
+  topElevation: number; // of its captures: what lies steeper is the sky
+  bottomElevation: number;
+  regions: Region[];
+}
+
+export interface TextureUse {
+  texture: number;
+  uvSet: 0 | 1;
+  transform: readonly [number, number, number, number, number, number]; // 2x3, row by row
+}
+
+export interface Material {
+  baseColour: readonly [number, number, number, number];
+  baseTexture: TextureUse | undefined;
+  emissive: Vec3;
+  emissiveTexture: TextureUse | undefined;
+  alphaMode: 'opaque' | 'mask' | 'blend';
+  alphaCutoff: number;
+  transmission: number;
+  unlit: boolean;
+}
+
+export type Wrap = 'repeat' | 'mirror' | 'clamp';
+
+export interface Texture extends FileRef {
+  wrapU: Wrap;
+  wrapV: Wrap;
+  nearest: boolean;
+}
+
+/** A plane with mirrors on it. Its sides are mirrors 1 + 2 n (towards the normal) and 2 + 2 n. */
+export interface MirrorPlane {
+  normal: Vec3;
+  point: Vec3;
+}
+
+export interface Sky {
+  zenith: Vec3;
+  horizon: Vec3;
+  ground: Vec3;
+}
+
+export interface Bookmark {
+  name: string;
+  storey: number;
+  eye: Vec3;
+  yaw: number;
+  pitch: number;
+}
+
+export interface Bundle {
+  name: string;
+  exposure: number;
+  fov: number; // horizontal, that the walk begins with
+  maxSplatPixels: number;
+  sky: Sky;
+  bounds: { min: Vec3; max: Vec3 } | undefined;
+  storeys: Storey[];
+  storey: number; // where the walk begins
+  materials: Material[];
+  textures: Texture[];
+  mirrors: MirrorPlane[];
+  bookmarks: Bookmark[];
+}
+

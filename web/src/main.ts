@@ -1,0 +1,180 @@
+/** The page: opens the bundle beside it (or within it) and connects the walk with buttons, keys and messages. */
+
+import { kIndexName, readIndex } from './bundle/read_index';
+import type { Bundle } from './bundle/types';
+import type { Pose } from './geometry/view';
+import { keepSettings, loadSettings, type Settings } from './settings';
+import { LoaderPool } from './stream/pool';
+import { sourceFor } from './stream/source';
+import { Controls } from './ui/controls';
+import { Minimap } from './ui/minimap';
+import { Messages } from './ui/messages';
+import { element, SettingsPanel } from './ui/panel';
+import { Walk } from './walk';
+
+const canvas = element<HTMLCanvasElement>('view');
+const messages = new Messages(element('messages'));
+
+/** #at=x,y,yaw,pitch in metres and degrees. */
+function poseOfAddress(eyeZ: number): Pose | undefined {
+  const numbers = /^#at=(-?[\d.]+),(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)$/.exec(location.hash)?.slice(1).map(Number);
+  if (!numbers || !numbers.every(Number.isFinite)) return undefined;
+  const [x, y, yaw, pitch] = numbers;
+  return { eye: [x, y, eyeZ], yaw: (yaw * Math.PI) / 180, pitch: (pitch * Math.PI) / 180 };
+}
+
+function openGraphics(): WebGL2RenderingContext {
+  const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, stencil: false, powerPreference: 'high-performance' });
+  if (!gl)
+    throw new Error(
+      'This browser shows no WebGL2, which the walk is drawn with. Try a current Firefox, Chrome, Edge or Safari, or turn on ' +
+        'hardware acceleration in its settings.',
+    );
+  return gl;
+}
+
+class Page {
+  private readonly walk: Walk;
+  private readonly panel: SettingsPanel;
+  private readonly map = new Minimap(element('plan'), element('legend'));
+
+  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool) {
+    const controls: Controls = new Controls(
+      canvas, (dx, dy) => this.walk.look(dx, dy), () => this.walk.wake(), (key) => this.command(key, controls),
+    );
+    this.walk = new Walk(canvas, gl, bundle, settings, pool, () => controls.takeMovement(), {
+      drawn: () => this.drawn(),
+      failed: () => this.failed(),
+      stopped: () => this.keepAddress(),
+    });
+    this.panel = new SettingsPanel(this.walk, () => {
+      keepSettings(settings);
+      this.walk.settingsChanged();
+      this.showToggles();
+    });
+    this.connectTools();
+    this.showToggles();
+    document.title = `${bundle.name} – walk`;
+    element('name').textContent = bundle.name;
+    canvas.setAttribute('aria-label', `The walk through ${bundle.name}`);
+    if (!this.walk.canFill) messages.show('fill', 'This browser cannot draw into floating-point pictures: holes stay black.');
+    this.goToAddress();
+    window.addEventListener('hashchange', () => this.goToAddress());
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.walk.contextLost();
+      messages.show('lost', 'The browser took the graphics card away. The walk goes on when it gives it back …');
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      messages.hide('lost');
+      this.walk.contextRestored();
+    });
+    Object.assign(window, { acentric: this.walk });
+  }
+
+  private goToAddress(): void {
+    const pose = poseOfAddress(this.walk.current.eyeZ);
+    if (pose) this.walk.go(pose);
+  }
+
+  /** So that a reload, or a copied address, shows the same view. */
+  private keepAddress(): void {
+    const { eye, yaw, pitch } = this.walk.pose;
+    const degrees = (radians: number) => ((radians * 180) / Math.PI).toFixed(1);
+    try {
+      history.replaceState(null, '', `#at=${eye[0].toFixed(2)},${eye[1].toFixed(2)},${degrees(yaw)},${degrees(pitch)}`);
+    } catch {
+      // Some browsers refuse it to pages within pages, or when it comes too often.
+    }
+  }
+
+  private command(key: string, controls: Controls): boolean {
+    const buttons: { [key: string]: string } = { m: 'tool-map', h: 'tool-holes', o: 'tool-settings', '?': 'tool-help' };
+    const button = buttons[key.toLowerCase()];
+    if (button) element(button).click();
+    else if (key.toLowerCase() === 'l') controls.lockPointer();
+    else if (key === 'Home') this.walk.go(this.walk.startPose());
+    else if (key === 'Escape') this.closePanels();
+    else return false;
+    return true;
+  }
+
+  private connectTools(): void {
+    const { settings } = this.walk;
+    const toggle = (name: 'map' | 'holes') =>
+      element(`tool-${name}`).addEventListener('click', () => {
+        settings[name] = !settings[name];
+        keepSettings(settings);
+        this.showToggles();
+        this.walk.redraw();
+      });
+    toggle('map');
+    toggle('holes');
+    for (const name of ['settings', 'help'])
+      element(`tool-${name}`).addEventListener('click', () => {
+        const open = element(name).hidden;
+        this.closePanels();
+        element(name).hidden = !open;
+        element(`tool-${name}`).setAttribute('aria-expanded', String(open));
+        if (open) element(name).querySelector<HTMLElement>('select, input')?.focus();
+      });
+  }
+
+  private closePanels(): void {
+    for (const name of ['settings', 'help']) {
+      if (element(name).contains(document.activeElement)) element(`tool-${name}`).focus();
+      element(name).hidden = true;
+      element(`tool-${name}`).setAttribute('aria-expanded', 'false');
+    }
+  }
+
+  private showToggles(): void {
+    const { settings } = this.walk;
+    for (const name of ['map', 'holes'] as const) element(`tool-${name}`).setAttribute('aria-pressed', String(settings[name]));
+    element('map').hidden = !settings.map;
+    this.drawn();
+  }
+
+  private drawn(): void {
+    const { walk } = this, { facts, pose } = walk;
+    const region = walk.region;
+    const storey = walk.bundle.storeys.length > 1 ? `${walk.current.name}, ` : '';
+    element('place').textContent = `${storey}region ${region + 1} of ${walk.current.regions.length}` + (walk.loading > 0 ? ', loading …' : '');
+    const times = walk.times.summary;
+    if (times)
+      element('times').textContent =
+        `${times.median.toFixed(0)} ms a frame, worst ${times.worst.toFixed(0)} · ${(facts.samples / 1e6).toFixed(1)} M samples`;
+    if (walk.settings.map) {
+      const view = walk.view();
+      this.map.draw(walk.current, walk.regions.box, {
+        eye: [pose.eye[0], pose.eye[1]], yaw: pose.yaw, fov: 2 * Math.atan((0.5 * view.width) / view.focal),
+        region, captures: facts.captures, isFull: walk.isFull,
+      });
+    }
+    this.panel.show();
+  }
+
+  private failed(): void {
+    const failures = [...this.walk.failures.values()];
+    if (failures.length === 0) return messages.hide('files');
+    const [first] = failures;
+    const more = failures.length > 1 ? ` (and ${failures.length - 1} more files)` : '';
+    const instead = first.file.startsWith('captures/') ? ' Its coarse capture stands in.' : '';
+    messages.show('files', `${first.file}: ${first.reason}.${instead}${more}`, 'Try again', () => {
+      messages.hide('files');
+      this.walk.retry();
+    });
+  }
+}
+
+async function open(): Promise<void> {
+  const source = sourceFor(kIndexName);
+  const gl = openGraphics();
+  const pool = new LoaderPool(source, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
+  const bundle = readIndex(await source.text(kIndexName));
+  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI, bundle.maxSplatPixels), gl, pool);
+}
+
+open().catch((error: unknown) => {
+  messages.fatal(error instanceof Error ? error.message : String(error));
+});

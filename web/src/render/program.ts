@@ -1,0 +1,159 @@
+/** Shader programs by their files and the effects compiled in, made when first used. */
+
+import background from './shaders/background.frag?raw';
+import backgroundVert from './shaders/background.vert?raw';
+import clearLayer from './shaders/clear_layer.frag?raw';
+import copy from './shaders/copy.frag?raw';
+import cracksFind from './shaders/cracks_find.frag?raw';
+import cracksOpen from './shaders/cracks_open.frag?raw';
+import depth from './shaders/depth.glsl?raw';
+import fillApply from './shaders/fill_apply.frag?raw';
+import fillReduce from './shaders/fill_reduce.frag?raw';
+import localFrag from './shaders/local.frag?raw';
+import localVert from './shaders/local.vert?raw';
+import pointsFrag from './shaders/points.frag?raw';
+import pointsVert from './shaders/points.vert?raw';
+// As the engine's own renderer has them.
+import colour from '../../../shaders/colour.glsl?raw';
+import fill from '../../../shaders/fill.glsl?raw';
+import fillExpand from '../../../shaders/fill_expand.frag?raw';
+import wholePicture from '../../../shaders/whole_picture.vert?raw';
+
+const sources = {
+  'background.frag': background, 'background.vert': backgroundVert,
+  'clear_layer.frag': clearLayer, 'colour.glsl': colour, 'copy.frag': copy,
+  'cracks_find.frag': cracksFind, 'cracks_open.frag': cracksOpen, 'depth.glsl': depth, 'fill.glsl': fill,
+  'fill_apply.frag': fillApply, 'fill_expand.frag': fillExpand, 'fill_reduce.frag': fillReduce,
+  'local.frag': localFrag, 'local.vert': localVert, 'points.frag': pointsFrag, 'points.vert': pointsVert,
+  'whole_picture.vert': wholePicture,
+};
+export type ShaderFile = keyof typeof sources;
+
+const kPreamble = '#version 300 es\nprecision highp float;\nprecision highp int;\n';
+
+/** ESSL of a file, its includes put in. */
+export function shaderText(file: ShaderFile, defines: readonly string[]): string {
+  const expand = (name: ShaderFile): string =>
+    sources[name].replace(/^#include "(.*)"$/gm, (_, included: string) => expand(included as ShaderFile));
+  return kPreamble + defines.map((name) => `#define ${name}\n`).join('') + expand(file);
+}
+
+export class Program {
+  private readonly locations = new Map<string, WebGLUniformLocation | null>();
+
+  constructor(private readonly gl: WebGL2RenderingContext, readonly handle: WebGLProgram) {}
+
+  use(): this {
+    this.gl.useProgram(this.handle);
+    return this;
+  }
+  at(name: string): WebGLUniformLocation | null {
+    let location = this.locations.get(name);
+    if (location === undefined) this.locations.set(name, (location = this.gl.getUniformLocation(this.handle, name)));
+    return location;
+  }
+  float = (name: string, value: number) => this.gl.uniform1f(this.at(name), value);
+  int = (name: string, value: number) => this.gl.uniform1i(this.at(name), value);
+  uint = (name: string, value: number) => this.gl.uniform1ui(this.at(name), value);
+  vec2 = (name: string, x: number, y: number) => this.gl.uniform2f(this.at(name), x, y);
+  vec3 = (name: string, v: readonly [number, number, number]) => this.gl.uniform3f(this.at(name), ...v);
+  vec4 = (name: string, v: readonly [number, number, number, number]) => this.gl.uniform4f(this.at(name), ...v);
+  /** `m` row by row. */
+  mat3 = (name: string, m: readonly number[]) => this.gl.uniformMatrix3fv(this.at(name), true, m);
+  /** A texture at a unit of its own. */
+  texture(name: string, unit: number, texture: WebGLTexture): void {
+    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
+    this.gl.uniform1i(this.at(name), unit);
+  }
+}
+
+/** Compiled or, as drivers do it beside other work, on its way. */
+interface Started {
+  handle: WebGLProgram;
+  shaders: { shader: WebGLShader; file: ShaderFile }[];
+  defines: readonly string[];
+}
+
+export class Programs {
+  private readonly started = new Map<string, Started>();
+  private readonly made = new Map<string, Program>();
+  private readonly noAttributes: WebGLVertexArrayObject;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.noAttributes = gl.createVertexArray()!;
+  }
+
+  get(vertex: ShaderFile, fragment: ShaderFile, defines: readonly string[] = []): Program {
+    const key = [vertex, fragment, ...defines].join(' ');
+    let program = this.made.get(key);
+    if (!program) this.made.set(key, (program = this.finish(this.start(vertex, fragment, defines))));
+    return program;
+  }
+
+  /** A program that covers the picture; draw it with `drawWhole`. */
+  whole = (fragment: ShaderFile, defines: readonly string[] = []) => this.get('whole_picture.vert', fragment, defines).use();
+
+  drawWhole(): void {
+    this.gl.bindVertexArray(this.noAttributes);
+    this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
+  }
+
+  /** Begins to compile what will be needed, and does not wait. */
+  start(vertex: ShaderFile, fragment: ShaderFile, defines: readonly string[] = []): Started {
+    const key = [vertex, fragment, ...defines].join(' ');
+    let started = this.started.get(key);
+    if (!started) {
+      const { gl } = this, handle = gl.createProgram()!;
+      const shaders = ([[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]] as const).map(([type, file]) => {
+        const shader = gl.createShader(type)!;
+        gl.shaderSource(shader, shaderText(file, defines));
+        gl.compileShader(shader);
+        gl.attachShader(handle, shader);
+        return { shader, file };
+      });
+      gl.linkProgram(handle);
+      this.started.set(key, (started = { handle, shaders, defines }));
+    }
+    return started;
+  }
+
+  private finish({ handle, shaders, defines }: Started): Program {
+    const { gl } = this;
+    if (!gl.getProgramParameter(handle, gl.LINK_STATUS) && !gl.isContextLost()) {
+      const logs = shaders.map(({ shader, file }) => `${file} (${defines.join(' ')}): ${gl.getShaderInfoLog(shader) ?? ''}`);
+      throw new Error(`this graphics driver does not compile the viewer's shaders: ${gl.getProgramInfoLog(handle)} ${logs.join(' ')}`);
+    }
+    return new Program(gl, handle);
+  }
+}
+
+/** One level, nothing between its texels. */
+export function makeTexture(gl: WebGL2RenderingContext, format: number, width: number, height: number): WebGLTexture {
+  const texture = gl.createTexture()!;
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  return texture;
+}
+
+export const kTexelsAcross = 2048; // of textures that hold arrays, as shaders have it
+
+/** An array of texels of `channels` values as a texture kTexelsAcross wide. */
+export function arrayTexture(
+  gl: WebGL2RenderingContext, internal: number, format: number, type: number, channels: number,
+  values: Float32Array | Uint32Array | Uint16Array,
+): WebGLTexture {
+  const texels = Math.max(1, values.length / channels), width = Math.min(kTexelsAcross, texels);
+  const height = Math.ceil(texels / width);
+  const texture = makeTexture(gl, internal, width, height);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  const whole = Math.floor(values.length / channels / width);
+  if (whole > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, whole, format, type, values, 0);
+  const rest = values.length / channels - whole * width;
+  if (rest > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, whole, rest, 1, format, type, values, whole * width * channels);
+  return texture;
+}

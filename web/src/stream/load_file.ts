@@ -1,0 +1,37 @@
+/** Fetches a file, checks that it is what the index says, and makes of it what is drawn. */
+
+import { contentHash, DamagedFile } from '../bundle/block_file';
+import { readCapture } from '../bundle/capture';
+import { readLocal } from '../bundle/local';
+import type { FileRef } from '../bundle/types';
+import type { Loaded, Request } from './messages';
+
+async function fetched(url: string, file: FileRef, again: boolean): Promise<Uint8Array> {
+  let response: Response;
+  try {
+    response = await fetch(url, { cache: again ? 'reload' : 'default' });
+  } catch {
+    throw new DamagedFile('the server does not answer');
+  }
+  if (response.status === 404) throw new DamagedFile('it is missing on the server');
+  if (!response.ok) throw new DamagedFile(`the server answers ${response.status}`);
+  const declared = Number(response.headers.get('Content-Length') ?? 0);
+  if (declared > 4 * file.bytes + 65536) throw new DamagedFile('it is far larger than the index says');
+  return new Uint8Array(await response.arrayBuffer());
+}
+
+/** The file's bytes, which are what was exported. */
+export async function checkedBytes(bytes: Uint8Array, file: FileRef): Promise<Uint8Array> {
+  if (bytes.length !== file.bytes) throw new DamagedFile(`it has ${bytes.length} bytes instead of ${file.bytes}`);
+  if ((await contentHash(bytes)) !== file.hash) throw new DamagedFile('it is damaged: its contents do not fit its hash');
+  return bytes;
+}
+
+export async function loadFile(request: Request): Promise<Loaded> {
+  const { task, file } = request;
+  const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
+  if (task.kind === 'capture') return { kind: 'capture', capture: await readCapture(bytes, task.exposure) };
+  if (task.kind === 'local') return { kind: 'local', local: await readLocal(bytes, task.materials, task.origin) };
+  const blob = new Blob([bytes as BlobPart], { type: 'image/png' });
+  return { kind: 'texture', picture: await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion: 'none' }) };
+}

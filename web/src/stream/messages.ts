@@ -1,0 +1,24 @@
+/** What the page and its workers tell each other. */
+
+import type { Capture } from '../bundle/capture';
+import type { LocalGeometry } from '../bundle/local';
+import type { FileRef, Material } from '../bundle/types';
+import type { Vec3 } from '../geometry/vector';
+
+export type Task =
+  | { kind: 'capture'; exposure: number }
+  | { kind: 'local'; materials: Material[]; origin: Vec3 }
+  | { kind: 'texture' };
+
+export interface Request {
+  id: number;
+  task: Task;
+  file: FileRef;
+  url: string | undefined; // absolute; undefined: `bytes` has the file
+  bytes: Uint8Array | undefined;
+  again: boolean; // past what caches say
+}
+
+export type Loaded = { kind: 'capture'; capture: Capture } | { kind: 'local'; local: LocalGeometry } | { kind: 'texture'; picture: ImageBitmap };
+
+export type Answer = { id: number; loaded: Loaded } | { id: number; error: string };

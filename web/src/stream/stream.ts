@@ -1,0 +1,178 @@
+/** Keeps what the eye needs and is walking towards on the graphics card, within a limit of memory. */
+
+import { bytesOfCapture } from '../bundle/capture';
+import { bytesOfLocal } from '../bundle/local';
+import type { Bundle, FileRef, Storey } from '../bundle/types';
+import { centroid, distanceTo } from '../geometry/polygon';
+import { distance2 } from '../geometry/vector';
+import type { GpuLocal } from '../render/local_pass';
+import type { GpuCapture } from '../render/point_pass';
+import type { Renderer } from '../render/renderer';
+import { Cache } from './cache';
+import type { LoaderPool } from './pool';
+import { camerasInOrder, keyOf, wantedItems, type Item, type Viewer } from './wanted';
+
+const kSampleBytes = 12, kTriangleBytes = 3 * 64; // on the graphics card, about
+
+type Held = { kind: 'capture'; gpu: GpuCapture } | { kind: 'local'; gpu: GpuLocal };
+
+export interface Failure {
+  file: string;
+  reason: string;
+}
+
+export class Stream {
+  /** By file. */
+  readonly failures = new Map<string, Failure>();
+  private readonly failedItems = new Set<string>();
+  private readonly cache: Cache<Held>;
+  private readonly underWay = new Set<string>();
+  private readonly textures = new Map<number, Promise<void>>();
+  private readonly measured = new Map<string, number>(); // bytes
+  private viewer: Viewer | undefined;
+  private retrying = false;
+  private closed = false;
+  limit = 1 << 30; // bytes
+
+  constructor(
+    private readonly bundle: Bundle, private readonly storey: Storey, private readonly renderer: Renderer,
+    private readonly pool: LoaderPool, private readonly changed: () => void, private readonly failed: (failure: Failure) => void,
+  ) {
+    this.cache = new Cache((held) => (held.kind === 'capture' ? renderer.deleteCapture(held.gpu) : renderer.deleteLocal(held.gpu)));
+  }
+
+  get bytes(): number {
+    return this.cache.bytes;
+  }
+  get loading(): number {
+    return this.underWay.size;
+  }
+
+  capture(camera: number, full: boolean): GpuCapture | undefined {
+    const of = (grade: 'full' | 'coarse') => this.cache.get({ grade, number: camera });
+    const held = full ? of('full') ?? of('coarse') : of('coarse') ?? of('full');
+    return held?.kind === 'capture' ? held.gpu : undefined;
+  }
+  isFull = (camera: number) => this.cache.has({ grade: 'full', number: camera });
+  local(region: number): GpuLocal | undefined {
+    const held = this.cache.get({ grade: 'local', number: region });
+    return held?.kind === 'local' ? held.gpu : undefined;
+  }
+
+  fileOf(item: Item): FileRef {
+    return item.grade === 'local' ? this.storey.regions[item.number].local! : this.storey.cameras[item.number][item.grade]!;
+  }
+
+  /** What it took when it was there; were only the guess believed, what does not quite fit would come and go for ever. */
+  private bytesOf(item: Item): number {
+    const known = this.measured.get(keyOf(item));
+    if (known !== undefined) return known;
+    if (item.grade === 'local') return this.storey.regions[item.number].local!.triangles * kTriangleBytes;
+    return this.storey.cameras[item.number][item.grade]!.samples * kSampleBytes;
+  }
+
+  private distanceOf(item: Item): number {
+    const { eye } = this.viewer!;
+    if (item.grade === 'local') return distanceTo(this.storey.regions[item.number].polygon, eye);
+    return distance2(this.storey.cameras[item.number].position, eye);
+  }
+
+  /** After the eye has moved, or settings have changed. */
+  update(viewer: Viewer): void {
+    this.viewer = viewer;
+    this.pump();
+  }
+
+  private pump(): void {
+    if (this.closed || !this.viewer || this.viewer.region < 0) return;
+    const { viewer } = this;
+    const wanted = wantedItems(this.storey, viewer, (item) => this.failedItems.has(keyOf(item)));
+    // What the picture cannot do without: one capture of each camera, and what is near.
+    const needed = new Set(camerasInOrder(this.storey, viewer.region, viewer.eye, viewer.yaw)).size + 1;
+    const missing = this.cache.plan(wanted, needed, this.limit, (item) => this.bytesOf(item), (item) => this.distanceOf(item));
+    for (const item of missing) {
+      if (this.pool.room === 0) break;
+      if (!this.underWay.has(keyOf(item))) void this.fetch(item);
+    }
+  }
+
+  private async fetch(item: Item): Promise<void> {
+    const key = keyOf(item), file = this.fileOf(item);
+    this.underWay.add(key);
+    try {
+      if (item.grade === 'local') await this.fetchLocal(item, file);
+      else {
+        const loaded = await this.pool.load({ kind: 'capture', exposure: this.bundle.exposure }, file, this.retrying);
+        if (loaded.kind !== 'capture' || this.closed) return;
+        const bytes = bytesOfCapture(loaded.capture);
+        this.measured.set(key, bytes);
+        this.cache.add(item, { kind: 'capture', gpu: this.renderer.uploadCapture(loaded.capture) }, bytes);
+      }
+      this.changed();
+    } catch (error) {
+      this.failedItems.add(key);
+      this.fail(file.file, error);
+    } finally {
+      this.underWay.delete(key);
+      this.pump();
+    }
+  }
+
+  private async fetchLocal(item: Item, file: FileRef): Promise<void> {
+    const [x, y] = centroid(this.storey.regions[item.number].polygon);
+    const { materials } = this.bundle;
+    const loaded = await this.pool.load({ kind: 'local', materials, origin: [x, y, this.storey.eyeZ] }, file, this.retrying);
+    if (loaded.kind !== 'local') return;
+    const used = loaded.local.batches.flatMap((batch) => {
+      const { baseTexture, emissiveTexture } = materials[batch.material];
+      return [baseTexture, emissiveTexture].flatMap((use) => (use ? [use.texture] : []));
+    });
+    await Promise.all([...new Set(used)].map((texture) => this.texture(texture)));
+    if (this.closed) return;
+    const bytes = bytesOfLocal(loaded.local);
+    this.measured.set(keyOf(item), bytes);
+    this.cache.add(item, { kind: 'local', gpu: this.renderer.uploadLocal(loaded.local) }, bytes);
+  }
+
+  /** Each once; without it its surfaces are drawn plain. */
+  private texture(number: number): Promise<void> {
+    let done = this.textures.get(number);
+    if (!done) {
+      const file = this.bundle.textures[number];
+      done = this.pool.load({ kind: 'texture' }, file, this.retrying).then(
+        (loaded) => {
+          if (loaded.kind !== 'texture' || this.closed) return;
+          this.renderer.uploadTexture(number, loaded.picture);
+          loaded.picture.close();
+        },
+        (error: unknown) => {
+          this.textures.delete(number);
+          this.fail(file.file, error);
+        },
+      );
+      this.textures.set(number, done);
+    }
+    return done;
+  }
+
+  private fail(file: string, error: unknown): void {
+    if (this.closed) return;
+    const failure: Failure = { file, reason: error instanceof Error ? error.message : String(error) };
+    const known = this.failures.has(file);
+    this.failures.set(file, failure);
+    if (!known) this.failed(failure);
+  }
+
+  /** Asks once more for what could not be had. */
+  retry(): void {
+    this.failures.clear();
+    this.failedItems.clear();
+    this.retrying = true; // past caches that may hold what was damaged
+    this.pump();
+  }
+
+  close(): void {
+    this.closed = true;
+    this.cache.clear();
+  }
+}

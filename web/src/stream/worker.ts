@@ -1,0 +1,24 @@
+/** A worker: requests in, answers out, their arrays handed over instead of copied. */
+
+import { warmUp } from '../bundle/block_file';
+import { loadFile } from './load_file';
+import type { Answer, Loaded, Request } from './messages';
+
+function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transferable> {
+  if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+  else if (value instanceof ArrayBuffer || value instanceof ImageBitmap) found.add(value);
+  else if (typeof value === 'object' && value !== null) Object.values(value).forEach((inner) => handedOver(inner, found));
+  return found;
+}
+
+const answer = (message: Answer, loaded?: Loaded) => self.postMessage(message, { transfer: [...handedOver(loaded)] });
+
+self.onmessage = (event: MessageEvent<Request>) => {
+  const { id } = event.data;
+  loadFile(event.data).then(
+    (loaded) => answer({ id, loaded }, loaded),
+    (error: unknown) => answer({ id, error: error instanceof Error ? error.message : String(error) }),
+  );
+};
+
+void warmUp();
