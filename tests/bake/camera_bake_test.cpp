@@ -51,6 +51,28 @@ TEST(BakeCamera, MeasuresTheWallsOfARoomExactly) {
   EXPECT_GT(checked, baked.capture.sampleCount() / 2);
 }
 
+TEST(BakeCamera, RoundsDistancesAsMuchAsTheSettingsAllow) {
+  const auto scene = room().rays();
+  const LayoutCamera camera = cameraAt({0.5, 0}, {square(1)});
+  BakeSettings settings = firstOnly();
+  const Baked usual = bakeFrom(scene, camera, settings);
+  ASSERT_GT(usual.capture.distanceStep, 0);
+  settings.distanceShift = 4 * kUsualDistanceShift;
+  const Baked coarse = bakeFrom(scene, camera, settings);
+  EXPECT_EQ(coarse.capture.distanceStep, 4 * usual.capture.distanceStep);
+  settings.distanceShift = 0;
+  const Baked fine = bakeFrom(scene, camera, settings);
+  EXPECT_EQ(fine.capture.distanceStep, 0);
+  ASSERT_EQ(fine.capture.sampleCount(), coarse.capture.sampleCount());
+  double worst = 0;
+  for (std::size_t i = 0; i < fine.capture.sampleCount(); ++i)
+    worst = std::max(
+        worst, std::abs(double(fine.capture.inverseDistance[i]) - double(coarse.capture.inverseDistance[i])));
+  EXPECT_GT(worst, 0.25 * coarse.capture.distanceStep);
+  EXPECT_LE(worst, 0.51 * coarse.capture.distanceStep);
+  EXPECT_TRUE(coarse.capture.check());
+}
+
 TEST(BakeCamera, SkipsWhatStandsInsideTheServedRegion) {
   SceneBuilder builder = room();
   builder.box(builder.material(matte()), {1, -0.5f, 1}, {1.5f, 0.5f, 2});  // an exhibit

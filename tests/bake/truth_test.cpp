@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/conventions.h"
@@ -78,6 +79,29 @@ TEST(Truth, MoreSamplesPerPixelAverageAnEdge) {
   EXPECT_EQ(frame.colour.at(31, 20), encodeForDisplay(glm::vec3(0.5f), 1));
   EXPECT_EQ(frame.colour.at(32, 20), encodeForDisplay(glm::vec3(0.25f), 1));
   EXPECT_EQ(frame.colour.at(33, 20), encodeForDisplay(glm::vec3(0), 1));
+}
+
+TEST(ViewDependentPixels, AreThoseOfMetalsMirrorsAndGlass) {
+  Material metal = matte(), clear = matte(), glass = matte(), blended = matte();
+  metal.metallic = 1, metal.roughness = 0.4f;
+  clear.alphaMode = blended.alphaMode = AlphaMode::blend;
+  clear.baseColour.a = 0, blended.baseColour.a = 0.5f;
+  glass.transmission = 0.9f;
+  const auto shareBehind = [](const Material& front, const Material& back) {
+    SceneBuilder builder;
+    builder.quad(builder.material(front), {4, 9, -9}, {4, -9, -9}, {4, -9, 9}, {4, 9, 9});
+    builder.quad(builder.material(back), {5, 12, -12}, {5, -12, -12}, {5, -12, 12}, {5, 12, 12})
+        .sky(glm::vec3(1));
+    TaskRunner runner(1);
+    const Image<std::uint8_t> pixels = viewDependentPixels(*builder.rays(), smallView(), runner);
+    return double(std::ranges::count(pixels.pixels, 1)) / double(pixels.pixels.size());
+  };
+  EXPECT_EQ(shareBehind(matte(), metal), 0) << "hidden";
+  EXPECT_EQ(shareBehind(metal, matte()), 1);
+  EXPECT_EQ(shareBehind(glass, matte()), 1);
+  EXPECT_EQ(shareBehind(blended, metal), 1);
+  EXPECT_EQ(shareBehind(blended, matte()), 0);
+  EXPECT_EQ(shareBehind(clear, matte()), 0);
 }
 
 TEST(Exposure, BringsTheTypicalRadianceToMiddleGreyWhateverItsUnit) {

@@ -151,7 +151,12 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
   for (const char* damage :
        {"", "{", "[1,2]", R"({"recent":7,"walkWidth":"x","bakeThreads":-5,"settingsWidth":1e99})"}) {
     std::ofstream(file, std::ios::trunc) << damage;
-    const Preferences fallback = loadPreferences(file);
+    std::string problem;
+    const Preferences fallback = loadPreferences(file, &problem);
+    const bool unusable = *damage != '{' || damage[1] == '\0';
+    EXPECT_EQ(!problem.empty(), unusable) << damage;
+    EXPECT_EQ(fs::exists(file.string() + ".damaged"), unusable) << "kept, not written over";
+    fs::remove(file.string() + ".damaged");
     EXPECT_TRUE(fallback.recent.empty()) << damage;
     EXPECT_EQ(fallback.settingsWidth, Preferences().settingsWidth) << damage;
     EXPECT_EQ(fallback.bakeThreads, 0) << damage;
@@ -163,17 +168,15 @@ TEST_F(FilesTest, AutosaveNeverTouchesTheProjectAndIsOfferedOnlyWhenItDiffers) {
   project.scene = "room.obj";
   const fs::path file = folder_ / "a" / "room.acentric.json";
   ASSERT_TRUE(saveProject(project, file));
-  EXPECT_FALSE(recoverableAutosave(file, project).has_value());
+  EXPECT_EQ(recoverableAutosave(file, project).value(), std::nullopt);
   Project edited = project;
   edited.layout().cellSize = 3.5;
   ASSERT_TRUE(writeAutosave(edited, file));
   EXPECT_EQ(*loadProject(file), project);
-  const auto found = recoverableAutosave(file, project);
-  ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(*found, edited);
-  EXPECT_FALSE(recoverableAutosave(file, edited).has_value());
+  EXPECT_EQ(recoverableAutosave(file, project).value(), edited);
+  EXPECT_EQ(recoverableAutosave(file, edited).value(), std::nullopt);
   std::ofstream(autosaveFileFor(file), std::ios::trunc) << "{ half a fi";
-  EXPECT_FALSE(recoverableAutosave(file, project).has_value());
+  EXPECT_FALSE(recoverableAutosave(file, project).has_value()) << "it cannot be read, and says so";
   removeAutosave(file);
   EXPECT_FALSE(fs::exists(autosaveFileFor(file)));
 }

@@ -1,81 +1,20 @@
 /// The session without a window, on a real model: opened through the import process, edited, baked, saved,
 /// reopened.
 
-#include "editor/session/session.h"
-
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
 #include "editor/commands/storey_edits.h"
 #include "editor/session/project_files.h"
 #include "engine/inspect/refine.h"
+#include "tests/editor/session_fixture.h"
 
 namespace acentric::editor {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A closed room 6 x 5 x 3 m, Y up, faces inwards.
-void writeRoom(const fs::path& file) {
-  std::ofstream(file) << "v -3 0 -2.5\nv 3 0 -2.5\nv 3 0 2.5\nv -3 0 2.5\n"
-                         "v -3 3 -2.5\nv 3 3 -2.5\nv 3 3 2.5\nv -3 3 2.5\n"
-                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-}
-
-class SessionTest : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("acentric_session_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    writeRoom(folder_ / "room.obj");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  SessionOptions options() const {
-    SessionOptions options;
-    options.importHost.importer = ACENTRIC_IMPORTER;
-    options.importHost.cacheFolder = folder_ / "cache";
-    options.preferencesFile = folder_ / "editor.json";
-    options.processors = 2;
-    options.autosaveSeconds = 0;
-    return options;
-  }
-  /// Lets jobs work until `done`; fails after a minute.
-  void waitFor(Session& session, const std::function<bool()>& done) {
-    for (int i = 0; i < 12000 && !done(); ++i) {
-      session.poll(now_);
-      now_ += 0.05;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    for (const Message& message : session.messages().all())
-      if (message.level == MessageLevel::error) ADD_FAILURE() << message.text;
-    ASSERT_TRUE(done());
-  }
-  void openAndSettle(Session& session, const fs::path& file) {
-    session.open(file);
-    waitFor(session, [&] { return session.walk() && !session.working(); });
-  }
-  /// Coarse, so that a bake takes a moment.
-  static void makeCoarse(Session& session) {
-    BakeSettings bake = session.project().bake;
-    bake.samplesPerDegree = 0.5;
-    bake.ambientRays = 0;
-    bake.surfaceTexel = 0.5;
-    session.apply(setBakeSettings(session.project(), bake, "coarse"));
-    session.apply(setCellSize(session.project(), 2.5));
-  }
-
-  fs::path folder_;
-  double now_ = 0;
-};
 
 TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
   const fs::path file = folder_ / "room.acentric.json";
@@ -112,6 +51,36 @@ TEST_F(SessionTest, FromAModelToABakedSavedAndReopenedProject) {
   again.startBake();
   waitFor(again, [&] { return again.lastBake().has_value() && !again.working(); });
   EXPECT_EQ(again.lastBake()->captures.baked, 0);
+}
+
+TEST_F(SessionTest, CapturesThatTurnOutToBeDamagedAreToldOfAndNoLongerCountAsBaked) {
+  const fs::path file = folder_ / "room.acentric.json";
+  {
+    Session session(options());
+    openAndSettle(session, folder_ / "room.obj");
+    makeCoarse(session);
+    waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+    ASSERT_TRUE(session.saveAs(file));
+    session.startBake();
+    waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(captureFolderFor(file))) {
+    if (entry.path().extension() != ".pack" && entry.path().extension() != ".exr") continue;
+    const auto before = fs::last_write_time(entry.path());
+    std::fstream bytes(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
+    bytes.seekp(std::streamoff(entry.file_size() / 2));
+    bytes.write("damaged", 7);
+    bytes.close();
+    fs::last_write_time(entry.path(), before);  // as the disk's failure leaves it
+  }
+  Session again(options());
+  again.open(file);
+  waitFor(again, [&] { return again.walk() && !again.working() && again.captures()->baked == 0; });
+  EXPECT_TRUE(told(again, "set aside as *.damaged; bake again"));
+  EXPECT_TRUE(told(again, "more like these"));
+  again.startBake();
+  waitFor(again, [&] { return !again.working() && again.captures()->complete(); });
+  EXPECT_EQ(again.walk()->missing, 0);
 }
 
 TEST_F(SessionTest, ABakeIsPausedGoneOnWithAndCancelled) {

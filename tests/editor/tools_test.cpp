@@ -21,7 +21,7 @@ class PlanToolTest : public testing::Test {
   }
   PlanIntent send(PointerEvent::Kind kind, const glm::dvec2& world, int button = ui::mouse::left,
                   int modifiers = 0) {
-    const PlanSituation situation{&spec_, &selection_, eye_, kScale};
+    const PlanSituation situation{&spec_, &selection_, eye_, kScale, {-1e3, -1e3}, {1e3, 1e3}, {}};
     return tool_.handle({kind, button, modifiers, {world.x * kScale, -world.y * kScale}, world}, situation);
   }
   PlanIntent click(const glm::dvec2& world, int modifiers = 0) {
@@ -41,28 +41,92 @@ TEST_F(PlanToolTest, AClickOnAFreePlaceAddsThatCell) {
   EXPECT_EQ(std::get<AddCellIntent>(intent).cell, cellAt(spec_, {6, 2}).id);
 }
 
-TEST_F(PlanToolTest, AClickOnAPlacedCellSelectsItShiftTogglesControlRemoves) {
-  const CellId cell = cellAt(spec_, {0, 0}).id;
+TEST_F(PlanToolTest, AClickOnAPlacedCellSelectsItShiftAddsControlToggles) {
+  const CellId cell = cellAt(spec_, {0, 0}).id, other{7, 7, 0};
   EXPECT_EQ(std::get<SelectIntent>(click({0.1, 0})).cells, std::set<CellId>{cell});
-  selection_ = {cell};
-  EXPECT_TRUE(std::get<SelectIntent>(click({0.1, 0}, ui::modifier::shift)).cells.empty());
-  EXPECT_EQ(std::get<RemoveCellIntent>(click({0.1, 0}, ui::modifier::control)).cell, cell);
+  selection_ = {other};
+  EXPECT_EQ(std::get<SelectIntent>(click({0.1, 0}, ui::modifier::shift)).cells,
+            (std::set<CellId>{cell, other}));
+  selection_ = {cell, other};
+  EXPECT_EQ(std::get<SelectIntent>(click({0.1, 0}, ui::modifier::shift)).cells,
+            (std::set<CellId>{cell, other}));
+  EXPECT_EQ(std::get<SelectIntent>(click({0.1, 0}, ui::modifier::control)).cells, std::set<CellId>{other});
 }
 
-TEST_F(PlanToolTest, DraggingACellMovesItToTheNearestFreeSlotOnce) {
+TEST_F(PlanToolTest, ADragWithShiftOrControlDrawsABoxFromWhereverItBegins) {
+  for (const glm::dvec2 from : {glm::dvec2(6, 2), glm::dvec2(0.1, 0)}) {
+    send(PointerEvent::Kind::press, from, ui::mouse::left, ui::modifier::shift);
+    EXPECT_FALSE(tool_.marquee()) << "not dragged yet";
+    send(PointerEvent::Kind::move, {3, -1});
+    ASSERT_TRUE(tool_.marquee());
+    const auto box = std::get<MarqueeIntent>(send(PointerEvent::Kind::release, {2, -2}));
+    EXPECT_EQ(box.low, glm::min(from, glm::dvec2(2, -2)));
+    EXPECT_EQ(box.high, glm::max(from, glm::dvec2(2, -2)));
+    EXPECT_EQ(box.how, Combine::add);
+  }
+  send(PointerEvent::Kind::press, {6, 2}, ui::mouse::left, ui::modifier::control);
+  send(PointerEvent::Kind::move, {3, -1});
+  EXPECT_EQ(std::get<MarqueeIntent>(send(PointerEvent::Kind::release, {3, -1})).how, Combine::toggle);
+  send(PointerEvent::Kind::press, {6, 2}, ui::mouse::left, ui::modifier::shift);
+  send(PointerEvent::Kind::move, {3, -1});
+  EXPECT_TRUE(tool_.cancel());
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(send(PointerEvent::Kind::release, {3, -1})));
+}
+
+TEST_F(PlanToolTest, ClicksWithModifiersOnFreeGroundAddNothing) {
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(click({6, 2}, ui::modifier::shift)));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(click({6, 2}, ui::modifier::control)));
+}
+
+TEST_F(PlanToolTest, DraggingACellMovesItByTheNearestStepOnce) {
   const CellId from = cellAt(spec_, {0, 0}).id;
   send(PointerEvent::Kind::press, {0.1, 0.1});
   for (int i = 1; i <= 20; ++i) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(send(PointerEvent::Kind::move, {0.1 + 0.2 * i, 0.1})));
   }
-  ASSERT_TRUE(tool_.cellDrag().has_value());
-  const CellId landing = tool_.cellDrag()->to;
-  const PlanIntent intent = send(PointerEvent::Kind::release, {4.1, 0.1});
-  ASSERT_TRUE(std::holds_alternative<MoveCellIntent>(intent));
-  EXPECT_EQ(std::get<MoveCellIntent>(intent).from, from);
-  EXPECT_EQ(std::get<MoveCellIntent>(intent).to, landing);
-  EXPECT_NE(landing, from);
+  ASSERT_NE(tool_.cellDrag(), nullptr);
+  const auto intent = std::get<MoveCellsIntent>(send(PointerEvent::Kind::release, {4.1, 0.1}));
+  EXPECT_EQ(intent.cells, std::set<CellId>{from});
+  EXPECT_NE(intent.step, LatticeStep{});
+  const CellId to{from.i + intent.step.i, from.j + intent.step.j, from.slot};
+  EXPECT_EQ(to, nearestSlot(spec_, from, cellPolygon(spec_, from).centroid() + glm::dvec2(4, 0)));
   EXPECT_FALSE(tool_.capturing());
+}
+
+TEST_F(PlanToolTest, DraggingASelectedCellTakesTheOthersAlongAnotherOneGoesAlone) {
+  const CellId near = cellAt(spec_, {0, 0}).id, far = cellAt(spec_, {6, 2}).id;
+  spec_.added.insert(far);
+  selection_ = {near, far};
+  const auto drag = [&] {
+    send(PointerEvent::Kind::press, {0.1, 0.1});
+    send(PointerEvent::Kind::move, {4, 0});
+    return std::get<MoveCellsIntent>(send(PointerEvent::Kind::release, {4, 0})).cells;
+  };
+  EXPECT_EQ(drag(), selection_);
+  selection_ = {far};
+  EXPECT_EQ(drag(), std::set<CellId>{near});
+}
+
+TEST_F(PlanToolTest, EscapeTakesTheRulerAway) {
+  tool_.setMode(PlanMode::measure);
+  send(PointerEvent::Kind::press, {20, 20});
+  send(PointerEvent::Kind::move, {23, 24});
+  send(PointerEvent::Kind::release, {23, 24});
+  ASSERT_TRUE(tool_.measureTool().ruler());
+  EXPECT_TRUE(tool_.cancel());
+  EXPECT_FALSE(tool_.measureTool().ruler());
+  EXPECT_FALSE(tool_.cancel());
+}
+
+TEST_F(PlanToolTest, ADragOfFreeGroundDrawsARectangleOfTheOutline) {
+  tool_.setMode(PlanMode::outline);
+  send(PointerEvent::Kind::press, {4, 3});
+  send(PointerEvent::Kind::move, {1, 2});
+  EXPECT_EQ(tool_.outlineTool().rectangle().size(), 4U);
+  const auto intent = std::get<OutlineIntent>(send(PointerEvent::Kind::release, {0, 1}));
+  ASSERT_EQ(intent.outline.loops.size(), 1U);
+  EXPECT_NEAR(intent.outline.area(), 8, 1e-12);
+  EXPECT_TRUE(tool_.outlineTool().rectangle().empty());
 }
 
 TEST_F(PlanToolTest, ACellThatIsDraggedBackOrCancelledStays) {

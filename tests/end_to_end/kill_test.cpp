@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -44,13 +45,15 @@ TEST(KilledBake, FinishesNextTimeWithoutBakingAnythingTwice) {
   const int cameras = Json::parse(whole.output)["baked"].get<int>();
 
   std::mt19937 random(20030117);
+  double seconds = whole.seconds;  // the least that a bake took: the machine may have other work now and then
   int interrupted = 0, halfway = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 10 || (round < 40 && (interrupted < 8 || halfway < 3)); ++round) {
     fs::remove_all(project.captures());
     const double share = std::uniform_real_distribution<double>(0.1, 0.75)(random);
     const auto killed =
-        acentric({"bake", project.file()}, std::chrono::milliseconds(int(whole.seconds * share * 1000)));
+        acentric({"bake", project.file()}, std::chrono::milliseconds(int(seconds * share * 1000)));
     interrupted += killed.signal == 9;
+    if (killed.signal != 9) seconds = std::min(seconds, killed.seconds);
     const auto before = finishedCaptures(project.captures());
     halfway += !before.empty() && int(before.size()) < 2 * cameras;
 
@@ -66,7 +69,7 @@ TEST(KilledBake, FinishesNextTimeWithoutBakingAnythingTwice) {
     const auto validated = acentric({"validate", project.file()});
     EXPECT_EQ(validated.exitCode, 0) << validated.output;
   }
-  EXPECT_GE(interrupted, 8) << "most rounds must really be interrupted";
+  EXPECT_GE(interrupted, 8) << "rounds must really be interrupted";
   EXPECT_GE(halfway, 3) << "some rounds must be interrupted between the first and the last capture";
 }
 

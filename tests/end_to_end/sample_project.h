@@ -21,10 +21,13 @@ inline ProcessResult acentric(std::vector<std::string> arguments,
 /// A copy of the gallery and a coarse project of it.
 class SampleProject {
  public:
-  explicit SampleProject(const std::string& name) : folder_(name) {
+  /// `outline`: of where one walks, metres.
+  explicit SampleProject(const std::string& name,
+                         const std::string& outline = "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5")
+      : folder_(name) {
     std::filesystem::copy_file(ACENTRIC_SAMPLE_SCENE, folder_.path() / "gallery.glb");
     made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree",
-                      "1", "--cell", "2.5", "--outline", "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5"});
+                      "1", "--cell", "2.5", "--outline", outline});
     Json project = read();
     project["bake"]["ambientRays"] = 4;
     project["bake"]["surfaceTexel"] = 0.5;

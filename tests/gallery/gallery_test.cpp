@@ -211,20 +211,23 @@ TEST_F(Gallery, LeavesRoomToWalk) {
       }
 }
 
-TEST_F(Gallery, TheSamplesWalkKeepsItsDistance) {
-  const auto text = readText(fs::path(ACENTRIC_SOURCE_FOLDER) / "projects/gallery/paths/walk.json");
-  ASSERT_TRUE(text.has_value()) << text.error().describe();
-  const auto frames = nlohmann::json::parse(*text).at("frames");
-  EXPECT_EQ(frames.size(), 60u);
+TEST_F(Gallery, TheSamplesWalksKeepTheirDistance) {
   const auto triangles = placed();
-  for (const auto& frame : frames) {
-    const glm::vec3 eye(frame.at("eye").at(0), frame.at("eye").at(1), frame.at("eye").at(2));
-    for (const float z : {0.3f, eye.z})
-      for (int i = 0; i < 16; ++i) {
-        const float angle = 0.3926991f * static_cast<float>(i);
-        EXPECT_GT(nearest(triangles, {eye.x, eye.y, z}, {std::cos(angle), std::sin(angle), 0}), 0.2f)
-            << frame;
-      }
+  for (const char* name : {"walk", "aisles", "turning"}) {
+    const auto text =
+        readText(fs::path(ACENTRIC_SOURCE_FOLDER) / "projects/gallery/paths" / (std::string(name) + ".json"));
+    ASSERT_TRUE(text.has_value()) << text.error().describe();
+    const auto frames = nlohmann::json::parse(*text).at("frames");
+    EXPECT_EQ(frames.size(), 60u);
+    for (const auto& frame : frames) {
+      const glm::vec3 eye(frame.at("eye").at(0), frame.at("eye").at(1), frame.at("eye").at(2));
+      for (const float z : {0.3f, eye.z})
+        for (int i = 0; i < 16; ++i) {
+          const float angle = 0.3926991f * static_cast<float>(i);
+          EXPECT_GT(nearest(triangles, {eye.x, eye.y, z}, {std::cos(angle), std::sin(angle), 0}), 0.2f)
+              << name << " " << frame;
+        }
+    }
   }
 }
 

@@ -61,11 +61,12 @@ state() { grep '^event state' "$WORK/ui.log" | tail -1; }
 # field NAME: number behind a word of the newest state line
 field() { state | sed -nE "s/.* $1 ([0-9]+).*/\1/p"; }
 
+# rect NAME: the line of a widget that is shown; fails without a word where it is not
+rect() { grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1 | grep '^rect'; }
 # place NAME: centre of a widget that is shown, "x y"
 place() {
   local line
-  line=$(grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1)
-  case "$line" in rect*) ;; *) fail "widget $1 is not shown" ;; esac
+  line=$(rect "$1") || fail "widget $1 is not shown"
   echo "$line" | awk '{ printf "%d %d\n", ($3 + $5) / 2, ($4 + $6) / 2 }'
 }
 
@@ -83,6 +84,17 @@ click() {
 press() { xdotool keydown "$1"; sleep "${2:-0.25}"; xdotool keyup "$1"; sleep 0.2; }
 press_with() {  # press_with MODIFIER KEY
   xdotool keydown "$1"; sleep 0.1; press "$2"; xdotool keyup "$1"; sleep 0.2
+}
+# The window is left by Ctrl+Q, and the editor ends well.
+leave_editor() {
+  local code
+  press_with ctrl q
+  for _ in $(seq 100); do kill -0 "$EDITOR_PID" 2>/dev/null || break; sleep 0.1; done
+  kill -0 "$EDITOR_PID" 2>/dev/null && fail "Ctrl+Q did not leave"
+  wait "$EDITOR_PID"
+  code=$?
+  [ "$code" -eq 0 ] || fail "the editor ended with $code: $(cat "$WORK/editor.out")"
+  EDITOR_PID=
 }
 # drag_to X0 Y0 X1 Y1
 drag_to() {

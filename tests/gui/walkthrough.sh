@@ -7,33 +7,14 @@ EDITOR=$1
 ACENTRIC=$2
 WORK=$3
 . "$(dirname "$0")/support.sh"
+. "$(dirname "$0")/room.sh"
 need_tools
 rm -rf "$WORK"
 mkdir -p "$WORK/config" "$WORK/cache"
 export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
 trap stop_all EXIT
 
-# A closed room, 6 x 5 x 3 m, faces inwards.
-cat >"$WORK/room.obj" <<'OBJ'
-v -3 0 -2.5
-v 3 0 -2.5
-v 3 0 2.5
-v -3 0 2.5
-v -3 3 -2.5
-v 3 3 -2.5
-v 3 3 2.5
-v -3 3 2.5
-f 4 3 2 1
-f 5 6 7 8
-f 1 2 6 5
-f 2 3 7 6
-f 3 4 8 7
-f 4 1 5 8
-OBJ
-PROJECT=$WORK/room.acentric.json
-"$ACENTRIC" new "$WORK/room.obj" -o "$PROJECT" --cell 1.2 --samples-per-degree 1 --outline "-1.8,-1.2;1.8,-1.2;1.8,1.2;-1.8,1.2" \
-  >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
-
+make_room
 start_display
 start_editor "$PROJECT"
 wait_for '^event message Opened' 60
@@ -120,13 +101,7 @@ sleep 3
 USED=$(($(ticks) - BEFORE))
 [ "$USED" -le 15 ] || fail "an idle window used $USED hundredths of a second in 3 s"
 
-press_with ctrl q
-for _ in $(seq 100); do kill -0 "$EDITOR_PID" 2>/dev/null || break; sleep 0.1; done
-kill -0 "$EDITOR_PID" 2>/dev/null && fail "Ctrl+Q did not leave"
-wait "$EDITOR_PID"
-CODE=$?
-[ "$CODE" -eq 0 ] || fail "the editor ended with $CODE: $(cat "$WORK/editor.out")"
-EDITOR_PID=
+leave_editor
 grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
 "$ACENTRIC" validate "$PROJECT" >/dev/null || fail "the saved project is not valid"
 echo "passed: $REGIONS regions and one added, $CAPTURES captures, screenshot $WORK/screenshot.png"

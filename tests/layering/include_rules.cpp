@@ -25,6 +25,7 @@ const std::vector<Home>& homes() {
   static const std::vector<Home> table{
       {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/"}},
       {"Cairo", {"cairo"}, {"engine/picture/"}},
+      {"libpng", {"png.h"}, {"engine/export/"}},
       {"OpenEXR", {"OpenEXR/", "Imath/", "ImfArray", "Imf"}, {"engine/store/"}},
       {"zstd", {"zstd"}, {"engine/store/", "engine/scene/"}},
       {"tinygltf", {"tiny_gltf", "tinygltf"}, {"engine/scene/"}},

@@ -180,5 +180,109 @@ TEST(ContactSheet, LaysPicturesInAGrid) {
   EXPECT_TRUE(contactSheet({}, 3).empty());
 }
 
+/// Wang, Simoncelli and Bovik 2003, equation 7, from the definitions: windows by sums over their pixels.
+double slowMsSsim(Image<double> a, Image<double> b) {
+  const double weights[] = {0.0448, 0.2856, 0.3001, 0.2363, 0.1333};
+  const double c1 = 6.5025, c2 = 58.5225;
+  double product = 1;
+  for (int scale = 0; scale < 5; ++scale) {
+    const int across = std::min(11, a.width), down = std::min(11, a.height);
+    double whole = 0, structure = 0;
+    int windows = 0;
+    for (int y = 0; y + down <= a.height; ++y)
+      for (int x = 0; x + across <= a.width; ++x, ++windows) {
+        double norm = 0, sumA = 0, sumB = 0, squareA = 0, squareB = 0, both = 0;
+        for (int j = 0; j < down; ++j)
+          for (int i = 0; i < across; ++i) {
+            const double u = i - 0.5 * (across - 1), v = j - 0.5 * (down - 1);
+            const double w = std::exp(-(u * u + v * v) / 4.5), p = a.at(x + i, y + j), q = b.at(x + i, y + j);
+            norm += w, sumA += w * p, sumB += w * q;
+            squareA += w * p * p, squareB += w * q * q, both += w * p * q;
+          }
+        const double ma = sumA / norm, mb = sumB / norm;
+        const double va = squareA / norm - ma * ma, vb = squareB / norm - mb * mb,
+                     cov = both / norm - ma * mb;
+        const double s = (2 * cov + c2) / (va + vb + c2);
+        structure += s;
+        whole += s * (2 * ma * mb + c1) / (ma * ma + mb * mb + c1);
+      }
+    product *= std::pow((scale == 4 ? whole : structure) / windows, weights[scale]);
+    const auto half = [](const Image<double>& image) {
+      Image<double> small((image.width + 1) / 2, (image.height + 1) / 2);
+      for (int y = 0; y < small.height; ++y)
+        for (int x = 0; x < small.width; ++x)
+          for (int k = 0; k < 4; ++k)
+            small.at(x, y) += 0.25 * image.at(std::min(2 * x + k % 2, image.width - 1),
+                                              std::min(2 * y + k / 2, image.height - 1));
+      return small;
+    };
+    a = half(a), b = half(b);
+  }
+  return product;
+}
+
+TEST(MultiScaleSimilarity, IsTheDefinition) {
+  const ColourImage a = smoothImage(97, 64), b = withNoise(a, 40, 5);
+  const auto lumaImage = [](const ColourImage& image) {
+    Image<double> out(image.width, image.height);
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] = luma(image.pixels[i]);
+    return out;
+  };
+  EXPECT_NEAR(msSsimOf(a, b), slowMsSsim(lumaImage(a), lumaImage(b)), 1e-9);
+  EXPECT_LT(msSsimOf(a, b), 0.99);
+}
+
+TEST(MultiScaleSimilarity, IsOneForTheSameFallsWithNoiseAndMindsFineNoiseLessThanSsimDoes) {
+  const ColourImage a = smoothImage(180, 180);
+  EXPECT_NEAR(msSsimOf(a, a), 1, 1e-12);
+  const double little = msSsimOf(a, withNoise(a, 10, 1)), much = msSsimOf(a, withNoise(a, 60, 1));
+  EXPECT_LT(much, little);
+  EXPECT_LT(little, 1);
+  EXPECT_GT(much, ssimOf(a, withNoise(a, 60, 1)));
+  EXPECT_GE(msSsimOf(randomImage(40, 40, 1), randomImage(40, 40, 2)), 0);
+}
+
+/// A wall square to the view, `metres` ahead, as drawn.
+struct Wall {
+  PerspectiveView view;
+  Frame frame;
+  FloatImage inverseZDepth, truth;
+  Wall(double drawn, double real) {
+    view.width = 32, view.height = 18;
+    view.yawRadians = 0.7, view.pitchRadians = 0.2;
+    frame.source = Image<PixelSource>(32, 18, 1);
+    inverseZDepth = FloatImage(32, 18, float(1 / drawn));
+    truth = FloatImage(32, 18);
+    const glm::dvec3 forward = view.rayThrough(16, 9);
+    for (int y = 0; y < 18; ++y)
+      for (int x = 0; x < 32; ++x)
+        truth.at(x, y) = float(real / glm::dot(forward, view.rayThrough(x + 0.5, y + 0.5)));
+  }
+  double error() const { return depthErrorOf(frame, inverseZDepth, view, truth); }
+};
+
+TEST(DepthError, IsNoneWhereSurfacesAreWhereTheyAre) { EXPECT_NEAR(Wall(3, 3).error(), 0, 1e-6); }
+
+TEST(DepthError, IsTheShareByWhichDistancesDifferEitherWay) {
+  EXPECT_NEAR(Wall(2, 4).error(), 0.5, 1e-6);
+  EXPECT_NEAR(Wall(4, 2).error(), 0.5, 1e-6);
+}
+
+TEST(DepthError, CountsSkyForASurfaceInFullAndSkyForSkyNotAtAll) {
+  Wall wall(2, 2);
+  wall.truth = FloatImage(32, 18, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(wall.error(), 1);
+  wall.inverseZDepth = FloatImage(32, 18, 0);
+  EXPECT_EQ(wall.error(), 0);
+}
+
+TEST(DepthError, LeavesHolesOut) {
+  Wall wall(2, 4);
+  for (int y = 0; y < 18; ++y) wall.frame.source.at(y, y) = kSourceInvented, wall.inverseZDepth.at(y, y) = -1;
+  EXPECT_NEAR(wall.error(), 0.5, 1e-6);
+  for (PixelSource& source : wall.frame.source.pixels) source = kSourceHole;
+  EXPECT_EQ(wall.error(), 0);
+}
+
 }  // namespace
 }  // namespace acentric

@@ -43,6 +43,54 @@ TEST_F(CameraPathTest, RefusesWithAPointerToTheCulprit) {
   EXPECT_THAT(refusalOf("{"), HasSubstr("JSON"));
 }
 
+/// 2 s eastwards while turning left over north by 20 degrees, then 1 s of looking up.
+CameraPath threePoses() {
+  return {{{{0, 0, 1.6}, radians(350.0), 0, 0},
+           {{4, 0, 1.6}, radians(10.0), 0, 2},
+           {{4, 0, 1.6}, radians(10.0), radians(30.0), 3}}};
+}
+
+TEST_F(CameraPathTest, TimesRoundTrip) {
+  ASSERT_TRUE(savePath(threePoses(), file_));
+  const auto back = loadPath(file_);
+  ASSERT_TRUE(back) << back.error().describe();
+  ASSERT_TRUE(back->timed());
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(back->poses[i].seconds, threePoses().poses[i].seconds);
+}
+
+TEST_F(CameraPathTest, RefusesTimesThatDoNotAscend) {
+  using testing::HasSubstr;
+  const auto frames = [](const std::string& list) { return R"({"version":1,"frames":[)" + list + "]}"; };
+  const std::string first = R"({"eye":[0,0,1],"seconds":0})", third = R"({"eye":[0,0,1],"seconds":2})";
+  EXPECT_EQ(refusalOf(frames(first + "," + third)), "accepted");
+  EXPECT_THAT(refusalOf(frames(first + "," + third + "," + third)), HasSubstr("/frames/2"));
+  EXPECT_THAT(refusalOf(frames(third + "," + first)), HasSubstr("/frames/0"));
+  EXPECT_THAT(refusalOf(frames(first + R"(,{"eye":[0,0,1]},)" + third)), HasSubstr("/frames/1"));
+  EXPECT_THAT(refusalOf(frames(first + R"(,{"eye":[0,0,1],"seconds":1e9})")), HasSubstr("/frames/1"));
+  EXPECT_THAT(refusalOf(frames(first + R"(,{"eye":[0,0,1],"seconds":"2"})")), HasSubstr("seconds"));
+}
+
+TEST(PoseAt, MovesAndTurnsEvenlyTheShorterWayRound) {
+  const CameraPath path = threePoses();
+  const PathPose middle = poseAt(path, 1);
+  EXPECT_NEAR(middle.eye.x, 2, 1e-12);
+  EXPECT_NEAR(std::remainder(middle.yawRadians, kTwoPi), 0, 1e-12);
+  EXPECT_NEAR(poseAt(path, 2.5).pitchRadians, radians(15.0), 1e-12);
+  EXPECT_EQ(poseAt(path, -1), path.poses.front());
+  EXPECT_EQ(poseAt(path, 7), path.poses.back());
+  for (const PathPose& pose : path.poses) EXPECT_EQ(poseAt(path, pose.seconds), pose);
+}
+
+TEST(FramesOf, HoldsThirtyASecondAndTheLastPose) {
+  const CameraPath frames = framesOf(threePoses());
+  EXPECT_FALSE(frames.timed());
+  ASSERT_EQ(frames.poses.size(), 91u);
+  EXPECT_NEAR(frames.poses[15].eye.x, 1, 1e-9);
+  EXPECT_EQ(frames.poses.back().pitchRadians, threePoses().poses.back().pitchRadians);
+  EXPECT_TRUE(frames.check());
+  EXPECT_EQ(framesOf(frames), frames) << "one without times stays as it is";
+}
+
 Layout someLayout() {
   LayoutSpec spec;
   spec.cellSize = 1;

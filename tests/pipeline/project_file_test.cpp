@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/geometry/conventions.h"
+#include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/project.h"
 
 namespace acentric {
@@ -45,6 +46,13 @@ Project everythingSet() {
   project.storeys.push_back({"second [1, 2]", project.layout(), {{-3, 4}, radians(15.0)}});
   project.storeys.back().layout.floorHeight = 3.1;
   project.storey = 1;
+  project.bookmarks = {{"door", 0, {1, -2.5, 1.6}, radians(90.0), radians(-12.0), 75},
+                       {"attic \"window\"", 1, {0, 0, 4.7}, 0, 0, 60}};
+  project.paths = {{"there and back",
+                    1,
+                    {{{{0, 0, 4.7}, radians(10.0), 0, 0},
+                      {{1.0 / 3, 2, 4.7}, radians(-170.0), radians(5.0), 2.25},
+                      {{0, 0, 4.7}, radians(350.0), 0, 7}}}}};
   return project;
 }
 
@@ -141,6 +149,70 @@ TEST(ProjectFile, RefusesStoreysThatCannotBeToldApartOrFound) {
   EXPECT_NE(refusalOf(R"({"format":"acentric-project","version":1,"scene":"a.glb"})"), "accepted");
   EXPECT_THAT(refusalOf(storeys(R"({"name":"hall","layout":{"configuration":"b","cellSize":-2}})")),
               HasSubstr("/storeys/0/layout/cellSize"));
+}
+
+TEST(ProjectFile, SaysNothingOfBookmarksAndPathsWhereThereAreNone) {
+  Project project = everythingSet();
+  project.bookmarks.clear();
+  project.paths.clear();
+  const std::string text = formatProject(project);
+  EXPECT_THAT(text, testing::Not(HasSubstr("bookmarks")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("paths")));
+  EXPECT_EQ(*parseProject(text, "p"), project);
+}
+
+TEST(ProjectFile, KeyPosesStandOnALineEach) {
+  EXPECT_THAT(formatProject(everythingSet()), HasSubstr("[7.0, 0.0, 0.0, 4.7, 350.0, 0.0]"));
+}
+
+TEST(ProjectFile, RefusesHostileBookmarks) {
+  const auto refusal = [](const std::string& list) {
+    return refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"bookmarks":[)" + list + "]"));
+  };
+  const std::string door = R"({"name":"door","eye":[0,0,1.6]})";
+  EXPECT_EQ(refusal(door), "accepted");
+  EXPECT_THAT(refusal(door + "," + door), HasSubstr("/bookmarks/0/name: 'door'"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0]})"), HasSubstr("/bookmarks/0/eye"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0,1e300]})"), HasSubstr("/bookmarks/0/eye"));
+  EXPECT_THAT(refusal(R"({"name":"","eye":[0,0,0]})"), HasSubstr("/bookmarks/0/name"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0,0],"storey":"cellar"})"),
+              HasSubstr("/bookmarks/0/storey"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0,0],"pitchDegrees":91})"),
+              HasSubstr("/bookmarks/0/pitchDegrees"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0,0],"fovDegrees":0})"),
+              HasSubstr("/bookmarks/0/fovDegrees"));
+  EXPECT_THAT(refusal(R"({"name":"door","eye":[0,0,0],"colour":1})"), HasSubstr("/bookmarks/0"));
+}
+
+TEST(ProjectFile, RefusesHostilePaths) {
+  const auto refusal = [](const std::string& poses) {
+    return refusalOf(minimal(R"({"configuration":"b","cellSize":2})",
+                             R"(,"paths":[{"name":"walk","poses":[)" + poses + "]}]"));
+  };
+  EXPECT_EQ(refusal("[0,0,0,1.6,0,0],[1,2,0,1.6,0,0]"), "accepted");
+  EXPECT_THAT(refusal(""), HasSubstr("/paths/0/poses"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0]"), HasSubstr("/paths/0/poses/0"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0,\"up\"]"), HasSubstr("/paths/0/poses/0/5"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0,91]"), HasSubstr("/paths/0/poses/0"));
+  EXPECT_THAT(refusal("[1,0,0,1.6,0,0],[2,0,0,1.6,0,0]"), HasSubstr("/paths/0/poses/0"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0,0],[0,1,0,1.6,0,0]"), HasSubstr("/paths/0/poses/1"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0,0],[2,1,0,1.6,0,0],[1,1,0,1.6,0,0]"), HasSubstr("/paths/0/poses/2"));
+  EXPECT_THAT(refusal("[0,0,0,1.6,0,0],[9000000,1,0,1.6,0,0]"), HasSubstr("/paths/0/poses/1"));
+}
+
+TEST(ProjectFile, RemovingAStoreyTakesItsBookmarksAndPathsAlong) {
+  Project project = everythingSet();
+  Project below = project;
+  removeStorey(below, 0);
+  EXPECT_TRUE(below.check());
+  ASSERT_EQ(below.bookmarks.size(), 1u);
+  EXPECT_EQ(below.bookmarks[0].name, "attic \"window\"");
+  EXPECT_EQ(below.bookmarks[0].storey, 0);
+  EXPECT_EQ(below.paths[0].storey, 0);
+  removeStorey(project, 1);
+  EXPECT_TRUE(project.check());
+  EXPECT_TRUE(project.paths.empty());
+  EXPECT_EQ(project.storey, 0);
 }
 
 TEST(ProjectFile, RefusesUnknownKeys) {

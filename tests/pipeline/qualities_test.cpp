@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/pipeline/bake_plan.h"
 #include "tests/pipeline/small_project.h"
 #include "tests/store/temporary_folder.h"
 
@@ -47,6 +48,11 @@ TEST_F(Qualities, TheWalkShowsTheBestOfEachCamera) {
   EXPECT_EQ(coarseText(walk), fmt::format("{0} of {0} cameras are previews or drafts so far", cameras));
   EXPECT_EQ(walk.walk.captures[0]->camera.columns, 30) << "a quarter of the resolution";
   EXPECT_EQ(std::ranges::count(bakedCameras(open), true), 0) << "a preview is not the bake";
+  EXPECT_EQ(std::ranges::count(capturesOnDisk(open).stale, true), 0) << "nor is it of another project";
+  Project other = open.project;
+  other.layout().eyeHeight += 0.05;
+  const OpenProject changed = test::openWith(open.rays, other, open.file);
+  EXPECT_EQ(std::ranges::count(capturesOnDisk(changed).stale, true), cameras);
 
   request.cameras = std::vector{2};
   baked(open, request);

@@ -310,7 +310,8 @@ TEST_F(SlowWalk, StoppedItEndsWithinOneCapture) {
 
 class StoredWalk : public FolderTest {
  protected:
-  StoredWalk() {
+  void SetUp() override {
+    FolderTest::SetUp();
     test::SceneBuilder builder;
     builder.box(builder.material(test::matte()), {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5f}, 50);
     Project project = test::smallProject(0.8, 2);

@@ -54,6 +54,7 @@ class ImportProcess : public testing::Test {
   int entries() const {
     int count = 0;
     for (const auto& entry : fs::directory_iterator(host.cacheFolder)) {
+      if (entry.path().extension() == ".last") continue;  // what a path was last imported to
       EXPECT_EQ(entry.path().extension(), ".acscene");
       EXPECT_FALSE(entry.path().filename().string().starts_with(kTemporaryPrefix));
       ++count;
@@ -97,6 +98,23 @@ TEST_F(ImportProcess, AChangedTextureOrOptionIsImportedAfresh) {
   ASSERT_TRUE(scaled);
   EXPECT_NE((*scaled)->key, green->key);
   EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(ImportProcess, AModelThatIsGoneIsKnownAsItWasLastImported) {
+  EXPECT_EQ(lastImported(model, {}, host), nullptr);
+  import();
+  paint({0, 255, 0, 255});
+  const ScenePtr green = import();
+  fs::remove(model);
+  EXPECT_FALSE(importScene(model, {}, host));
+  const ScenePtr last = lastImported(model, {}, host);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->key, green->key);
+  EXPECT_EQ(last->name, model.stem());
+  EXPECT_EQ(lastImported(model, {2, UpAxis::guess, true}, host), nullptr) << "never imported like this";
+  for (const auto& entry : fs::directory_iterator(host.cacheFolder))
+    if (entry.path().extension() == ".last") std::ofstream(entry.path()) << "../../etc/passwd";
+  EXPECT_EQ(lastImported(model, {}, host), nullptr);
 }
 
 TEST_F(ImportProcess, ADamagedCacheEntryIsMadeAgain) {

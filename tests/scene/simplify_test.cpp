@@ -125,6 +125,40 @@ TEST(Simplify, StopsAtTheBudget) {
   EXPECT_TRUE(impossible->report.withinError);
 }
 
+TEST(Simplify, ReachesABudgetThatBordersForbidAndSaysWhatItTook) {
+  // Nine sheets apart: their open edges alone hold more triangles than are allowed.
+  std::vector<Mesh> sheets;
+  for (int k = 0; k < 9; ++k) {
+    Mesh mesh = sheet(20, bump);
+    for (glm::vec3& p : mesh.positions) p = p * (0.2f + 0.01f * float(k)) + glm::vec3(3 * k, 0, 0);
+    sheets.push_back(std::move(mesh));
+  }
+  const Scene scene = sceneOf(std::move(sheets));
+  const LocalGeometry full = clipToPolygon(scene, square(40));
+  const auto held = simplify(scene, full, {.mostTriangles = 120, .maxError = 10});
+  ASSERT_TRUE(held.has_value());
+  ASSERT_FALSE(held->report.withinBudget) << "borders stay as they are";
+  EXPECT_EQ(held->report.loosenedFrom, 0u);
+
+  const auto reached = simplify(scene, full, {.mostTriangles = 120, .maxError = 10, .reach = true});
+  ASSERT_TRUE(reached.has_value());
+  EXPECT_TRUE(reached->report.withinBudget);
+  EXPECT_GE(reached->report.after, 110u);
+  EXPECT_EQ(reached->report.loosenedFrom, held->report.after);
+  EXPECT_EQ(reached->report.piecesLeftOut, 0u) << "collapses suffice";
+  EXPECT_LT(reached->report.maxError, 0.2) << "open edges move last";
+  ASSERT_TRUE(reached->check(scene));
+
+  const auto fewest = simplify(scene, full, {.mostTriangles = 5, .maxError = 10, .reach = true});
+  ASSERT_TRUE(fewest.has_value());
+  EXPECT_TRUE(fewest->report.withinBudget);
+  EXPECT_GT(fewest->report.piecesLeftOut, 3u);
+  EXPECT_GE(fewest->report.trianglesLeftOut, fewest->report.piecesLeftOut);
+  for (const SimplifiedMesh& mesh : fewest->meshes)
+    EXPECT_GE(mesh.sceneMesh, 4u) << "the smallest are left out";
+  EXPECT_FALSE(simplify(scene, full, {.mostTriangles = 0, .reach = true}));
+}
+
 TEST(Simplify, LeavesTheRegionsRimAsItWasCut) {
   const Scene scene = sceneOf({sheet(40, bump)});
   const LocalGeometry full = clipToPolygon(scene, square(0.537));

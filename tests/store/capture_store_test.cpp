@@ -102,6 +102,25 @@ TEST_F(StoreTest, GivesBackWhatWasPut) {
   EXPECT_EQ(store.bytesOf(kSecond), 0u);
 }
 
+TEST_F(StoreTest, AdoptsWhatAnotherHasAndNeitherLosesItByTheOther) {
+  const CaptureStore from = openStore();
+  const auto to = CaptureStore::open(folder_ / "others");
+  ASSERT_TRUE(to);
+  ASSERT_TRUE(from.put(kFirst, capture_));
+  ASSERT_TRUE(from.putRecord(kFirst, "camera", {}));
+  ASSERT_TRUE(to->adopt(kFirst, from));
+  ASSERT_TRUE(to->adopt(kSecond, from)) << "there is nothing to adopt";
+  EXPECT_FALSE(to->has(kSecond));
+  EXPECT_EQ(to->inspect(kFirst)->condition, CaptureStore::Condition::sound);
+  EXPECT_TRUE(to->inspect(kFirst)->recorded);
+  damage(folder_ / "others" / (kFirst.toHex() + ".pack"));
+  ASSERT_TRUE(to->get(kFirst)) << "the pack is made anew";
+  ASSERT_TRUE(to->adopt(kFirst, from)) << "what is there stays";
+  EXPECT_EQ(from.check(kFirst).size(), 0u);
+  to->prune({});
+  EXPECT_TRUE(from.get(kFirst));
+}
+
 TEST_F(StoreTest, HalfAPairIsMissing) {
   const CaptureStore store = openStore();
   for (const char* extension : {".exr", ".pack"}) {

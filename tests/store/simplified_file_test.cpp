@@ -29,7 +29,7 @@ SimplifiedLocal randomSimplified(unsigned seed) {
   for (int n = 0; n < 300; ++n)
     s.triangles.push_back({{number(), number(), number()}, std::uint32_t(n % 3), number()});
   for (int n = 0; n < 500; ++n) s.lightPlaces.push_back({number(), {share(), share()}});
-  s.report = {5000, 300, 20, 3, 0.004, 0.0001, 777, true, false, 1.5, 12, 41.5, 0.75};
+  s.report = {5000, 300, 20, 3, 0.004, 0.0001, 777, true, false, 1.5, 12, 41.5, 0.75, 900, 7, 44};
   return s;
 }
 
@@ -65,6 +65,9 @@ void expectSame(const SimplifiedLocal& a, const SimplifiedLocal& b) {
   EXPECT_EQ(a.report.maxError, b.report.maxError);
   EXPECT_EQ(a.report.meanError, b.report.meanError);
   EXPECT_EQ(a.report.errorSamples, b.report.errorSamples);
+  EXPECT_EQ(a.report.loosenedFrom, b.report.loosenedFrom);
+  EXPECT_EQ(a.report.piecesLeftOut, b.report.piecesLeftOut);
+  EXPECT_EQ(a.report.trianglesLeftOut, b.report.trianglesLeftOut);
   EXPECT_EQ(a.report.withinError, b.report.withinError);
   EXPECT_EQ(a.report.withinBudget, b.report.withinBudget);
   EXPECT_EQ(a.report.seconds, b.report.seconds);

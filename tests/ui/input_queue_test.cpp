@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ui/keys.h"
+
 namespace acentric::ui {
 namespace {
 
@@ -36,6 +38,17 @@ TEST(InputQueue, MergesMovesThatFollowOneAnother) {
   const auto events = queue.take();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].position.x, 49);
+}
+
+TEST(InputQueue, ModifiersHoldFromTheirKeysPressToItsRelease) {
+  InputQueue queue;
+  queue.push({Kind::keyPress, key::leftShift, 0, {}, {}, 0});  // X11 tells what was held before it
+  EXPECT_EQ(queue.modifiers(), modifier::shift);
+  queue.push({Kind::move, 0, queue.modifiers(), {5, 5}, {}, 0});
+  queue.push({Kind::keyPress, key::rightControl, modifier::shift, {}, {}, 0});
+  EXPECT_EQ(queue.modifiers(), modifier::shift | modifier::control);
+  queue.push({Kind::keyRelease, key::leftShift, modifier::shift | modifier::control, {}, {}, 0});
+  EXPECT_EQ(queue.modifiers(), modifier::control);
 }
 
 TEST(InputQueue, LosingTheFocusReleasesWhatIsHeld) {

@@ -33,6 +33,16 @@ TEST(TextFormat, WritesNumbersForPeople) {
   EXPECT_EQ(formatPercent(0.12), "12 %");
 }
 
+TEST(TextFormat, ShowsDigitsOfSmallNumbers) {
+  EXPECT_EQ(withDigits("%.2f m", 1.6), "%.2f m");
+  EXPECT_EQ(withDigits("%.2f m", 0.12), "%.2f m");
+  EXPECT_EQ(withDigits("%.2f m", 0.05), "%.3f m");
+  EXPECT_EQ(withDigits("%.2f m", -0.0004), "%.5f m");
+  EXPECT_EQ(withDigits("%.2f m", 1e-12), "%.6f m");
+  EXPECT_EQ(withDigits("%.2f m", 0), "%.2f m");
+  EXPECT_EQ(withDigits("%d samples", 0.001), "%d samples");
+}
+
 TEST(TextFormat, ShortensPathsInTheMiddleWithoutCuttingCharacters) {
   const std::string path = "/home/someone/models/äöü/a very long folder/gallery.acentric.json";
   EXPECT_EQ(shortenPath(path, 200), path);

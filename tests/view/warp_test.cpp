@@ -74,6 +74,27 @@ TEST_P(ListPriority, IsTheSameForAnyThreadCountAndKernel) {
   }
 }
 
+TEST_P(ListPriority, InDoublesShowsTheSameButForRounding) {
+  const auto layout = test::layoutAroundOrigin(GetParam());
+  ASSERT_NE(layout, nullptr);
+  const int region = *layout->regionAt({0.1, 0.05});
+  const WalkScene scene = test::walkScene(test::randomBoxes(6, 40, 3.4), layout, region, 3, 3);
+  RandomViews views(17);
+  constexpr Reconstruction kAll[] = {Reconstruction::point, Reconstruction::splat, Reconstruction::filtered};
+  for (int round = 0; round < 6; ++round) {
+    const Reconstruction reconstruction = kAll[round % 3];
+    const PerspectiveView view = views.next(*layout, region, 60);
+    ViewSettings settings = plainSettings(Renderer::scalar);
+    settings.reconstruction = reconstruction;
+    const Frame floats = frameOf(scene, view, settings);
+    settings.renderer = Renderer::precise;
+    const Frame doubles = frameOf(scene, view, settings);
+    EXPECT_EQ(doubles.stats.samplesRead, floats.stats.samplesRead);
+    const double share = test::differingShare(doubles.colour, floats.colour, 0);
+    EXPECT_LT(share, 0.005) << nameOf(reconstruction);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Configurations, ListPriority, testing::Values(Configuration::b, Configuration::e),
                          [](const auto& parameter) { return std::string(nameOf(parameter.param)); });
 

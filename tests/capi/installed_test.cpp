@@ -1,0 +1,117 @@
+/// The C library as it is installed: what it needs, what it shows, and the examples built against it.
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+
+#include "engine/base/file.h"
+#include "engine/image/image.h"
+#include "tests/end_to_end/sample_project.h"
+
+namespace acentric::test {
+namespace {
+
+std::set<std::string> namesAfter(const std::string& text, const std::string& mark) {
+  std::set<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find(mark); at != std::string::npos) {
+      const auto open = line.find('[', at), close = line.find(']', at);
+      names.insert(line.substr(open + 1, close - open - 1));
+    }
+  return names;
+}
+
+TEST(Library, NeedsNothingThatImportsBakesOrOpensWindows) {
+  const auto dynamic = runProcess({"readelf", "-dW", ACENTRIC_RUNTIME_LIBRARY});
+  ASSERT_EQ(dynamic.exitCode, 0) << dynamic.errors;
+#ifndef ACENTRIC_SANITIZED
+  const std::set<std::string> known{
+      "libfmt.so.9",    "libgmp.so.10", "libxxhash.so.0", "libzstd.so.1", "libpng16.so.16",
+      "libstdc++.so.6", "libm.so.6",    "libgcc_s.so.1",  "libc.so.6",    "ld-linux-x86-64.so.2"};
+  for (const std::string& name : namesAfter(dynamic.output, "(NEEDED)"))
+    EXPECT_TRUE(known.contains(name)) << name;
+#endif
+  EXPECT_EQ(namesAfter(dynamic.output, "(SONAME)"), std::set<std::string>{"libacentric_runtime.so.1"});
+}
+
+TEST(Library, ShowsItsFunctionsAndNothingElse) {
+  const auto symbols = runProcess({"nm", "-D", "--defined-only", ACENTRIC_RUNTIME_LIBRARY});
+  ASSERT_EQ(symbols.exitCode, 0) << symbols.errors;
+  std::istringstream lines(symbols.output);
+  int functions = 0;
+  for (std::string address, kind, name; lines >> address >> kind >> name;)
+    if (kind == "T") {
+      EXPECT_TRUE(name.starts_with("acentric_")) << name;
+      ++functions;
+    } else {
+      EXPECT_EQ(kind, "A") << name;
+    }
+  EXPECT_GT(functions, 30);
+}
+
+TEST(Library, HasAHeaderForC99) {
+  const auto compiled = runProcess({"cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+                                    "-fsyntax-only", "-x", "c", ACENTRIC_RUNTIME_HEADER});
+  EXPECT_EQ(compiled.exitCode, 0) << compiled.errors;
+}
+
+#ifndef ACENTRIC_SANITIZED
+
+ColourImage ppm(const std::filesystem::path& file) {
+  std::istringstream text(readText(file).value_or(""));
+  std::string magic;
+  int width = 0, height = 0, most = 0;
+  text >> magic >> width >> height >> most;
+  text.get();
+  ColourImage image(width, height, {0, 0, 0, 255});
+  for (Rgba8& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) pixel[c] = std::uint8_t(text.get());
+  return text ? image : ColourImage();
+}
+
+TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
+  const SampleProject project("installed");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto at = [&](const char* name) { return (project.folder() / name).string(); };
+  const auto run = [](const std::vector<std::string>& arguments) {
+    const auto result = runProcess(arguments);
+    EXPECT_EQ(result.exitCode, 0) << arguments.front() << ": " << result.output << result.errors;
+    return result.exitCode == 0;
+  };
+  const auto refused = acentric({"export", project.file(), "--to", "bundle", at("bundle")});
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.errors.find("acentric bake " + project.file()), std::string::npos) << refused.errors;
+  ASSERT_TRUE(run({ACENTRIC_PROGRAM, "bake", project.file()}));
+  ASSERT_TRUE(run({ACENTRIC_PROGRAM, "export", project.file(), "--to", "bundle", at("bundle")}));
+  ASSERT_TRUE(run({ACENTRIC_PROGRAM, "render", project.file(), "--renderer", "list", "--eye", "-3,-0.5", "-o",
+                   at("expected.png")}));
+  const auto expected = readColourImage(at("expected.png"));
+  ASSERT_TRUE(expected);
+
+  ASSERT_TRUE(run({ACENTRIC_CMAKE, "--install", ACENTRIC_BUILD_FOLDER, "--prefix", at("prefix")}));
+  const std::string lib = at("prefix") + "/lib", pkgConfig = lib + "/pkgconfig";
+  const std::string source = std::string(ACENTRIC_EXAMPLES) + "/frame.c";
+  ASSERT_TRUE(run({"sh", "-c",
+                   "export PKG_CONFIG_PATH=" + pkgConfig + "; cc -std=c99 -Wall -Wextra -Wpedantic -Werror " +
+                       source + " $(pkg-config --cflags --libs acentric-runtime) -o " + at("frame")}));
+  ASSERT_TRUE(
+      run({"env", "LD_LIBRARY_PATH=" + lib, at("frame"), at("bundle"), at("frame.ppm"), "-3", "-0.5", "0"}));
+  EXPECT_EQ(ppm(at("frame.ppm")).pixels, expected->pixels) << "found by pkg-config";
+
+  ASSERT_TRUE(run(
+      {ACENTRIC_CMAKE, "-S", ACENTRIC_EXAMPLES, "-B", at("built"), "-DCMAKE_PREFIX_PATH=" + at("prefix")}));
+  ASSERT_TRUE(run({ACENTRIC_CMAKE, "--build", at("built")}));
+  ASSERT_TRUE(run({at("built") + "/frame", at("bundle"), at("built.ppm")}));
+
+  ASSERT_TRUE(run({"env", "ACENTRIC_RUNTIME=" + lib + "/libacentric_runtime.so.1", "python3",
+                   std::string(ACENTRIC_EXAMPLES) + "/frame.py", at("bundle"), at("python.ppm")}));
+  EXPECT_FALSE(ppm(at("built.ppm")).empty());
+  EXPECT_EQ(ppm(at("python.ppm")).pixels, ppm(at("built.ppm")).pixels) << "both from where the walk begins";
+}
+
+#endif
+
+}  // namespace
+}  // namespace acentric::test

@@ -1,0 +1,171 @@
+#include "editor/session/project_lock.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "editor/session/file_watch.h"
+#include "editor/session/project_files.h"
+#include "editor/session/unsaved_work.h"
+#include "engine/base/file.h"
+
+namespace acentric::editor {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DocumentFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("acentric_document_" + std::to_string(::getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    file_ = folder_ / "walk.acentric.json";
+    std::ofstream(file_) << "{}";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs it in a process of its own, which then ends without tidying up: as by a kill.
+  template <class Work>
+  static void inAnotherProcess(Work work) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      work();
+      ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0);
+  }
+  void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::trunc) << text; }
+
+  fs::path folder_, file_;
+};
+
+TEST_F(DocumentFiles, ALockIsHeldByOneAndGoneWithIt) {
+  {
+    const auto first = ProjectLock::take(file_, false);
+    ASSERT_TRUE(first.lock.has_value());
+    EXPECT_TRUE(first.note.empty());
+    const auto second = ProjectLock::take(file_, false);
+    EXPECT_FALSE(second.lock.has_value());
+    ASSERT_TRUE(second.heldBy.has_value());
+    EXPECT_EQ(second.heldBy->process, ::getpid());
+    EXPECT_NE(describe(*second.heldBy).find(std::to_string(::getpid())), std::string::npos);
+    EXPECT_FALSE(first.lock->lostTo().has_value());
+  }
+  EXPECT_FALSE(fs::exists(lockFileFor(file_)));
+  EXPECT_TRUE(ProjectLock::take(file_, false).lock.has_value());
+}
+
+TEST_F(DocumentFiles, ALockOfADeadProcessIsTakenOverWithANote) {
+  inAnotherProcess([&] { new ProjectLock::Attempt(ProjectLock::take(file_, false)); });
+  ASSERT_TRUE(fs::exists(lockFileFor(file_)));
+  EXPECT_TRUE(isStale(*readLock(file_)));
+  const auto attempt = ProjectLock::take(file_, false);
+  EXPECT_TRUE(attempt.lock.has_value());
+  EXPECT_NE(attempt.note.find("ended without closing"), std::string::npos) << attempt.note;
+}
+
+TEST_F(DocumentFiles, AProcessOfTheSameNumberThatBeganLaterIsAnother) {
+  const auto held = ProjectLock::take(file_, false);
+  LockOwner owner = *readLock(file_);
+  EXPECT_FALSE(isStale(owner));
+  owner.processStart = "1";
+  EXPECT_TRUE(isStale(owner));
+}
+
+TEST_F(DocumentFiles, ALockOfAnotherMachineIsNamedAndNeverStale) {
+  write(lockFileFor(file_),
+        R"({"format":"acentric-lock","host":"far.example","user":"ann","since":"2026-01-01 10:00",
+            "process":999999999,"processStart":"5","machine":".acentric-tmp-00000000-","token":"t"})");
+  const auto attempt = ProjectLock::take(file_, false);
+  ASSERT_TRUE(attempt.heldBy.has_value());
+  EXPECT_EQ(describe(*attempt.heldBy), "ann on far.example since 2026-01-01 10:00 (process 999999999)");
+}
+
+TEST_F(DocumentFiles, WhoLosesALockNoticesAndDoesNotRemoveTheOther) {
+  auto first = ProjectLock::take(file_, false);
+  const auto second = ProjectLock::take(file_, true);
+  ASSERT_TRUE(second.lock.has_value());
+  ASSERT_TRUE(first.lock->lostTo().has_value());
+  first.lock.reset();
+  EXPECT_TRUE(fs::exists(lockFileFor(file_)));
+  EXPECT_FALSE(second.lock->lostTo().has_value());
+}
+
+TEST_F(DocumentFiles, ADamagedLockIsReplacedWithANote) {
+  for (const char* damage :
+       {"", "{", "[]", R"({"format":"acentric-lock","process":"seven"})", "\xff\xfe\x00"}) {
+    write(lockFileFor(file_), damage);
+    const auto attempt = ProjectLock::take(file_, false);
+    EXPECT_TRUE(attempt.lock.has_value()) << damage;
+    EXPECT_NE(attempt.note.find("damaged"), std::string::npos) << damage;
+  }
+}
+
+TEST_F(DocumentFiles, WhereNoLockCanBeWrittenItIsToldAndNothingBlocks) {
+  const auto attempt = ProjectLock::take(folder_ / "no such folder" / "walk.acentric.json", false);
+  EXPECT_FALSE(attempt.lock.has_value());
+  EXPECT_FALSE(attempt.heldBy.has_value());
+  EXPECT_FALSE(attempt.note.empty());
+}
+
+TEST_F(DocumentFiles, AChangeIsToldOnceItKeepsStillAndOnlyIfTheContentDiffers) {
+  write(folder_ / "a", "one");
+  write(folder_ / "b", "two");
+  FileWatch watch({stampOf(folder_ / "a"), stampOf(folder_ / "b")});
+  EXPECT_FALSE(watch.look());
+  write(folder_ / "a", "another");
+  EXPECT_FALSE(watch.look()) << "it may still be written";
+  EXPECT_TRUE(watch.look());
+  EXPECT_EQ(watch.different(), std::vector{folder_ / "a"});
+  EXPECT_FALSE(watch.look()) << "told once";
+  write(folder_ / "a", "one");
+  watch.look();
+  EXPECT_TRUE(watch.look());
+  EXPECT_TRUE(watch.different().empty()) << "as it was read";
+  fs::remove(folder_ / "b");
+  watch.look();
+  EXPECT_TRUE(watch.look());
+  EXPECT_EQ(watch.different(), std::vector{folder_ / "b"});
+}
+
+TEST_F(DocumentFiles, ACopyHasANameOfItsOwn) {
+  EXPECT_EQ(freeCopyName(file_), folder_ / "walk copy.acentric.json");
+  write(folder_ / "walk copy.acentric.json", "{}");
+  EXPECT_EQ(freeCopyName(file_), folder_ / "walk copy 2.acentric.json");
+}
+
+TEST_F(DocumentFiles, WorkWithoutAFileIsListedOnceItsProcessIsGone) {
+  Project project;
+  project.scene = "room.obj";
+  project.fovDegrees = 71;
+  const fs::path folder = folder_ / "unsaved";
+  ASSERT_TRUE(writeUnsavedWork(folder, file_, project));
+  EXPECT_TRUE(listUnsavedWork(folder).works.empty()) << "this process is at work on it";
+  EXPECT_EQ(readUnsavedWork(unsavedWorkFile(folder, file_))->project, project);
+  fs::remove(unsavedWorkFile(folder, file_));
+  inAnotherProcess([&] { (void)writeUnsavedWork(folder, file_, project); });
+  const UnsavedWorks found = listUnsavedWork(folder);
+  ASSERT_EQ(found.works.size(), 1U);
+  EXPECT_EQ(found.works.front().project, project);
+  EXPECT_EQ(found.works.front().projectFile, file_);
+  EXPECT_TRUE(found.damaged.empty());
+}
+
+TEST_F(DocumentFiles, DamagedUnsavedWorkIsNamed) {
+  const fs::path folder = folder_ / "unsaved";
+  fs::create_directories(folder);
+  write(folder / "a.unsaved.json", "{ half a fi");
+  write(folder / "b.unsaved.json", R"({"format":"acentric-unsaved","process":1})");
+  write(folder / "else.txt", "nothing of ours");
+  const UnsavedWorks found = listUnsavedWork(folder);
+  EXPECT_TRUE(found.works.empty());
+  EXPECT_EQ(found.damaged.size(), 2U);
+}
+
+}  // namespace
+}  // namespace acentric::editor

@@ -1,0 +1,11 @@
+/// Near geometry of bundles (kind 4).
+
+#include "engine/export/bundle_read.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace acentric;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::size_t kMaterials = 20, kMirrors = 4;
+  return readLocalFile(test::withChecksum(data, size), "a region", kMaterials, kMirrors) ? 0 : -1;
+}

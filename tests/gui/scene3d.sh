@@ -1,0 +1,97 @@
+#!/bin/bash
+# The 3D view by real input events: opens it, orbits, comes nearer, selects a cell, asks a surface which cameras
+# sample it, looks through cameras of the cell, and goes back to the plan. Checks the log.
+#   scene3d.sh EDITOR ACENTRIC WORK_FOLDER
+set -u
+EDITOR=$1
+ACENTRIC=$2
+WORK=$3
+. "$(dirname "$0")/support.sh"
+. "$(dirname "$0")/room.sh"
+need_tools
+rm -rf "$WORK"
+mkdir -p "$WORK/config" "$WORK/cache"
+export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
+trap stop_all EXIT
+
+make_room
+
+start_display
+start_editor "$PROJECT"
+wait_for '^event message Opened' 60
+wait_state 'working 0' 60
+
+# frames: of the 3D view at rest, so far. at_rest N: there is another one after the N-th.
+frames() { grep -c '^event scene3d frame' "$WORK/ui.log"; }
+at_rest() {
+  for _ in $(seq 300); do [ "$(frames)" -gt "$1" ] && return; sleep 0.1; done
+  fail "no picture at rest after frame $1"
+}
+eye() { grep '^event scene3d frame' "$WORK/ui.log" | tail -1 | awk '{ print $8, $9, $10, $12 }'; }
+
+click view.scene3d
+wait_for '^event scene3d first' 30
+at_rest 0
+BEFORE=$(eye)
+
+# A drag to the right turns the eye clockwise about the room; the wheel brings it nearer.
+N=$(frames)
+at=$(place scene3d)
+# shellcheck disable=SC2086
+set -- $at
+drag_to "$1" "$2" $(($1 + 120)) "$2"
+at_rest "$N"
+AFTER=$(eye)
+echo "$BEFORE $AFTER" | awk '{ d = $4 - $8; if (d < 0) d += 6.2831853; exit !(d > 0.5 && d < 1 && $3 - $7 < 0.01 && $7 - $3 < 0.01) }' ||
+  fail "the drag did not orbit: $BEFORE, then $AFTER"
+N=$(frames)
+xdotool mousemove --window "$WINDOW" "$1" "$2"; sleep 0.3
+xdotool click 4; sleep 0.3
+at_rest "$N"
+echo "$AFTER $(eye)" | awk '{ exit !($7 < $3 - 0.1) }' || fail "the wheel did not come nearer: $AFTER, then $(eye)"
+
+# A cell with a ring (they have cameras of both hands) on the floor, by a click; then a surface, by Alt and a click.
+CELL=$(grep -oE '^rect cell3d\.[-0-9]+\.[-0-9]+\.0 ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
+  grep -E "^(rect|gone) $name( |$)" "$WORK/ui.log" | tail -1 | grep -q '^rect' && echo "$(place "$name") $name $at"
+done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | sed -n 1p | awk '{ print $2 }')
+[ -n "$CELL" ] || fail "no cell is shown in 3D"
+click "$CELL"
+at=$(place "$CELL")
+# shellcheck disable=SC2086
+xdotool mousemove --window "$WINDOW" $at; sleep 0.3
+xdotool keydown alt; sleep 0.2; xdotool mousedown 1; sleep 0.3; xdotool mouseup 1; sleep 0.2; xdotool keyup alt
+wait_for '^rect pick.table ' 30
+wait_for '^event scenepick ' 30
+grep '^event scenepick' "$WORK/ui.log" | tail -1 | awk '{ exit !($5 * $5 < 1e-6 && $7 > 0) }' ||
+  fail "the floor was not met, or nobody sees it: $(grep '^event scenepick' "$WORK/ui.log" | tail -1)"
+press Escape
+sleep 0.5
+grep -E '^(rect|gone) pick.table' "$WORK/ui.log" | tail -1 | grep -q '^gone' || fail "Esc did not clear the pick"
+
+# Look through a camera of the cell, then the next one, then one of the other hand.
+click scene3d.lookThrough
+wait_for '^event lookthrough camera' 30
+click scene3d.nextCamera
+click scene3d.otherHand
+for _ in $(seq 100); do [ "$(grep -c '^event lookthrough' "$WORK/ui.log")" -ge 3 ] && break; sleep 0.1; done
+CAMERAS=$(grep '^event lookthrough' "$WORK/ui.log" | awk '{ print $4 }' | sort -u | wc -l)
+[ "$CAMERAS" -ge 3 ] || fail "three cameras were looked through, $CAMERAS were shown"
+import -window root "$WORK/screenshot.png"
+press Escape
+sleep 0.5
+grep -E '^(rect|gone) look( |$)' "$WORK/ui.log" | tail -1 | grep -q '^gone' || fail "Esc did not close the camera"
+
+# At rest nothing is traced or drawn.
+ticks() { awk '{ print $14 + $15 }' "/proc/$EDITOR_PID/stat"; }
+sleep 4
+BEFORE=$(ticks)
+sleep 3
+USED=$(($(ticks) - BEFORE))
+[ "$USED" -le 15 ] || fail "an idle 3D view used $USED hundredths of a second in 3 s"
+
+press F2
+sleep 0.5
+place plan >/dev/null
+leave_editor
+grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
+echo "passed: $(grep '^event scene3d first' "$WORK/ui.log"); $(grep '^event lookthrough' "$WORK/ui.log" | sed -n 1p)"

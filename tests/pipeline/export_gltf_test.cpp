@@ -1,0 +1,159 @@
+/// A walk as glTF: what another program draws from it is what we draw.
+
+#include "engine/pipeline/export_gltf.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/bake/truth.h"
+#include "engine/base/file.h"
+#include "engine/export/texture_atlas.h"
+#include "engine/measure/compare.h"
+#include "engine/view/render.h"
+#include "tests/pipeline/small_project.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+
+class ExportGltf : public FolderTest {
+ protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    test::SceneBuilder builder;
+    ColourImage checker(16, 16);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        checker.at(x, y) = (x + y) % 2 == 0 ? Rgba8(220, 120, 60, 255) : Rgba8(60, 90, 160, 255);
+    Material painted = test::matte();
+    painted.baseColourTexture = builder.texture(checker);
+    const int walls = builder.material(painted);
+    const int plain = builder.material(test::matte({0.7F, 0.7F, 0.6F}));
+    builder.box(walls, {-4, -4, 0}, {4, 4, 3}, true)
+        .box(plain, {1.2F, -0.4F, 0}, {1.6F, 0.4F, 1.9F})
+        .box(plain, {-2.5F, 1.5F, 0}, {-2, 2, 2.2F})
+        .point({0, 0, 2.5F}, 50);
+    Project project = test::smallProject(0.5, 6);
+    project.bake.ambientRays = 8;
+    open_ = test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
+    open_.project.exposure = 0.4F;
+  }
+  void bake() {
+    TaskRunner runner(1);
+    EXPECT_TRUE(bakeProject(open_, {}, runner));
+  }
+  Result<ExportGltfReport> write(const ExportGltfOptions& options = {}) {
+    TaskRunner runner(1);
+    return exportGltf({&open_, 1}, folder_ / "gltf", options, runner);
+  }
+  nlohmann::json index() const {
+    return nlohmann::json::parse(readText(folder_ / "gltf" / kGltfIndex, 1 << 20).value());
+  }
+  PerspectiveView viewFrom(std::size_t region, double yaw) const {
+    PerspectiveView view;
+    view.eye = {open_.layout->regions[region].polygon.centroid() + glm::dvec2(0.2, -0.1),
+                open_.layout->eyeZ()};
+    view.yawRadians = yaw;
+    view.width = 240;
+    view.height = 180;
+    return view;
+  }
+
+  OpenProject open_;
+};
+
+TEST_F(ExportGltf, IsDrawnByOthersAsTheWalkIs) {
+  bake();
+  const auto done = write();
+  ASSERT_TRUE(done) << done.error().describe();
+  const auto written = index();
+  EXPECT_EQ(written.at("format"), kGltfFormat);
+  const auto& regions = written.at("storeys").at(0).at("regions");
+  ASSERT_EQ(regions.size(), open_.layout->regions.size());
+
+  TaskRunner runner(1);
+  const auto walk = loadWalk(open_, nullptr, runner);
+  ASSERT_TRUE(walk);
+  ImportHost host;
+  host.importer = ACENTRIC_IMPORTER;
+  host.cacheFolder = folder_ / "cache";
+  for (const std::size_t region : {std::size_t(0), regions.size() - 1}) {
+    const std::filesystem::path file = folder_ / "gltf" / std::string(regions[region].at("file"));
+    EXPECT_EQ(std::filesystem::file_size(file), regions[region].at("bytes"));
+    const auto scene = importScene(file, {}, host);
+    ASSERT_TRUE(scene) << scene.error().describe();
+    EXPECT_TRUE((*scene)->report.dropped.empty()) << testing::PrintToString((*scene)->report.dropped);
+    const auto rays = RayScene::build(*scene, planEffects(**scene));
+    ASSERT_TRUE(rays);
+    for (const double yaw : {0.3, 2.0, 4.1}) {
+      PerspectiveView view = viewFrom(region, yaw);
+      const Frame frame = renderFrame(walk->walk, view, {}, runner).value();
+      view.eye -= (*scene)->origin;
+      const TruthFrame drawn = renderTruth(**rays, view, open_.project.bake, 1, 4, runner);
+      EXPECT_GT(psnrOf(frame.colour, drawn.colour), 24) << "region " << region << " yaw " << yaw;
+      EXPECT_GT(ssimOf(frame.colour, drawn.colour), 0.9) << "region " << region << " yaw " << yaw;
+    }
+  }
+}
+
+TEST_F(ExportGltf, ATighterBoundTakesMoreTriangles) {
+  bake();
+  ExportGltfOptions options;
+  options.onlyRegion = 0;
+  options.region.meshError = 0.05;
+  const auto fine = write(options);
+  options.region.meshError = 4;
+  options.region.bothHands = false;
+  const auto coarse = write(options);
+  ASSERT_TRUE(fine && coarse);
+  EXPECT_EQ(fine->regions.size(), 1U);
+  EXPECT_GT(fine->sum().triangles, 2 * coarse->sum().triangles);
+  EXPECT_GT(fine->sum().cameras, coarse->sum().cameras);
+  EXPECT_EQ(index().at("storeys").at(0).at("regions").size(), 1U) << "the later one took its place";
+}
+
+TEST_F(ExportGltf, RefusesWhatIsNotBakedAndFoldersThatHoldOtherThings) {
+  const auto refused = write();
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("acentric bake"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "gltf"));
+  ExportGltfOptions options;
+  options.allowMissing = true;
+  const auto empty = write(options);
+  ASSERT_TRUE(empty) << empty.error().describe();
+  EXPECT_EQ(empty->sum().missing, empty->sum().cameras);
+  std::filesystem::create_directories(folder_ / "holiday");
+  ASSERT_TRUE(writeTextAtomically(folder_ / "holiday" / "walk.json", "{}"));
+  EXPECT_FALSE(checkGltfTarget(folder_ / "holiday"));
+}
+
+TEST(TextureAtlas, HoldsEveryPictureOnceWithItsBorder) {
+  std::vector<glm::ivec2> sizes;
+  for (int i = 0; i < 500; ++i) sizes.emplace_back(1 + i * 7 % 64, 1 + i * 13 % 64);
+  const AtlasPlan plan = planAtlas(sizes, 256);
+  EXPECT_GT(plan.pages.size(), 1U);
+  std::vector<std::vector<int>> owner;
+  for (const glm::ivec2& page : plan.pages) {
+    EXPECT_LE(std::max(page.x, page.y), 256);
+    owner.emplace_back(std::size_t(page.x * page.y), -1);
+  }
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const AtlasPlace& place = plan.places[i];
+    const glm::ivec2 page = plan.pages[std::size_t(place.page)];
+    for (int y = -kAtlasBorder; y < sizes[i].y + kAtlasBorder; ++y)
+      for (int x = -kAtlasBorder; x < sizes[i].x + kAtlasBorder; ++x) {
+        const glm::ivec2 at = place.at + glm::ivec2(x, y);
+        ASSERT_TRUE(at.x >= 0 && at.y >= 0 && at.x < page.x && at.y < page.y);
+        int& who = owner[std::size_t(place.page)][std::size_t(at.y * page.x + at.x)];
+        ASSERT_EQ(who, -1);
+        who = int(i);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace acentric

@@ -1,0 +1,101 @@
+/// The small pack that the page's unit tests read, and what the engine makes of it. UPDATE_WEB_FIXTURES=1
+/// writes both anew.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "engine/store/capture_store.h"
+#include "engine/view/walk_scene.h"
+#include "tests/store/synthetic_capture.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr float kExposure = 4;  // some colours lie on the curve's shoulder
+const ContentKey kKey{0x0123456789abcdef, 0xfedcba9876543210};
+
+/// With glass behind glass in some pixels.
+Capture fixtureCapture() {
+  Capture capture = syntheticCapture({5, 40, true, true, 3, true});
+  constexpr std::uint16_t kOne = 0x3c00, kHalf = 0x3800;
+  for (std::size_t i = 1; i < capture.sampleCount(); ++i)
+    if (capture.row[i] == capture.row[i - 1] && capture.colour[i - 1].a < kOne && capture.mirror[i] == 0)
+      capture.colour[i].a = kHalf;
+  return capture;
+}
+
+Json samplesJson(const DisplayCapture& display) {
+  Json words = Json::array();
+  for (std::size_t k = 0; k + 1 < display.columnStart.size(); ++k)
+    for (std::size_t i = display.columnStart[k]; i < display.columnStart[k + 1]; ++i) {
+      words.push_back(display.samples[i].inverseDistanceAndRoles);
+      words.push_back(display.samples[i].row | std::uint32_t(k) << 16);
+      words.push_back(std::bit_cast<std::uint32_t>(display.colour[i]));
+    }
+  return {{"columnStart", display.columnStart},
+          {"words", std::move(words)},
+          {"mirrors", std::vector<int>(display.mirror.begin(), display.mirror.end())}};
+}
+
+Json expected(const Capture& capture) {
+  const DisplayCapture display = prepareForDisplay(capture, kExposure);
+  const ColumnCamera& camera = capture.camera;
+  const glm::dvec3& p = camera.centreOfProjection;
+  Json runs = Json::array();
+  const CaptureBackground& background = capture.background;
+  for (std::size_t i = 0; i < background.runCount(); ++i) {
+    runs.push_back(background.firstRow[i] | std::uint32_t(background.endRow[i]) << 16);
+    runs.push_back(background.roles[i]);
+  }
+  const glm::vec3& zenith = background.sky.zenith;
+  return {{"exposure", kExposure},
+          {"camera",
+           {{"centre", {p.x, p.y, p.z}},
+            {"lowAzimuth", camera.lowAzimuth},
+            {"fov", camera.fovRadians},
+            {"topElevation", camera.topElevation},
+            {"bottomElevation", camera.bottomElevation},
+            {"columns", camera.columns},
+            {"rows", camera.rows}}},
+          {"samples", samplesJson(display)},
+          {"reflections", samplesJson(*display.reflections)},
+          {"background",
+           {{"columnStart", background.columnStart},
+            {"runs", std::move(runs)},
+            {"zenith", {double(zenith.x), double(zenith.y), double(zenith.z)}}}}};
+}
+
+class WebFixtureTest : public FolderTest {};
+
+TEST_F(WebFixtureTest, IsWhatTheEngineWritesAndShows) {
+  const Capture capture = fixtureCapture();
+  ASSERT_TRUE(capture.check()) << capture.check().error().describe();
+  const auto store = CaptureStore::open(folder_);
+  ASSERT_TRUE(store);
+  ASSERT_TRUE(store->put(kKey, capture));
+  const auto pack = readFile(folder_ / (kKey.toHex() + ".pack"));
+  ASSERT_TRUE(pack);
+  const std::string text = expected(capture).dump(1) + "\n";
+
+  const fs::path fixtures = ACENTRIC_WEB_FIXTURES;
+  if (std::getenv("UPDATE_WEB_FIXTURES") != nullptr) {
+    ASSERT_TRUE(writeFileAtomically(fixtures / "capture.pack", *pack));
+    ASSERT_TRUE(writeTextAtomically(fixtures / "capture.json", text));
+  }
+  const auto storedPack = readFile(fixtures / "capture.pack");
+  const auto storedText = readText(fixtures / "capture.json");
+  ASSERT_TRUE(storedPack && storedText);
+  EXPECT_EQ(*storedPack, *pack) << "a change of the format: UPDATE_WEB_FIXTURES=1 renews the fixture";
+  EXPECT_EQ(*storedText, text);
+}
+
+}  // namespace
+}  // namespace acentric
