@@ -179,6 +179,7 @@ import -window root "$WORK/measured.png"
 press_with ctrl s
 wait_state 'dirty 0' 20
 WAS=$(state | sed -E 's/ undo [0-9]+ / /')
+PROBLEMS=$(field problems)
 EYE=$(eye)
 grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
 leave_editor
@@ -202,6 +203,7 @@ start_editor "$PROJECT"
 wait_for '^event message Opened hall.acentric.json' 60
 wait_state 'working 0 dirty 0 undo 0' 60
 rect guide.skip >/dev/null && fail "the guide is shown again"
+wait_state "problems $PROBLEMS " 30  # the layout is looked over once it has stood still
 rest
 [ "$(state | sed -E 's/ undo [0-9]+ / /')" = "$WAS" ] || fail "it was $WAS, it is $(state)"
 [ "$(apart "$EYE" "$(eye)" | awk '{ print ($1 < 0.01) }')" = 1 ] || fail "the eye is elsewhere: $EYE, $(eye)"
