@@ -190,35 +190,34 @@ void Session::loadCaptures() {
   streaming.wake = options_.wake;
   loading_.restart("Looking for captures", [this, open = built_, former = walk_,
                                             streaming](const Job::Context& context) {
-    CaptureStatus status = captureStatus(*open->layout, capturesOnDisk(*open));
-    context.post([this, open, status] {
-      if (built_->layout == open->layout) captures_ = std::make_shared<const CaptureStatus>(status);
-    });
+    tellCaptures(open, context);
     auto start = startWalk(*open, former.get());
     if (!start) {
       context.post([this, error = start.error()] { messages_.addFailure("Loading the captures", error); });
       return;
     }
     const auto stream = std::make_shared<WalkStream>(std::move(*start), streaming);
-    context.post([this, open, status, stream] { loaded(stream, status, *open); });
+    context.post([this, open, stream] { loaded(stream, *open); });
   });
 }
 
 void Session::countCaptures() {
-  counting_.restart("Counting captures", [this, open = built_](const Job::Context& context) {
-    auto status = std::make_shared<const CaptureStatus>(captureStatus(*open->layout, capturesOnDisk(*open)));
-    context.post([this, open, status] {
-      if (built_->layout == open->layout) captures_ = status;
-    });
+  counting_.restart("Counting captures",
+                    [this, open = built_](const Job::Context& context) { tellCaptures(open, context); });
+}
+
+void Session::tellCaptures(const std::shared_ptr<const OpenProject>& open, const Job::Context& context) {
+  auto status = std::make_shared<const CaptureStatus>(captureStatus(*open->layout, capturesOnDisk(*open)));
+  context.post([this, open, status] {
+    if (built_->layout == open->layout) captures_ = status;
   });
 }
 
-void Session::loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, const OpenProject& from) {
+void Session::loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from) {
   stream_ = std::move(stream);
   walk_ = stream_->walk();
   for (const std::string& warning : walk_->warnings) messages_.add(MessageLevel::warning, warning);
   stream_->go(where_);
-  if (built_->layout == from.layout) captures_ = std::make_shared<const CaptureStatus>(std::move(status));
   if (built_->layout != from.layout || built_->keys != from.keys) loadWanted_ = true;
 }
 

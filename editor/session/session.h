@@ -230,10 +230,12 @@ class Session {
   void giveUpBuilding(const Error& error);
   void show(OpenProject open);
   void loadCaptures();
-  void loaded(std::shared_ptr<WalkStream> stream, CaptureStatus status, const OpenProject& from);
+  void loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from);
   void followStream();
   /// Asks the disk again which captures are there.
   void countCaptures();
+  /// The same, in a job of that.
+  void tellCaptures(const std::shared_ptr<const OpenProject>& open, const Job::Context& context);
   /// Waits for what it is reading, elsewhere.
   void dropStream();
   void drawBackdropIfStale();

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
 namespace {
-
-template <class Attribute>
-Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
-  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
-}
 
 /// Reads the textures of a triangle at a place on it, or over an area around that.
 class TextureReader {
@@ -21,9 +17,9 @@ class TextureReader {
       : scene_(scene), mesh_(mesh), corners_(corners), barycentric_(barycentric), area_(area) {}
 
   /// Is there one, and has the mesh coordinates for it?
-  bool has(const TextureUse& use) const { return use.used() && !coordinates(use).empty(); }
+  bool has(const TextureUse& use) const { return hasCoordinates(mesh_, use); }
   glm::vec4 read(const TextureUse& use, TexelKind kind) const {
-    const auto& uv = coordinates(use);
+    const auto& uv = coordinatesOf(mesh_, use);
     if (area_ != nullptr)
       return area_->mean(scene_, use, kind, glm::mat3x2(uv[corners_.x], uv[corners_.y], uv[corners_.z]));
     const glm::vec2 at = interpolate(uv, corners_, barycentric_);
@@ -31,9 +27,6 @@ class TextureReader {
   }
 
  private:
-  const std::vector<glm::vec2>& coordinates(const TextureUse& use) const {
-    return mesh_.uv[use.uvSet == 1 ? 1 : 0];
-  }
   const Scene& scene_;
   const Mesh& mesh_;
   glm::uvec3 corners_;
@@ -75,12 +68,7 @@ glm::vec4 baseColourOf(const TextureReader& textures, const Mesh& mesh, const Ma
   glm::vec4 colour = material.baseColour;
   if (detail.textures && textures.has(material.baseColourTexture))
     colour *= textures.read(material.baseColourTexture, baseColourKind(material));
-  if (detail.vertexColours && !mesh.colours.empty()) {
-    const auto& c = mesh.colours;
-    colour *= (glm::vec4(c[corners.x]) * (1 - b.x - b.y) + glm::vec4(c[corners.y]) * b.x +
-               glm::vec4(c[corners.z]) * b.y) /
-              255.0f;
-  }
+  if (detail.vertexColours && !mesh.colours.empty()) colour *= vertexColourAt(mesh, corners, b);
   return colour;
 }
 

@@ -14,4 +14,17 @@ namespace acentric {
 Status replaceFolderAtomically(const std::filesystem::path& path,
                                const std::function<Status(const std::filesystem::path& temporary)>& write);
 
+/// The same of a `write` that reports on what it wrote: a Result<Report>.
+template <class Write>
+auto writeFolderAtomically(const std::filesystem::path& path, const Write& write) -> decltype(write(path)) {
+  decltype(write(path)) report;
+  const Status written = replaceFolderAtomically(path, [&](const std::filesystem::path& temporary) -> Status {
+    report = write(temporary);
+    if (!report) return tl::unexpected(report.error());
+    return {};
+  });
+  if (!written) return tl::unexpected(written.error());
+  return report;
+}
+
 }  // namespace acentric

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/file.h"
+#include "engine/export/png.h"
 #include "engine/geometry/conventions.h"
 #include "engine/store/keyed.h"
 

@@ -45,7 +45,5 @@ WalkScene walkSceneOf(const Bundle& bundle, const BundleStorey& storey, ScenePtr
 /// `bytes` of a local file (FORMAT.md, "Kind 4") that belongs to a bundle with so many materials and mirrors.
 Result<LocalGeometry> readLocalFile(std::vector<std::byte> bytes, const std::string& name,
                                     std::size_t materials, std::size_t mirrors);
-/// As 8-bit RGBA, straight alpha.
-Result<ColourImage> decodePng(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace acentric

@@ -298,15 +298,9 @@ Status checkBundleTarget(const fs::path& folder) {
 Result<BundleReport> writeBundle(const BundleInput& input, const fs::path& folder, TaskRunner& runner,
                                  const Progress& progress, std::stop_token stop) {
   if (Status free = checkBundleTarget(folder); !free) return tl::unexpected(free.error());
-  BundleReport report;
-  const Status written = replaceFolderAtomically(folder, [&](const fs::path& temporary) -> Status {
-    auto done = BundleWriter(input, temporary, runner, progress, stop).write();
-    if (!done) return tl::unexpected(done.error());
-    report = *done;
-    return {};
+  return writeFolderAtomically(folder, [&](const fs::path& temporary) {
+    return BundleWriter(input, temporary, runner, progress, stop).write();
   });
-  if (!written) return tl::unexpected(written.error());
-  return report;
 }
 
 }  // namespace acentric

@@ -1,11 +1,10 @@
 #include "engine/export/glb.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cstring>
 
 #include "engine/base/file.h"
+#include "engine/export/png.h"
 
 namespace acentric {
 namespace {
@@ -13,26 +12,6 @@ namespace {
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
 constexpr int kNearest = 9728, kLinear = 9729;
 constexpr std::size_t kLargestGlb = 0xfffffff0;  // its lengths have 32 bits
-
-Result<std::vector<std::byte>> encodePng(const ColourImage& image) {
-  const bool opaque = std::ranges::all_of(image.pixels, [](const Rgba8& p) { return p.a == 255; });
-  std::vector<std::uint8_t> codes;
-  codes.reserve(image.pixels.size() * (opaque ? 3 : 4));
-  for (const Rgba8& p : image.pixels) {
-    codes.insert(codes.end(), {p.r, p.g, p.b});
-    if (!opaque) codes.push_back(p.a);
-  }
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = png_uint_32(image.width), png.height = png_uint_32(image.height);
-  png.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, codes.data(), 0, nullptr) == 0)
-    return fail(ErrorKind::outOfSpace, std::string("a texture cannot be written: ") + png.message);
-  bytes.resize(size);
-  return bytes;
-}
 
 void put(std::vector<std::byte>& out, std::uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(std::byte(word >> shift));

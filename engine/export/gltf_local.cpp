@@ -8,17 +8,13 @@
 #include "engine/export/glb.h"
 #include "engine/export/gltf_background.h"
 #include "engine/image/colour.h"
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
 namespace {
 
 constexpr int kMostCuts = 32;  ///< of a side, for light
-
-template <class Attribute>
-Attribute interpolated(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
-  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
-}
 
 class LocalWriter {
  public:
@@ -62,8 +58,7 @@ class LocalWriter {
   }
   bool textured(const LocalTriangle& t) const {
     const TextureUse& use = material(t).baseColourTexture;
-    return use.used() && !meshes_[t.mesh].uv[use.uvSet == 1 ? 1 : 0].empty() &&
-           TextureSampler(*walk_.scene, use).used();
+    return hasCoordinates(meshes_[t.mesh], use) && TextureSampler(*walk_.scene, use).used();
   }
 
   /// What the texture is multiplied with so that the product is what is shown, display-linear.
@@ -78,18 +73,14 @@ class LocalWriter {
     }
     glm::vec3 base(m.baseColour);
     if (walk_.plan.on(Effect::vertexColours) && !mesh.colours.empty())
-      base *= glm::vec3(glm::vec4(mesh.colours[corners.x]) * (1 - b.x - b.y) +
-                        glm::vec4(mesh.colours[corners.y]) * b.x + glm::vec4(mesh.colours[corners.z]) * b.y) /
-              255.0F;
+      base *= glm::vec3(vertexColourAt(mesh, corners, b));
     const auto sampled = [&](const TextureUse& use) {
-      return glm::vec3(
-          sampleColour(*walk_.scene, use, interpolated(mesh.uv[use.uvSet == 1 ? 1 : 0], corners, b)));
+      return glm::vec3(sampleColour(*walk_.scene, use, interpolate(coordinatesOf(mesh, use), corners, b)));
     };
     const bool hasTexture = textured(t);
     const glm::vec3 texture = hasTexture ? sampled(m.baseColourTexture) : glm::vec3(1);
     glm::vec3 emission = m.unlit ? glm::vec3(0) : m.emissive;
-    if (m.emissiveTexture.used() && !mesh.uv[m.emissiveTexture.uvSet == 1 ? 1 : 0].empty())
-      emission *= sampled(m.emissiveTexture);
+    if (hasCoordinates(mesh, m.emissiveTexture)) emission *= sampled(m.emissiveTexture);
     constexpr float kDarkest = 1.0F / 64;  // of a texture: below, light would be blown up
     const glm::vec3 shown = toneMap(base * texture * light + emission, walk_.exposure);
     return glm::min(shown / glm::max(texture, glm::vec3(kDarkest)), glm::vec3(1));
@@ -121,11 +112,10 @@ class LocalWriter {
         mesh.positions.push_back(gltfPosition(
             glm::dvec3(rest * corners[0].position + x * corners[1].position + y * corners[2].position)));
         mesh.colour.push_back(factorAt(t, b, back));
-        mesh.uv.push_back(hasTexture
-                              ? use.transform * glm::vec3(interpolated(source.uv[use.uvSet == 1 ? 1 : 0],
-                                                                       source.triangles[t.triangle], b),
-                                                          1)
-                              : glm::vec2(0));
+        mesh.uv.push_back(hasTexture ? use.transform * glm::vec3(interpolate(coordinatesOf(source, use),
+                                                                             source.triangles[t.triangle], b),
+                                                                 1)
+                                     : glm::vec2(0));
       }
     const auto at = [&](int i, int j) {
       return first + surfaceSampleIndex(std::uint32_t(cuts), std::uint32_t(i), std::uint32_t(j));

@@ -1,7 +1,6 @@
 #include "engine/export/posed_images.h"
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -9,6 +8,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
+#include "engine/export/png.h"
 
 namespace acentric {
 namespace {
@@ -138,16 +138,9 @@ Status writeDepthPng(const FloatImage& metres, double unit, const std::filesyste
     const double step = std::round(double(distance) / unit);
     steps.push_back(step >= 1 && step <= 65535 ? std::uint16_t(step) : std::uint16_t(0));
   }
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = png_uint_32(metres.width), png.height = png_uint_32(metres.height);
-  png.format = PNG_FORMAT_LINEAR_Y;
-  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, steps.data(), 0, nullptr) == 0)
-    return fail(ErrorKind::outOfSpace, png.message, file.string());
-  bytes.resize(size);
-  return writeFileAtomically(file, bytes);
+  const auto bytes = encodePng(metres.width, metres.height, steps);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return writeFileAtomically(file, *bytes);
 }
 
 }  // namespace acentric

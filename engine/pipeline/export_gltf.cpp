@@ -140,17 +140,11 @@ Result<ExportGltfReport> exportGltf(std::span<const OpenProject> storeys, const 
   require(!storeys.empty(), "a project has a storey");
   if (Status sound = options.region.check(); !sound) return tl::unexpected(sound.error());
   if (Status free = checkGltfTarget(folder); !free) return tl::unexpected(free.error());
-  ExportGltfReport report;
-  const Status written = replaceFolderAtomically(folder, [&](const fs::path& temporary) -> Status {
+  return writeFolderAtomically(folder, [&](const fs::path& temporary) {
     std::error_code error;
     fs::create_directories(temporary / "regions", error);
-    auto done = Writer(storeys, options, temporary, runner, progress, stop).write();
-    if (!done) return tl::unexpected(done.error());
-    report = std::move(*done);
-    return {};
+    return Writer(storeys, options, temporary, runner, progress, stop).write();
   });
-  if (!written) return tl::unexpected(written.error());
-  return report;
 }
 
 }  // namespace acentric

@@ -78,13 +78,13 @@ class Writer {
     const bool png = options_.format == ImageSetFormat::nerfstudio;
     PosedImage image{view, fmt::format("images/{}.png", name),
                      fmt::format("depth/{}.{}", name, png ? "png" : "exr"), place};
-    // COLMAP's names are relative to a folder of images of its own.
     if (Status written = writeColourImage(traced.colour, folder_ / image.colour); !written) return written;
     const FloatImage depth = alongAxis(traced.rayDistance, view);
     const Status written = png ? writeDepthPng(depth, kMillimetre, folder_ / image.depth)
                                : writeFloatImage(depth, folder_ / image.depth, "Z");
     if (!written) return written;
     if (options_.format != ImageSetFormat::seurat) takePoints(traced, view);
+    // COLMAP's names are relative to a folder of images of its own.
     if (options_.format == ImageSetFormat::colmap) image.colour = name + ".png";
     images_.push_back(std::move(image));
     return {};
@@ -146,15 +146,9 @@ Result<ExportImagesReport> exportImages(const OpenProject& open, const fs::path&
   std::error_code error;
   if (fs::exists(folder, error) && !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
     return fail(ErrorKind::invalidArgument, "is there already: name a new folder", folder.string());
-  ExportImagesReport report;
-  const Status written = replaceFolderAtomically(folder, [&](const fs::path& temporary) -> Status {
-    auto done = Writer(open, options, temporary, runner, progress, stop).write();
-    if (!done) return tl::unexpected(done.error());
-    report = *done;
-    return {};
+  return writeFolderAtomically(folder, [&](const fs::path& temporary) {
+    return Writer(open, options, temporary, runner, progress, stop).write();
   });
-  if (!written) return tl::unexpected(written.error());
-  return report;
 }
 
 }  // namespace acentric

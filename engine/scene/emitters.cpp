@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
@@ -47,8 +48,8 @@ float irradianceFromMesh(const Scene& scene, const Mesh& mesh, float distance) {
 glm::vec3 meanEmission(const Scene& scene, const Mesh& mesh, std::uint32_t triangle) {
   const Material& material = scene.materials[std::size_t(mesh.material)];
   const TextureUse& use = material.emissiveTexture;
-  const auto& uv = mesh.uv[use.uvSet == 1 ? 1 : 0];
-  if (!use.used() || uv.empty()) return material.emissive;
+  if (!hasCoordinates(mesh, use)) return material.emissive;
+  const auto& uv = coordinatesOf(mesh, use);
   const glm::uvec3& corners = mesh.triangles[triangle];
   glm::vec3 sum(0);
   int count = 0;

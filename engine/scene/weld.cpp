@@ -4,6 +4,7 @@
 #include <bit>
 #include <unordered_map>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/triangle_bvh.h"
 
 namespace acentric {
@@ -51,7 +52,7 @@ VertexKey keyOf(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex) {
 const std::vector<glm::vec2>* paintedUv(const Scene& scene, const Mesh& mesh) {
   const Material& material = scene.materials[std::size_t(mesh.material)];
   for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
-    if (use->used() && !mesh.uv[use->uvSet == 1 ? 1 : 0].empty()) return &mesh.uv[use->uvSet == 1 ? 1 : 0];
+    if (hasCoordinates(mesh, *use)) return &coordinatesOf(mesh, *use);
   return nullptr;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/surface_alpha.h"
 #include "engine/scene/texture_lookup.h"
 
@@ -13,19 +14,9 @@ static_assert(int(TextureWrap::repeat) == int(Wrap::repeat) && int(TextureWrap::
               int(TextureWrap::mirror) == int(Wrap::mirror));
 static_assert(sizeof(Rgba8) == sizeof(std::uint32_t) && sizeof(HalfColour) == 2 * sizeof(std::uint32_t));
 
-template <class Attribute>
-Attribute interpolate(const std::vector<Attribute>& values, const glm::uvec3& corners, const glm::vec2& b) {
-  return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
-}
-
-bool hasCoordinates(const Mesh& mesh, const TextureUse& use) {
-  return !mesh.uv[use.uvSet == 1 ? 1 : 0].empty();
-}
-
 glm::vec4 sampleAt(const Scene& scene, const Mesh& mesh, const TextureUse& use, const LocalPoint& point) {
   return sampleColour(
-      scene, use,
-      interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0], mesh.triangles[point.triangle], point.barycentric));
+      scene, use, interpolate(coordinatesOf(mesh, use), mesh.triangles[point.triangle], point.barycentric));
 }
 
 /// Unit normal on the side of `toEye`.
@@ -88,13 +79,8 @@ glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& 
   glm::vec4 colour = material.material->baseColour;
   if (material.textured && hasCoordinates(mesh, material.material->baseColourTexture))
     colour *= sampleAt(*scene_, mesh, material.material->baseColourTexture, point);
-  if (material.vertexColours && !mesh.colours.empty()) {
-    const glm::uvec3& corners = mesh.triangles[point.triangle];
-    const glm::vec2 b = point.barycentric;
-    colour *= (glm::vec4(mesh.colours[corners.x]) * (1 - b.x - b.y) +
-               glm::vec4(mesh.colours[corners.y]) * b.x + glm::vec4(mesh.colours[corners.z]) * b.y) /
-              255.0f;
-  }
+  if (material.vertexColours && !mesh.colours.empty())
+    colour *= vertexColourAt(mesh, mesh.triangles[point.triangle], point.barycentric);
   return colour;
 }
 
@@ -187,8 +173,8 @@ std::optional<SurfaceShade> LocalShading::surfaceOf(const std::array<LocalPoint,
     shade.wrapV = static_cast<TextureWrap>(texture.wrapV());
     shade.nearest = texture.nearest();
     for (std::size_t i = 0; i < 3; ++i)
-      copy(use.transform * glm::vec3(interpolate(mesh.uv[use.uvSet == 1 ? 1 : 0],
-                                                 mesh.triangles[point.triangle], corners[i].barycentric),
+      copy(use.transform * glm::vec3(interpolate(coordinatesOf(mesh, use), mesh.triangles[point.triangle],
+                                                 corners[i].barycentric),
                                      1),
            shade.uv[i]);
   }

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/view_gl/gl_check.h"
 
 namespace acentric {
@@ -31,35 +32,19 @@ bool canBeClear(const Material& material) {
   return material.alphaMode == AlphaMode::blend || material.transmission > 0;
 }
 
-template <class Value>
-Value blend(const std::vector<Value>& values, const glm::uvec3& corners, const glm::vec2& weights) {
-  return values[corners.x] * (1 - weights.x - weights.y) + values[corners.y] * weights.x +
-         values[corners.z] * weights.y;
-}
-
-const std::vector<glm::vec2>& coordinates(const Mesh& mesh, const TextureUse& use) {
-  return mesh.uv[use.uvSet == 1 ? 1 : 0];
-}
-bool hasCoordinates(const Mesh& mesh, const TextureUse& use) {
-  return use.used() && !coordinates(mesh, use).empty();
-}
-
 glm::vec2 uvAt(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& weights) {
   if (!hasCoordinates(mesh, use)) return glm::vec2(0);
-  return use.transform * glm::vec3(blend(coordinates(mesh, use), corners, weights), 1);
+  return use.transform * glm::vec3(interpolate(coordinatesOf(mesh, use), corners, weights), 1);
 }
 
 glm::u16vec4 colourAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
   if (mesh.colours.empty()) return glm::u16vec4(65535);
-  const glm::vec4 colour = glm::vec4(mesh.colours[corners.x]) * (1 - weights.x - weights.y) +
-                           glm::vec4(mesh.colours[corners.y]) * weights.x +
-                           glm::vec4(mesh.colours[corners.z]) * weights.y;
-  return glm::u16vec4(glm::round(glm::clamp(colour / 255.0f, 0.0f, 1.0f) * 65535.0f));
+  return glm::u16vec4(glm::round(glm::clamp(vertexColourAt(mesh, corners, weights), 0.0f, 1.0f) * 65535.0f));
 }
 
 /// Without usable normals in the file, that of the triangle.
 glm::vec3 normalAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
-  const glm::vec3 normal = mesh.normals.empty() ? glm::vec3(0) : blend(mesh.normals, corners, weights);
+  const glm::vec3 normal = mesh.normals.empty() ? glm::vec3(0) : interpolate(mesh.normals, corners, weights);
   if (glm::dot(normal, normal) > 0) return normal;
   return glm::cross(mesh.positions[corners.y] - mesh.positions[corners.x],
                     mesh.positions[corners.z] - mesh.positions[corners.x]);

@@ -4,54 +4,22 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "editor/commands/layout_edits.h"
-#include "editor/session/session.h"
 #include "engine/pipeline/coverage.h"
+
+#include "tests/editor/session_fixture.h"
 
 namespace acentric::editor {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A room 6 x 5 x 3 m, Y up, faces inwards, with a screen that hides a corner of it.
-void writeRoom(const fs::path& file) {
-  std::ofstream(file) << "v -3 0 -2.5\nv 3 0 -2.5\nv 3 0 2.5\nv -3 0 2.5\n"
-                         "v -3 3 -2.5\nv 3 3 -2.5\nv 3 3 2.5\nv -3 3 2.5\n"
-                         "v 1 0 1\nv 3 0 1\nv 3 2.4 1\nv 1 2.4 1\n"
-                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 9 10 11 12\n";
-}
-
-class CoverageTest : public testing::Test {
+/// With a screen that hides a corner of the room.
+class CoverageTest : public OpenSessionTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("acentric_coverage_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    writeRoom(folder_ / "room.obj");
-    SessionOptions options;
-    options.importHost.importer = ACENTRIC_IMPORTER;
-    options.importHost.cacheFolder = folder_ / "cache";
-    options.preferencesFile = folder_ / "editor.json";
-    options.processors = 2;
-    session_.emplace(options);
-    session_->open(folder_ / "room.obj");
-    waitFor([&] { return session_->built() && !session_->working(); });
-  }
-  void TearDown() override {
-    session_.reset();
-    fs::remove_all(folder_);
-  }
-  void waitFor(const std::function<bool()>& done) {
-    for (int i = 0; i < 12000 && !done(); ++i) {
-      session_->poll(now_);
-      now_ += 0.005;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    ASSERT_TRUE(done());
+  void writeModel(const fs::path& file) override {
+    writeRoom(file);
+    std::ofstream(file, std::ios::app) << "v 1 0 1\nv 3 0 1\nv 3 2.4 1\nv 1 2.4 1\nf 9 10 11 12\n";
   }
   const OpenProject& open() const { return *session_->built(); }
   std::vector<CoveragePicturePtr> measured(const CoverageRequest& request) {
@@ -62,10 +30,6 @@ class CoverageTest : public testing::Test {
     EXPECT_TRUE(status) << status.error().describe();
     return pictures;
   }
-
-  fs::path folder_;
-  std::optional<Session> session_;
-  double now_ = 0;
 };
 
 TEST_F(CoverageTest, OfThePlanIsCoarseAtFirstAndEndsAsTheCountOfTheWholeLayout) {

@@ -1,50 +1,20 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "editor/actions/action_table.h"
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
 
+#include "tests/editor/session_fixture.h"
+
 namespace acentric::editor {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A room of 6 x 5 x 3 m, opened and driven by actions, without a window.
-class PlanSessionTest : public testing::Test {
+/// The room, driven by actions, without a window.
+class PlanSessionTest : public OpenSessionTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("acentric_plan_session_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "room.obj")
-        << "v -3 0 -2.5\nv 3 0 -2.5\nv 3 0 2.5\nv -3 0 2.5\nv -3 3 -2.5\nv 3 3 -2.5\nv 3 3 2.5\nv -3 3 2.5\n"
-           "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-    SessionOptions options;
-    options.importHost.importer = ACENTRIC_IMPORTER;
-    options.importHost.cacheFolder = folder_ / "cache";
-    options.processors = 2;
-    options.autosaveSeconds = 0;
-    session_ = std::make_unique<Session>(options);
-    session_->open(folder_ / "room.obj");
-    waitFor([&] { return session_->walk() && !session_->working(); });
-  }
-  void TearDown() override {
-    session_.reset();
-    fs::remove_all(folder_);
-  }
-  void waitFor(const std::function<bool()>& done) {
-    for (int i = 0; i < 12000 && !done(); ++i) {
-      session_->poll(now_);
-      now_ += 0.05;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    ASSERT_TRUE(done());
-  }
   void settle() {
     waitFor([&] { return !session_->working() && session_->built()->project == session_->project(); });
   }
@@ -59,9 +29,6 @@ class PlanSessionTest : public testing::Test {
     return findAction(table_, id)->enabled(ActionContext{*session_, state_});
   }
 
-  fs::path folder_;
-  double now_ = 0;
-  std::unique_ptr<Session> session_;
   EditorState state_;
   const std::vector<Action> table_ = makeActionTable();
 };

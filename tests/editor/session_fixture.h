@@ -8,6 +8,8 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <thread>
 
 #include "editor/commands/layout_edits.h"
@@ -31,9 +33,10 @@ class SessionTest : public testing::Test {
     folder_ = fs::temp_directory_path() / ("acentric_session_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    writeRoom(folder_ / "room.obj");
+    writeModel(folder_ / "room.obj");
   }
   void TearDown() override { fs::remove_all(folder_); }
+  virtual void writeModel(const fs::path& file) { writeRoom(file); }
 
   SessionOptions options() const {
     SessionOptions options;
@@ -77,6 +80,23 @@ class SessionTest : public testing::Test {
 
   fs::path folder_;
   double now_ = 0;
+};
+
+/// With one session that has the room open.
+class OpenSessionTest : public SessionTest {
+ protected:
+  void SetUp() override {
+    SessionTest::SetUp();
+    session_.emplace(options());
+    openAndSettle(*session_, folder_ / "room.obj");
+  }
+  void TearDown() override {
+    session_.reset();
+    SessionTest::TearDown();
+  }
+  void waitFor(const std::function<bool()>& done) { SessionTest::waitFor(*session_, done); }
+
+  std::optional<Session> session_;
 };
 
 }  // namespace acentric::editor

@@ -3,33 +3,23 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <fstream>
 #include <functional>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "editor/actions/action_table.h"
 #include "editor/session/frame_times.h"
 #include "editor/session/screenshot.h"
-#include "editor/session/session.h"
 #include "editor/session/used_images.h"
 #include "editor/session/walk_renderer.h"
 #include "engine/base/file.h"
 #include "engine/view/view_cameras.h"
 
+#include "tests/editor/session_fixture.h"
+
 namespace acentric::editor {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A closed room 6 x 5 x 3 m, Y up, faces inwards.
-void writeRoom(const fs::path& file) {
-  std::ofstream(file) << "v -3 0 -2.5\nv 3 0 -2.5\nv 3 0 2.5\nv -3 0 2.5\n"
-                         "v -3 3 -2.5\nv 3 3 -2.5\nv 3 3 2.5\nv -3 3 2.5\n"
-                         "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-}
 
 fs::path emptyFolder(const char* name) {
   const fs::path folder = fs::temp_directory_path() / (name + std::to_string(::getpid()));
@@ -38,34 +28,13 @@ fs::path emptyFolder(const char* name) {
   return folder;
 }
 
-class WalkViewTest : public testing::Test {
+class WalkViewTest : public OpenSessionTest {
  protected:
   void SetUp() override {
-    folder_ = emptyFolder("acentric_walk_view_");
-    writeRoom(folder_ / "room.obj");
-    SessionOptions options;
-    options.importHost.importer = ACENTRIC_IMPORTER;
-    options.importHost.cacheFolder = folder_ / "cache";
-    options.preferencesFile = folder_ / "editor.json";
-    options.processors = 2;
-    session_.emplace(options);
-    session_->open(folder_ / "room.obj");
-    waitFor([&] { return session_->walk() && !session_->working(); });
+    OpenSessionTest::SetUp();
     view_.eye = glm::dvec3(session_->project().spawn().position, session_->built()->layout->eyeZ());
     view_.yawRadians = 0.4;
     view_.width = 64, view_.height = 48;
-  }
-  void TearDown() override {
-    session_.reset();
-    fs::remove_all(folder_);
-  }
-  void waitFor(const std::function<bool()>& done) {
-    for (int i = 0; i < 12000 && !done(); ++i) {
-      session_->poll(now_);
-      now_ += 0.005;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    ASSERT_TRUE(done());
   }
   TruthFrame truthOf(const PerspectiveView& view, int rays) const {
     TaskRunner runner(1);
@@ -84,10 +53,7 @@ class WalkViewTest : public testing::Test {
     return frame;
   }
 
-  fs::path folder_;
-  std::optional<Session> session_;
   PerspectiveView view_;
-  double now_ = 0;
 };
 
 TEST_F(WalkViewTest, TheTruthIsCoarseAtFirstAndEndsAsTheOneThatIsMeasuredAgainst) {
