@@ -1,6 +1,7 @@
 # Warnings, sanitizers and the two helpers by which every folder declares its target.
 option(ACENTRIC_TESTS "Build the tests" ON)
 set(ACENTRIC_SANITIZE "" CACHE STRING "Sanitizers, comma separated: address,undefined or thread")
+option(ACENTRIC_LIBFUZZER "The harnesses of tests/fuzz are driven by libFuzzer, which clang has" OFF)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -16,9 +17,12 @@ endif()
 
 add_library(acentric_options INTERFACE)
 target_compile_options(acentric_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-qual -Wold-style-cast -Werror
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-qual -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # others warn of other things
   # g++ 12 reports these falsely for std::string (GCC bug 105651), the last three with precompiled headers.
-  -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+  target_compile_options(acentric_options INTERFACE
+    -Werror -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
 target_include_directories(acentric_options INTERFACE ${CMAKE_SOURCE_DIR})
 if(ACENTRIC_SANITIZE)
   target_compile_options(acentric_options INTERFACE

@@ -77,6 +77,30 @@ TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const
   return frame;
 }
 
+Panorama tracePanorama(const RayScene& scene, const glm::dvec3& eye, int height, const BakeSettings& settings,
+                       TaskRunner& runner, const std::stop_token& stop) {
+  require(height >= 1, "a panorama has rows");
+  require(settings.check().has_value(), "bake settings are checked before they are used");
+  const int width = 2 * height;
+  Panorama panorama{LinearImage(width, height), FloatImage(width, height)};
+  const Shader shader(scene, settings, stop);
+  runner.parallelFor(std::size_t(height), [&](std::size_t row) {
+    if (stop.stop_requested()) return;
+    const FlushDenormals flush;
+    RayCounts rays;
+    const int y = int(row);
+    const double elevation = kPi * (0.5 - (y + 0.5) / height);
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 plan = std::cos(elevation) * directionOf(kPi * (1 - 2 * (x + 0.5) / width));
+      const auto seen = shader.seenAlong({glm::vec3(eye), glm::vec3(plan.x, plan.y, std::sin(elevation))},
+                                         &RayCounts::primary, rays);
+      panorama.radiance.at(x, y) = seen.radiance;
+      panorama.rayDistance.at(x, y) = seen.opaque.distance;
+    }
+  });
+  return panorama;
+}
+
 Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,
                                         TaskRunner& runner) {
   require(view.check().has_value(), "a view to render is sound");

@@ -23,6 +23,17 @@ TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const
                        float exposure, int samplesPerPixel, TaskRunner& runner,
                        const std::stop_token& stop = {});
 
+/// All around a place, equirectangular: twice as wide as high, row 0 at the zenith, the middle along azimuth
+/// 0 (+x) and azimuths growing to the left, as from inside.
+struct Panorama {
+  LinearImage radiance;
+  FloatImage rayDistance;  ///< metres to the first opaque surface; infinity = sky or nothing
+};
+
+/// One ray through each pixel centre. A stop ends it within a row; the panorama then means nothing.
+Panorama tracePanorama(const RayScene& scene, const glm::dvec3& eye, int height, const BakeSettings& settings,
+                       TaskRunner& runner, const std::stop_token& stop = {});
+
 /// 1 where what a pixel's centre shows looks different from elsewhere: metals, mirrors, and what lies behind
 /// glass; else 0. Shades nothing.
 Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,

@@ -9,9 +9,10 @@ Result<Report> runExportImages(const ExportOptions& options, const Common& commo
   const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   ExportImagesOptions images;
-  images.format = options.to == "colmap"   ? ImageSetFormat::colmap
-                  : options.to == "seurat" ? ImageSetFormat::seurat
-                                           : ImageSetFormat::nerfstudio;
+  images.format = options.to == "colmap"      ? ImageSetFormat::colmap
+                  : options.to == "seurat"    ? ImageSetFormat::seurat
+                  : options.to == "panoramas" ? ImageSetFormat::panoramas
+                                              : ImageSetFormat::nerfstudio;
   images.facePixels = options.facePixels;
   if (options.region >= 0) images.onlyRegion = options.region;
   const auto runner = common.runner();

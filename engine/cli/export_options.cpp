@@ -19,10 +19,10 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
   c->add_option(
        "--to", o.to,
        "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
-       "that "
-       "walks through it (docs/web.md); gltf, a GLB for each region; colmap, nerfstudio, seurat, ray-traced "
-       "pictures with distances and their cameras")
-      ->check(CLI::IsMember({"bundle", "web", "gltf", "colmap", "nerfstudio", "seurat"}))
+       "that walks through it (docs/web.md); gltf, a GLB for each region; colmap, nerfstudio, seurat, "
+       "ray-traced "
+       "pictures with distances and their cameras; panoramas, OpenEXR with distances")
+      ->check(CLI::IsMember({"bundle", "web", "gltf", "colmap", "nerfstudio", "seurat", "panoramas"}))
       ->capture_default_str();
   c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
       ->check(CLI::Range(0.01, 64.0))
@@ -31,7 +31,9 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();
   c->add_option("--region", o.region, "gltf and pictures: this region alone")->check(CLI::NonNegativeNumber);
-  c->add_option("--face-size", o.facePixels, "colmap, nerfstudio, seurat: pixels a side of a cube's face")
+  c->add_option(
+       "--face-size", o.facePixels,
+       "colmap, nerfstudio, seurat: pixels a side of a cube's face; panoramas are four times as wide")
       ->check(CLI::Range(16, 8192))
       ->capture_default_str();
   c->add_flag("--single-file", o.singleFile, "Of --to web: everything in one HTML file, for small projects");

@@ -120,6 +120,22 @@ std::string seuratManifest(std::span<const PosedImage> images, const glm::dvec3&
   return json.dump(1) + "\n";
 }
 
+std::string panoramaList(std::span<const PosedPanorama> panoramas, double exposure) {
+  Json json{
+      {"format", "acentric-panoramas"},
+      {"version", 1},
+      {"projection", "equirectangular: the middle along +x, +y to the left of it, zenith on top"},
+      {"axes", "Z up, right-handed, metres"},
+      {"channels", {{"R, G, B", "linear radiance, Rec.709"}, {"Z", "metres along the ray, or infinity"}}},
+      {"exposure", exposure},
+      {"panoramas", Json::array()}};
+  for (const PosedPanorama& panorama : panoramas)
+    json["panoramas"].push_back({{"file", panorama.file},
+                                 {"region", panorama.region},
+                                 {"position", {panorama.eye.x, panorama.eye.y, panorama.eye.z}}});
+  return json.dump(1) + "\n";
+}
+
 Status writePointsPly(std::span<const ColouredPoint> points, const std::filesystem::path& file) {
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"

@@ -1,7 +1,7 @@
 #pragma once
 /// Pictures with the cameras that took them, in the formats of programs that make scenes of such: COLMAP's
-/// text files, nerfstudio's transforms.json, Seurat's manifest. Places are ours: metres, Z up, relative to
-/// the project's origin.
+/// text files, nerfstudio's transforms.json, Seurat's manifest; and a list of panoramas. Places are ours:
+/// metres, Z up, relative to the project's origin.
 
 #include <filesystem>
 #include <span>
@@ -36,6 +36,16 @@ Status writeColmap(std::span<const PosedImage> images, std::span<const ColouredP
 std::string seuratManifest(std::span<const PosedImage> images, const glm::dvec3& headBoxCentre);
 /// Points as PLY, ASCII.
 Status writePointsPly(std::span<const ColouredPoint> points, const std::filesystem::path& file);
+
+struct PosedPanorama {
+  std::string file;  ///< relative to the folder of the list
+  int region = 0;
+  glm::dvec3 eye{0};
+};
+
+/// panoramas.json: what they are, and where each was taken. `exposure`: what radiance is multiplied with
+/// before it is shown.
+std::string panoramaList(std::span<const PosedPanorama> panoramas, double exposure);
 
 /// One channel of 16 bits, in units of `unit` metres; what is farther than that holds, and infinity, is 0.
 Status writeDepthPng(const FloatImage& metres, double unit, const std::filesystem::path& file);

@@ -9,6 +9,7 @@
 #include <new>
 #include <string_view>
 
+#include "engine/base/contract.h"
 #include "engine/base/file.h"
 #include "engine/image/colour.h"
 #include "engine/image/png_check.h"
@@ -176,6 +177,15 @@ Result<ColourImage> decode(std::span<const std::byte> bytes, const std::string& 
   return spreadBytes(spec, *raw, associated);
 }
 
+/// May a floating-point picture of that size be written there?
+Status checkExr(int width, int height, const fs::path& path) {
+  if (width < 1 || height < 1)
+    return fail(ErrorKind::invalidArgument, "an empty picture cannot be written", path.string());
+  if (path.extension() != ".exr")
+    return fail(ErrorKind::invalidArgument, "floating-point pictures are written as .exr", path.string());
+  return {};
+}
+
 /// Writes `data` (pixel stride `stride` bytes) by the format that the temporary's extension names.
 Status writeWith(const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* data, std::size_t stride,
                  const fs::path& temporary, const std::string& name) {
@@ -228,16 +238,35 @@ Status writeColourImage(const ColourImage& image, const fs::path& path) {
 }
 
 Status writeFloatImage(const FloatImage& image, const fs::path& path, const char* channel) {
-  if (image.width < 1 || image.height < 1)
-    return fail(ErrorKind::invalidArgument, "an empty picture cannot be written", path.string());
-  if (path.extension() != ".exr")
-    return fail(ErrorKind::invalidArgument, "floating-point pictures are written as .exr", path.string());
+  if (Status sound = checkExr(image.width, image.height, path); !sound) return sound;
   return guarded<Status>(path.string(), [&] {
     OIIO::ImageSpec spec(image.width, image.height, 1, OIIO::TypeDesc::FLOAT);
     spec.channelnames = {channel};
     spec.attribute("compression", "zip");
     return replaceFileAtomically(path, [&](const fs::path& temporary) {
       return writeWith(spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), sizeof(float), temporary,
+                       path.string());
+    });
+  });
+}
+
+Status writePanorama(const LinearImage& radiance, const FloatImage& distance, const fs::path& path) {
+  require(radiance.width == distance.width && radiance.height == distance.height, "both are of one size");
+  if (Status sound = checkExr(radiance.width, radiance.height, path); !sound) return sound;
+  constexpr float kLargestHalf = 65504;
+  std::vector<glm::vec4> pixels(radiance.pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = {glm::min(radiance.pixels[i], glm::vec3(kLargestHalf)), distance.pixels[i]};
+  return guarded<Status>(path.string(), [&] {
+    OIIO::ImageSpec spec(radiance.width, radiance.height, 4, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = {"R", "G", "B", "Z"};
+    spec.channelformats = {OIIO::TypeDesc::HALF, OIIO::TypeDesc::HALF, OIIO::TypeDesc::HALF,
+                           OIIO::TypeDesc::FLOAT};
+    spec.alpha_channel = -1, spec.z_channel = 3;
+    spec.attribute("compression", "zip");
+    spec.attribute("textureformat", "LatLong Environment");
+    return replaceFileAtomically(path, [&](const fs::path& temporary) {
+      return writeWith(spec, OIIO::TypeDesc::FLOAT, pixels.data(), sizeof(glm::vec4), temporary,
                        path.string());
     });
   });

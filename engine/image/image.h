@@ -40,5 +40,9 @@ Result<ColourImage> decodeColourImage(std::span<const std::byte> bytes, const st
 Status writeColourImage(const ColourImage& image, const std::filesystem::path& path);
 /// One float channel as OpenEXR, atomically.
 Status writeFloatImage(const FloatImage& image, const std::filesystem::path& path, const char* channel);
+/// An equirectangular picture of the same size as its distances, as OpenEXR that says so (envmap latlong),
+/// atomically: R, G, B as half floats, Z as float.
+Status writePanorama(const LinearImage& radiance, const FloatImage& distance,
+                     const std::filesystem::path& path);
 
 }  // namespace acentric

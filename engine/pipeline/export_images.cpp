@@ -50,7 +50,11 @@ class Writer {
 
   Result<ExportImagesReport> write() {
     std::error_code error;
-    for (const char* name : {"images", "depth"}) fs::create_directories(folder_ / name, error);
+    const bool panoramas = options_.format == ImageSetFormat::panoramas;
+    if (panoramas)
+      fs::create_directories(folder_ / "panoramas", error);
+    else
+      for (const char* name : {"images", "depth"}) fs::create_directories(folder_ / name, error);
     const auto& regions = open_.layout->regions;
     std::vector<std::size_t> chosen;
     for (std::size_t r = 0; r < regions.size(); ++r)
@@ -62,14 +66,27 @@ class Writer {
     for (std::size_t n = 0; n < chosen.size(); ++n) {
       if (progress_) progress_({double(n), double(chosen.size()), "tracing pictures"});
       const glm::dvec3 eye(regions[chosen[n]].polygon.centroid(), open_.layout->eyeZ());
+      if (panoramas) {
+        if (Status written = writePanoramaAt(eye, int(chosen[n])); !written)
+          return tl::unexpected(written.error());
+        continue;
+      }
       for (const PerspectiveView& view : facesFrom(eye, options_.facePixels))
         if (Status written = writeImage(view, int(n)); !written) return tl::unexpected(written.error());
     }
     if (Status described = describe(); !described) return tl::unexpected(described.error());
-    return ExportImagesReport{images_.size(), points_.size()};
+    return ExportImagesReport{images_.size() + panoramas_.size(), points_.size()};
   }
 
  private:
+  Status writePanoramaAt(const glm::dvec3& eye, int region) {
+    const Panorama traced =
+        tracePanorama(*open_.rays, eye, 2 * options_.facePixels, open_.project.bake, runner_, stop_);
+    if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "tracing panoramas was stopped");
+    panoramas_.push_back({fmt::format("panoramas/{:05}.exr", panoramas_.size()), region, eye});
+    return writePanorama(traced.radiance, traced.rayDistance, folder_ / panoramas_.back().file);
+  }
+
   Status writeImage(const PerspectiveView& view, int place) {
     const TruthFrame traced =
         renderTruth(*open_.rays, view, open_.project.bake, open_.project.exposure, 1, runner_, stop_);
@@ -103,7 +120,6 @@ class Writer {
   }
 
   Status describe() const {
-    const glm::dvec3 middle = images_.front().view.eye;
     switch (options_.format) {
       case ImageSetFormat::colmap: {
         std::error_code error;
@@ -115,7 +131,11 @@ class Writer {
         return writeTextAtomically(folder_ / "transforms.json",
                                    nerfstudioTransforms(images_, kMillimetre, "points.ply"));
       case ImageSetFormat::seurat:
-        return writeTextAtomically(folder_ / "manifest.json", seuratManifest(images_, middle));
+        return writeTextAtomically(folder_ / "manifest.json",
+                                   seuratManifest(images_, images_.front().view.eye));
+      case ImageSetFormat::panoramas:
+        return writeTextAtomically(folder_ / "panoramas.json",
+                                   panoramaList(panoramas_, double(open_.project.exposure)));
     }
     return {};
   }
@@ -128,6 +148,7 @@ class Writer {
   const std::stop_token& stop_;
   std::size_t pointsPerImage_ = 0;
   std::vector<PosedImage> images_;
+  std::vector<PosedPanorama> panoramas_;
   std::vector<ColouredPoint> points_;
 };
 

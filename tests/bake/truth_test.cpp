@@ -131,5 +131,33 @@ TEST(Exposure, OfDarknessIsOneAndExtremesAreBounded) {
   EXPECT_FLOAT_EQ(estimateExposure(*bright.rays(), {{0, 0, 1}}, {}, runner), 1e-4f);
 }
 
+TEST(Panorama, LooksAlongXInTheMiddleAndShowsWhatPicturesShow) {
+  SceneBuilder builder;
+  builder.box(builder.material(unlit({0.5F, 0.25F, 0.125F})), {-4, -3, 0}, {4, 3, 2.5F}, true);
+  const auto rays = builder.rays();
+  const glm::dvec3 eye(1, 0.5, 1);
+  TaskRunner runner(2);
+  constexpr int kHeight = 64;
+  const Panorama panorama = tracePanorama(*rays, eye, kHeight, {}, runner);
+  ASSERT_EQ(panorama.radiance.width, 2 * kHeight);
+  const auto inTheRoom = [&](const glm::dvec3& way) {  // to the nearest wall
+    double nearest = std::numeric_limits<double>::infinity();
+    const glm::dvec3 low(-4, -3, 0), high(4, 3, 2.5);
+    for (int axis = 0; axis < 3; ++axis)
+      if (way[axis] != 0)
+        nearest = std::min(nearest, ((way[axis] > 0 ? high : low)[axis] - eye[axis]) / way[axis]);
+    return nearest;
+  };
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < 2 * kHeight; ++x) {
+      // From the middle column to the left: 0 to pi, as azimuths grow; from the top: zenith to nadir.
+      const double azimuth = (kHeight - (x + 0.5)) / kHeight * kPi, polar = (y + 0.5) / kHeight * kPi;
+      const glm::dvec3 way(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                           std::cos(polar));
+      EXPECT_NEAR(panorama.rayDistance.at(x, y), inTheRoom(way), 1e-4) << x << ", " << y;
+      EXPECT_NEAR(panorama.radiance.at(x, y).g, 0.25, 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace acentric

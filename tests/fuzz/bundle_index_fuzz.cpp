@@ -6,9 +6,9 @@
 
 using namespace acentric;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+bool accepts(const std::uint8_t* data, std::size_t size) {
   const auto bundle = parseBundle(std::string(reinterpret_cast<const char*>(data), size), "bundle.json");
-  if (!bundle) return -1;
+  if (!bundle) return false;
   for (const BundleStorey& storey : bundle->storeys)
     for (const Region& region : storey.layout.regions)
       for (const double yaw : {0.0, 1.5, -2.5}) {
@@ -17,5 +17,5 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         view.yawRadians = yaw, view.width = 64, view.height = 36;
         paintingOrder(storey.layout, view, bundle->view);
       }
-  return 0;
+  return true;
 }

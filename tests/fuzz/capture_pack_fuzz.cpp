@@ -6,9 +6,9 @@
 
 using namespace acentric;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+bool accepts(const std::uint8_t* data, std::size_t size) {
   const auto capture = withoutKey(keyedCaptureOf(test::withChecksum(data, size), "a pack"));
-  if (!capture) return -1;
+  if (!capture) return false;
   prepareForDisplay(*capture, 1);
-  return 0;
+  return true;
 }

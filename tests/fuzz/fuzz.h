@@ -1,6 +1,6 @@
 #pragma once
-/// What harnesses share. Each is one function, as libFuzzer calls it, that any bytes may be given to;
-/// run_seeds.cpp gives it some.
+/// What harnesses share. Each is one function that any bytes may be given to: run_seeds.cpp gives it some, and in the
+/// preset "fuzz" libFuzzer does (libfuzzer.cpp).
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -14,8 +14,8 @@
 
 #include "engine/base/hash.h"
 
-/// 0, or -1 where the bytes were refused.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// The harness's reader takes these bytes, or refuses them with an error.
+bool accepts(const std::uint8_t* data, std::size_t size);
 
 namespace acentric::test {
 

@@ -5,7 +5,7 @@
 
 using namespace acentric;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+bool accepts(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t kMaterials = 20, kMirrors = 4;
-  return readLocalFile(test::withChecksum(data, size), "a region", kMaterials, kMirrors) ? 0 : -1;
+  return readLocalFile(test::withChecksum(data, size), "a region", kMaterials, kMirrors).has_value();
 }

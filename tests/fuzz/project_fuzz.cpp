@@ -7,9 +7,9 @@
 
 using namespace acentric;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+bool accepts(const std::uint8_t* data, std::size_t size) {
   const auto project = parseProject(std::string(reinterpret_cast<const char*>(data), size), "a project");
   if (project && !parseProject(formatProject(*project), "the same")) std::abort();
   const test::MemoryFile file(test::bytesOf(data, size));
-  return loadPath(file.path()) || project ? 0 : -1;
+  return loadPath(file.path()) || project;
 }

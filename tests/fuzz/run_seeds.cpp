@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-bool accepted(const Bytes& bytes) { return LLVMFuzzerTestOneInput(bytes.data(), bytes.size()) == 0; }
+bool accepted(const Bytes& bytes) { return accepts(bytes.data(), bytes.size()); }
 
 Bytes changed(Bytes bytes, std::mt19937& random) {
   const auto below = [&](std::size_t limit) {

@@ -5,7 +5,7 @@
 
 using namespace acentric;
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+bool accepts(const std::uint8_t* data, std::size_t size) {
   const test::MemoryFile file(test::bytesOf(data, size));
-  return readSceneFile(file.path(), [](const auto&) { return true; }) ? 0 : -1;
+  return static_cast<bool>(readSceneFile(file.path(), [](const auto&) { return true; }));
 }

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include "engine/base/file.h"
@@ -212,6 +214,36 @@ TEST(SceneTextures, EveryPictureOfTheSharedScenesIsRead) {
     EXPECT_TRUE(image) << image.error().describe();
   }
   EXPECT_GT(read, 0);
+}
+
+TEST_F(ImageFile, PanoramasAreWhatOtherProgramsTakeForThem) {
+  LinearImage radiance(4, 2, glm::vec3(0.25F, 2, 1e9F));
+  FloatImage distance(4, 2, 3.14159F);
+  radiance.at(3, 1) = {0.5F, 0, 0};
+  distance.at(0, 1) = std::numeric_limits<float>::infinity();
+  const fs::path file = folder_ / "all_around.exr";
+  const Status written = writePanorama(radiance, distance, file);
+  ASSERT_TRUE(written) << written.error().describe();
+
+  const auto input = OIIO::ImageInput::open(file.string());
+  ASSERT_TRUE(input) << OIIO::geterror();
+  const OIIO::ImageSpec spec = input->spec();
+  EXPECT_EQ(spec.channelnames, (std::vector<std::string>{"R", "G", "B", "Z"}));
+  ASSERT_EQ(spec.channelformats.size(), 4U);
+  EXPECT_EQ(spec.channelformats[0], OIIO::TypeDesc::HALF);
+  EXPECT_EQ(spec.channelformats[3], OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(spec.get_string_attribute("textureformat"), "LatLong Environment");
+  std::vector<float> values(4 * 8);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, values.data()));
+  const auto at = [&](int x, int y, int channel) { return values[std::size_t((y * 4 + x) * 4 + channel)]; };
+  EXPECT_EQ(at(0, 0, 0), 0.25F);
+  EXPECT_EQ(at(0, 0, 1), 2.0F);
+  EXPECT_EQ(at(0, 0, 2), 65504.0F) << "the largest half, not infinity";
+  EXPECT_EQ(at(3, 1, 0), 0.5F);
+  EXPECT_EQ(at(3, 1, 3), 3.14159F);
+  EXPECT_TRUE(std::isinf(at(0, 1, 3)));
+
+  EXPECT_FALSE(writePanorama(radiance, distance, folder_ / "all_around.png"));
 }
 
 }  // namespace

@@ -106,6 +106,20 @@ TEST_F(ExportImages, SeuratsManifestHasAGroupOfSixFaces) {
   }
 }
 
+TEST_F(ExportImages, PanoramasAreListedWithTheirPlaces) {
+  EXPECT_EQ(write(ImageSetFormat::panoramas).images, 1U);
+  const auto json = nlohmann::json::parse(readText(folder_ / "set" / "panoramas.json").value());
+  ASSERT_EQ(json.at("panoramas").size(), 1U);
+  const auto& only = json.at("panoramas")[0];
+  EXPECT_EQ(only.at("region"), 0);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(only.at("position")[std::size_t(axis)].get<double>(), eye()[axis], 1e-9);
+  const auto picture = readColourImage(folder_ / "set" / only.at("file").get<std::string>());
+  ASSERT_TRUE(picture) << picture.error().describe();
+  EXPECT_EQ(picture->width, 4 * 32);
+  EXPECT_EQ(picture->height, 2 * 32);
+}
+
 TEST_F(ExportImages, RefusesFoldersInUseAndPosesThatAreNone) {
   write(ImageSetFormat::seurat);
   TaskRunner runner(1);
