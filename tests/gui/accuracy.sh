@@ -2,26 +2,13 @@
 # Accuracy against time by real input events: a small sweep is shown, a mark is pointed at and clicked, its setting and
 # a preset become edits; measuring is begun in the editor and stopped. Checks the log and the files.
 #   accuracy.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room
 "$ACENTRIC" sweep "$PROJECT" --knobs reconstruction=point/splat --no-search --size 160x90 --frames 2 --repeats 2 \
   --truth-samples 1 --crossings 1 >"$WORK/sweep.out" 2>&1 || { cat "$WORK/sweep.out"; exit 1; }
 
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 press F6
 wait_for '^event sweep running 0 points 3' 30
 wait_for '^rect accuracy.mark1 ' 30

@@ -3,17 +3,7 @@
 # the history's list is clicked; a second editor on the same project is read-only; a model and a project that others change
 # are noticed; problems are listed; damaged preferences, locks and autosaves are survived.
 #   document.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache" "$WORK/state" "$WORK/second"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache XDG_STATE_HOME=$WORK/state
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room
 
@@ -78,6 +68,7 @@ wait_state "regions $((REGIONS + 1)) .*working 0 dirty 1 undo 1" 30
 # A second editor on the same project says who has it and is read-only; what it does stays its own.
 FIRST_PID=$EDITOR_PID FIRST_WORK=$WORK FIRST_WINDOW=$WINDOW
 WORK=$WORK/second
+mkdir -p "$WORK"
 start_editor "$PROJECT"
 shown dialog.readOnly 60
 import -window root "$WORK/locked.png"

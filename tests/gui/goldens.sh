@@ -4,18 +4,8 @@
 # in a small share of its pixels. Where one differs more, the picture, the golden and their difference are in the work folder.
 #   goldens.sh EDITOR ACENTRIC WORK_FOLDER
 # After a change that is meant: UPDATE_GOLDENS=1 goldens.sh ... writes them anew; look at them before they are kept.
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
 HERE=$(cd "$(dirname "$0")" && pwd)
-. "$HERE/support.sh"
-. "$HERE/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config/acentric" "$WORK/cache" "$WORK/state"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache XDG_STATE_HOME=$WORK/state
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 FUZZ=10%      # how far a channel may be off; edges of letters differ between versions of Mesa and FreeType
 SHARE=0.004   # of the pixels may be off further

@@ -2,17 +2,7 @@
 # The editor by keys alone: an action of each menu, commands found by name, Tab without stealing the walk's keys; the first
 # start with its guide; windows of any size; and a display without OpenGL 3.3.
 #   keyboard.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 make_room
 
 lines() { grep -c "$1" "$WORK/ui.log"; }

@@ -2,40 +2,13 @@
 # Records a walk in the editor by real keys, replays it, moves a key pose of it on the plan, bookmarks a place, walks
 # away and goes back there, saves. Checks the log, the project file, and that `acentric` plays the path.
 #   paths.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room --cell 1.6 --outline "-2.2,-1.6;2.2,-1.6;2.2,1.6;-2.2,1.6"
 "$ACENTRIC" bake "$PROJECT" >"$WORK/bake.out" 2>&1 || { cat "$WORK"/*.out; exit 1; }
 
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 
-eye() { grep '^event eye' "$WORK/ui.log" | tail -1; }
-# rest: until the eye stands and its picture shows
-rest() {
-  local before='' now
-  for _ in $(seq 40); do
-    now=$(grep -Ec '^event (eye|frame)' "$WORK/ui.log")
-    [ "$now" = "$before" ] && return
-    before=$now
-    sleep 1
-  done
-  fail "the eye does not come to rest"
-}
-# away FROM TO: metres between two lines of eye
-away() { echo "$1 $2" | awk '{ print sqrt(($10 - $3) ^ 2 + ($11 - $4) ^ 2) }'; }
 
 # Record: walk, turn, walk.
 press_with ctrl r
@@ -56,22 +29,22 @@ wait_state 'undo 2' 20
 press s 0.8
 press q 0.4
 rest
-[ "$(away "$END" "$(eye)" | awk '{ print ($1 > 0.2) }')" = 1 ] || fail "S did not walk away: $END, $(eye)"
+[ "$(apart "$END" "$(eye)" | awk '{ print ($1 > 0.2) }')" = 1 ] || fail "S did not walk away: $END, $(eye)"
 click path.0
 press space
 wait_for '^event message Replay of walk 1: [1-9][0-9]* frames' 60
 rest
-[ "$(away "$END" "$(eye)" | awk '{ print ($1 < 0.05) }')" = 1 ] || fail "the replay ended elsewhere: $END, $(eye)"
+[ "$(apart "$END" "$(eye)" | awk '{ print ($1 < 0.05) }')" = 1 ] || fail "the replay ended elsewhere: $END, $(eye)"
 
 # Away again, and back to the bookmark.
 press a 0.6
 rest
 AWAY=$(eye)
-[ "$(away "$END" "$AWAY" | awk '{ print ($1 > 0.1) }')" = 1 ] || fail "A did not walk away: $END, $AWAY"
+[ "$(apart "$END" "$AWAY" | awk '{ print ($1 > 0.1) }')" = 1 ] || fail "A did not walk away: $END, $AWAY"
 click bookmark.0
 click bookmark.go
 rest
-[ "$(away "$END" "$(eye)" | awk '{ print ($1 < 0.001) }')" = 1 ] || fail "the bookmark is elsewhere: $END, $(eye)"
+[ "$(apart "$END" "$(eye)" | awk '{ print ($1 < 0.001) }')" = 1 ] || fail "the bookmark is elsewhere: $END, $(eye)"
 
 # On the plan: move the path's last key pose, and take that back.
 click path.0

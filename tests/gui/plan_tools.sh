@@ -2,17 +2,7 @@
 # The plan's tools by real input events: a box that selects, cells dragged together and nudged, a copy, the lattice's handles,
 # the picker of configurations, the table of regions, the overlays' menu, the ruler. Each step is checked in the log.
 #   plan_tools.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room --cell 1 --config e --outline "-1.4,-1.4;1.4,-1.4;1.4,1.4;-1.4,1.4"
 
@@ -37,10 +27,7 @@ drag_with() {  # drag_with MODIFIER X0 Y0 X1 Y1
 }
 number_in_project() { python3 -c 'import json,sys; print(json.load(open(sys.argv[1]))["storeys"][0]["layout"][sys.argv[2]])' "$PROJECT" "$1"; }
 
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 REGIONS=$(field regions)
 NAMES=$(grep -oE '^rect cell\.[-0-9.]+ ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u)
 SHOWN=$(echo "$NAMES" | while read -r name; do echo "$(place "$name") $name"; done)

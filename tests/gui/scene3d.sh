@@ -2,24 +2,11 @@
 # The 3D view by real input events: opens it, orbits, comes nearer, selects a cell, asks a surface which cameras
 # sample it, looks through cameras of the cell, and goes back to the plan. Checks the log.
 #   scene3d.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room
 
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 
 # frames: of the 3D view at rest, so far. at_rest N: there is another one after the N-th.
 frames() { grep -c '^event scene3d frame' "$WORK/ui.log"; }

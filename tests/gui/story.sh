@@ -3,17 +3,7 @@
 # the dialog, another configuration, a cell moved, a triangle budget that a region exceeds, cells fitted to it, a bake that is
 # cancelled and goes on, a walk, the figures against the truth, saved; opened again all of it is as it was.
 #   story.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache" "$WORK/state"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache XDG_STATE_HOME=$WORK/state
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 # The sample of the first start, and a hall, 6 x 5 x 3 m, whose floor has many triangles at its eastern end.
 make_room
@@ -44,20 +34,6 @@ PY
 "$ACENTRIC" new "$WORK/hall.obj" -o "$PROJECT" --config b --cell 1.6 --samples-per-degree 5 \
   --outline "-2,-1.4;2,-1.4;2,1.4;-2,1.4" >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
 
-eye() { grep '^event eye' "$WORK/ui.log" | tail -1; }
-# rest: until the eye stands and its picture shows
-rest() {
-  local before='' now
-  for _ in $(seq 60); do
-    now=$(grep -Ec '^event (eye|frame)' "$WORK/ui.log")
-    [ "$now" = "$before" ] && return
-    before=$now
-    sleep 0.7
-  done
-  fail "the eye does not come to rest"
-}
-# apart EYE EYE: metres
-apart() { echo "$1 $2" | awk '{ print sqrt(($10 - $3) ^ 2 + ($11 - $4) ^ 2) }'; }
 # shown NAME SECONDS: the widget is shown and at rest
 shown() {
   local last='' now

@@ -2,26 +2,13 @@
 # What the walk shows beside its picture, by real input events: split with the ray-traced truth and a border that is
 # dragged, the difference, frame times, the minimap and the images in use, settings, saved pictures.
 #   walk_views.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config/acentric" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 echo '{ "walkWidth": 360 }' >"$WORK/config/acentric/editor.json"
 make_room
 "$ACENTRIC" bake "$PROJECT" >"$WORK/bake.out" 2>&1 || { cat "$WORK/bake.out"; exit 1; }
 
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 
 rect() { grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1; }
 # shown NAME...: waits until each is, and stays where it is
@@ -37,7 +24,6 @@ shown() {
     fail "$name is not shown"
   done
 }
-eye() { grep '^event eye' "$WORK/ui.log" | tail -1; }
 compared() { grep '^event compared' "$WORK/ui.log" | tail -1; }
 
 # Every button of the toolbar lies within the narrow walk.

@@ -2,23 +2,10 @@
 # Opens a project in the editor and does what a designer does, by real input events: adds a cell, drags one, removes one,
 # takes edits back, bakes, walks, looks around, saves. Checks the log, the project file and the captures on disk.
 #   walkthrough.sh EDITOR ACENTRIC WORK_FOLDER
-set -u
-EDITOR=$1
-ACENTRIC=$2
-WORK=$3
-. "$(dirname "$0")/support.sh"
-. "$(dirname "$0")/room.sh"
-need_tools
-rm -rf "$WORK"
-mkdir -p "$WORK/config" "$WORK/cache"
-export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache
-trap stop_all EXIT
+. "$(dirname "$0")/script.sh" "$@"
 
 make_room
-start_display
-start_editor "$PROJECT"
-wait_for '^event message Opened' 60
-wait_state 'working 0' 60
+open_project
 REGIONS=$(field regions)
 [ "$REGIONS" -gt 1 ] || fail "a project of $REGIONS regions is too small to try"
 
