@@ -51,10 +51,10 @@ function(acentric_library name)
   target_precompile_headers(${name} REUSE_FROM acentric_precompiled_library)
 endfunction()
 
-# acentric_test(NAME LABELS label... LINK dep... [SERIAL]): a GoogleTest binary from every *_test.cpp of this folder.
-# SERIAL tests run alone: those that measure how long something takes.
+# acentric_test(NAME LABELS label... LINK dep... [SERIAL pattern]): a GoogleTest binary from every *_test.cpp of this
+# folder. Tests that the pattern (of --gtest_filter) names run alone: those that measure how long something takes.
 function(acentric_test name)
-  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;SERIAL" "LINK;LABELS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -65,7 +65,12 @@ function(acentric_test name)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE acentric_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM acentric_precompiled_test)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES RUN_SERIAL ${ARG_SERIAL} TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
+  set(properties TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
     ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp")
+  if(ARG_SERIAL)
+    gtest_discover_tests(${name} TEST_FILTER "${ARG_SERIAL}" TEST_LIST ${name}_serial DISCOVERY_MODE PRE_TEST
+      DISCOVERY_TIMEOUT 60 PROPERTIES RUN_SERIAL ON ${properties})
+    set(others TEST_FILTER "-${ARG_SERIAL}")
+  endif()
+  gtest_discover_tests(${name} ${others} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

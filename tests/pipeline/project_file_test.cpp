@@ -247,6 +247,53 @@ TEST(ProjectFile, SavesAndLoads) {
   EXPECT_EQ(*back, everythingSet());
 }
 
+/// Files as earlier builds saved them; they are read forever.
+std::filesystem::path oldProject(const char* name) {
+  return std::filesystem::path(ACENTRIC_SOURCE_DIR) / "tests/pipeline/old_projects" / name;
+}
+
+TEST(OldProjectFiles, OfOneLayoutAreProjectsOfOneStorey) {
+  const auto project = loadProject(oldProject("one_layout.acentric.json"));
+  ASSERT_TRUE(project) << project.error().describe();
+  ASSERT_EQ(project->storeys.size(), 1U);
+  EXPECT_EQ(project->current().name, "floor");
+  EXPECT_EQ(project->layout().configuration, Configuration::b);
+  EXPECT_EQ(project->layout().cellSize, 2.0);
+  EXPECT_EQ(project->layout().outline.loops.size(), 2U);
+  EXPECT_EQ(project->spawn().position, glm::dvec2(-1.33, -0.48));
+  EXPECT_EQ(project->bake.ambientRays, 12);
+  EXPECT_EQ(project->view.reconstruction, Reconstruction::splat);
+  EXPECT_NEAR(project->exposure, 0.646, 1e-6);
+}
+
+TEST(OldProjectFiles, OfOneStoreyMoreAreReadWithoutWhatWasNotThereYet) {
+  const auto project = loadProject(oldProject("storeys_without_bounces.acentric.json"));
+  ASSERT_TRUE(project) << project.error().describe();
+  EXPECT_EQ(project->spawn().position, glm::dvec2(-3.2, -0.5));
+  EXPECT_NEAR(project->spawn().yawRadians, radians(5), 1e-12);
+  EXPECT_EQ(project->bake.bounces, BakeSettings{}.bounces);
+  EXPECT_EQ(project->bake.pruning, BakeSettings{}.pruning);
+  EXPECT_EQ(project->bake.distanceShift, BakeSettings{}.distanceShift);
+}
+
+TEST(OldProjectFiles, AreSavedAsTheyAreReadAndReadAgain) {
+  for (const char* name : {"one_layout.acentric.json", "storeys_without_bounces.acentric.json"}) {
+    const auto project = loadProject(oldProject(name));
+    ASSERT_TRUE(project) << name;
+    const auto again = parseProject(formatProject(*project), name);
+    ASSERT_TRUE(again) << again.error().describe();
+    EXPECT_EQ(*again, *project) << name;
+  }
+}
+
+/// Holds every field: a change that reads one of them in another way is found here, and needs a new version.
+TEST(OldProjectFiles, OfVersion1MeanWhatTheyMeant) {
+  const auto project = loadProject(oldProject("everything.acentric.json"));
+  ASSERT_TRUE(project) << project.error().describe() << "\ntoday it would be\n"
+                       << formatProject(everythingSet());
+  EXPECT_EQ(*project, everythingSet());
+}
+
 TEST(ProjectFile, NeverSavesWhatItWouldNotLoad) {
   Project broken = everythingSet();
   broken.exposure = std::numeric_limits<float>::quiet_NaN();
