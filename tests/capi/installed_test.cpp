@@ -90,7 +90,8 @@ TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
   const auto expected = readColourImage(at("expected.png"));
   ASSERT_TRUE(expected);
 
-  ASSERT_TRUE(run({ACENTRIC_CMAKE, "--install", ACENTRIC_BUILD_FOLDER, "--prefix", at("prefix"), "--component", "library"}));
+  ASSERT_TRUE(run({ACENTRIC_CMAKE, "--install", ACENTRIC_BUILD_FOLDER, "--prefix", at("prefix"),
+                   "--component", "library"}));
   const std::string lib = at("prefix") + "/lib", pkgConfig = lib + "/pkgconfig";
   const std::string source = std::string(ACENTRIC_EXAMPLES) + "/frame.c";
   ASSERT_TRUE(run({"sh", "-c",

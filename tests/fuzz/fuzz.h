@@ -1,6 +1,6 @@
 #pragma once
-/// What harnesses share. Each is one function that any bytes may be given to: run_seeds.cpp gives it some, and in the
-/// preset "fuzz" libFuzzer does (libfuzzer.cpp).
+/// What harnesses share. Each is one function that any bytes may be given to: run_seeds.cpp gives it some,
+/// and in the preset "fuzz" libFuzzer does (libfuzzer.cpp).
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -2,12 +2,17 @@
 
 #include "engine/pipeline/export_gltf.h"
 
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <assimp/Importer.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 
 #include "engine/bake/truth.h"
 #include "engine/base/file.h"
@@ -97,6 +102,31 @@ TEST_F(ExportGltf, IsDrawnByOthersAsTheWalkIs) {
       EXPECT_GT(psnrOf(frame.colour, drawn.colour), 24) << "region " << region << " yaw " << yaw;
       EXPECT_GT(ssimOf(frame.colour, drawn.colour), 0.9) << "region " << region << " yaw " << yaw;
     }
+  }
+}
+
+TEST_F(ExportGltf, OpensInAssimpWithAllItsTriangles) {
+  bake();
+  const auto done = write();
+  ASSERT_TRUE(done) << done.error().describe();
+  const auto regions = index().at("storeys").at(0).at("regions");
+  for (const auto& region : regions) {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile((folder_ / "gltf" / std::string(region.at("file"))).string(),
+                                             aiProcess_ValidateDataStructure);
+    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+    EXPECT_EQ(scene->mFlags & AI_SCENE_FLAGS_VALIDATION_WARNING, 0U);
+    std::set<std::string> nodes;
+    std::size_t triangles = 0;
+    for (const aiNode* node : std::span(scene->mRootNode->mChildren, scene->mRootNode->mNumChildren)) {
+      nodes.insert(node->mName.C_Str());
+      if (node->mName == aiString("sky")) continue;
+      for (const unsigned mesh : std::span(node->mMeshes, node->mNumMeshes))
+        triangles += scene->mMeshes[mesh]->mNumFaces;
+    }
+    EXPECT_TRUE(nodes.contains("captures")) << testing::PrintToString(nodes);
+    EXPECT_EQ(triangles, region.at("triangles").get<std::size_t>());
+    EXPECT_GT(scene->mNumTextures, 0U);
   }
 }
 

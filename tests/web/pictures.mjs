@@ -37,3 +37,10 @@ export const blackShare = ({ data }) => {
   for (let i = 0; i < data.length; i += 4) if (data[i] + data[i + 1] + data[i + 2] === 0) ++black;
   return (4 * black) / data.length;
 };
+
+/** Of the colours, decibels. */
+export function psnr(a, b) {
+  let sum = 0;
+  for (let i = 0; i < a.data.length; ++i) if (i % 4 !== 3) sum += (a.data[i] - b.data[i]) ** 2;
+  return 10 * Math.log10((255 ** 2 * 0.75 * a.data.length) / sum);
+}
