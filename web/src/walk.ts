@@ -17,6 +17,8 @@ const kMostPitch = (85 * Math.PI) / 180;
 const kSlow = 60, kQuick = 30;
 /** While captures of the first picture come, it is drawn no more often than this, milliseconds; nor in more than a quarter of the time. */
 const kWhileLoading = 400, kShareWhileLoading = 4;
+/** Until then it is drawn at this scale: coarse captures have a quarter of the samples along each side. */
+const kFirstScale = 0.5;
 
 export class Walk {
   pose: Pose;
@@ -212,7 +214,8 @@ export class Walk {
     const { quality } = this.settings;
     const full = quality === 'full' || (quality === 'auto' && !(moving && this.slow));
     const began = performance.now();
-    this.drawNow(this.view(moving && !full ? this.movingScale : 1), full);
+    const first = this.firstPicture === undefined;
+    this.drawNow(this.view(first ? kFirstScale : moving && !full ? this.movingScale : 1), full);
     this.lastDraw = began;
     this.dirty = false;
     const sync = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -263,7 +266,10 @@ export class Walk {
     this.times.add(now, took);
     this.lastTook = took;
     this.adapt(pending.full, took);
-    if (this.firstPicture === undefined && this.facts.missing.length === 0) this.firstPicture = now;
+    if (this.firstPicture === undefined && this.facts.missing.length === 0) {
+      this.firstPicture = now;
+      this.dirty = true; // sharp, now
+    }
     this.events.drawn();
     if (this.dirty) this.schedule();
   }
