@@ -43,7 +43,8 @@ TEST_F(BenchNumerics, SaysWhatFloatsNaiveSignsAndFewerBitsCost) {
   EXPECT_LT(valueOf(warp, "frames", "float, one", 0), 5) << "per cent of the pixels";
   EXPECT_EQ(valueOf(warp, "frames", "float, one", 0), valueOf(warp, "frames", "float, vectors", 0))
       << "all kernels in floats give the same bits";
-  EXPECT_LT(valueOf(warp, "5000 km", "float", 0), 5);
+  EXPECT_LT(valueOf(warp, "5000 km", "float, vectors", 0), 5);
+  EXPECT_GT(valueOf(warp, "5000 km", "places in floats", 0), 20);
   EXPECT_TRUE(std::isnan(valueOf(warp, "frames", "double", 0))) << "the reference";
 
   const NumericsTable& signs = numerics->at(1);
