@@ -84,10 +84,11 @@ void drawState(const SweepWatch& watch) {
   if (sweep) {
     const auto measured = std::ranges::count_if(sweep->points, &SweepPoint::measured);
     text = fmt::format(
-        "{} settings measured, {} left out; {} frames of {}×{} along {}, against {} rays a pixel; {}, {} "
+        "{} settings measured, {} left out; {} frames of {}×{} along {}, against {} ray{} a pixel; {}, {} "
         "threads",
         measured, std::ssize(sweep->points) - measured, sweep->frames, sweep->width, sweep->height,
-        sweep->path, sweep->truthSamples, sweep->processor, sweep->threads);
+        sweep->path, sweep->truthSamples, sweep->truthSamples == 1 ? "" : "s", sweep->processor,
+        sweep->threads);
   }
   if (watch.running()) text = (watch.stopping() ? "Ending. " : "Measuring in the background. ") + text;
   ui::wrappedText(palette::muted, text);
