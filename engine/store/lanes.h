@@ -23,10 +23,12 @@ using ConstLane = BasicLane<const std::byte>;
 /// The lane of all elements of a vector of plain numbers; of one half of a colour with `offset` and `width`.
 template <class T>
 Lane laneOf(std::vector<T>& values, std::size_t offset = 0, int width = sizeof(T)) {
+  if (values.empty()) return {nullptr, sizeof(T), width};
   return {reinterpret_cast<std::byte*>(values.data()) + offset, sizeof(T), width};
 }
 template <class T>
 ConstLane laneOf(const std::vector<T>& values, std::size_t offset = 0, int width = sizeof(T)) {
+  if (values.empty()) return {nullptr, sizeof(T), width};
   return {reinterpret_cast<const std::byte*>(values.data()) + offset, sizeof(T), width};
 }
 

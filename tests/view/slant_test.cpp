@@ -25,6 +25,8 @@ TEST(SlantCode, IsNearEveryTangentAndOdd) {
   }
   EXPECT_EQ(slantCode(0), 0);
   EXPECT_EQ(slantCode(1e9), kLargestSlantCode);
+  EXPECT_EQ(slantCode(std::numeric_limits<double>::infinity()), kLargestSlantCode);
+  EXPECT_EQ(slantCode(std::numeric_limits<double>::quiet_NaN()), 0);
   EXPECT_EQ(slantCode(-std::numeric_limits<double>::infinity()), -kLargestSlantCode);
 }
 
