@@ -23,9 +23,12 @@ Result<pid_t> spawnProgram(const std::vector<std::string>& arguments, const Spaw
     posix_spawn_file_actions_adddup2(&actions, outputs.output, STDOUT_FILENO);
   else
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO,
-                                   outputs.errors.empty() ? "/dev/null" : outputs.errors.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, kMode);
+  if (outputs.together)
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO,
+                                     outputs.errors.empty() ? "/dev/null" : outputs.errors.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, kMode);
   sigset_t none, all;
   sigemptyset(&none);
   sigfillset(&all);
@@ -37,7 +40,7 @@ Result<pid_t> spawnProgram(const std::vector<std::string>& arguments, const Spaw
   for (std::string& argument : copies) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   pid_t process = -1;
-  const int error = ::posix_spawn(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
+  const int error = ::posix_spawnp(&process, pointers[0], &actions, &attributes, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (error != 0)

@@ -15,10 +15,11 @@ namespace acentric {
 struct SpawnOutputs {
   int output = -1;                 ///< an open descriptor
   std::filesystem::path errors{};  ///< a file, begun anew
+  bool together = false;           ///< errors go where the output goes
 };
 
-/// Starts `arguments[0]`, a file, with the others; reads nothing, and signals mean to it what they usually
-/// do. Whoever calls waits for it.
+/// Starts `arguments[0]`, a file or a program on PATH, with the others; reads nothing, and signals mean to it
+/// what they usually do. Whoever calls waits for it.
 Result<pid_t> spawnProgram(const std::vector<std::string>& arguments, const SpawnOutputs& outputs);
 
 }  // namespace acentric

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analytic_scene.h"
+#include "tests/view/analytic_scene.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/kernels.h"
 #include "engine/view/render.h"
