@@ -54,7 +54,8 @@ float stepFrom(std::span<const float> inverseDistance, const Pixel& pixel, float
 
 std::int8_t codeOf(float tangent) {
   const float size = std::abs(tangent);
-  if (!(size > 0)) return 0;  // also 0/0, of distances so large that floats hold no products of their inverses
+  if (!(size > 0))
+    return 0;  // also 0/0, of distances so large that floats hold no products of their inverses
   const int code = std::min(static_cast<int>(127.5f - 127.0f / (1 + size)), kLargestSlantCode);
   return static_cast<std::int8_t>(tangent < 0 ? -code : code);
 }
