@@ -7,13 +7,13 @@
 #include <cmath>
 #include <utility>
 
-#include "tests/view/analytic_scene.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/kernels.h"
 #include "engine/view/render.h"
 #include "engine/view/splats.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp.h"
+#include "tests/view/analytic_scene.h"
 
 using namespace acentric;
 
