@@ -5,20 +5,10 @@
 #include <array>
 #include <utility>
 
+#include "editor/panels/toolbar_flow.h"
+
 namespace acentric::editor {
 namespace {
-
-constexpr float kNear = 3, kApart = 16;
-
-/// On this line if there is room for it, else on the next.
-void flow(float width, float gap) {
-  if (gap > 0) ImGui::SameLine(0, ui::scaled(gap));
-  if (ImGui::GetCursorPosX() + width > ImGui::GetWindowSize().x - ui::scaled(8)) ImGui::NewLine();
-}
-
-float buttonWidth(const char* label) {
-  return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
-}
 
 const char* nameOf(PlanOverlay overlay) {
   switch (overlay) {
@@ -102,30 +92,24 @@ void drawOutlineRow(PanelContext& context) {
 }  // namespace
 
 void drawPlanToolbar(PanelContext& context) {
-  struct Entry {
-    const char* id;
-    const char* label;
-    float gap;
-    ButtonLook look = ButtonLook::toggle;
-  };
-  static constexpr std::array<Entry, 10> kEntries{{{"tool.cells", "Cells", 0},
-                                                   {"tool.eye", "Eye", kNear},
-                                                   {"tool.outline", "Outline", kNear},
-                                                   {"tool.panorama", "APV", kNear},
-                                                   {"tool.lattice", "Lattice", kNear},
-                                                   {"tool.measure", "Measure", kNear},
-                                                   {"tool.path", "Path", kNear},
-                                                   {"view.backdrop", "Scene", kApart},
-                                                   {"view.lattice", "Free cells", kNear},
-                                                   {"view.cameras", "Cameras", kNear}}};
-  for (const Entry& entry : kEntries) {
-    flow(buttonWidth(entry.label), entry.gap);
+  static constexpr std::array<ToolbarEntry, 10> kEntries{{{"tool.cells", "Cells", 0},
+                                                          {"tool.eye", "Eye", kNear},
+                                                          {"tool.outline", "Outline", kNear},
+                                                          {"tool.panorama", "APV", kNear},
+                                                          {"tool.lattice", "Lattice", kNear},
+                                                          {"tool.measure", "Measure", kNear},
+                                                          {"tool.path", "Path", kNear},
+                                                          {"view.backdrop", "Scene", kApart},
+                                                          {"view.lattice", "Free cells", kNear},
+                                                          {"view.cameras", "Cameras", kNear}}};
+  for (const ToolbarEntry& entry : kEntries) {
+    flowButton(entry.label, entry.gap);
     actionButton(context, entry.id, entry.look, {}, entry.label);
   }
   drawOverlayMenu(context);
-  flow(buttonWidth("Regions"), kApart);
+  flowButton("Regions", kApart);
   actionButton(context, "view.table", ButtonLook::toggle, {}, "Regions");
-  flow(buttonWidth("Fit"), kNear);
+  flowButton("Fit", kNear);
   actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
   if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);
   if (context.state().planTool.mode() == PlanMode::outline && context.session().hasProject())

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "editor/overlays/pick_table.h"
+#include "editor/panels/toolbar_flow.h"
 #include "editor/session/scene_view.h"
 #include "editor/tools/scene_hits.h"
 #include "ui/canvas_draw.h"
@@ -32,23 +33,14 @@ ScenePanel::ScenePanel(int threads, std::function<void()> wake)
       look_(threads, wake_) {}
 
 void ScenePanel::drawToolbar(PanelContext& context) const {
-  struct Entry {
-    const char* id;
-    const char* label;
-    float gap;
-    ButtonLook look = ButtonLook::toggle;
-  };
-  static constexpr std::array<Entry, 6> kEntries{{{"scene3d.pick", "Pick", 0},
-                                                  {"scene3d.lookThrough", "Look through", 3},
-                                                  {"scene3d.cut", "Cut ceiling", 16},
-                                                  {"view.cameras", "Cameras", 3},
-                                                  {"scene3d.frusta", "All sectors", 3},
-                                                  {"view.fit", "Frame", 16, ButtonLook::plain}}};
-  const float right = ImGui::GetWindowSize().x - 8;
-  for (const Entry& entry : kEntries) {
-    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
-    if (entry.gap > 0) ImGui::SameLine(0, entry.gap);
-    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+  static constexpr std::array<ToolbarEntry, 6> kEntries{{{"scene3d.pick", "Pick", 0},
+                                                         {"scene3d.lookThrough", "Look through", kNear},
+                                                         {"scene3d.cut", "Cut ceiling", kApart},
+                                                         {"view.cameras", "Cameras", kNear},
+                                                         {"scene3d.frusta", "All sectors", kNear},
+                                                         {"view.fit", "Frame", kApart, ButtonLook::plain}}};
+  for (const ToolbarEntry& entry : kEntries) {
+    flowButton(entry.label, entry.gap);
     actionButton(context, entry.id, entry.look, {}, entry.label);
   }
 }

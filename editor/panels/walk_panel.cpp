@@ -6,6 +6,7 @@
 #include <array>
 
 #include "editor/actions/path_walk.h"
+#include "editor/panels/toolbar_flow.h"
 #include "editor/panels/walk_settings.h"
 #include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
@@ -106,14 +107,7 @@ void WalkPanel::walk(PanelContext& context) {
 }
 
 void WalkPanel::drawToolbar(PanelContext& context) {
-  constexpr float kNear = 3, kApart = 16;
-  struct Entry {
-    const char* id;  ///< nullptr: the settings
-    const char* label;
-    float gap;
-    ButtonLook look = ButtonLook::toggle;
-  };
-  static constexpr std::array<Entry, 11> kEntries{
+  static constexpr std::array<ToolbarEntry, 11> kEntries{
       {{"view.holes", "Holes", 0},
        {"view.sources", "Sources", kNear},
        {"view.split", "Split", kNear},
@@ -125,11 +119,8 @@ void WalkPanel::drawToolbar(PanelContext& context) {
        {"walk.screenshot", "Save picture", kNear, ButtonLook::plain},
        {"walk.restart", "To start", kApart, ButtonLook::plain},
        {"walk.setStart", "Start here", kNear, ButtonLook::plain}}};
-  const float right = ImGui::GetWindowSize().x - ui::scaled(8);
-  for (const Entry& entry : kEntries) {
-    const float width = ImGui::CalcTextSize(entry.label).x + 2 * ImGui::GetStyle().FramePadding.x;
-    if (entry.gap > 0) ImGui::SameLine(0, ui::scaled(entry.gap));
-    if (ImGui::GetCursorPosX() + width > right) ImGui::NewLine();
+  for (const ToolbarEntry& entry : kEntries) {
+    flowButton(entry.label, entry.gap);
     if (entry.id == nullptr)
       drawWalkSettingsButton(context, glProblem_);
     else
@@ -144,8 +135,8 @@ void WalkPanel::drawToolbar(PanelContext& context) {
   }
   if (context.state().walkLook != WalkLook::difference) return;
   for (const int gain : kDifferenceGains) {
-    ImGui::SameLine(0, gain == kDifferenceGains[0] ? ui::scaled(kApart) : ui::scaled(kNear));
-    if (gain == kDifferenceGains[0] && ImGui::GetCursorPosX() + ui::scaled(180) > right) ImGui::NewLine();
+    const bool first = gain == kDifferenceGains[0];  // all of them on one line
+    flow(first ? ui::scaled(180) : 0, first ? kApart : kNear);
     actionButton(context, fmt::format("compare.gain.{}", gain).c_str(), ButtonLook::toggle);
   }
 }
