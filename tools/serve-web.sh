@@ -9,9 +9,9 @@ serveWeb() {
   mkdir -p -- "$root/out/$name"
   if [[ -z $subject ]]; then
     local sample=$root/out/$name/sample.acentric.json made
-    # Beside the copy lie its captures; the scene is named from where the copy lies.
-    made=$(sed -e "s|\"samplesPerDegree\": [0-9.]*|\"samplesPerDegree\": $sampleDensity.0|" \
-      -e "s|\"scene\": \"|\"scene\": \"../../projects/gallery/|" "$project")
+    # Beside the copy lie its captures, and a link to the model.
+    made=$(sed -e "s|\"samplesPerDegree\": [0-9.]*|\"samplesPerDegree\": $sampleDensity.0|" "$project")
+    ln -sfn "$(dirname -- "$project")/gallery.glb" "$root/out/$name/gallery.glb"
     [[ -f $sample && $(< "$sample") == "$made" ]] || printf '%s\n' "$made" > "$sample"
     project=$sample
   fi

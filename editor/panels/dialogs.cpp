@@ -182,6 +182,7 @@ void Dialogs::draw(PanelContext& context) {
   const DialogKeys keys{enter_, escape_};
   if (context.session().lockQuestion()) return drawLockQuestion(context, keys);
   if (context.session().locateQuestion()) return drawMissingModel(context, keys);
+  if (context.session().outsideModel()) return drawOutsideModel(context, keys);
   switch (context.state().dialog) {
     case Dialog::newProject:
       return drawNewProject(context, keys);

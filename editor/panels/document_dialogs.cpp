@@ -166,4 +166,27 @@ void drawMissingModel(PanelContext& context, const DialogKeys& keys) {
   endDialog(later || locate);
 }
 
+void drawOutsideModel(PanelContext& context, const DialogKeys& keys) {
+  Session& session = context.session();
+  const Session::OutsideModel& outside = *session.outsideModel();
+  if (!beginDialog("The model lies outside the project", 640)) return;
+  ui::wrappedText(
+      ui::palette::text,
+      fmt::format("{} names its model as {}. A project's model now lies in the project's folder, so "
+                  "that the folder can be moved and shared as a whole.",
+                  outside.projectFile.filename().string(), outside.scene.string()));
+  ButtonRow row(context, 3, ui::scaled(kWideButton));
+  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
+  const bool link = row.button("Link to it", "link");
+  ui::tooltip("Makes a link to the model where it lies. The project works on this machine only.");
+  const bool bring = row.button("Bring it in", "bring", true) || keys.enter;
+  ui::tooltip(
+      "Puts the model and the files it names into a folder 'models' beside the project. The originals stay.");
+  if (bring || link || cancel)
+    session.answerOutside(bring  ? std::optional(Collect::files)
+                          : link ? std::optional(Collect::link)
+                                 : std::nullopt);
+  endDialog(bring || link || cancel);
+}
+
 }  // namespace acentric::editor

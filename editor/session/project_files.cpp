@@ -1,6 +1,7 @@
 #include "editor/session/project_files.h"
 
 #include "engine/base/file.h"
+#include "engine/pipeline/collect_model.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -68,23 +69,16 @@ fs::path freeCopyName(const fs::path& projectFile) {
   }
 }
 
-Result<fs::path> scenePathFor(const fs::path& model, const fs::path& projectFile) {
+Result<Project> movedProject(const Project& project, const fs::path& from, const fs::path& to,
+                             const ImportHost& host) {
+  const fs::path model = folderOf(from) / project.scene;
   std::error_code error;
-  const fs::path absolute = fs::weakly_canonical(model, error);
-  const fs::path relative = error ? fs::path() : fs::relative(absolute, folderOf(projectFile), error);
-  if (error || relative.empty() || relative.is_absolute())
-    return fail(ErrorKind::invalidArgument,
-                "no relative path leads from the project to the model; keep both on one file system",
-                model.string());
-  return relative;
-}
-
-Result<Project> movedProject(const Project& project, const fs::path& from, const fs::path& to) {
-  if (folderOf(from) == folderOf(to)) return project;
-  const auto scene = scenePathFor(folderOf(from) / project.scene, to);
-  if (!scene) return tl::unexpected(scene.error());
+  if (folderOf(from) == folderOf(to) || !fs::exists(model, error)) return project;
+  const std::vector<fs::path> files = importedFiles(model, project.import, host);
+  const auto collected = collectModel(model, to, files, files.empty() ? Collect::link : Collect::files);
+  if (!collected) return tl::unexpected(collected.error());
   Project moved = project;
-  moved.scene = *scene;
+  moved.scene = collected->scene;
   return moved;
 }
 

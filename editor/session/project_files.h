@@ -28,13 +28,11 @@ std::filesystem::path putAside(const std::filesystem::path& file);
 /// "walk.acentric.json" -> "walk copy.acentric.json", or the first of "walk copy 2" ... that is free.
 std::filesystem::path freeCopyName(const std::filesystem::path& projectFile);
 
-/// The way to a model as a project states it; the error says why there is none.
-Result<std::filesystem::path> scenePathFor(const std::filesystem::path& model,
-                                           const std::filesystem::path& projectFile);
-
-/// The same project as seen from another file: the path to its model is made relative to the new folder.
+/// The same project for another file. A model that then lies outside the file's folder is brought there
+/// (pipeline/collect_model.h), as a link where the cache of `host` does not know which files it has; one that
+/// is gone is stated as before.
 Result<Project> movedProject(const Project& project, const std::filesystem::path& from,
-                             const std::filesystem::path& to);
+                             const std::filesystem::path& to, const ImportHost& host);
 /// Makes the captures of `from` known to `to` (links where the disk can, else copies). Captures are found by
 /// content, so ones that `to` has already are left alone. Returns how many files were added.
 Result<int> shareCaptures(const std::filesystem::path& from, const std::filesystem::path& to);

@@ -32,6 +32,7 @@
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
 #include "engine/inspect/wall_slice.h"
+#include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/walk_stream.h"
 
@@ -98,6 +99,13 @@ class Session {
   /// Asked once after opening a project whose model is gone.
   bool locateQuestion() const { return locateQuestion_; }
   void answerLocate() { locateQuestion_ = false; }
+  /// A project that was not opened because its model lies outside its folder, as older ones' may.
+  struct OutsideModel {
+    std::filesystem::path projectFile, scene;
+  };
+  const std::optional<OutsideModel>& outsideModel() const { return outsideModel_; }
+  /// Brings the model in and opens the project; nothing: leaves both as they are.
+  void answerOutside(std::optional<Collect> how);
   bool projectFileChanged() const { return projectFileChanged_; }
   /// Everything that is wrong, or deserves a look, the worst first.
   const std::vector<Problem>& problems() const { return problems_; }
@@ -293,6 +301,7 @@ class Session {
   ScenePtr watchedScene_;
   SceneFiles sceneFiles_;
   bool locateQuestion_ = false;
+  std::optional<OutsideModel> outsideModel_;
   double nextLook_ = 0;
   std::optional<ProblemFacts> problemFacts_;
   std::vector<Problem> problems_;

@@ -53,10 +53,16 @@ void Session::openWith(const fs::path& given, const NewProjectOptions& options) 
   std::error_code error;
   const fs::path absolute = fs::absolute(given, error);
   const fs::path file = error ? given : absolute.lexically_normal();
+  outsideModel_.reset();
   opening_.restart("Opening " + file.filename().string(), [this, file, options](const Job::Context& context) {
     auto result = openNow(file, options, context);
-    context.post([this, file, result = std::make_shared<Result<Opened>>(std::move(result))] {
+    const auto outside = !result && isProjectFile(file) ? sceneOutside(file) : std::nullopt;
+    context.post([this, file, outside, result = std::make_shared<Result<Opened>>(std::move(result))] {
       if (*result) return opened(std::move(**result));
+      if (outside) {
+        outsideModel_ = {file, *outside};
+        return;
+      }
       messages_.addFailure("Opening " + file.filename().string(), result->error());
     });
   });
@@ -171,7 +177,7 @@ Status Session::saveAs(const fs::path& target) {
   history_->commitPreview();
   std::error_code error;
   const fs::path file = fs::absolute(target, error).lexically_normal();
-  const auto moved = movedProject(project(), file_, file);
+  const auto moved = movedProject(project(), file_, file, options_.importHost);
   if (!moved) return tl::unexpected(moved.error());
   if (const auto other = readLock(file); other && !isStale(*other) && !(lock_ && file == file_))
     return fail(ErrorKind::unreadable, "is open in another editor, at " + describe(*other), file.string());
@@ -181,6 +187,8 @@ Status Session::saveAs(const fs::path& target) {
                   "The captures stayed behind and have to be baked again. " + shared.error().describe());
   forgetAutosave();
 
+  if (moved->scene != project().scene)
+    messages_.add(MessageLevel::info, "The project's model is now " + moved->scene.string());
   // The history speaks of the model's path as seen from the old folder: it begins anew when that changed.
   if (*moved != project()) history_.emplace(*moved, true, historyBytes());
   leaveLock();

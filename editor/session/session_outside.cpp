@@ -165,10 +165,30 @@ void Session::reimport() {
 void Session::locateScene(const fs::path& model) {
   if (!hasProject()) return;
   locateQuestion_ = false;
-  const auto scene = scenePathFor(model, file_);
-  if (!scene) return messages_.addFailure("Locating the model", scene.error());
-  if (*scene == project().scene) return reimport();
-  apply(setScene(project(), *scene));
+  const auto located = collectModel(model, file_, {}, Collect::link);
+  if (!located) return messages_.addFailure("Locating the model", located.error());
+  if (!located->folder.empty())
+    messages_.add(MessageLevel::info,
+                  fmt::format("{} links to {}; `acentric collect` brings the files themselves",
+                              located->scene.string(), model.string()));
+  if (located->scene == project().scene) return reimport();
+  apply(setScene(project(), located->scene));
+}
+
+void Session::answerOutside(std::optional<Collect> how) {
+  if (!outsideModel_) return;
+  const fs::path file = std::exchange(outsideModel_, std::nullopt)->projectFile;
+  if (!how) return;
+  opening_.restart("Bringing the model of " + file.filename().string(),
+                   [this, file, how = *how, host = options_.importHost](const Job::Context& context) {
+                     auto collected = collectProject(file, how, host, context.progress(), context.stop());
+                     context.post([this, file, collected = std::move(collected)] {
+                       if (!collected)
+                         return messages_.addFailure("Bringing the model of " + file.filename().string(),
+                                                     collected.error());
+                       open(file);
+                     });
+                   });
 }
 
 ProblemFacts Session::problemFacts() const {

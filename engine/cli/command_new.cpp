@@ -4,6 +4,36 @@
 #include "engine/pipeline/scene_storeys.h"
 
 namespace acentric::cli {
+namespace {
+
+/// A model that was brought along for nothing goes again.
+void takeBack(const CollectedModel& collected) {
+  std::error_code error;
+  if (collected.folder.empty()) return;
+  std::filesystem::remove_all(collected.folder, error);
+  std::filesystem::remove(collected.folder.parent_path(), error);  // unless it holds others
+}
+
+Result<CollectedModel> makeAndSave(const NewOptions& options, const NewProjectOptions& choices,
+                                   const Common& common) {
+  auto collected =
+      collectModel(options.scene, options.output, choices.import,
+                   options.link ? Collect::link : Collect::files, common.host, common.progress, common.stop);
+  if (!collected) return collected;
+  const auto runner = common.runner();
+  const auto project = makeProject(options.output.parent_path() / collected->scene, options.output, choices,
+                                   common.host, *runner, common.progress, common.stop);
+  Status made;
+  if (!project)
+    made = tl::unexpected(project.error());
+  else if (made = saveProject(*project, options.output); made)
+    made = mustExist(options.output);
+  if (made) return collected;
+  takeBack(*collected);
+  return tl::unexpected(made.error());
+}
+
+}  // namespace
 
 Result<Report> runNew(const NewOptions& options, const Common& common) {
   std::error_code error;
@@ -37,20 +67,17 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     if (!storey) return tl::unexpected(storey.error());
     choices.storey = *storey;
   }
-  const auto runner = common.runner();
-  const auto project =
-      makeProject(options.scene, options.output, choices, common.host, *runner, common.progress, common.stop);
-  if (!project) return tl::unexpected(project.error());
-  if (Status saved = saveProject(*project, options.output); !saved) return tl::unexpected(saved.error());
-  if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
-
+  const auto collected = makeAndSave(options, choices, common);
+  if (!collected) return tl::unexpected(collected.error());
   const auto open = openProject(options.output, common.host, common.progress, common.stop);
   if (!open) return tl::unexpected(open.error());
   const auto storeys = acentric::openStoreys(*open, common.host, common.progress, common.stop);
   if (!storeys) return tl::unexpected(storeys.error());
+  const Report model = collectReport(*collected);
   Report report;
   report.text =
       fmt::format("{}: {} triangles\n", options.output.string(), countText(open->scene->triangleCount()));
+  report.text += model.text;
   Json json = Json::array();
   for (const OpenProject& storey : *storeys) {
     const LayoutSpec& spec = storey.layout->spec;
@@ -67,9 +94,13 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
         spec.cellSize, storey.layout->regions.size(), storey.layout->cameras.size());
   }
-  report.json = {{"project", options.output.string()},     {"triangles", open->scene->triangleCount()},
-                 {"storey", open->project.current().name}, {"storeys", std::move(json)},
-                 {"guessed", open->scene->report.guessed}, {"dropped", open->scene->report.dropped},
+  report.json = {{"project", options.output.string()},
+                 {"model", model.json},
+                 {"triangles", open->scene->triangleCount()},
+                 {"storey", open->project.current().name},
+                 {"storeys", std::move(json)},
+                 {"guessed", open->scene->report.guessed},
+                 {"dropped", open->scene->report.dropped},
                  {"ignored", open->scene->report.ignored}};
   for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
                                      std::pair{"dropped", &open->scene->report.dropped},

@@ -9,6 +9,7 @@
 #include "engine/cli/layout_edits.h"
 #include "engine/pipeline/bench_bake.h"
 #include "engine/pipeline/bench_representations.h"
+#include "engine/pipeline/collect_model.h"
 
 namespace acentric::cli {
 
@@ -18,8 +19,11 @@ struct NewOptions {
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
   std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
   bool ignoreSides = false, force = false;
+  bool link = false;  ///< to a model outside the project's folder, instead of bringing it there
 };
 Result<Report> runNew(const NewOptions& options, const Common& common);
+/// What was brought into a project's folder.
+Report collectReport(const CollectedModel& collected);
 
 struct StoreysOptions {
   std::filesystem::path file;  ///< project or model
@@ -198,6 +202,13 @@ struct PresetOptions {
   bool apply = false;
 };
 Result<Report> runPreset(const PresetOptions& options, const Common& common);
+
+/// Brings the model of a project into the project's folder.
+struct CollectOptions {
+  std::filesystem::path project;
+  bool link = false;
+};
+Result<Report> runCollect(const CollectOptions& options, const Common& common);
 
 struct ValidateOptions {
   std::filesystem::path project;

@@ -35,6 +35,20 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
   c->add_flag("--force", o.force, "Replace an existing project file");
+  c->add_flag(
+      "--link", o.link,
+      "Of a model outside the project's folder: make a link to it there, instead of bringing its files");
+}
+
+void addCollect(CLI::App& app, Chosen& chosen) {
+  auto [c, o] =
+      add(app, chosen, "collect",
+          "Bring a project's model and the files it names into the project's folder, so that the "
+          "folder can be moved and shared",
+          "  acentric collect kitchen.acentric.json\n  acentric collect kitchen.acentric.json --link",
+          runCollect);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_flag("--link", o.link, "Make a link to a model that lies elsewhere, instead of bringing its files");
 }
 
 void addInfo(CLI::App& app, Chosen& chosen) {
@@ -183,6 +197,7 @@ void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise) {
 
 void addProjectCommands(CLI::App& app, Chosen& chosen) {
   addNew(app, chosen);
+  addCollect(app, chosen);
   addInfo(app, chosen);
   addStoreys(app, chosen);
   addLayout(app, chosen);

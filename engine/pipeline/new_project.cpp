@@ -7,6 +7,7 @@
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
+#include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
 
@@ -187,12 +188,9 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
 
   Project project;
   project.import = options.import;
-  project.scene = fs::relative(fs::weakly_canonical(sceneFile, error),
-                               fs::weakly_canonical(fs::absolute(projectFile).parent_path(), error), error);
-  if (error || project.scene.empty() || project.scene.is_absolute())
-    return fail(ErrorKind::invalidArgument,
-                "no relative path leads from the project to the model; keep both on one file system",
-                sceneFile.string());
+  const auto stated = scenePathFor(sceneFile, projectFile);
+  if (!stated) return tl::unexpected(stated.error());
+  project.scene = *stated;
 
   const auto scene = importScene(sceneFile, options.import, host, progress, stop);
   if (!scene) return tl::unexpected(scene.error());

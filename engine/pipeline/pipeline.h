@@ -36,7 +36,7 @@ struct NewProjectOptions {
 };
 
 /// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a
-/// spawn. `projectFile` decides the relative path. Does not write.
+/// spawn. The scene lies in the folder of `projectFile` (collect_model.h). Does not write.
 Result<Project> makeProject(const std::filesystem::path& sceneFile, const std::filesystem::path& projectFile,
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
                             const Progress& progress = {}, std::stop_token stop = {});

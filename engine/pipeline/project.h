@@ -62,8 +62,12 @@ struct WalkPath {
 };
 inline constexpr std::size_t kMaxPaths = 200, kMaxPathPoses = 10000;
 
+/// Relative, and without "..": what a project may state as its model. One that lies elsewhere is brought into
+/// the project's folder (collect_model.h).
+bool liesWithin(const std::filesystem::path& scene);
+
 struct Project {
-  std::filesystem::path scene;  ///< relative to the project file's folder
+  std::filesystem::path scene;  ///< relative to the project file's folder, and within it
   ImportOptions import;
   EffectOverrides effects;
   std::vector<Storey> storeys{{"floor", {}, {}}};  ///< at least one
@@ -89,8 +93,8 @@ struct Project {
 
 /// Stable key order and formatting, so that projects diff well.
 std::string formatProject(const Project& project);
-/// `where` names the file in messages. Unknown keys, wrong types, bad values, absolute paths: refused with a
-/// JSON pointer.
+/// `where` names the file in messages. Unknown keys, wrong types, bad values, a model outside the
+/// project's folder: refused with a JSON pointer.
 Result<Project> parseProject(const std::string& text, const std::string& where);
 
 Result<Project> loadProject(const std::filesystem::path& path);

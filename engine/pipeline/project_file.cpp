@@ -266,7 +266,22 @@ Status checkStoreys(const Project& project) {
   return {};
 }
 
+Status checkScene(const fs::path& scene) {
+  if (scene.empty()) return fail(ErrorKind::malformed, "/scene: names no model file");
+  if (!liesWithin(scene))
+    return fail(
+        ErrorKind::malformed,
+        fmt::format("/scene: {} leaves the project's folder; `acentric collect PROJECT` brings the model "
+                    "into it",
+                    scene.string()));
+  return {};
+}
+
 }  // namespace
+
+bool liesWithin(const fs::path& scene) {
+  return scene.is_relative() && std::ranges::find(scene, "..") == scene.end();
+}
 
 Status TriangleBudget::check() const {
   if (trianglesPerRegion < 0)
@@ -277,12 +292,8 @@ Status TriangleBudget::check() const {
 }
 
 Status Project::check() const {
-  if (scene.empty()) return fail(ErrorKind::malformed, "/scene: names no model file");
-  if (scene.is_absolute())
-    return fail(ErrorKind::malformed,
-                "/scene: must be relative to the project file's folder, not " + scene.string());
-  for (const Status& part :
-       {import.check(), checkStoreys(*this), bake.check(), budget.check(), view.check(), checkWalks(*this)})
+  for (const Status& part : {checkScene(scene), import.check(), checkStoreys(*this), bake.check(),
+                             budget.check(), view.check(), checkWalks(*this)})
     if (!part) return part;
   if (!(fovDegrees >= 1 && fovDegrees <= 179))
     return fail(ErrorKind::malformed, "/view/fovDegrees: must lie in 1..179");
@@ -347,6 +358,10 @@ Result<Project> parseProject(const std::string& text, const std::string& where) 
                   fmt::format("/version: {} was written by a newer Acentric; this one reads version 1",
                               json["version"].get<std::int64_t>()),
                   where);
+    // In words that lead on; the schema says no more than that it is not allowed.
+    if (json.is_object() && json.contains("scene") && json["scene"].is_string())
+      if (const Status within = checkScene(json["scene"].get<std::string>()); !within)
+        return fail(ErrorKind::malformed, within.error().message, where);
     if (const Status valid = checkSchema(json, projectSchema(), where); !valid)
       return tl::unexpected(valid.error());
     Project project = projectFrom(json);

@@ -180,7 +180,7 @@ const std::vector<GeneratedCommand>& generatedCommands() {
                           choice == 0 ? std::nullopt : std::optional(choice == 1));
        }},
       {"setScene",
-       [](P p, R r) { return setScene(p, coin(r) ? "room.obj" : "../models of mine/hall \u00e4.glb"); }},
+       [](P p, R r) { return setScene(p, coin(r) ? "room.obj" : "models of mine/hall \u00e4.glb"); }},
       {"setImport", [](P p, R r) { return setImport(p, importOptions(r), "all"); }},
       {"showStorey", [](P p, R r) { return showStorey(p, whole(r, 0, int(p.storeys.size()) - 1)); }},
       {"renameStorey",

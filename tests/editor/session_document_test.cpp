@@ -290,6 +290,46 @@ TEST_F(DocumentTest, AProjectWhoseModelIsGoneOpensAsLastImportedAndTheModelIsLoc
   waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
 }
 
+TEST_F(DocumentTest, AModelLocatedOutsideTheProjectsFolderIsLinkedTo) {
+  fs::create_directories(folder_ / "walk");
+  fs::copy_file(folder_ / "room.obj", folder_ / "walk" / "room.obj");
+  Session session(options());
+  openAndSettle(session, folder_ / "walk" / "room.obj");
+  ASSERT_TRUE(session.save());
+  session.locateScene(folder_ / "room.obj");
+  EXPECT_EQ(session.project().scene, fs::path("models/room/room.obj"));
+  EXPECT_EQ(fs::read_symlink(folder_ / "walk" / session.project().scene),
+            fs::canonical(folder_ / "room.obj"));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  EXPECT_TRUE(session.save());
+}
+
+TEST_F(DocumentTest, AProjectWhoseModelLiesOutsideIsAskedAboutAndOpensOnceItIsBroughtIn) {
+  const fs::path inside = savedProject();
+  fs::create_directories(folder_ / "walk");
+  const fs::path file = folder_ / "walk" / "walk.acentric.json";
+  std::string text = *readText(inside);
+  text.replace(text.find("room.obj"), 8, "../room.obj");
+  ASSERT_TRUE(writeTextAtomically(file, text));
+  Session session(options());
+  session.open(file);
+  waitFor(session, [&] { return session.outsideModel().has_value(); });
+  EXPECT_FALSE(session.hasProject());
+  EXPECT_EQ(session.outsideModel()->scene, "../room.obj");
+  session.answerOutside(std::nullopt);
+  EXPECT_FALSE(session.outsideModel());
+  EXPECT_EQ(*readText(file), text) << "as it was";
+  EXPECT_FALSE(fs::exists(folder_ / "walk" / "models"));
+
+  session.open(file);
+  waitFor(session, [&] { return session.outsideModel().has_value(); });
+  session.answerOutside(Collect::files);
+  waitFor(session, [&] { return session.walk() && !session.working(); });
+  EXPECT_EQ(session.file(), file);
+  EXPECT_EQ(session.project().scene, "models/room/room.obj");
+  EXPECT_EQ(loadProject(file)->scene, "models/room/room.obj");
+}
+
 TEST_F(DocumentTest, WithoutModelAndCacheTheLayoutIsStillThere) {
   const fs::path file = savedProject();
   fs::remove(folder_ / "room.obj");

@@ -12,6 +12,7 @@
 #include "editor/session/job.h"
 #include "editor/session/preferences.h"
 #include "editor/session/project_files.h"
+#include "tests/editor/session_fixture.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
@@ -181,16 +182,28 @@ TEST_F(FilesTest, AutosaveNeverTouchesTheProjectAndIsOfferedOnlyWhenItDiffers) {
   EXPECT_FALSE(fs::exists(autosaveFileFor(file)));
 }
 
-TEST_F(FilesTest, AProjectThatMovesStillFindsItsModel) {
+TEST_F(FilesTest, AProjectThatMovesTakesItsModelAlong) {
+  ImportHost host;
+  host.importer = ACENTRIC_IMPORTER;
+  host.cacheFolder = folder_ / "cache";
+  const fs::path from = folder_ / "a" / "x.acentric.json", to = folder_ / "b" / "deep" / "y.acentric.json";
   Project project;
+  project.scene = "gone.obj";
+  EXPECT_EQ(*movedProject(project, from, to, host), project) << "of a model that is gone the name is kept";
   project.scene = "room.obj";
-  const auto moved =
-      movedProject(project, folder_ / "a" / "x.acentric.json", folder_ / "b" / "deep" / "y.acentric.json");
-  ASSERT_TRUE(moved.has_value());
-  EXPECT_TRUE(fs::exists(folder_ / "b" / "deep" / moved->scene));
-  const auto same =
-      movedProject(project, folder_ / "a" / "x.acentric.json", folder_ / "a" / "y.acentric.json");
-  EXPECT_EQ(*same, project);
+  fs::create_directories(folder_ / "a");
+  writeRoom(folder_ / "a" / "room.obj");
+  const auto unknown = movedProject(project, from, folder_ / "c" / "y.acentric.json", host);
+  ASSERT_TRUE(unknown) << unknown.error().describe();
+  EXPECT_TRUE(fs::is_symlink(folder_ / "c" / unknown->scene)) << "it was never imported here";
+  ASSERT_TRUE(importScene(folder_ / "a" / "room.obj", {}, host));
+  const auto moved = movedProject(project, from, to, host);
+  ASSERT_TRUE(moved) << moved.error().describe();
+  EXPECT_EQ(moved->scene, "models/room/room.obj");
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "b" / "deep" / moved->scene));
+  EXPECT_FALSE(fs::is_symlink(folder_ / "b" / "deep" / moved->scene));
+  EXPECT_EQ(*movedProject(project, from, folder_ / "a" / "y.acentric.json", host), project);
+  EXPECT_EQ(movedProject(project, from, folder_ / "y.acentric.json", host)->scene, "a/room.obj");
 }
 
 TEST_F(FilesTest, CapturesGoAlongAndTemporariesStay) {

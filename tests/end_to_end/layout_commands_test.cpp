@@ -166,5 +166,25 @@ TEST_F(LayoutCommandsTest, WhatIsWrongIsSaid) {
   EXPECT_EQ(made->read(), asMade);
 }
 
+TEST_F(LayoutCommandsTest, AModelFromElsewhereComesIntoTheProjectsFolder) {
+  namespace fs = std::filesystem;
+  const fs::path folder = path("of its own"), file = folder / "walk.acentric.json";
+  fs::create_directories(folder);
+  // What fails leaves nothing of the model behind.
+  EXPECT_EQ(acentric({"new", scene(), "-o", file.string(), "--storey", "77"}).exitCode, 1);
+  EXPECT_TRUE(fs::is_empty(folder));
+
+  const Json linked = report({"new", scene(), "-o", file.string(), "--link"});
+  EXPECT_EQ(linked["model"]["scene"], "models/gallery/gallery.glb");
+  EXPECT_TRUE(fs::is_symlink(folder / "models" / "gallery" / "gallery.glb"));
+  const auto brought = acentric({"collect", file.string()});
+  EXPECT_EQ(brought.exitCode, 0) << brought.errors;
+  EXPECT_THAT(brought.output, testing::HasSubstr("brought to models/gallery/gallery.glb: 1 file"));
+  EXPECT_FALSE(fs::is_symlink(folder / "models" / "gallery" / "gallery.glb"));
+  fs::rename(folder, path("moved"));
+  EXPECT_EQ(report({"info", path("moved/walk.acentric.json")})["scene"]["triangles"], linked["triangles"]);
+  EXPECT_EQ(acentric({"collect", path("none.acentric.json")}).exitCode, 1);
+}
+
 }  // namespace
 }  // namespace acentric::test

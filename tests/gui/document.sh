@@ -1,7 +1,7 @@
 #!/bin/bash
 # The editor as the keeper of a document, by real input events: killed with edits unsaved it offers them at the next start;
 # the history's list is clicked; a second editor on the same project is read-only; a model and a project that others change
-# are noticed; problems are listed; damaged preferences, locks and autosaves are survived.
+# are noticed; a model outside the project is brought in; problems are listed; damaged preferences, locks and autosaves are survived.
 #   document.sh EDITOR ACENTRIC WORK_FOLDER
 . "$(dirname "$0")/script.sh" "$@"
 
@@ -146,5 +146,16 @@ shown welcome.unsaved.0 20
 import -window root "$WORK/unsaved.png"
 click welcome.unsaved.0
 wait_state "regions $((BEFORE + 1)) .*working 0 dirty 1" 60
+kill_editor
+
+# An older project, whose model lies outside its folder: it is asked about, and opens once the model is brought in.
+mkdir -p "$WORK/older"
+sed 's|"scene": ".*"|"scene": "../models/room.obj"|' "$PROJECT" >"$WORK/older/older.acentric.json"
+start_editor "$WORK/older/older.acentric.json"
+shown dialog.bring 30
+import -window root "$WORK/outside.png"
+click dialog.bring
+wait_state "regions $((REGIONS + 1)) .*working 0 dirty 0" 60
+cmp "$WORK/models/room.obj" "$WORK/older/models/room/room.obj" || fail "the model was not brought in"
 grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
 echo "passed: screenshots in $WORK"

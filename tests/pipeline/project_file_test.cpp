@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "engine/base/file.h"
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/project.h"
+#include "engine/pipeline/schema_check.h"
 
 namespace acentric {
 namespace {
@@ -123,6 +126,24 @@ TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
               HasSubstr("/bake/ambientRays"));
   EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")),
               HasSubstr("/view/exposure"));
+}
+
+TEST(ProjectFile, RefusesAModelOutsideItsFolder) {
+  const std::string sound = formatProject(everythingSet());
+  const auto stating = [&](const std::string& scene) {
+    std::string text = sound;
+    const std::string was = "models/house with spaces.glb";
+    return text.replace(text.find(was), was.size(), scene);
+  };
+  for (const char* outside : {"../a.glb", "..", "models/../../a.glb", "models/..", "/a.glb", "a/../a.glb"}) {
+    EXPECT_THAT(refusalOf(stating(outside)), HasSubstr(std::string("/scene: ") + outside)) << outside;
+    const Status schema = checkSchema(nlohmann::ordered_json::parse(stating(outside)), projectSchema(), "p");
+    EXPECT_FALSE(schema) << outside << ": the published schema allows it";
+  }
+  for (const char* within : {"a..glb", "..a/b.glb", "a../b.glb", "...", "./a.glb", "b/.../a.glb"}) {
+    const auto read = parseProject(stating(within), "p");
+    EXPECT_TRUE(read) << read.error().describe();
+  }
 }
 
 TEST(ProjectFile, RefusesTwoFreeApvsOfOneNumber) {
