@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/cli/commands.h"
-#include "engine/cli/machine.h"
+#include "engine/cli/machine/machine.h"
 
 namespace acentric::cli {
 namespace {

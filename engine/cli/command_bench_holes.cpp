@@ -4,7 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
-#include "engine/cli/machine.h"
+#include "engine/cli/machine/machine.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "engine/measure/statistics.h"

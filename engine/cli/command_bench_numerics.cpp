@@ -4,7 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
-#include "engine/cli/machine.h"
+#include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/svg_plot.h"
 #include "engine/measure/sweep_report.h"

@@ -4,7 +4,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
-#include "engine/cli/machine.h"
+#include "engine/cli/machine/machine.h"
 #include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"

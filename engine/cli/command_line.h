@@ -52,5 +52,6 @@ void addSweepCommands(CLI::App& app, Chosen& chosen);
 void addPackCommand(CLI::App& bench, Chosen& chosen);
 void addRepresentationsCommand(CLI::App& bench, Chosen& chosen);
 void addNumericsCommand(CLI::App& bench, Chosen& chosen);
+void addFunctionsCommand(CLI::App& bench, Chosen& chosen);
 
 }  // namespace acentric::cli

@@ -268,6 +268,17 @@ struct BenchNumericsOptions {
 };
 Result<Report> runBenchNumerics(const BenchNumericsOptions& options, const Common& common);
 
+/// Of tests/bench.
+struct BenchFunctionsOptions {
+  std::vector<std::string> names;  ///< empty = all that have what they need
+  std::filesystem::path model, project;
+  std::string at;  ///< "x,y"; empty = the model's middle
+  std::size_t triangles = 0, regions = 1000;
+  std::filesystem::path beside;  ///< another build's programs; empty = none
+  int rounds = 3;
+};
+Result<Report> runBenchFunctions(const BenchFunctionsOptions& options, const Common& common);
+
 struct EstimateCommandOptions {
   std::filesystem::path project, output;
   double effort = 1;  ///< EstimateOptions, of all storeys together

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   addPackCommand(*app.get_subcommand("bench"), chosen);
   addRepresentationsCommand(*app.get_subcommand("bench"), chosen);
   addNumericsCommand(*app.get_subcommand("bench"), chosen);
+  addFunctionsCommand(*app.get_subcommand("bench"), chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

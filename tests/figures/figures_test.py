@@ -82,6 +82,21 @@ class Figures(unittest.TestCase):
         self.assertEqual(self.run_tool("write"), 0)
         self.assertEqual(self.document.read_text(), text, "written twice it is the same")
 
+    def test_functions_stand_beside_what_they_were_timed_with(self):
+        measured = self.root / "functions.json"
+        measured.write_text(json.dumps({"processor": "A processor", "threads": 2, "commit": "abc", "benches": [
+            {"bench": "layout", "facts": {}, "figures": [
+                {"what": "exact sign", "unit": "ns", "median": 18.76, "min": 18, "max": 20.5, "count": 5, "ratio": 3.95,
+                 "beside": {"name": "naive", "median": 4.75, "min": 4, "max": 5, "count": 5}}]},
+            {"bench": "plan", "facts": {}, "figures": [
+                {"what": "send", "unit": "ms", "median": 13, "min": 12, "max": 14, "count": 5}]}]}))
+        self.assertEqual(self.run_tool("import", "parts", str(measured), "--command", "acentric bench functions"), 0)
+        self.document.write_text("<!-- figures functions parts bench=layout -->\n<!-- /figures -->\n")
+        self.assertEqual(self.run_tool("write"), 0)
+        text = self.document.read_text()
+        self.assertIn("| exact sign | 18.76 ns | 18 to 20.5 | naive: 4.75 ns | 3.95 |", text)
+        self.assertNotIn("send", text)
+
     def test_a_document_that_says_something_else_is_seen(self):
         self.assertEqual(self.run_tool("check"), 1)
         self.run_tool("write")
@@ -94,7 +109,8 @@ class Figures(unittest.TestCase):
         for wrong in ("<!-- figures sweep walk -->\n", "<!-- /figures -->\n", "<!-- figures sweep nowhere -->\n<!-- /figures -->\n",
                       "<!-- figures pie walk -->\n<!-- /figures -->\n",
                       "<!-- figures sweep walk rows=nothing -->\n<!-- /figures -->\n",
-                      "<!-- figures numerics walk table=9 -->\n<!-- /figures -->\n"):
+                      "<!-- figures numerics walk table=9 -->\n<!-- /figures -->\n",
+                      "<!-- figures functions walk -->\n<!-- /figures -->\n"):
             self.document.write_text(wrong)
             self.assertEqual(self.run_tool("write"), 1, wrong)
             self.assertEqual(self.document.read_text(), wrong)

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "engine/base/stopwatch.h"
-#include "engine/cli/commit/commit.h"
+#include "engine/cli/machine/commit.h"
 #include "engine/measure/statistics.h"
 #include "engine/view_gl/gl_renderer.h"
 

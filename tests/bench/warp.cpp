@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -13,28 +12,17 @@
 #include "engine/view/splats.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp.h"
+#include "tests/bench/benches.h"
 #include "tests/view/analytic_scene.h"
 
-using namespace acentric;
-
+namespace acentric::bench {
 namespace {
-
-double best(int repeats, const std::function<void()>& work) {
-  double seconds = 1e9;
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    seconds =
-        std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return seconds;
-}
 
 /// Bytes a second that two threads read from memory one after the other.
 double readRate(TaskRunner& two, const LargeVector<PackedSample>& samples) {
   std::uint64_t sums[2] = {};
   const std::size_t half = samples.size() / 2;
-  const double seconds = best(5, [&] {
+  const auto seconds = secondsOf(5, [&] {
     two.parallelFor(2, [&](std::size_t thread) {
       std::uint64_t sum = 0;
       for (std::size_t i = thread * half; i < (thread + 1) * half; ++i)
@@ -42,13 +30,13 @@ double readRate(TaskRunner& two, const LargeVector<PackedSample>& samples) {
       sums[thread] += sum;
     });
   });
-  if (sums[0] + sums[1] == 0) fmt::print("no samples\n");  // so that the sums are wanted
-  return static_cast<double>(samples.size() * sizeof(PackedSample)) / seconds;
+  used(static_cast<double>(sums[0] + sums[1]));
+  return static_cast<double>(samples.size() * sizeof(PackedSample)) / *std::ranges::min_element(seconds);
 }
 
 /// Projects columns of a wall some metres away, four of five samples on the picture: data that stay in the
 /// processor's caches, and data that come from memory.
-void timeProjecting() {
+void timeProjecting(Figures& figures) {
   constexpr int kRows = 1400;
   constexpr std::size_t kPerColumn = 1000, kRoom = 64, kBytes = sizeof(PackedSample) + sizeof(Rgba8);
   TaskRunner two(1);
@@ -87,25 +75,25 @@ void timeProjecting() {
                   kernels.project(column, from, &run, 1, memory[thread].room(kPerColumn)));
             }
           };
-          const int repeats = static_cast<int>(40000 / columns);
-          const double seconds =
-              best(repeats, [&] { threads == 1 ? project(0) : two.parallelFor(2, project); });
-          const double rate = static_cast<double>(samples) / seconds;
-          fmt::print(
-              "projecting {:>10} samples, {:8} {:10} {} thread{}: {:5.0f} M samples/s, {:5.1f} GB/s, {:3.0f} "
-              "% "
-              "of what two threads read, {:.0f} % on the picture\n",
-              samples, kernels.name, slanted ? "rectangles" : "squares", threads, threads > 1 ? "s" : " ",
-              rate * 1e-6, rate * kBytes * 1e-9, 100 * rate * kBytes / read,
-              100.0 * static_cast<double>(kept[0] + kept[1]) / static_cast<double>(samples));
+          const int repeats = static_cast<int>(std::min<std::size_t>(200, 40000 / columns));
+          std::vector<double> rates;
+          for (const double seconds :
+               secondsOf(repeats, [&] { threads == 1 ? project(0) : two.parallelFor(2, project); }))
+            rates.push_back(1e-6 * static_cast<double>(samples) / seconds);
+          const std::string what =
+              fmt::format("project {} samples, {}, {}, {} thread{}", samples, kernels.name,
+                          slanted ? "rectangles" : "squares", threads, threads > 1 ? "s" : "");
+          figures.add(what, "M/s", rates);
+          figures.fact(what + ": share of what two threads read",
+                       *std::ranges::max_element(rates) * 1e6 * kBytes / read);
         }
   }
 }
 
 /// Frames of an empty room and boxes, at so many samples per degree.
-void timeFrames(double perDegree, int layers, int width, int height) {
-  fmt::print("{}x{}, {} samples per degree, {} layer{}\n", width, height, perDegree, layers,
-             layers > 1 ? "s" : "");
+Status timeFrames(double perDegree, int layers, int width, int height, Figures& figures) {
+  const std::string size =
+      fmt::format("{}x{}, {}/degree, {} layer{}", width, height, perDegree, layers, layers > 1 ? "s" : "");
   const auto layout = test::layoutAroundOrigin(Configuration::b);
   const auto region = layout->regionAt({0, 0});
   const WalkScene scene = test::walkScene(test::randomBoxes(1, 60, 3.2), layout, *region, perDegree, layers);
@@ -118,7 +106,8 @@ void timeFrames(double perDegree, int layers, int width, int height) {
     ViewSettings settings;
     settings.secondaryCover = secondary;
     const auto plan = planView(scene, view, settings);
-    if (!plan) return;
+    if (!plan) return tl::unexpected(plan.error());
+    const std::string work = fmt::format("{}, {} pieces: ", size, plan->pieces.size());
     struct Case {
       std::string name;
       Kernels kernels;
@@ -135,44 +124,47 @@ void timeFrames(double perDegree, int layers, int width, int height) {
       Canvas canvas;
       clearCanvas(scene, view, settings, *plan, 0, view.width, canvas);
       WarpCounts counts;
-      const double seconds = best(
-          20, [&] { counts = warpPieces(scene, view, settings, *plan, options, 0, view.width, canvas); });
-      fmt::print(
-          "{} pieces, {:12} one thread: {:6.2f} ms, {} read, {} drawn, {:.0f} M drawn/s, {:.0f} M read/s\n",
-          plan->pieces.size(), c.name, seconds * 1e3, counts.samplesRead, counts.samplesDrawn,
-          static_cast<double>(counts.samplesDrawn) / seconds * 1e-6,
-          static_cast<double>(counts.samplesRead) / seconds * 1e-6);
+      figures.add(work + "warp by " + c.name + ", 1 thread", "ms",
+                  scaled(secondsOf(20,
+                                   [&] {
+                                     counts = warpPieces(scene, view, settings, *plan, options, 0, view.width,
+                                                         canvas);
+                                   }),
+                         1e3));
+      figures.fact(work + "samples read", counts.samplesRead);
+      figures.fact(work + "samples drawn", counts.samplesDrawn);
     }
     TaskRunner two(1);
     FrameMemory memory;
-    for (const auto& [renderer, reconstruction] : {std::pair(Renderer::scalar, Reconstruction::splat),
-                                                   std::pair(Renderer::list, Reconstruction::splat),
-                                                   std::pair(Renderer::zbuffer, Reconstruction::splat),
-                                                   std::pair(Renderer::list, Reconstruction::point),
-                                                   std::pair(Renderer::scalar, Reconstruction::filtered),
-                                                   std::pair(Renderer::list, Reconstruction::filtered)}) {
+    const auto draw = [&](Renderer renderer, Reconstruction reconstruction) {
       settings.renderer = renderer;
       settings.reconstruction = reconstruction;
       settings.fillHoles = true;
-      FrameStats stats;
-      std::size_t holes = 0;
-      const double seconds = best(10, [&] {
-        auto frame = renderFrame(scene, view, settings, two, memory);
-        stats = frame->stats;
-        holes = frame->holeCount();
-        memory.frame = std::move(*frame);
-      });
-      fmt::print("frame {} {} 2 threads {:.2f} ms (warp {:.2f}, fill {:.2f}), {} holes\n", nameOf(renderer),
-                 nameOf(reconstruction), seconds * 1e3, stats.warpSeconds * 1e3, stats.fillSeconds * 1e3,
-                 holes);
+      auto frame = renderFrame(scene, view, settings, two, memory);
+      memory.frame = std::move(*frame);
+    };
+    const std::pair<Renderer, Reconstruction> ways[] = {{Renderer::scalar, Reconstruction::splat},
+                                                        {Renderer::zbuffer, Reconstruction::splat},
+                                                        {Renderer::scalar, Reconstruction::filtered},
+                                                        {Renderer::zbuffer, Reconstruction::filtered}};
+    for (const auto& [other, reconstruction] : ways) {
+      const Turns turns = secondsByTurns(
+          10, [&] { draw(Renderer::list, reconstruction); }, [&] { draw(other, reconstruction); });
+      figures.add(fmt::format("{}frame, list {}, against {}", work, nameOf(reconstruction), nameOf(other)),
+                  "ms", scaled(turns.one, 1e3), nameOf(other), scaled(turns.other, 1e3));
     }
+    figures.add(work + "frame, list point", "ms",
+                scaled(secondsOf(10, [&] { draw(Renderer::list, Reconstruction::point); }), 1e3));
   }
+  return {};
 }
 
 }  // namespace
 
-int main() {
-  timeProjecting();
-  timeFrames(8, 1, 960, 540);
-  timeFrames(20, 3, 1280, 720);
+Status benchWarp(const Subject&, Figures& figures) {
+  timeProjecting(figures);
+  if (Status timed = timeFrames(8, 1, 960, 540, figures); !timed) return timed;
+  return timeFrames(20, 3, 1280, 720, figures);
 }
+
+}  // namespace acentric::bench

@@ -1,8 +1,8 @@
-#include "engine/cli/machine.h"
+#include "engine/cli/machine/machine.h"
 
 #include <fstream>
 
-#include "engine/cli/commit/commit.h"
+#include "engine/cli/machine/commit.h"
 
 namespace acentric::cli {
 

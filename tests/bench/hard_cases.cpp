@@ -1,36 +1,20 @@
 /// What care with hard cases costs: nanoseconds beside a naive variant, and the share of a frame for what a
 /// frame does.
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "engine/scene/local_geometry.h"
 #include "engine/view/column_order.h"
 #include "engine/view/render.h"
 #include "engine/view/view_plan.h"
+#include "tests/bench/benches.h"
 #include "tests/view/analytic_scene.h"
 
-using namespace acentric;
-
+namespace acentric::bench {
 namespace {
 
 constexpr int kRounds = 200'000;
-double sink = 0;  // what is computed is used
-
-/// Best of five, nanoseconds a call.
-template <class Work>
-double nanoseconds(int calls, const Work& work) {
-  double best = 1e18;
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int n = 0; n < calls; ++n) sink += double(work(n));
-    best = std::min(
-        best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best / calls;
-}
 
 /// Triangles of a decimetre around a unit square's border: what exact clipping has to decide.
 std::vector<std::array<glm::vec3, 3>> borderTriangles() {
@@ -66,7 +50,7 @@ std::size_t clippedByDistances(const std::array<glm::vec3, 3>& triangle,
 
 }  // namespace
 
-int main() {
+Status benchHardCases(const Subject&, Figures& figures) {
   const auto layout = test::layoutAroundOrigin(Configuration::b);
   const WalkScene scene =
       test::walkScene(test::randomBoxes(1, 60, 3.2), layout, *layout->regionAt({0, 0}), 8);
@@ -75,44 +59,57 @@ int main() {
   view.yawRadians = 0.7;
   TaskRunner two(1);
   ViewSettings settings;
-  double frame = 1e18;
+  std::vector<double> frames;
   for (int n = 0; n < 20; ++n)
-    frame = std::min(frame, renderFrame(scene, view, settings, two)->stats.totalSeconds * 1e9);
+    frames.push_back(renderFrame(scene, view, settings, two)->stats.totalSeconds * 1e3);
+  figures.add("a frame of 960x540", "ms", frames);
   const ViewPlan plan = planView(scene, view, settings).value();
   std::size_t columns = 0;
   for (const PieceDraw& piece : plan.pieces)
     for (const ColumnRun& run : piece.runs) columns += std::size_t(run.last - run.first);
-  fmt::print("a frame of 960x540: {:.2f} ms, {} pieces, {} columns drawn\n", frame * 1e-6, plan.pieces.size(),
-             columns);
-  const auto print = [&](const char* what, double careful, double naive, double perFrame) {
-    fmt::print("{:<58} {:7.1f} ns, naive {:6.1f} ns", what, careful, naive);
+  figures.fact("pieces of the frame", plan.pieces.size());
+  figures.fact("columns of the frame", columns);
+  /// Nanoseconds of a call, of which a frame does so many.
+  const auto compare = [&](const std::string& what, int calls, const auto& careful, const auto& naive,
+                           double perFrame, double perCall = 1) {
+    const auto all = [calls](const auto& work) {
+      return [calls, &work] {
+        double sum = 0;
+        for (int n = 0; n < calls; ++n) sum += double(work(n));
+        used(sum);
+      };
+    };
+    const Turns turns = secondsByTurns(5, all(careful), all(naive));
+    const auto one = scaled(turns.one, 1e9 / calls * perCall),
+               other = scaled(turns.other, 1e9 / calls * perCall);
+    figures.add(what, "ns", one, "naive", other);
     if (perFrame > 0)
-      fmt::print("; {:.0f} a frame: {:+.4f} %", perFrame, 100 * (careful - naive) * perFrame / frame);
-    fmt::print("\n");
+      figures.fact(what + ": more of a frame's time", (spreadOf(one).median - spreadOf(other).median) *
+                                                          perFrame / (spreadOf(frames).median * 1e6));
   };
 
   const ColumnCamera& camera = scene.captures[std::size_t(plan.pieces[0].camera)]->camera;
   const auto offset = [](int n) { return glm::dvec3(0.4 + 1e-6 * n, 0.3, 1e-3 * (n & 63)); };
-  print("columns in runs around the epipole, a capture",
-        nanoseconds(kRounds, [&](int n) { return columnOrder(camera, glm::dvec2(offset(n))).runs.size(); }),
-        nanoseconds(kRounds,
-                    [&](int n) {
-                      return std::vector<ColumnRun>{{0, camera.columns, n % 2 == 0}}.size();
-                    }),
-        double(plan.pieces.size()));
-  print("rows towards or away from the pivot, a column",
-        nanoseconds(kRounds, [&](int n) { return rowOrder(glm::dvec2(0.6, 0.8), offset(n)).pivotTangent; }),
-        nanoseconds(kRounds, [&](int n) { return offset(n).z > 0; }), double(columns));
+  compare(
+      "columns in runs around the epipole, a capture", kRounds,
+      [&](int n) { return columnOrder(camera, glm::dvec2(offset(n))).runs.size(); },
+      [&](int n) {
+        return std::vector<ColumnRun>{{0, camera.columns, n % 2 == 0}}.size();
+      },
+      double(plan.pieces.size()));
+  compare(
+      "rows towards or away from the pivot, a column", kRounds,
+      [&](int n) { return rowOrder(glm::dvec2(0.6, 0.8), offset(n)).pivotTangent; },
+      [&](int n) { return offset(n).z > 0; }, double(columns));
   const glm::dvec3 far(5e6, -5e6, 0);
-  print("camera from eye in double, then float, a capture",
-        nanoseconds(kRounds, [&](int n) { return glm::vec3(far + offset(n) - far).x; }),
-        nanoseconds(kRounds, [&](int n) { return (glm::vec3(offset(n)) - glm::vec3(0.4f)).x; }),
-        double(plan.pieces.size()));
-  print("region of an eye, half-open and exact",
-        nanoseconds(kRounds, [&](int n) { return layout->regionAt(glm::dvec2(offset(n))).value_or(0); }),
-        nanoseconds(kRounds,
-                    [&](int n) { return std::lround(offset(n).x / 2) + std::lround(offset(n).y / 2); }),
-        1);
+  compare(
+      "camera from eye in double, then float, a capture", kRounds,
+      [&](int n) { return glm::vec3(far + offset(n) - far).x; },
+      [&](int n) { return (glm::vec3(offset(n)) - glm::vec3(0.4f)).x; }, double(plan.pieces.size()));
+  compare(
+      "region of an eye, half-open and exact", kRounds,
+      [&](int n) { return layout->regionAt(glm::dvec2(offset(n))).value_or(0); },
+      [&](int n) { return std::lround(offset(n).x / 2) + std::lround(offset(n).y / 2); }, 1);
 
   const auto triangles = borderTriangles();
   Scene soup;
@@ -125,21 +122,24 @@ int main() {
   const ConvexPolygon square{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   const std::vector<glm::vec2> corners(square.corners.begin(), square.corners.end());
   const double perTriangle = 1 / double(triangles.size());
-  print("clipping a triangle at a border, exact signs",
-        perTriangle * nanoseconds(20, [&](int) { return clipToPolygon(soup, square).triangles.size(); }),
-        perTriangle * nanoseconds(20,
-                                  [&](int) {
-                                    std::size_t left = 0;
-                                    for (const auto& t : triangles) left += clippedByDistances(t, corners);
-                                    return left;
-                                  }),
-        0);
+  compare(
+      "clipping a triangle at a border, exact signs", 20,
+      [&](int) { return clipToPolygon(soup, square).triangles.size(); },
+      [&](int) {
+        std::size_t left = 0;
+        for (const auto& t : triangles) left += clippedByDistances(t, corners);
+        return left;
+      },
+      0, perTriangle);
   const auto normal = [&]<class Vector>(int n, Vector) {
     const auto& t = triangles[std::size_t(n) % triangles.size()];
     const Vector a(t[0]), b(t[1]), c(t[2]);
     return glm::normalize(glm::cross(b - a, c - a)).x;
   };
-  print("a triangle's normal in double", nanoseconds(kRounds, [&](int n) { return normal(n, glm::dvec3()); }),
-        nanoseconds(kRounds, [&](int n) { return normal(n, glm::vec3()); }), 0);
-  fmt::print("(sum {})\n", sink);
+  compare(
+      "a triangle's normal in double", kRounds, [&](int n) { return normal(n, glm::dvec3()); },
+      [&](int n) { return normal(n, glm::vec3()); }, 0);
+  return {};
 }
+
+}  // namespace acentric::bench

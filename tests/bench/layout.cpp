@@ -1,22 +1,14 @@
-/// Prints what a very large layout costs, and what exact signs cost against naive ones.
+/// What a very large layout costs, and what exact signs cost against naive ones.
 
-#include <fmt/format.h>
-
-#include <chrono>
 #include <random>
 
 #include "engine/geometry/conventions.h"
 #include "engine/geometry/predicates/orientation.h"
 #include "engine/layout/drawing_order.h"
+#include "tests/bench/benches.h"
 
-namespace acentric {
+namespace acentric::bench {
 namespace {
-
-double seconds(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// A square outline that holds about 100,000 regions.
 LayoutSpec largeSpec(Configuration configuration) {
@@ -30,52 +22,56 @@ LayoutSpec largeSpec(Configuration configuration) {
   return spec;
 }
 
-void printLayouts() {
-  fmt::print("configuration  regions   cameras   build   region of an eye\n");
+/// Regions and cameras of each configuration, and the region of an eye.
+Status timeLayouts(Figures& figures) {
   for (int c = 0; c <= int(Configuration::g); ++c) {
     const LayoutSpec spec = largeSpec(Configuration(c));
     Result<Layout> layout = tl::unexpected(Error{});
-    const double build = seconds([&] { layout = buildLayout(spec); });
-    if (!layout) {
-      fmt::print("{}: {}\n", nameOf(Configuration(c)), layout.error().describe());
-      continue;
-    }
+    const auto build = secondsOf(3, [&] { layout = buildLayout(spec); });
+    if (!layout) return tl::unexpected(layout.error());
+    const std::string name = std::string("configuration ") + nameOf(Configuration(c));
+    figures.fact(name, {{"regions", layout->regions.size()}, {"cameras", layout->cameras.size()}});
+    figures.add(name + ": lay out", "s", build);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> within(0, spec.outline.loops[0][2].x);
     std::vector<glm::dvec2> eyes(200000);
     for (glm::dvec2& eye : eyes) eye = {within(random), within(random)};
-    long sum = 0;
-    const double find = seconds([&] {
+    const auto find = secondsOf(3, [&] {
+      long sum = 0;
       for (const glm::dvec2& eye : eyes) sum += layout->regionAt(eye).value_or(-1);
+      used(double(sum));
     });
-    fmt::print("{:<13}  {:7}  {:8}  {:4.2f} s  {:6.0f} ns  (sum {})\n", nameOf(Configuration(c)),
-               layout->regions.size(), layout->cameras.size(), build, 1e9 * find / double(eyes.size()), sum);
+    figures.add(name + ": region of an eye", "ns", scaled(find, 1e9 / double(eyes.size())));
   }
+  return {};
 }
 
-void printSigns() {
+void timeSigns(Figures& figures) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<glm::dvec2> points(3000000);
   for (glm::dvec2& p : points) p = {unit(random), unit(random)};
-  long exact = 0, naive = 0;
-  const double exactTime = seconds([&] {
+  const auto sum = [&](const auto& sign) {
+    long all = 0;
     for (std::size_t k = 0; k + 2 < points.size(); k += 3)
-      exact += orientation(points[k], points[k + 1], points[k + 2]);
-  });
-  const double naiveTime = seconds([&] {
-    for (std::size_t k = 0; k + 2 < points.size(); k += 3)
-      naive += cross(points[k + 1] - points[k], points[k + 2] - points[k]) > 0 ? 1 : -1;
-  });
-  fmt::print("sign of a side: exact {:.1f} ns, naive {:.1f} ns (sums {} and {})\n", 1e3 * exactTime,
-             1e3 * naiveTime, exact, naive);
+      all += sign(points[k], points[k + 1], points[k + 2]);
+    used(double(all));
+  };
+  const Turns turns = secondsByTurns(
+      5, [&] { sum([](auto a, auto b, auto c) { return orientation(a, b, c); }); },
+      [&] { sum([](auto a, auto b, auto c) { return cross(b - a, c - a) > 0 ? 1 : -1; }); });
+  figures.add("exact sign of a side", "ns", scaled(turns.one, 1e3), "naive", scaled(turns.other, 1e3));
+}
 
+void timePieces(Figures& figures) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
   LayoutSpec spec;
   spec.outline.loops = {{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}};
   const Layout layout = buildLayout(spec).value();
   constexpr int kViews = 100000;
-  std::size_t pieces = 0;
-  const double order = seconds([&] {
+  const auto order = secondsOf(3, [&] {
+    std::size_t pieces = 0;
     for (int n = 0; n < kViews; ++n) {
       const glm::dvec2 eye{3 * unit(random), 3 * unit(random)};
       const int region = layout.regionAt(eye).value();
@@ -84,15 +80,17 @@ void printSigns() {
           visiblePieces(layout, region, chooseCover(layout.regions[std::size_t(region)], sector), sector)
               .size();
     }
+    used(double(pieces));
   });
-  fmt::print("pieces of a view in order: {:.2f} us a view, {:.2f} pieces on average\n", 1e6 * order / kViews,
-             double(pieces) / kViews);
+  figures.add("pieces of a view in order", "us", scaled(order, 1e6 / kViews));
 }
 
 }  // namespace
-}  // namespace acentric
 
-int main() {
-  acentric::printLayouts();
-  acentric::printSigns();
+Status benchLayout(const Subject&, Figures& figures) {
+  timeSigns(figures);
+  timePieces(figures);
+  return timeLayouts(figures);
 }
+
+}  // namespace acentric::bench
