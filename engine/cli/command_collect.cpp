@@ -19,7 +19,8 @@ Report collectReport(const CollectedModel& collected) {
     report.text += fmt::format("  {} links to the model\n", collected.scene.string());
   for (const std::filesystem::path& file : collected.left)
     report.text += fmt::format(
-        "  left where it is, since the model names it by an absolute path: {}; lay a copy beside the model\n",
+        "  left where it is, since it is hidden or lies far from the model: {}; lay a copy beside the "
+        "model\n",
         file.string());
   return report;
 }

@@ -34,6 +34,9 @@ struct Move {
   fs::path from, to;
 };
 
+/// As what nobody means to share is named.
+bool hidden(const fs::path& part) { return part.native().starts_with('.') && part != ".." && part != "."; }
+
 /// A model may name files beside its folder ("../textures/x.png"): then its folder keeps its name.
 std::vector<Move> movesOf(const std::vector<fs::path>& files, std::vector<fs::path>& left) {
   const fs::path folder = files.front().parent_path();
@@ -44,7 +47,7 @@ std::vector<Move> movesOf(const std::vector<fs::path>& files, std::vector<fs::pa
     if (!fs::is_regular_file(file, error)) continue;  // looked for, and not found
     const fs::path relative = file.lexically_normal().lexically_relative(folder);
     const auto ups = std::ranges::count(relative, "..");
-    if (relative.empty() || ups > 1) {
+    if (relative.empty() || ups > 1 || std::ranges::any_of(relative, hidden)) {
       left.push_back(file);
       continue;
     }
@@ -77,13 +80,15 @@ Status place(const Move& move, const fs::path& folder) {
   fs::create_directories(to.parent_path(), error);
   fs::create_hard_link(move.from, to, error);
   if (!error) return {};
-  error.clear();
-  fs::copy_file(move.from, to, error);
-  if (error)
-    return fail(ErrorKind::unreadable,
-                fmt::format("cannot be copied to {}: {}", folder.parent_path().string(), error.message()),
-                move.from.string());
-  return {};
+  return replaceFileAtomically(to, [&](const fs::path& temporary) -> Status {
+    error.clear();
+    fs::copy_file(move.from, temporary, error);
+    if (error)
+      return fail(ErrorKind::unreadable,
+                  fmt::format("cannot be copied to {}: {}", folder.parent_path().string(), error.message()),
+                  move.from.string());
+    return {};
+  });
 }
 
 /// models/NAME, models/NAME-2 ... below the project: the first that is free or holds the same already.

@@ -27,7 +27,8 @@ struct CollectedModel {
   std::filesystem::path folder;  ///< that was made; empty: the model lay there already
   std::size_t files = 0;
   std::uint64_t bytes = 0;
-  /// Named by absolute paths, and not brought along: a model must not decide what of a disk is shared.
+  /// Hidden files, and what lies neither below the model's folder nor beside it: not brought along, since a
+  /// model must not decide what of a disk is shared.
   std::vector<std::filesystem::path> left;
 };
 

@@ -148,16 +148,18 @@ TEST_F(CollectTest, ALinkToAnotherModelIsNotReplaced) {
 }
 
 /// Else a model could have any file of the disk put into a folder that is then given away.
-TEST_F(CollectTest, FilesNamedByAbsolutePathsAreToldAndLeft) {
+TEST_F(CollectTest, FilesFarAwayAndHiddenOnesAreToldAndLeft) {
   write(folder_ / "private" / "deep" / "red.mtl", kRed);
+  write(folder_ / "made" / ".keys" / "red.mtl", kRed);
   const fs::path model = folder_ / "made" / "here" / "floor.obj";
   write(model, floorOf("none.mtl"));
   const auto collected =
-      collectModel(model, project_(), {model, folder_ / "private" / "deep" / "red.mtl"}, Collect::files);
+      collectModel(model, project_(),
+                   {model, folder_ / "private" / "deep" / "red.mtl", folder_ / "made" / ".keys" / "red.mtl"},
+                   Collect::files);
   ASSERT_TRUE(collected) << collected.error().describe();
   EXPECT_EQ(collected->files, 1U);
-  ASSERT_EQ(collected->left.size(), 1U);
-  EXPECT_EQ(collected->left.front().filename(), "red.mtl");
+  EXPECT_EQ(collected->left.size(), 2U);
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "walk"))
     EXPECT_NE(entry.path().filename(), "red.mtl");
 }
