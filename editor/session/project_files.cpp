@@ -1,6 +1,7 @@
 #include "editor/session/project_files.h"
 
 #include "engine/base/file.h"
+#include "engine/base/link_file.h"
 #include "engine/pipeline/collect_model.h"
 
 namespace acentric::editor {
@@ -98,11 +99,8 @@ Result<int> shareCaptures(const fs::path& from, const fs::path& to) {
     if (!it->is_regular_file(ignored) || name.starts_with(kTemporaryPrefix) ||
         fs::exists(target / name, ignored))
       continue;
-    std::error_code problem;
-    fs::create_hard_link(it->path(), target / name, problem);
-    if (problem) fs::copy_file(it->path(), target / name, problem);
-    if (problem)
-      return fail(ErrorKind::unreadable, "cannot be copied: " + problem.message(), it->path().string());
+    if (Status there = linkOrCopyFile(it->path(), target / name); !there)
+      return tl::unexpected(there.error());
     ++added;
   }
   if (error) return fail(ErrorKind::unreadable, error.message(), source.string());

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
+#include "engine/cli/machine/figure.h"
 #include "engine/cli/run_command.h"
-#include "engine/measure/statistics.h"
 #include "engine/pipeline/trial_folder.h"
 
 namespace acentric::cli {
@@ -59,26 +58,16 @@ void addMedians(const Json& report, Medians& medians) {
       medians[{bench.at("bench"), figure.at("what")}].push_back(figure.at("median"));
 }
 
-Json spreadJson(const std::vector<double>& values) {
-  const Spread spread = spreadOf(values);
-  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"count", spread.count}};
-}
-
 /// The figures of `report`, with those of the rounds in their place.
-void putBeside(Json& report, const Medians& own, const Medians& other, const std::string& name) {
+void compare(Json& report, const Medians& own, const Medians& other, const std::string& name) {
   for (Json& bench : report.at("benches"))
     for (Json& figure : bench.at("figures")) {
       const std::pair<std::string, std::string> key(bench.at("bench"), figure.at("what"));
       figure.erase("beside"), figure.erase("ratio");
-      figure.update(spreadJson(own.at(key)));
-      const auto found = other.find(key);
-      if (found == other.end()) continue;  // the other build has no such figure
-      std::vector<double> ratios;
-      for (std::size_t i = 0; i < std::min(own.at(key).size(), found->second.size()); ++i)
-        if (found->second[i] > 0) ratios.push_back(own.at(key)[i] / found->second[i]);
-      figure["beside"] = {{"name", name}};
-      figure["beside"].update(spreadJson(found->second));
-      figure["ratio"] = spreadOf(ratios).median;
+      putSpread(figure, own.at(key));
+      // The other build may have no such figure.
+      if (const auto found = other.find(key); found != other.end())
+        putBeside(figure, own.at(key), name, found->second);
     }
 }
 
@@ -128,7 +117,7 @@ Result<Report> runBenchFunctions(const BenchFunctionsOptions& options, const Com
     report.json["rounds"] = rounds;
     report.json["beside"] = {{"folder", options.beside.string()},
                              {"commit", other->value("commit", "unknown")}};
-    putBeside(report.json, ours, theirs, other->value("commit", "unknown"));
+    compare(report.json, ours, theirs, other->value("commit", "unknown"));
   }
   report.text = toText(report.json);
   return report;

@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/folder.h"
+#include "engine/base/link_file.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -78,28 +79,27 @@ Status place(const Move& move, const fs::path& folder) {
   std::error_code error;
   const fs::path to = folder / move.to;
   fs::create_directories(to.parent_path(), error);
-  fs::create_hard_link(move.from, to, error);
-  if (!error) return {};
-  return replaceFileAtomically(to, [&](const fs::path& temporary) -> Status {
-    error.clear();
-    fs::copy_file(move.from, temporary, error);
-    if (error)
-      return fail(ErrorKind::unreadable,
-                  fmt::format("cannot be copied to {}: {}", folder.parent_path().string(), error.message()),
-                  move.from.string());
-    return {};
-  });
+  return linkOrCopyFile(move.from, to);
 }
 
-/// models/NAME, models/NAME-2 ... below the project: the first that is free or holds the same already.
-template <class Same>
-Result<fs::path> placeFor(const fs::path& model, const fs::path& projectFolder, const Same& same) {
+struct Place {
+  fs::path folder;
+  bool holdsIt = false;  ///< there is nothing to bring
+};
+
+/// models/NAME, models/NAME-2 ... below the project: the first that is free, holds the model, or may be
+/// replaced.
+template <class Holds, class Replaceable>
+Result<Place> placeFor(const fs::path& model, const fs::path& projectFolder, const Holds& holds,
+                       const Replaceable& replaceable) {
   const std::string name = model.stem().string();
   for (int number = 1; number <= kMostPlaces; ++number) {
     const fs::path place =
         projectFolder / "models" / (number == 1 ? name : fmt::format("{}-{}", name, number));
     std::error_code error;
-    if (!fs::exists(fs::symlink_status(place, error)) || same(place)) return place;
+    if (!fs::exists(fs::symlink_status(place, error))) return Place{place};
+    if (holds(place)) return Place{place, true};
+    if (replaceable(place)) return Place{place};
   }
   return fail(ErrorKind::invalidArgument, "there are too many models of this name",
               (projectFolder / "models").string());
@@ -117,17 +117,17 @@ Result<CollectedModel> collectFiles(const std::vector<fs::path>& files, const fs
   };
   // Where a project has a link to the model its files take that place, under the same name.
   const bool plain = !moves.front().to.has_parent_path();
-  const auto folder = placeFor(files.front(), projectFolder, [&](const fs::path& place) {
-    return (plain && holdsOnlyLinkTo(files.front(), place)) || there(place);
+  const auto at = placeFor(files.front(), projectFolder, there, [&](const fs::path& place) {
+    return plain && holdsOnlyLinkTo(files.front(), place);
   });
-  if (!folder) return tl::unexpected(folder.error());
-  collected.scene = (*folder / moves.front().to).lexically_relative(projectFolder);
-  if (there(*folder)) return collected;
+  if (!at) return tl::unexpected(at.error());
+  collected.scene = (at->folder / moves.front().to).lexically_relative(projectFolder);
+  if (at->holdsIt) return collected;
   std::error_code error;
   for (const Move& move : moves) collected.bytes += fs::file_size(move.from, error);
   collected.files = moves.size();
-  collected.folder = *folder;
-  const Status written = replaceFolderAtomically(*folder, [&](const fs::path& temporary) -> Status {
+  collected.folder = at->folder;
+  const Status written = replaceFolderAtomically(at->folder, [&](const fs::path& temporary) -> Status {
     for (const Move& move : moves)
       if (Status placed = place(move, temporary); !placed) return placed;
     return {};
@@ -138,18 +138,19 @@ Result<CollectedModel> collectFiles(const std::vector<fs::path>& files, const fs
 
 Result<CollectedModel> collectLink(const fs::path& model, const fs::path& projectFolder) {
   CollectedModel collected;
-  const auto links = [&](const fs::path& place) { return holdsOnlyLinkTo(model, place); };
-  const auto folder = placeFor(model, projectFolder, links);
-  if (!folder) return tl::unexpected(folder.error());
-  collected.scene = (*folder / model.filename()).lexically_relative(projectFolder);
-  if (links(*folder)) return collected;
-  collected.folder = *folder;
-  const Status written = replaceFolderAtomically(*folder, [&](const fs::path& temporary) -> Status {
+  const auto at = placeFor(
+      model, projectFolder, [&](const fs::path& place) { return holdsOnlyLinkTo(model, place); },
+      [](const fs::path&) { return false; });
+  if (!at) return tl::unexpected(at.error());
+  collected.scene = (at->folder / model.filename()).lexically_relative(projectFolder);
+  if (at->holdsIt) return collected;
+  collected.folder = at->folder;
+  const Status written = replaceFolderAtomically(at->folder, [&](const fs::path& temporary) -> Status {
     std::error_code error;
     fs::create_symlink(model, temporary / model.filename(), error);
     if (error)
       return fail(ErrorKind::unreadable, "a link to the model cannot be made: " + error.message(),
-                  folder->string());
+                  at->folder.string());
     return {};
   });
   if (!written) return tl::unexpected(written.error());

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "engine/base/file.h"
+#include "engine/base/link_file.h"
 #include "engine/store/keyed.h"
 #include "engine/store/store_names.h"
 
@@ -111,17 +112,7 @@ Status CaptureStore::adopt(const ContentKey& key, const CaptureStore& from) cons
   for (const auto fileOf : {exrOf, packOf, lightOf, recordOf}) {
     const fs::path source = fileOf(from.folder_, key), target = fileOf(folder_, key);
     if (!isFile(source) || isFile(target)) continue;
-    std::error_code error;
-    fs::create_hard_link(source, target, error);
-    if (!error) continue;
-    const auto copy = [&](const fs::path& temporary) -> Status {
-      std::error_code failed;
-      fs::copy_file(source, temporary, fs::copy_options::overwrite_existing, failed);
-      if (failed)
-        return fail(ErrorKind::unreadable, "cannot be copied: " + failed.message(), source.string());
-      return {};
-    };
-    if (Status copied = replaceFileAtomically(target, copy); !copied) return copied;
+    if (Status there = linkOrCopyFile(source, target); !there) return there;
   }
   return {};
 }

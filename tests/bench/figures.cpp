@@ -1,35 +1,23 @@
 #include "tests/bench/figures.h"
 
-#include <algorithm>
+#include "engine/cli/machine/figure.h"
 
 namespace acentric::bench {
 namespace {
-
-nlohmann::ordered_json spreadJson(const std::vector<double>& values) {
-  const Spread spread = spreadOf(values);
-  return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"count", spread.count}};
-}
 
 volatile double sink = 0;
 
 }  // namespace
 
 void Figures::add(const std::string& what, const std::string& unit, const std::vector<double>& values) {
-  nlohmann::ordered_json figure = {{"what", what}, {"unit", unit}};
-  figure.update(spreadJson(values));
-  figures_.push_back(std::move(figure));
+  figures_.push_back({{"what", what}, {"unit", unit}});
+  cli::putSpread(figures_.back(), values);
 }
 
 void Figures::add(const std::string& what, const std::string& unit, const std::vector<double>& values,
                   const std::string& otherName, const std::vector<double>& other) {
   add(what, unit, values);
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < std::min(values.size(), other.size()); ++i)
-    if (other[i] > 0) ratios.push_back(values[i] / other[i]);
-  nlohmann::ordered_json beside = {{"name", otherName}};
-  beside.update(spreadJson(other));
-  figures_.back()["beside"] = std::move(beside);
-  figures_.back()["ratio"] = spreadOf(ratios).median;
+  cli::putBeside(figures_.back(), values, otherName, other);
 }
 
 void Figures::fact(const std::string& what, nlohmann::ordered_json value) { facts_[what] = std::move(value); }
