@@ -46,7 +46,7 @@ inline glm::vec4 unpackColour(const HalfColour& colour) {
 }
 
 /// An inverse distance as captures store it: the nearest of those `step` apart, and of the floats with 16
-/// significant bits, so that its last 8 bits are zero. Off by at most half a step, or by 2^-17 of itself;
+/// significant bits, so that its last 8 bits are zero. Off by at most half a step, or by 2^-16 of itself;
 /// what is not 0 stays at least one step. `step` is a power of two, or 0 for the second alone.
 inline float storedInverseDistance(double inverseDistance, double step) {
   if (!(inverseDistance > 0)) return 0;

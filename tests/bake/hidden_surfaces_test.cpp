@@ -73,6 +73,35 @@ TEST(BakeHiddenSurfaces, DropsWhatLiesRightBehindAnOpaqueSurface) {
   EXPECT_GT(deep, 50u) << "the wall behind it, seen from beside the camera";
 }
 
+/// Pixels that keep more than one surface of a wall and another behind it, apart by some shares of what the
+/// test eyes do not tell apart: half a row at their distance.
+std::size_t pixelsOfBothWalls(const std::vector<double>& shares) {
+  constexpr float kAway = 4;
+  BakeSettings settings;
+  settings.samplesPerDegree = 2;
+  SceneBuilder builder = room();
+  const int white = builder.material(matte());
+  for (const double share : shares) {
+    const float x = kAway + float(share * 0.5 * radians(1 / settings.samplesPerDegree) * kAway);
+    builder.quad(white, {x, 2, 0}, {x, -2, 0}, {x, -2, 3}, {x, 2, 3});
+  }
+  const Baked baked = bakeFrom(builder.rays(), cameraAt({0, 0}, {square(1)}), settings);
+  std::size_t both = 0;
+  for (int k = 0; k < baked.columns.columns; ++k)
+    for (int r = 0; r < baked.columns.rows; ++r)
+      both +=
+          std::ranges::count_if(baked.pixelAt(k, r), [&](const auto& sample) {
+            return sample.w > 0 && std::abs(baked.columns.directionAt(k + 0.5).x / sample.w - kAway) < 0.5;
+          }) > 1;
+  return both;
+}
+
+TEST(BakeHiddenSurfaces, DropsAWallBehindAWallWhetherOrNotTheTestEyesTellThemApart) {
+  const std::size_t alone = pixelsOfBothWalls({0});  // along the floor and the ceiling
+  EXPECT_EQ(pixelsOfBothWalls({0, 0.3}), alone) << "right behind: the eyes' tolerance lets it pass";
+  EXPECT_LT(pixelsOfBothWalls({0, 1.8}), alone + 300) << "beyond the tolerance: seen past the edges alone";
+}
+
 /// The camera's ray leaves a box through a side that it only sees from within, and the region from without.
 TEST(BakeHiddenSurfaces, ShadesTheSideThatIsSeenAndNotTheOneTheCameraLooksAt) {
   SceneBuilder builder;
