@@ -178,7 +178,7 @@ class Bench {
   }
 
   Status draw(HoleBench& bench, const std::vector<FloatImage>& distances, std::string name,
-              std::string description, const WalkScene& walk, bool otherHand, bool fill) const {
+              std::string description, const WalkScene& walk, bool otherHand) const {
     HoleBenchMethod method{std::move(name), std::move(description), {}, {}, {}, 0};
     for (const CapturePtr& capture : walk.captures)
       method.samples += capture ? std::uint64_t(capture->samples.size()) : 0;
@@ -186,7 +186,7 @@ class Bench {
     settings.renderer = Renderer::list;
     settings.localGeometry = true;
     settings.secondaryCover = otherHand;
-    settings.fillHoles = fill;
+    settings.fillHoles = true;
     for (std::size_t v = 0; v < bench.views.size(); ++v) {
       auto frame = renderFrame(walk, bench.views[v], settings, runner_);
       if (!frame) return tl::unexpected(frame.error());
@@ -194,6 +194,8 @@ class Bench {
       if (!comparison) return tl::unexpected(comparison.error());
       method.comparisons.push_back(*comparison);
       method.openShares.push_back(double(frame->holeCount()) / double(frame->source.pixels.size()));
+      for (std::size_t i = 0; i < frame->source.pixels.size(); ++i)
+        if (!isReal(frame->source.pixels[i])) frame->colour.pixels[i].a = 0;
       method.pictures.push_back(std::move(frame->colour));
     }
     bench.methods.push_back(std::move(method));
@@ -214,20 +216,18 @@ class Bench {
       const char* description;
       bool layered;
       Cameras cameras;
-      bool otherHand, fill;
+      bool otherHand;
     };
     static constexpr Method kMethods[] = {
-        {"TPV", "one panorama at the centre, one layer", false, Cameras::panorama, true, false},
-        {"APV, one hand", "the ring of the better hand, one layer", false, Cameras::ring, false, false},
-        {"APV", "the rings of both hands, one layer", false, Cameras::ring, true, false},
-        {"TPV + APV", "both, one layer", false, Cameras::both, true, false},
-        {"layered", "the rings of both hands, layered, holes filled on the screen", true, Cameras::ring, true,
-         true},
-        {"layered + TPV", "the same and a layered panorama behind them", true, Cameras::both, true, true}};
+        {"TPV", "one panorama at the centre, one layer", false, Cameras::panorama, true},
+        {"APV, one hand", "the ring of the better hand, one layer", false, Cameras::ring, false},
+        {"APV", "the rings of both hands, one layer", false, Cameras::ring, true},
+        {"TPV + APV", "both, one layer", false, Cameras::both, true},
+        {"layered", "the rings of both hands, layered", true, Cameras::ring, true},
+        {"layered + TPV", "the same and a layered panorama behind them", true, Cameras::both, true}};
     for (const Method& m : kMethods)
-      if (Status drawn =
-              draw(bench, distances, m.name, m.description,
-                   sceneOf(m.layered ? open_.project.bake : oneLayer_, m.cameras), m.otherHand, m.fill);
+      if (Status drawn = draw(bench, distances, m.name, m.description,
+                              sceneOf(m.layered ? open_.project.bake : oneLayer_, m.cameras), m.otherHand);
           !drawn)
         return tl::unexpected(drawn.error());
     return bench;

@@ -24,7 +24,7 @@ struct HoleBenchOptions {
 
 struct HoleBenchMethod {
   std::string name, description;
-  std::vector<Comparison> comparisons;  ///< by frame
+  std::vector<Comparison> comparisons;  ///< by frame, what is open being filled on the screen
   std::vector<double> openShares;       ///< by frame: pixels without a sample, also where the truth is sky
   std::vector<ColourImage> pictures;    ///< by frame; what is left open is transparent
   std::uint64_t samples = 0;            ///< of its captures

@@ -4,20 +4,16 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/scene/gltf_compression.h"
+#include "engine/scene/gltf_extensions.h"
 
 namespace acentric {
 namespace {
-
-constexpr std::array<const char*, 9> kPlayed{
-    "KHR_lights_punctual",        "KHR_texture_transform", "KHR_materials_emissive_strength",
-    "KHR_materials_transmission", "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
-    "EXT_mesh_gpu_instancing",    "KHR_mesh_quantization", "EXT_texture_webp"};
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorKind::malformed, std::move(message));
@@ -112,7 +108,7 @@ Result<GltfText> jsonOf(std::span<const std::byte> bytes) {
 }
 
 /// A look at the JSON before tinygltf: syntax with a position, version, required extensions, buffer lengths.
-Status checkJson(std::string_view text, FileAccess& access) {
+Result<nlohmann::json> checkJson(std::string_view text, FileAccess& access) {
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text);
@@ -141,35 +137,48 @@ Status checkJson(std::string_view text, FileAccess& access) {
         if (!uri.starts_with("data:"))
           access.bufferBytes[nameOf(percentDecoded(uri))] = buffer["byteLength"].get<std::size_t>();
       }
-  return {};
+  return json;
 }
 
-Status checkExtensions(const tinygltf::Model& model, ReportLines& ignored) {
-  const auto played = [](const std::string& name) {
-    return std::find(kPlayed.begin(), kPlayed.end(), name) != kPlayed.end();
+/// The file with other JSON: what follows a GLB's JSON chunk stays.
+std::vector<std::byte> withJson(std::span<const std::byte> file, const GltfText& text, std::string json) {
+  while (text.binary && json.size() % 4 != 0) json += ' ';
+  const auto append = [](std::vector<std::byte>& out, const void* from, std::size_t size) {
+    const auto* bytes = static_cast<const std::byte*>(from);
+    out.insert(out.end(), bytes, bytes + size);
   };
-  for (const std::string& name : model.extensionsRequired) {
-    if (played(name)) continue;
-    const bool packed = name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression";
-    return fail(ErrorKind::unsupported,
-                fmt::format("requires the extension {}, which is not supported{}", name,
-                            packed ? "; export it without mesh compression" : ""));
+  std::vector<std::byte> out;
+  if (!text.binary) {
+    append(out, json.data(), json.size());
+    return out;
   }
-  for (const std::string& name : model.extensionsUsed)
-    if (!played(name)) ignored.add("extension " + name);
-  return {};
+  constexpr std::size_t kHeader = 20;
+  const std::span<const std::byte> rest = file.subspan(kHeader + text.json.size());
+  const std::uint32_t words[] = {std::uint32_t(kHeader + json.size() + rest.size()),
+                                 std::uint32_t(json.size())};
+  append(out, file.data(), 8);  // magic and version
+  append(out, words, sizeof words);
+  append(out, file.data() + 16, 4);  // "JSON"
+  append(out, json.data(), json.size());
+  append(out, rest.data(), rest.size());
+  return out;
 }
 
 }  // namespace
 
 Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines& ignored) {
-  const auto bytes = readFile(context.path, (std::size_t(1) << 32) - 1);
+  auto bytes = readFile(context.path, (std::size_t(1) << 32) - 1);
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return malformed("is empty");
   const auto text = jsonOf(*bytes);
   if (!text) return tl::unexpected(text.error());
   FileAccess access{&context, &ignored, {}};
-  if (auto status = checkJson(text->json, access); !status) return status;
+  auto json = checkJson(text->json, access);
+  if (!json) return tl::unexpected(json.error());
+  const auto compression = takeCompression(*json, text->binary);
+  if (!compression) return tl::unexpected(compression.error());
+  if (compression->any())
+    *bytes = withJson(*bytes, *text, json->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&keepImageBytes, nullptr);
@@ -183,7 +192,9 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
                    : loader.LoadASCIIFromString(&model, &error, &warning,
                                                 reinterpret_cast<const char*>(bytes->data()), size, "");
   if (!loaded) return malformed(error.empty() ? "is not a sound glTF file" : oneLine(error));
-  return checkExtensions(model, ignored);
+  if (Status played = checkExtensions(model.extensionsRequired, model.extensionsUsed, ignored); !played)
+    return played;
+  return decompress(*compression, model);
 }
 
 }  // namespace acentric

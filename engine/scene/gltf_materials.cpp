@@ -185,6 +185,14 @@ int GltfMaterials::takeTexture(int gltfTexture) {
   int image = source.source;
   if (const auto* webp = extensionOf(source.extensions, "EXT_texture_webp"); webp && image < 0)
     image = integerOr(*webp, "source", -1);
+  if (image < 0 && extensionOf(source.extensions, "KHR_texture_basisu") != nullptr) {
+    scene_.ignored.add(
+        "textures that are Basis Universal pictures (KHR_texture_basisu), which are not decoded: their "
+        "materials "
+        "have the colour of their factor alone; convert them to PNG, JPEG or WebP (gltf-transform "
+        "ktxdecompress)");
+    return -1;
+  }
   Texture texture;
   texture.image = takeImage(image);
   if (texture.image < 0) return -1;

@@ -30,6 +30,8 @@ const std::vector<Home>& homes() {
       {"zstd", {"zstd"}, {"engine/store/", "engine/scene/"}},
       {"tinygltf", {"tiny_gltf", "tinygltf"}, {"engine/scene/"}},
       {"assimp", {"assimp/"}, {"engine/scene/"}},
+      {"Draco", {"draco/"}, {"engine/scene/"}},
+      {"meshoptimizer", {"meshoptimizer"}, {"engine/scene/"}},
       {"OpenMesh", {"OpenMesh/"}, {"engine/scene/"}},
       {"Embree", {"embree"}, {"engine/bake/"}},
       {"TBB", {"tbb/", "oneapi/tbb"}, {}},  // stays inside Embree
