@@ -187,8 +187,8 @@ TEST(HardCases, SkyAtInfinityStaysWhereItIsAndSkyAtAFarPlaneDoesNot) {
 }
 
 TEST(HardCases, OneMillimetreAndTenKilometresShareAnImageByInverseDistanceAndNotByEvenSteps) {
-  // The stored w has 24 bits, relative: moving the eye by b shifts a sample's pixel by f b w at most, known
-  // to f b w 2^-24. Even steps of distance or of w over the same range are off by pixels at one end of it.
+  // The stored w has 16 bits, relative: moving the eye by b shifts a sample's pixel by f b w at most, known
+  // to f b w 2^-17. Even steps of distance or of w over the same range are off by pixels at one end of it.
   const double focal = 800, nearest = 1e-3, farthest = 1e4;
   const auto sixteenBits = [](double value, double most) {
     return std::round(value / most * 65535) * most / 65535;
@@ -200,14 +200,15 @@ TEST(HardCases, OneMillimetreAndTenKilometresShareAnImageByInverseDistanceAndNot
       const glm::dvec2 q = glm::dvec2(1, 0.2) + inverseDistance * b * glm::dvec2(0.3, 0.9);
       return focal * q.y / q.x;
     };
-    const double stored = static_cast<float>(w);
-    EXPECT_LE(std::abs(pixel(stored) - pixel(w)), 2 * focal * b * w * 0x1p-24) << distance;
+    const double stored = storedInverseDistance(w, 0);
+    EXPECT_LE(std::abs(pixel(stored) - pixel(w)), 2 * focal * b * w * 0x1p-17) << distance;
     worst = std::max(worst, std::abs(pixel(stored) - pixel(w)));
     const double even = sixteenBits(distance, farthest);
     worstEvenDistance = std::max(worstEvenDistance, even > 0 ? std::abs(pixel(1 / even) - pixel(w)) : focal);
     worstEvenInverse = std::max(worstEvenInverse, std::abs(pixel(sixteenBits(w, 1 / nearest)) - pixel(w)));
   }
-  EXPECT_LT(worst, 1e-4);
+  EXPECT_LT(worst, 5e-3);
+  EXPECT_GT(worst, 1e-4) << "or captures keep more than the document says";
   EXPECT_GT(worstEvenDistance, 10);
   EXPECT_GT(worstEvenInverse, 10);
 }
