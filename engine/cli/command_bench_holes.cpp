@@ -84,8 +84,8 @@ Sheet sheetOf(const HoleBench& bench) {
     sheet.rows.push_back(std::move(row));
   }
   sheet.notes = {
-      "Rows: from the centre of a ring to its left. Holes that are not filled are magenta; those that "
-      "are filled count as holes."};
+      "Rows: from the centre of a ring to its left. What is open is magenta; the figures are "
+      "of frames where it is filled."};
   return sheet;
 }
 

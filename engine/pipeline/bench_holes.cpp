@@ -178,7 +178,7 @@ class Bench {
   }
 
   Status draw(HoleBench& bench, const std::vector<FloatImage>& distances, std::string name,
-              std::string description, const WalkScene& walk, bool otherHand, bool fill) const {
+              std::string description, const WalkScene& walk, bool otherHand) const {
     HoleBenchMethod method{std::move(name), std::move(description), {}, {}, {}, 0};
     for (const CapturePtr& capture : walk.captures)
       method.samples += capture ? std::uint64_t(capture->samples.size()) : 0;
@@ -186,13 +186,17 @@ class Bench {
     settings.renderer = Renderer::list;
     settings.localGeometry = true;
     settings.secondaryCover = otherHand;
-    settings.fillHoles = fill;
     for (std::size_t v = 0; v < bench.views.size(); ++v) {
-      auto frame = renderFrame(walk, bench.views[v], settings, runner_);
-      if (!frame) return tl::unexpected(frame.error());
-      const auto comparison = compare(*frame, bench.truth[v], distances[v]);
+      // All are compared alike, as a walk shows them: filled. Pictures show what there was to be filled.
+      settings.fillHoles = true;
+      const auto filled = renderFrame(walk, bench.views[v], settings, runner_);
+      if (!filled) return tl::unexpected(filled.error());
+      const auto comparison = compare(*filled, bench.truth[v], distances[v]);
       if (!comparison) return tl::unexpected(comparison.error());
       method.comparisons.push_back(*comparison);
+      settings.fillHoles = false;
+      auto frame = renderFrame(walk, bench.views[v], settings, runner_);
+      if (!frame) return tl::unexpected(frame.error());
       method.openShares.push_back(double(frame->holeCount()) / double(frame->source.pixels.size()));
       method.pictures.push_back(std::move(frame->colour));
     }
@@ -214,20 +218,18 @@ class Bench {
       const char* description;
       bool layered;
       Cameras cameras;
-      bool otherHand, fill;
+      bool otherHand;
     };
     static constexpr Method kMethods[] = {
-        {"TPV", "one panorama at the centre, one layer", false, Cameras::panorama, true, false},
-        {"APV, one hand", "the ring of the better hand, one layer", false, Cameras::ring, false, false},
-        {"APV", "the rings of both hands, one layer", false, Cameras::ring, true, false},
-        {"TPV + APV", "both, one layer", false, Cameras::both, true, false},
-        {"layered", "the rings of both hands, layered, holes filled on the screen", true, Cameras::ring, true,
-         true},
-        {"layered + TPV", "the same and a layered panorama behind them", true, Cameras::both, true, true}};
+        {"TPV", "one panorama at the centre, one layer", false, Cameras::panorama, true},
+        {"APV, one hand", "the ring of the better hand, one layer", false, Cameras::ring, false},
+        {"APV", "the rings of both hands, one layer", false, Cameras::ring, true},
+        {"TPV + APV", "both, one layer", false, Cameras::both, true},
+        {"layered", "the rings of both hands, layered", true, Cameras::ring, true},
+        {"layered + TPV", "the same and a layered panorama behind them", true, Cameras::both, true}};
     for (const Method& m : kMethods)
-      if (Status drawn =
-              draw(bench, distances, m.name, m.description,
-                   sceneOf(m.layered ? open_.project.bake : oneLayer_, m.cameras), m.otherHand, m.fill);
+      if (Status drawn = draw(bench, distances, m.name, m.description,
+                              sceneOf(m.layered ? open_.project.bake : oneLayer_, m.cameras), m.otherHand);
           !drawn)
         return tl::unexpected(drawn.error());
     return bench;
