@@ -18,6 +18,19 @@ void addWalkActions(std::vector<Action>& table) {
                    },
                    {},
                    "that no bake runs"});
+  table.push_back({"bake.takeOver",
+                   "Walk",
+                   "Take over bake",
+                   {},
+                   {},
+                   "Bake here although another program bakes this project; that one ends",
+                   false,
+                   [](const ActionContext& c) {
+                     return withBuilt(c) && !c.session.baking().running() && !c.session.untitled();
+                   },
+                   [](ActionContext& c) { c.session.startBake(glm::dvec2(c.state.walker.pose().eye), true); },
+                   {},
+                   "a saved project, and that no bake runs"});
   table.push_back({"bake.cancel",
                    "Walk",
                    "Cancel bake",

@@ -1,33 +1,12 @@
 #pragma once
-/// Have files that others may write been changed since they were read? Told by size and time first, which is
-/// cheap; only where those differ the content decides.
+/// Have the files of a model been changed since they were read?
 
 #include <filesystem>
 #include <vector>
 
-#include "engine/base/hash.h"
+#include "engine/base/file_stamp.h"
 
 namespace acentric::editor {
-
-/// Size and time of a file.
-struct FileLook {
-  bool exists = false;
-  std::uintmax_t size = 0;
-  std::filesystem::file_time_type modified{};
-  bool operator==(const FileLook&) const = default;
-};
-FileLook lookAt(const std::filesystem::path& file);
-
-/// A file as it was read.
-struct FileStamp {
-  std::filesystem::path file;
-  FileLook look;
-  ContentKey content;  ///< zero where it does not exist or cannot be read
-};
-/// Reads it.
-FileStamp stampOf(const std::filesystem::path& file);
-/// Reads the content only where size or time differ.
-bool differs(const FileStamp& was);
 
 /// Several files. look() belongs to one thread; different() may be asked of a copy on another.
 class FileWatch {

@@ -12,8 +12,8 @@
 #include "editor/session/capture_status.h"
 #include "editor/session/file_watch.h"
 #include "editor/session/inspection.h"
-#include "editor/session/project_lock.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/project_lock.h"
 
 namespace acentric::editor {
 

@@ -22,7 +22,6 @@
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
 #include "editor/session/problems.h"
-#include "editor/session/project_lock.h"
 #include "editor/session/scene_pick.h"
 #include "editor/session/session_options.h"
 #include "editor/session/sweep_watch.h"
@@ -32,14 +31,19 @@
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
 #include "engine/inspect/wall_slice.h"
+#include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/project_lock.h"
 #include "engine/pipeline/walk_stream.h"
 
 namespace acentric::editor {
 
 /// Why a project cannot simply be saved to its file.
 enum class SaveObstacle { none, untitled, readOnly, changedOnDisk };
+
+/// What the user wants with a project that another editor has open.
+enum class LockAnswer { readOnly, copy, takeOver };
 
 class Session {
  public:
@@ -163,7 +167,8 @@ class Session {
   // Bake
   // -------------------------------------------------------------------------------------------------------
   /// Of all storeys, the current one first, and of each what is nearest to `from` (to the start of the walk).
-  void startBake(const std::optional<glm::dvec2>& from = {});
+  /// `takeOver`: though another process bakes this project, which then ends.
+  void startBake(const std::optional<glm::dvec2>& from = {}, bool takeOver = false);
   void cancelBake();
   /// What was begun of a camera is kept, and gone on with.
   void pauseBake(bool paused);
@@ -250,7 +255,8 @@ class Session {
   void inspectIfStale();
   void bakeEnded(const Result<ProjectBakeReport>& report);
   Result<ProjectBakeReport> bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
-                                        std::size_t memoryBytes, const ImportHost& host, TaskRunner& runner,
+                                        std::size_t memoryBytes, const ImportHost& host,
+                                        const BakeGuard& guard, TaskRunner& runner,
                                         const Job::Context& context);
   void lookAtDisk();
   /// As an edit, unless the layout is no longer what was searched with.

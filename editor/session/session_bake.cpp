@@ -8,6 +8,7 @@
 #include "editor/session/session.h"
 #include "engine/base/file.h"
 #include "engine/base/priority.h"
+#include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric::editor {
@@ -66,18 +67,29 @@ int Session::bakeThreads() const {
   return std::clamp(wanted, 1, processors_);
 }
 
-void Session::startBake(const std::optional<glm::dvec2>& from) {
+void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
   if (!built_ || baking_.running()) return;
   estimating_.abandon();  // it would compete
   bakeQueue_.begin({});
   neededBytes_.reset();
   bakeGate_.open();
-  baking_.restart("Baking", [this, open = built_, from, threads = bakeThreads(),
+  baking_.restart("Baking", [this, open = built_, from, takeOver, threads = bakeThreads(),
                              memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
                              host = options_.importHost](const Job::Context& context) {
     lowerThreadPriority();  // the window comes first
     TaskRunner runner(threads - 1, &bakeGate_);
-    const auto report = bakeStoreys(*open, from, memory, host, runner, context);
+    auto guard = BakeGuard::begin(
+        open->file, {{}, takeOver, "wait until it has ended, or take over its bake (Walk, Take over bake)"});
+    Result<ProjectBakeReport> report;
+    if (guard) {
+      // Whether it had changed before is told elsewhere: what is shown may be baked all the same.
+      guard->watch(modelFiles(open->file, open->project, host, std::filesystem::file_time_type::max()));
+      if (!guard->note().empty())
+        context.post([this, note = guard->note()] { messages_.add(MessageLevel::warning, note); });
+      report = bakeStoreys(*open, from, memory, host, *guard, runner, context);
+    } else {
+      report = tl::unexpected(guard.error());
+    }
     context.post([this, report] { bakeEnded(report); });
   });
 }
@@ -85,7 +97,8 @@ void Session::startBake(const std::optional<glm::dvec2>& from) {
 /// Progress runs from 0 to 1 over all storeys.
 Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
                                                std::size_t memoryBytes, const ImportHost& host,
-                                               TaskRunner& runner, const Job::Context& context) {
+                                               const BakeGuard& guard, TaskRunner& runner,
+                                               const Job::Context& context) {
   const auto plan = planStoreys(open, from, host, context.stop());
   if (!plan) return tl::unexpected(plan.error());
   context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
@@ -102,6 +115,7 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
     request.memoryBytes = memoryBytes;
     request.coarseFirst = true;
     request.cameras = plan->order[s];
+    request.mayGoOn = [&] { return guard.check(); };
     request.watch = [&, gate = std::make_shared<NewsGate>()](const CameraNews& news) {
       if (gate->open(news)) context.post([this, s, news] { bakeQueue_.tell(now_, int(s), news); });
     };

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "editor/session/project_lock.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/pipeline/project_lock.h"
 
 namespace acentric::editor {
 namespace {

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <span>
 
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/shading.h"
 #include "engine/bake/surface.h"
 #include "engine/base/contract.h"
+#include "engine/base/stopwatch.h"
 
 namespace acentric {
 namespace {
@@ -100,6 +103,13 @@ class SurfaceLightBaker {
     for (std::size_t i = first; i < last; ++i) bakeTriangle(plan_.triangles[i], stop);
   }
 
+  /// The samples of a run of triangles lie one behind the other.
+  std::span<HalfColour> samplesOf(std::size_t first, std::size_t last) {
+    const std::uint32_t begin = light_.firstSample[plan_.triangles[first].sceneTriangle];
+    const std::uint32_t end = light_.firstSample[plan_.triangles[last - 1].sceneTriangle + 1];
+    return std::span(light_.light).subspan(begin, end - begin);
+  }
+
   double texel() const { return plan_.texel; }
   SurfaceLight take() { return std::move(light_); }
 
@@ -164,11 +174,78 @@ class SurfaceLightBaker {
   SurfaceLight light_;
 };
 
+/// What is kept of a bake while it runs.
+class PartKeeper {
+ public:
+  PartKeeper(SurfaceLightBaker& baker, const std::vector<std::size_t>& starts, SurfaceLightParts* parts)
+      : baker_(baker), starts_(starts), parts_(parts), known_(starts.size() - 1, 0) {
+    if (parts_ == nullptr) return;
+    parts_->resumed = 0;
+    for (const SurfaceLightPart& part : parts_->known) take(part);
+    parts_->known.clear();
+  }
+
+  bool has(std::size_t run) const { return known_[run] != 0; }
+  std::size_t knownRuns() const { return std::size_t(std::ranges::count(known_, 1)); }
+
+  /// By any thread, when the run is baked.
+  Status done(std::size_t run) {
+    if (parts_ == nullptr || !parts_->keep) return {};
+    const std::lock_guard lock(mutex_);
+    if (!kept_) return kept_;
+    baked_.push_back(std::uint32_t(run));
+    if (watch_ && watch_->seconds() < parts_->secondsBetween) return {};
+    kept_ = keep();
+    watch_.emplace();
+    return kept_;
+  }
+
+ private:
+  std::span<HalfColour> samplesOf(std::size_t run) {
+    return baker_.samplesOf(starts_[run], starts_[run + 1]);
+  }
+  void take(const SurfaceLightPart& part) {
+    std::size_t at = 0;
+    for (std::size_t r = 0; r < part.runs.size() && r < part.sizes.size(); ++r) {
+      const std::size_t run = part.runs[r], size = part.sizes[r];
+      if (run >= known_.size() || size > part.light.size() - at) return;
+      const std::span<HalfColour> samples = samplesOf(run);
+      if (samples.size() != size) return;
+      std::copy_n(part.light.begin() + std::ptrdiff_t(at), size, samples.begin());
+      at += size;
+      if (known_[run] == 0) parts_->resumed += size;
+      known_[run] = 1;
+    }
+  }
+  Status keep() {
+    std::ranges::sort(baked_);
+    SurfaceLightPart part;
+    for (const std::uint32_t run : baked_) {
+      const std::span<const HalfColour> samples = samplesOf(run);
+      part.runs.push_back(run);
+      part.sizes.push_back(std::uint32_t(samples.size()));
+      part.light.insert(part.light.end(), samples.begin(), samples.end());
+    }
+    baked_.clear();
+    return parts_->keep(part);
+  }
+
+  SurfaceLightBaker& baker_;
+  const std::vector<std::size_t>& starts_;
+  SurfaceLightParts* parts_;
+  std::vector<char> known_;  ///< by run; nobody writes it once the bake has begun
+  std::mutex mutex_;
+  std::vector<std::uint32_t> baked_;  ///< and not kept yet
+  std::optional<Stopwatch> watch_;    ///< since something was kept
+  Status kept_;
+};
+
 }  // namespace
 
 Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
-                                      TaskRunner& runner, const Progress& progress, std::stop_token stop) {
+                                      TaskRunner& runner, const Progress& progress, std::stop_token stop,
+                                      SurfaceLightParts* parts) {
   const std::size_t triangles = scene.scene().triangleCount();
   require(wanted.size() == triangles && viewer.size() == triangles,
           "surface light is asked for triangle by triangle");
@@ -183,17 +260,23 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
             ? fmt::format("baking surface light (texel raised to {:.3g} m to stay within {} million samples)",
                           baker.texel(), kMaxSamples / 1'000'000)
             : std::string("baking surface light");
+    PartKeeper keeper(baker, starts, parts);
     std::mutex progressMutex;
-    std::size_t done = 0;
+    std::size_t done = keeper.knownRuns();
+    Status kept;
+    std::atomic<bool> failed = false;
     runner.parallelFor(chunks, [&](std::size_t chunk) {
-      if (stop.stop_requested()) return;
+      if (stop.stop_requested() || failed || keeper.has(chunk)) return;
       const FlushDenormals flush;
       baker.bakeTriangles(starts[chunk], starts[chunk + 1], stop);
-      if (!progress) return;
+      if (stop.stop_requested()) return;  // the run may be half baked
+      const Status stored = keeper.done(chunk);
       const std::lock_guard lock(progressMutex);
-      progress({double(++done), double(chunks), stage});
+      if (!stored && !failed.exchange(true)) kept = stored;
+      if (progress) progress({double(++done), double(chunks), stage});
     });
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+    if (!kept) return tl::unexpected(kept.error());
     return baker.take();
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory for surface light; raise the surface texel",

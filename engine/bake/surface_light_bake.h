@@ -1,6 +1,7 @@
 #pragma once
 /// Bakes light to the surfaces that some region draws as local geometry.
 
+#include <functional>
 #include <stop_token>
 #include <vector>
 
@@ -9,15 +10,26 @@
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
 #include "engine/scene/surface_light.h"
+#include "engine/scene/surface_light_part.h"
 
 namespace acentric {
+
+/// Lets a bake be resumed. The light is the same, bit for bit, as without.
+struct SurfaceLightParts {
+  std::vector<SurfaceLightPart>
+      known;  ///< of an earlier bake of the very same light; what does not fit is baked
+  /// Stores what was baked since it was called last; threads call it one at a time. A failure ends the bake.
+  std::function<Status(const SurfaceLightPart&)> keep;
+  double secondsBetween = 2;  ///< at least, between two calls of `keep`; the first is at once
+  std::uint64_t resumed = 0;  ///< out: samples taken from `known`
+};
 
 /// `wanted[sceneTriangle]` != 0: bake that triangle. `viewer[sceneTriangle]` is an eye position for
 /// view-dependent light (mirrors), frozen there. Fails only when cancelled or too large.
 Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                                       TaskRunner& runner, const Progress& progress = {},
-                                      std::stop_token stop = {});
+                                      std::stop_token stop = {}, SurfaceLightParts* parts = nullptr);
 
 /// Where the samples of each triangle would lie, all of them black: no ray is traced. Fails only when too
 /// large.

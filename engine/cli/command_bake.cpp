@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/cli/bake_requests.h"
+#include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/simplified_regions.h"
 
 namespace acentric::cli {
@@ -56,6 +57,7 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       {"surfaceLight",
        {{"asked", request.surfaceLight},
         {"baked", baked.surfaceLightBaked},
+        {"resumedSamples", baked.surfaceLightResumed},
         {"seconds", baked.surfaceLightSeconds}}},
       {"damaged", baked.damaged},
       {"bytes", baked.bytes},
@@ -108,7 +110,6 @@ Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const 
 /// Captures alone, of a lower quality than the project's.
 Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& requests, Quality quality,
                          const Common& common) {
-  if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
   const auto store = openCaptures(plan.file);
   if (!store) return tl::unexpected(store.error());
   const auto runner = common.runner();
@@ -145,6 +146,26 @@ std::uint64_t prune(std::span<const OpenProject> storeys, const CaptureStore& st
     std::ranges::copy(simplifiedKeys(open), std::back_inserter(used));
   }
   return store.prune(used);
+}
+
+/// Opens what is to be baked, with the locks that keep other bakes away and an eye on the model.
+/// `began`: before the plan was made.
+Result<BakeGuard> beginBake(BakePlan& plan, const BakeOptions& options, const Shard& shard,
+                            const Common& common, std::filesystem::file_time_type began) {
+  using Kind = BakePart::Kind;
+  BakeGuardOptions how;
+  how.takeOver = options.takeOver;
+  how.part.shard = shard;
+  how.part.kind = !shard.whole()               ? Kind::shard
+                  : options.light == "only"    ? Kind::light
+                  : options.light == "without" ? Kind::cameras
+                                               : Kind::all;
+  auto guard = BakeGuard::begin(plan.file, how);
+  if (!guard) return guard;
+  if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
+  guard->watch(modelFiles(plan.file, plan.open.front().project, common.host, began));
+  if (Status sound = guard->check(); !sound) return tl::unexpected(sound.error());
+  return guard;
 }
 
 /// What is refused whatever the project holds.
@@ -196,19 +217,28 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const auto shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
   if (!shard) return tl::unexpected(shard.error());
   if (Status sound = checkOptions(options, common); !sound) return tl::unexpected(sound.error());
+  const auto began = std::filesystem::file_time_type::clock::now();
   auto plan = planFor(options, common);
   if (!plan) return tl::unexpected(plan.error());
-  const std::vector<BakeRequest> requests = bakeRequests(*plan, options, *shard);
+  std::vector<BakeRequest> requests = bakeRequests(*plan, options, *shard);
   if (options.dryRun) return dryRun(*plan, requests, common);
 
   const Quality quality =
       *std::ranges::find_if(kQualities, [&](Quality q) { return nameOf(q) == options.quality; });
+  bool idle = false;
+  if (quality == Quality::full) {
+    const auto states = stateOf(*plan);
+    if (!states) return tl::unexpected(states.error());
+    idle = !options.verify && allDone(requests, *states);
+  }
+  std::optional<BakeGuard> guard;
+  if (!idle || options.prune) {
+    auto begun = beginBake(*plan, options, *shard, common, began);
+    if (!begun) return tl::unexpected(begun.error());
+    guard.emplace(std::move(*begun));
+    for (BakeRequest& request : requests) request.mayGoOn = [&] { return guard->check(); };
+  }
   if (quality != Quality::full) return bakeLower(*plan, requests, quality, common);
-  const auto states = stateOf(*plan);
-  if (!states) return tl::unexpected(states.error());
-  const bool idle = !options.verify && allDone(requests, *states);
-  if (!idle || options.prune)
-    if (Status open = openStoreysOf(*plan, common); !open) return tl::unexpected(open.error());
   const auto store = openCaptures(plan->file);
   if (!store) return tl::unexpected(store.error());
   const auto runner = common.runner();
@@ -222,6 +252,7 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
     names.push_back(plan->storeys[s].storey);
   }
   Report report = byStorey(names, std::move(reports));
+  if (guard && !guard->note().empty()) report.text += guard->note() + "\n";
   std::uint64_t freed = 0;
   if (options.prune) {
     freed = prune(plan->open, *store);

@@ -84,8 +84,8 @@ Sheet sheetOf(const HoleBench& bench) {
     sheet.rows.push_back(std::move(row));
   }
   sheet.notes = {
-      "Rows: from the centre of a ring to its left. What no sample painted is magenta; PSNR is of "
-      "the frame in which that is filled on the screen."};
+      "Rows: from the centre of a ring to its left. What is open is magenta; the figures are "
+      "of frames where it is filled."};
   return sheet;
 }
 

@@ -88,6 +88,7 @@ struct BakeOptions {
   std::string quality = "final";
   bool coarseFirst = false;  ///< a preview of everything before the first camera is final
   bool verify = false;       ///< read what is there to its end first
+  bool takeOver = false;     ///< from another bake of the project
   bool list = false;         ///< tell of each camera
   double memoryMegabytes = double(MemoryBudget::kUsual) / 1e6;
 };

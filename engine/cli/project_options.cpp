@@ -153,6 +153,8 @@ void addBake(CLI::App& app, Chosen& chosen) {
   c->add_option("--memory", o.memoryMegabytes, "Megabytes that what is baked may take until it is written")
       ->check(CLI::Range(1.0, 1e6));
   c->add_flag("--verify", o.verify, "Read what is baked to its end first, and bake again what is damaged");
+  c->add_flag("--take-over", o.takeOver,
+              "Bake although another process does, which then ends (one that died is noticed by itself)");
 }
 
 void addFarm(CLI::App& app, Chosen& chosen) {

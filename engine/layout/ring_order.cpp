@@ -49,7 +49,7 @@ class RingWalk {
       double partWidth = width;
       for (const int begun = last; last < begun + count_; ++last) {
         const double angle = angleToSector(ray, last + 1);
-        if (!beginsWithin(angle, start, width, last + 1)) break;
+        if (angle >= width) break;  // what begins a rounding error before the end shows in no pixel
         // The farthest camera comes round again, now as the nearest: no linear order holds from here on.
         if (last + 1 == first + count_) {
           partWidth = angle;
@@ -90,12 +90,6 @@ class RingWalk {
   double angleToSector(const glm::dvec2& ray, int m) const {
     const double angle = angleFrom(ray, at(m).toApex);
     return angle > 0 ? angle : kTwoPi;
-  }
-
-  bool beginsWithin(double angle, double start, double width, int m) const {
-    if (std::abs(angle - width) > 1e-9) return angle < width;
-    const glm::dvec2 end = directionOf(start + width);  // too close to call by angles
-    return turn(end, at(m).toApex) < 0;
   }
 
   std::vector<Sector> ring_;

@@ -22,7 +22,8 @@ namespace {
 /// Puts captures into the store with their records; takes none for there that is damaged.
 class StoreSink final : public CaptureSink {
  public:
-  StoreSink(const CaptureStore& store, const StoreyPlan& plan) : store_(store) {
+  StoreSink(const CaptureStore& store, const StoreyPlan& plan, const std::function<Status()>& mayGoOn)
+      : store_(store), mayGoOn_(mayGoOn) {
     for (const PlannedCapture& camera : plan.cameras) planned_[camera.key] = &camera;
     planned_[plan.light.key] = &plan.light;
   }
@@ -34,9 +35,11 @@ class StoreSink final : public CaptureSink {
     return known_.emplace(key, look(key, false, {})).first->second;
   }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
+    if (Status sound = mayGoOn(); !sound) return sound;
     if (Status done = store_.put(key, capture, stop); !done) return done;
     return note(key);
   }
+  Status mayGoOn() const { return mayGoOn_ ? mayGoOn_() : Status(); }
   Status note(const ContentKey& key) const {
     const PlannedCapture& planned = *planned_.at(key);
     std::optional<SampleCounts> samples;
@@ -94,6 +97,7 @@ class StoreSink final : public CaptureSink {
   }
 
   const CaptureStore& store_;
+  const std::function<Status()>& mayGoOn_;
   std::map<ContentKey, const PlannedCapture*> planned_;
   mutable std::map<ContentKey, bool> known_;  ///< used by the thread that bakes
   mutable std::mutex mutex_;
@@ -132,7 +136,7 @@ class StoreyBake {
         progress_(progress),
         stop_(stop),
         plan_(planStorey(open)),
-        sink_(store, plan_) {}
+        sink_(store, plan_, request.mayGoOn) {}
 
   Status verify(const std::vector<int>& cameras) {
     std::vector<ContentKey> keys;
@@ -155,14 +159,23 @@ class StoreyBake {
   Status bakeLight() {
     const Stopwatch watch;
     const LocalTriangles local = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    const ContentKey& key = open_.surfaceLightKey;
+    SurfaceLightParts parts;
+    parts.known = store_.getSurfaceLightParts(key);
+    parts.keep = [&](const SurfaceLightPart& part) {
+      if (Status sound = sink_.mayGoOn(); !sound) return sound;
+      return store_.putSurfaceLightPart(key, part);
+    };
     const auto light = bakeSurfaceLight(*open_.rays, local.wanted, local.viewer, open_.project.bake, runner_,
-                                        progress_, stop_);
-    if (!light) return tl::unexpected(light.error());
-    if (Status put = store_.putSurfaceLight(open_.surfaceLightKey, *light, stop_); !put)
+                                        progress_, stop_, &parts);
+    if (!light) return tl::unexpected(withAdvice(light.error()));
+    if (Status sound = sink_.mayGoOn(); !sound) return sound;
+    if (Status put = store_.putSurfaceLight(key, *light, stop_); !put)
       return tl::unexpected(withAdvice(put.error()));
-    if (Status noted = sink_.note(open_.surfaceLightKey); !noted)
-      return tl::unexpected(withAdvice(noted.error()));
+    if (Status noted = sink_.note(key); !noted) return tl::unexpected(withAdvice(noted.error()));
+    store_.forgetSurfaceLightParts(key);
     lightBaked_ = true;
+    lightResumed_ = parts.resumed;
     lightSeconds_ = watch.seconds();
     return {};
   }
@@ -170,11 +183,13 @@ class StoreyBake {
   /// Adds what was done, or the first trouble there was in looking at what is there.
   Status tell(ProjectBakeReport& report) {
     if (Status looked = sink_.status(); !looked) return looked;
+    if (Status sound = sink_.mayGoOn(); !sound) return sound;
     std::ranges::move(sink_.takeDamaged(), std::back_inserter(report.damaged));
     report.captures = std::move(captures_);
     report.surfaceLightBaked = lightBaked_;
     report.surfaceLightReused = request_.surfaceLight && !lightBaked_;
     report.surfaceLightSeconds = lightSeconds_;
+    report.surfaceLightResumed = lightResumed_;
     return {};
   }
 
@@ -190,6 +205,7 @@ class StoreyBake {
   BakeReport captures_;
   bool lightBaked_ = false;
   double lightSeconds_ = 0;
+  std::uint64_t lightResumed_ = 0;
 };
 
 /// What comes before the first camera is done: previews of those that have nothing yet.
@@ -279,6 +295,7 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;
   surfaceLightSeconds += other.surfaceLightSeconds;
+  surfaceLightResumed += other.surfaceLightResumed;
   bytes += other.bytes;
   neededBytes += other.neededBytes;
   freeBytes = other.freeBytes;

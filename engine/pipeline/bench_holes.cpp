@@ -186,16 +186,18 @@ class Bench {
     settings.renderer = Renderer::list;
     settings.localGeometry = true;
     settings.secondaryCover = otherHand;
-    settings.fillHoles = true;
     for (std::size_t v = 0; v < bench.views.size(); ++v) {
-      auto frame = renderFrame(walk, bench.views[v], settings, runner_);
-      if (!frame) return tl::unexpected(frame.error());
-      const auto comparison = compare(*frame, bench.truth[v], distances[v]);
+      // All are compared alike, as a walk shows them: filled. Pictures show what there was to be filled.
+      settings.fillHoles = true;
+      const auto filled = renderFrame(walk, bench.views[v], settings, runner_);
+      if (!filled) return tl::unexpected(filled.error());
+      const auto comparison = compare(*filled, bench.truth[v], distances[v]);
       if (!comparison) return tl::unexpected(comparison.error());
       method.comparisons.push_back(*comparison);
+      settings.fillHoles = false;
+      auto frame = renderFrame(walk, bench.views[v], settings, runner_);
+      if (!frame) return tl::unexpected(frame.error());
       method.openShares.push_back(double(frame->holeCount()) / double(frame->source.pixels.size()));
-      for (std::size_t i = 0; i < frame->source.pixels.size(); ++i)
-        if (!isReal(frame->source.pixels[i])) frame->colour.pixels[i].a = 0;
       method.pictures.push_back(std::move(frame->colour));
     }
     bench.methods.push_back(std::move(method));

@@ -1,7 +1,8 @@
 #pragma once
 /// What each way of taking panoramas leaves open: the paper's Fig. 13 on a region of a project. The same
 /// walk, from the middle of a ring to the left, seen by ray tracing, from one panorama (TPV), from the ring
-/// (APV), from both, and from the ring's layered captures; hole share, PSNR and SSIM of each frame.
+/// (APV), from both, and from the ring's layered captures; hole share, PSNR and SSIM of each frame. Frames
+/// are compared with what is open filled on the screen, all of them.
 
 #include <optional>
 #include <string>
@@ -24,9 +25,9 @@ struct HoleBenchOptions {
 
 struct HoleBenchMethod {
   std::string name, description;
-  std::vector<Comparison> comparisons;  ///< by frame, what is open being filled on the screen
+  std::vector<Comparison> comparisons;  ///< by frame
   std::vector<double> openShares;       ///< by frame: pixels without a sample, also where the truth is sky
-  std::vector<ColourImage> pictures;    ///< by frame; what is left open is transparent
+  std::vector<ColourImage> pictures;    ///< by frame; what is open is transparent, not filled
   std::uint64_t samples = 0;            ///< of its captures
 };
 

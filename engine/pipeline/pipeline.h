@@ -110,6 +110,9 @@ struct BakeRequest {
   /// done.
   bool coarseFirst = false;
   BakeWatch watch;
+  /// Asked before anything is stored, by any thread, and once more at the end; a failure ends the bake with
+  /// it.
+  std::function<Status()> mayGoOn;
   /// Told what all that is missing is expected to take, previews too, and what there is, before the first of
   /// it is baked.
   std::function<void(double neededBytes, std::uint64_t freeBytes)> tellRoom;
@@ -120,7 +123,8 @@ struct ProjectBakeReport {
   bool surfaceLightBaked = false;
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;
-  std::uint64_t bytes = 0;  ///< on disk, of all this project's captures
+  std::uint64_t surfaceLightResumed = 0;  ///< samples that a bake before this one had left
+  std::uint64_t bytes = 0;                ///< on disk, of all this project's captures
   /// What was missing was expected to take when the bake began, previews too, and what there was.
   double neededBytes = 0;
   std::uint64_t freeBytes = 0;

@@ -29,6 +29,8 @@ std::string command(const FarmOptions& options) {
   std::string text =
       fmt::format("{} bake {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\"",
                   shellQuoted(options.program.string()), shellQuoted(options.project.string()));
+  // A task that is started again may be locked out by itself, on a node that is lost.
+  text += " --take-over";
   if (!options.storey.empty()) text += " --storey " + shellQuoted(options.storey);
   return text;
 }

@@ -15,7 +15,8 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
 /// Of each kind of file its own: one that changes leaves the others readable.
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
-  return kind == BlockFileKind::capture ? 4 : kind == BlockFileKind::localGeometry ? 1 : 2;
+  if (kind == BlockFileKind::capture) return 4;
+  return kind == BlockFileKind::localGeometry || kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;

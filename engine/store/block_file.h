@@ -26,6 +26,7 @@ enum class BlockFileKind : std::uint32_t {
   surfaceLight = 2,
   simplifiedLocal = 3,
   localGeometry = 4,  ///< of bundles (engine/export/FORMAT.md)
+  surfaceLightPart = 5,
 };
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.

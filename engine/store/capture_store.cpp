@@ -51,6 +51,8 @@ std::optional<ContentKey> keyInName(const fs::path& path) {
   std::string stem = name.stem().string();
   if (name.extension() == kLightExtension && stem.starts_with(kLightPrefix))
     stem.erase(0, kLightPrefix.size());
+  else if (name.extension() == kLightPartExtension && stem.starts_with(kLightPrefix))
+    stem = stem.substr(kLightPrefix.size(), stem.find('.') - kLightPrefix.size());
   else if (name.extension() == kSimplifiedExtension && stem.starts_with(kSimplifiedPrefix))
     stem.erase(0, kSimplifiedPrefix.size());
   else if (name.extension() != kExrExtension && name.extension() != kPackExtension &&
@@ -163,7 +165,8 @@ std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     const auto key = keyInName(entry->path());
     const bool setAsideBefore = entry->path().extension() == kDamagedExtension;
-    if (key && (setAsideBefore || std::find(keep.begin(), keep.end(), *key) == keep.end()))
+    const bool doneWith = key && entry->path().extension() == kLightPartExtension && hasSurfaceLight(*key);
+    if (key && (setAsideBefore || doneWith || std::find(keep.begin(), keep.end(), *key) == keep.end()))
       doomed.push_back(entry->path());
   }
   for (const fs::path& path : doomed) {

@@ -16,6 +16,7 @@
 #include "engine/image/capture.h"
 #include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
+#include "engine/scene/surface_light_part.h"
 #include "engine/store/capture_record.h"
 
 namespace acentric {
@@ -64,6 +65,12 @@ class CaptureStore {
                          const std::stop_token& stop = {}) const;
   Result<SurfaceLight> getSurfaceLight(const ContentKey& key) const;
 
+  /// What is finished of a light that is being baked.
+  Status putSurfaceLightPart(const ContentKey& key, const SurfaceLightPart& part) const;
+  /// Those that are sound; others are as good as missing, and are deleted.
+  std::vector<SurfaceLightPart> getSurfaceLightParts(const ContentKey& key) const;
+  void forgetSurfaceLightParts(const ContentKey& key) const;
+
   bool hasSimplified(const ContentKey& key) const;
   Status putSimplified(const ContentKey& key, const SimplifiedLocal& simplified) const;
   Result<SimplifiedLocal> getSimplified(const ContentKey& key) const;
@@ -94,8 +101,8 @@ class CaptureStore {
                             const std::stop_token& stop = {}) const;
 
   std::uint64_t bytesOf(const ContentKey& key) const;
-  /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, and what was set
-  /// aside; returns bytes freed.
+  /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, what was set aside,
+  /// and parts of light that is whole; returns bytes freed.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:

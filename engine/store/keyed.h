@@ -7,6 +7,7 @@
 #include "engine/image/capture.h"
 #include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
+#include "engine/scene/surface_light_part.h"
 
 namespace acentric {
 
@@ -23,6 +24,9 @@ Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
 /// Of a pack's bytes; `name` is for messages.
 Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name);
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
+Status writeSurfaceLightPart(const SurfaceLightPart& part, const ContentKey& key,
+                             const std::filesystem::path& path);
+Result<Keyed<SurfaceLightPart>> readKeyedSurfaceLightPart(const std::filesystem::path& path);
 Result<Keyed<SimplifiedLocal>> readKeyedSimplified(const std::filesystem::path& path);
 
 /// The value alone.

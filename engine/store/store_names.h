@@ -16,6 +16,7 @@ inline constexpr const char* kDamagedExtension = ".damaged";
 inline constexpr const char* kRecordExtension = ".record";
 inline constexpr const char* kLightExtension = ".light";
 inline constexpr std::string_view kLightPrefix = "surface-";
+inline constexpr const char* kLightPartExtension = ".part";
 inline constexpr const char* kSimplifiedExtension = ".local";
 inline constexpr std::string_view kSimplifiedPrefix = "simplified-";
 
@@ -30,6 +31,11 @@ inline std::filesystem::path recordOf(const std::filesystem::path& folder, const
 }
 inline std::filesystem::path lightOf(const std::filesystem::path& folder, const ContentKey& key) {
   return folder / (std::string(kLightPrefix) + key.toHex() + kLightExtension);
+}
+/// `runs`: which of them are in it, as lightPartName() says.
+inline std::filesystem::path lightPartOf(const std::filesystem::path& folder, const ContentKey& key,
+                                         const std::string& runs) {
+  return folder / (std::string(kLightPrefix) + key.toHex() + "." + runs + kLightPartExtension);
 }
 inline std::filesystem::path simplifiedOf(const std::filesystem::path& folder, const ContentKey& key) {
   return folder / (std::string(kSimplifiedPrefix) + key.toHex() + kSimplifiedExtension);

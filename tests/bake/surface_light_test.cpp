@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/bake/shading.h"
 #include "engine/bake/surface_light_bake.h"
 #include "scene_builder.h"
@@ -128,6 +130,63 @@ TEST(SurfaceLight, ANeedleDoesNotGetTheSamplesOfAPlate) {
   EXPECT_EQ(light->resolution[2], 227u);  // 8 * sqrt(2) / 0.05
   EXPECT_LE(light->resolution[0], 6u);
   EXPECT_GE(light->resolution[0], 1u);
+}
+
+TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {-2, -2, 0}, {2, 2, 3}, true)
+      .point({0, 0, 1.5f}, 100)
+      .sky(glm::vec3(1));
+  const auto scene = builder.rays();
+  const auto whole = bakeAll(*scene, texel(0.05));
+  ASSERT_TRUE(whole.has_value());
+  const auto bakeWith = [&](SurfaceLightParts& parts, int workers) {
+    TaskRunner runner(workers);
+    const std::size_t n = scene->scene().triangleCount();
+    return bakeSurfaceLight(*scene, std::vector<std::uint8_t>(n, 1),
+                            std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(0.05), runner, {}, {},
+                            &parts);
+  };
+  std::vector<SurfaceLightPart> kept;
+  SurfaceLightParts ended;
+  ended.secondsBetween = 0;
+  ended.keep = [&](const SurfaceLightPart& part) -> Status {
+    if (kept.size() == 3) return fail(ErrorKind::outOfSpace, "the disk is full");
+    kept.push_back(part);
+    return {};
+  };
+  const auto failed = bakeWith(ended, 2);
+  ASSERT_FALSE(failed.has_value());
+  EXPECT_EQ(failed.error().message, "the disk is full");
+  ASSERT_EQ(kept.size(), 3u);
+
+  std::uint64_t before = 0, after = 0;
+  for (const SurfaceLightPart& part : kept) before += part.light.size();
+  const HalfColour mark = packColour({777, 3, 5, 1});
+  // What is known is taken as it is, not baked to the same once more.
+  SurfaceLightParts marked;
+  marked.known = kept;
+  for (SurfaceLightPart& part : marked.known) part.light.assign(part.light.size(), mark);
+  const auto withMarks = bakeWith(marked, 0);
+  ASSERT_TRUE(withMarks.has_value());
+  EXPECT_EQ(std::uint64_t(std::ranges::count(withMarks->light, mark)), before);
+
+  SurfaceLightParts next;
+  next.known = kept;
+  SurfaceLightPart alien = kept.front();  // fits nowhere: another number of samples, a run that is not there
+  alien.sizes.front() += 1;
+  next.known.push_back(alien);
+  next.known.push_back({{1u << 30}, {1}, {HalfColour{}}});
+  next.secondsBetween = 0;
+  next.keep = [&](const SurfaceLightPart& part) -> Status {
+    after += part.light.size();
+    return {};
+  };
+  const auto resumed = bakeWith(next, 1);
+  ASSERT_TRUE(resumed.has_value());
+  EXPECT_EQ(resumed->light, whole->light);
+  EXPECT_EQ(next.resumed, before);
+  EXPECT_EQ(before + after, whole->light.size()) << "nothing is baked twice";
 }
 
 TEST(SurfaceLight, GivesTheSameBytesForAnyNumberOfThreadsAndReportsProgress) {

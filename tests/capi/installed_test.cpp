@@ -112,6 +112,54 @@ TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
   EXPECT_EQ(ppm(at("python.ppm")).pixels, ppm(at("built.ppm")).pixels) << "both from where the walk begins";
 }
 
+/// The commands of a document, as they stand in its blocks ```sh.
+std::string commandsOf(const std::filesystem::path& document) {
+  std::istringstream lines(readText(document).value_or(""));
+  std::string commands;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```"))
+      inside = line == "```sh";
+    else if (inside)
+      commands += line + "\n";
+  }
+  return commands;
+}
+
+TEST(Library, IsInstalledLinkedAndRunByTheVeryCommandsOfItsDocument) {
+  namespace fs = std::filesystem;
+  const fs::path sources = ACENTRIC_SOURCES;
+  if (fs::path(ACENTRIC_BUILD_FOLDER) != sources / "build" / "release")
+    GTEST_SKIP() << "./run builds in build/release, which is not where this test was built";
+  const SampleProject project("documented");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const fs::path home = project.folder() / "home", here = project.folder() / "sources";
+  const auto baked = acentric({"bake", project.file()});
+  ASSERT_EQ(baked.exitCode, 0) << baked.errors;
+  fs::create_directory(home);
+  fs::create_directory(here);
+  const auto exported =
+      acentric({"export", project.file(), "--to", "bundle", (here / "walk-bundle").string()});
+  ASSERT_EQ(exported.exitCode, 0) << exported.errors;
+  // The sources, as one stands in them; what the commands make stays out of them.
+  for (const char* name : {"run", "examples"}) fs::create_symlink(sources / name, here / name);
+
+  const std::string commands = commandsOf(sources / "docs" / "runtimes.md");
+  for (const char* expected : {"./run install", "cc examples/frame.c", "cmake -S examples", "frame.py"})
+    ASSERT_NE(commands.find(expected), std::string::npos) << "the document no longer says: " << expected;
+  // Nothing of the surroundings helps: neither a search path for libraries nor one for pkg-config.
+  const std::string script = "cd \"$1\" && export HOME=\"$2\" && set -ex\n" + commands;
+  const auto followed = runProcess({"env", "-u", "LD_LIBRARY_PATH", "-u", "PKG_CONFIG_PATH", "bash", "-c",
+                                    script, "bash", here.string(), home.string()});
+  ASSERT_EQ(followed.exitCode, 0) << followed.output << followed.errors;
+  EXPECT_FALSE(ppm(here / "frame.ppm").empty());
+  for (const char* name : {"bin/acentric", "bin/acentric-editor", "bin/acentric-importer",
+                           "lib/libacentric_runtime.so.1", "share/acentric/web/index.html"})
+    EXPECT_TRUE(fs::exists(home / "acentric" / name)) << name;
+  const auto version = runProcess({(home / "acentric/bin/acentric").string(), "--version"});
+  EXPECT_EQ(version.exitCode, 0) << version.errors;
+}
+
 #endif
 
 }  // namespace

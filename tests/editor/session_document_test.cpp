@@ -220,6 +220,29 @@ TEST_F(DocumentTest, SavingAsksBeforeItOverwrites) {
   waitFor(session, [&] { return !session.working(); });
 }
 
+TEST_F(DocumentTest, ABakeOfAnotherProgramIsNotDisturbedUntilItIsTakenOver) {
+  const fs::path file = savedProject();
+  const auto other = BakeGuard::begin(file, {});
+  ASSERT_TRUE(other.has_value());
+  Session session(options());
+  openAndSettle(session, file);
+  const auto told = [&](const char* words) {
+    return std::ranges::any_of(session.messages().all(), [&](const Message& message) {
+      return message.text.find(words) != std::string::npos;
+    });
+  };
+  session.startBake();
+  waitFor(session, [&] { return told("is being baked by"); });
+  EXPECT_TRUE(told("Take over bake"));
+  waitFor(session, [&] { return !session.working(); });
+  EXPECT_FALSE(session.captures()->complete());
+  EXPECT_TRUE(other->check().has_value());
+  session.startBake({}, true);
+  waitFor(session, [&] { return session.baking().running(); });
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  EXPECT_FALSE(fs::exists(lockFileFor(file.string() + ".bake")));
+}
+
 TEST_F(DocumentTest, AModelThatChangedIsToldAndImportedAgainOnTheUsersWord) {
   const fs::path file = savedProject();
   Session session(options());

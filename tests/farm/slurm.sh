@@ -50,16 +50,16 @@ tasks=$(sed -n 's/.*"cameraTasks": \([0-9]*\).*/\1/p' "$work/farm.json")
 note "submitted $tasks tasks and the light as job $array, and $merge after them"
 
 # --- Both nodes bake; then one program and the other node are killed
-waitFor 30 "both nodes to bake" bothNodesBake
-killed=$(bakingOn one) && orphan=$(bakingOn two)
+# Both programs are held while this is done, so that neither ends meanwhile however busy the machine is.
+waitFor "both nodes to bake" holdOneOfEachNode
 lostTask=$(variableOf "$orphan" SLURM_ARRAY_TASK_ID)
 kill -9 "$killed"
 killNode two "$orphan"
 note "killed the program of one task, and the node of task $lostTask"
-kill -0 "$orphan" 2> /dev/null || fail "the lost node's program went with it; it was to go on"
+kill -CONT "$orphan" 2> /dev/null || fail "the lost node's program went with it; it was to go on"
 
 # --- Everything comes right in the end
-waitFor 200 "the jobs to end" jobsEnded
+waitFor "the jobs to end" jobsEnded
 note "the jobs have ended"
 for ((task = 0; task <= tasks; ++task)); do
   [[ $(stateOf "${array}_$task") == COMPLETED ]] || fail "task $task: $(stateOf "${array}_$task")"
@@ -84,7 +84,7 @@ printf 'XXXX' | dd of="$pack" bs=1 seek=2000 conv=notrunc status=none
 touch -r "$work/written" "$pack" # so that reading it to its end alone can tell
 bash "$shared/gallery.farm/submit.sh" > "$work/again.txt"
 read -r array merge < "$work/again.txt"
-waitFor 100 "the second submission" jobsEnded
+waitFor "the second submission" jobsEnded
 [[ $(stateOf "$merge") == COMPLETED ]] || fail "the second merging job: $(stateOf "$merge")"
 grep -q "^baked again: .*$(basename "$pack")" "$shared/gallery.farm/merge.log" ||
   fail "the damaged capture is not named: $(cat "$shared/gallery.farm/merge.log")"

@@ -56,7 +56,7 @@ TEST(SlurmScripts, RunTheirShareWithPathsUnharmed) {
     script.replace(script.find(program), program.size(), "printf '%s\\n'");
     return outputOf("SLURM_CPUS_ON_NODE=5 SLURM_ARRAY_TASK_ID=" + task + " bash -c " + shellQuoted(script));
   };
-  const std::string start = "bake\n/srv/it's \"here\"/$HOME/x.acentric.json\n--threads\n5\n";
+  const std::string start = "bake\n/srv/it's \"here\"/$HOME/x.acentric.json\n--threads\n5\n--take-over\n";
   EXPECT_EQ(run(scripts.bake, "3"), start + "--light\nwithout\n--shard\n3/7\n");
   EXPECT_EQ(run(scripts.bake, "0"), start + "--light\nonly\n");
   EXPECT_EQ(run(scripts.merge, "0"), start + "--verify\n");

@@ -84,6 +84,42 @@ TEST_F(SurfaceLightFile, DamageIsAlwaysFound) {
   }
 }
 
+TEST_F(SurfaceLightFile, PartsAreKeptUnderTheirKeyAndDamagedOnesAreDeleted) {
+  const auto store = CaptureStore::open(folder_);
+  ASSERT_TRUE(store.has_value());
+  const ContentKey key{7, 8}, other{7, 9};
+  const SurfaceLightPart first{{0, 2}, {1, 2}, {{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12}}};
+  const SurfaceLightPart second{{1}, {1}, {{13, 14, 15, 16}}};
+  ASSERT_TRUE(store->putSurfaceLightPart(key, first));
+  ASSERT_TRUE(store->putSurfaceLightPart(key, second));
+  ASSERT_TRUE(store->putSurfaceLightPart(other, second));
+  const auto parts = store->getSurfaceLightParts(key);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].runs, first.runs);
+  EXPECT_EQ(parts[0].sizes, first.sizes);
+  EXPECT_EQ(parts[0].light, first.light);
+  EXPECT_EQ(parts[1].light, second.light);
+  EXPECT_FALSE(store->putSurfaceLightPart(key, {{3}, {2}, {HalfColour{}}})) << "contradicts itself";
+  EXPECT_FALSE(store->putSurfaceLightPart(key, {{3}, {1}, {{0x7c00, 0, 0, 0}}})) << "infinite light";
+
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 3u);
+  const auto ofKey = std::ranges::find_if(files, [&](const auto& path) {
+    return path.filename().string().find(key.toHex()) != std::string::npos;
+  });
+  ASSERT_NE(ofKey, files.end());
+  std::filesystem::resize_file(*ofKey, std::filesystem::file_size(*ofKey) - 1);
+  EXPECT_EQ(store->getSurfaceLightParts(key).size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(*ofKey));
+
+  store->prune({key});
+  EXPECT_TRUE(store->getSurfaceLightParts(other).empty()) << "of a light that nobody asks for";
+  EXPECT_EQ(store->getSurfaceLightParts(key).size(), 1u) << "a bake may still go on from it";
+  store->forgetSurfaceLightParts(key);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
 TEST_F(SurfaceLightFile, ACaptureIsNoSurfaceLight) {
   ASSERT_TRUE(writeSurfaceLight(randomLight(5, 1), {1, 1}, path()));
   const auto read = readCapturePack(path());

@@ -102,6 +102,32 @@ TEST(ColumnOrder, RowsGoTheWayTheEpipoleLies) {
   }
 }
 
+TEST(ColumnOrder, TheFootIsWhereAColumnComesNearestToTheEyeAndNoSampleLiesBeforeOneBehindTheCamera) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-3, 3);
+  int ahead = 0, behind = 0;
+  for (int round = 0; round < 500; ++round) {
+    const glm::dvec3 e(unit(random), unit(random), unit(random));
+    const glm::dvec2 c = directionOf(unit(random));
+    double nearest = 0;  // of places along the column, from the camera out to beyond any foot
+    for (double distance = 0; distance < 5; distance += 1e-3)
+      if (glm::distance(c * distance, glm::dvec2(e)) < glm::distance(c * nearest, glm::dvec2(e)))
+        nearest = distance;
+    const RowOrder order = rowOrder(c, e);
+    if (nearest < 0.01) {
+      behind += nearest == 0;
+      if (nearest == 0) {
+        EXPECT_GT(order.footInverse, 1000) << round;
+      }
+    } else {
+      EXPECT_NEAR(1 / double(order.footInverse), nearest, 1e-3) << round;
+      ++ahead;
+    }
+  }
+  EXPECT_GT(ahead, 100);
+  EXPECT_GT(behind, 100);
+}
+
 TEST(ViewPlan, RefusesAnEyeOutsideAndNamesTheNearestPoint) {
   const auto layout = test::layoutAroundOrigin(Configuration::b);
   ASSERT_NE(layout, nullptr);

@@ -1,5 +1,3 @@
-#include "editor/session/project_lock.h"
-
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -43,75 +41,6 @@ class DocumentFiles : public testing::Test {
 
   fs::path folder_, file_;
 };
-
-TEST_F(DocumentFiles, ALockIsHeldByOneAndGoneWithIt) {
-  {
-    const auto first = ProjectLock::take(file_, false);
-    ASSERT_TRUE(first.lock.has_value());
-    EXPECT_TRUE(first.note.empty());
-    const auto second = ProjectLock::take(file_, false);
-    EXPECT_FALSE(second.lock.has_value());
-    ASSERT_TRUE(second.heldBy.has_value());
-    EXPECT_EQ(second.heldBy->process, ::getpid());
-    EXPECT_NE(describe(*second.heldBy).find(std::to_string(::getpid())), std::string::npos);
-    EXPECT_FALSE(first.lock->lostTo().has_value());
-  }
-  EXPECT_FALSE(fs::exists(lockFileFor(file_)));
-  EXPECT_TRUE(ProjectLock::take(file_, false).lock.has_value());
-}
-
-TEST_F(DocumentFiles, ALockOfADeadProcessIsTakenOverWithANote) {
-  inAnotherProcess([&] { new ProjectLock::Attempt(ProjectLock::take(file_, false)); });
-  ASSERT_TRUE(fs::exists(lockFileFor(file_)));
-  EXPECT_TRUE(isStale(*readLock(file_)));
-  const auto attempt = ProjectLock::take(file_, false);
-  EXPECT_TRUE(attempt.lock.has_value());
-  EXPECT_NE(attempt.note.find("ended without closing"), std::string::npos) << attempt.note;
-}
-
-TEST_F(DocumentFiles, AProcessOfTheSameNumberThatBeganLaterIsAnother) {
-  const auto held = ProjectLock::take(file_, false);
-  LockOwner owner = *readLock(file_);
-  EXPECT_FALSE(isStale(owner));
-  owner.processStart = "1";
-  EXPECT_TRUE(isStale(owner));
-}
-
-TEST_F(DocumentFiles, ALockOfAnotherMachineIsNamedAndNeverStale) {
-  write(lockFileFor(file_),
-        R"({"format":"acentric-lock","host":"far.example","user":"ann","since":"2026-01-01 10:00",
-            "process":999999999,"processStart":"5","machine":".acentric-tmp-00000000-","token":"t"})");
-  const auto attempt = ProjectLock::take(file_, false);
-  ASSERT_TRUE(attempt.heldBy.has_value());
-  EXPECT_EQ(describe(*attempt.heldBy), "ann on far.example since 2026-01-01 10:00 (process 999999999)");
-}
-
-TEST_F(DocumentFiles, WhoLosesALockNoticesAndDoesNotRemoveTheOther) {
-  auto first = ProjectLock::take(file_, false);
-  const auto second = ProjectLock::take(file_, true);
-  ASSERT_TRUE(second.lock.has_value());
-  ASSERT_TRUE(first.lock->lostTo().has_value());
-  first.lock.reset();
-  EXPECT_TRUE(fs::exists(lockFileFor(file_)));
-  EXPECT_FALSE(second.lock->lostTo().has_value());
-}
-
-TEST_F(DocumentFiles, ADamagedLockIsReplacedWithANote) {
-  for (const char* damage :
-       {"", "{", "[]", R"({"format":"acentric-lock","process":"seven"})", "\xff\xfe\x00"}) {
-    write(lockFileFor(file_), damage);
-    const auto attempt = ProjectLock::take(file_, false);
-    EXPECT_TRUE(attempt.lock.has_value()) << damage;
-    EXPECT_NE(attempt.note.find("damaged"), std::string::npos) << damage;
-  }
-}
-
-TEST_F(DocumentFiles, WhereNoLockCanBeWrittenItIsToldAndNothingBlocks) {
-  const auto attempt = ProjectLock::take(folder_ / "no such folder" / "walk.acentric.json", false);
-  EXPECT_FALSE(attempt.lock.has_value());
-  EXPECT_FALSE(attempt.heldBy.has_value());
-  EXPECT_FALSE(attempt.note.empty());
-}
 
 TEST_F(DocumentFiles, AChangeIsToldOnceItKeepsStillAndOnlyIfTheContentDiffers) {
   write(folder_ / "a", "one");

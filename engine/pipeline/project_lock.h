@@ -1,7 +1,8 @@
 #pragma once
-/// An advisory lock beside a project, so that two editors on one project notice each other:
-/// "gallery.acentric.json.lock", JSON with host, process, user and time. It never blocks: who finds one
-/// decides. A lock of a process on this machine that is gone, or one that cannot be read, is taken over.
+/// An advisory lock beside a project, so that two editors on one project notice each other
+/// ("gallery.acentric.json.lock"), and two bakes (bake_guard.h): JSON with host, process, user and time. It
+/// never blocks: who finds one decides. A lock of a process on this machine that is gone, or one that cannot
+/// be read, is taken over.
 
 #include <filesystem>
 #include <optional>
@@ -9,7 +10,7 @@
 
 #include "engine/base/result.h"
 
-namespace acentric::editor {
+namespace acentric {
 
 struct LockOwner {
   std::string host;
@@ -24,8 +25,11 @@ struct LockOwner {
 /// "ann on host a.example since 2026-03-01 14:05 (process 812)"
 std::string describe(const LockOwner& owner);
 
-/// What the user wants with a project that another editor has open.
-enum class LockAnswer { readOnly, copy, takeOver };
+/// How a lock's finds are told.
+struct LockWords {
+  const char* stale = "The last editor on this project ended without closing it";
+  const char* without = "Other editors will not notice that the project is open here.";
+};
 
 std::filesystem::path lockFileFor(const std::filesystem::path& projectFile);
 /// Malformed: it is there, but says nothing. notFound: there is none.
@@ -40,7 +44,7 @@ class ProjectLock {
  public:
   struct Attempt;
   /// `force`: whoever holds it.
-  static Attempt take(const std::filesystem::path& projectFile, bool force);
+  static Attempt take(const std::filesystem::path& projectFile, bool force, const LockWords& words = {});
   ~ProjectLock();
   ProjectLock(ProjectLock&& other) noexcept;
   ProjectLock& operator=(ProjectLock&& other) noexcept;
@@ -59,8 +63,8 @@ class ProjectLock {
 
 struct ProjectLock::Attempt {
   std::optional<ProjectLock> lock;
-  std::optional<LockOwner> heldBy;  ///< another living editor, or one of another machine
+  std::optional<LockOwner> heldBy;  ///< another living process, or one of another machine
   std::string note;                 ///< for the user: what was found, or why there is no lock; may be empty
 };
 
-}  // namespace acentric::editor
+}  // namespace acentric

@@ -1,4 +1,4 @@
-#include "editor/session/project_lock.h"
+#include "engine/pipeline/project_lock.h"
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -14,7 +14,7 @@
 
 #include "engine/base/file.h"
 
-namespace acentric::editor {
+namespace acentric {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,7 +111,7 @@ LockOwner thisOwner() {
   return owner;
 }
 
-ProjectLock::Attempt ProjectLock::take(const fs::path& projectFile, bool force) {
+ProjectLock::Attempt ProjectLock::take(const fs::path& projectFile, bool force, const LockWords& words) {
   const fs::path file = lockFileFor(projectFile);
   const LockOwner owner = thisOwner();
   Attempt attempt;
@@ -124,8 +124,7 @@ ProjectLock::Attempt ProjectLock::take(const fs::path& projectFile, bool force) 
       return attempt;
     }
     if (stale)
-      attempt.note =
-          fmt::format("The last editor on this project ended without closing it: {}", describe(*found));
+      attempt.note = fmt::format("{}: {}", words.stale, describe(*found));
     else if (!found)
       attempt.note = "The lock beside the project was damaged and is replaced: " + file.string();
     made = writeTextAtomically(file, toText(owner));
@@ -133,7 +132,7 @@ ProjectLock::Attempt ProjectLock::take(const fs::path& projectFile, bool force) 
   if (made)
     attempt.lock = ProjectLock(projectFile, owner);
   else
-    attempt.note = "Other editors will not notice that the project is open here. " + made.error().describe();
+    attempt.note = std::string(words.without) + " " + made.error().describe();
   return attempt;
 }
 
@@ -163,4 +162,4 @@ ProjectLock& ProjectLock::operator=(ProjectLock&& other) noexcept {
   return *this;
 }
 
-}  // namespace acentric::editor
+}  // namespace acentric
