@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric {
 namespace {
@@ -113,12 +114,9 @@ Result<GltfText> jsonOf(std::span<const std::byte> bytes) {
 
 /// A look at the JSON before tinygltf: syntax with a position, version, required extensions, buffer lengths.
 Status checkJson(std::string_view text, FileAccess& access) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    return malformed(fmt::format("is not valid JSON: {}", oneLine(error.what())));
-  }
+  const auto parsed = parseJson(text);
+  if (!parsed) return malformed(oneLine(parsed.error().message));
+  const nlohmann::json& json = *parsed;
   if (!json.is_object()) return malformed("is not a glTF file: its JSON is not an object");
   const auto asset = json.find("asset");
   if (asset == json.end() || !asset->is_object() || !asset->contains("version") ||
