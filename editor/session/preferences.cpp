@@ -9,6 +9,7 @@
 
 #include "editor/session/project_files.h"
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric::editor {
 namespace {
@@ -105,7 +106,7 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
       *problem = "The preferences cannot be read: " + text.error().describe();
     return preferences;
   }
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = parseJson<Json>(*text).value_or(Json());
   if (!json.is_object()) {
     const fs::path aside = putAside(file);
     if (problem != nullptr)
@@ -171,7 +172,7 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
     return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(),
                 file.parent_path().string());
   // Names that are not UTF-8 are replaced rather than refused: losing a recent entry is no reason to fail.
-  return writeTextAtomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return writeTextAtomically(file, jsonText(json, 2) + "\n");
 }
 
 }  // namespace acentric::editor

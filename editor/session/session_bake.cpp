@@ -163,6 +163,8 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
   const BakeReport& captures = report->captures;
   messages_.add(MessageLevel::good, "Baked " + std::to_string(captures.baked) + " captures, " +
                                         std::to_string(captures.reused) + " were there already");
+  for (const std::string& refused : report->refused)
+    messages_.add(MessageLevel::error, "Baked, and could not be written: " + refused);
 }
 
 void Session::estimateBake() {

@@ -9,6 +9,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/json_text.h"
 #include "engine/pipeline/project_lock.h"
 
 namespace acentric::editor {
@@ -37,8 +38,8 @@ bool isOfLivingProcess(const Json& json) {
 Result<Json> readJson(const fs::path& autosave) {
   const auto text = readText(autosave, kMostBytes);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != kFormat)
+  auto json = parseJson<Json>(*text);
+  if (!json || !json->is_object() || json->value("format", Json()) != kFormat)
     return fail(ErrorKind::malformed, "is no autosave that could be read", autosave.string());
   return json;
 }
@@ -63,23 +64,21 @@ Status writeUnsavedWork(const fs::path& folder, const fs::path& projectFile, con
   fs::create_directories(folder, error);
   if (error)
     return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(), folder.string());
+  const auto stated = parseJson<Json>(formatProject(project), projectFile.string());
+  if (!stated) return tl::unexpected(stated.error());
   const LockOwner owner = thisOwner();
-  const Json json = {{"format", kFormat},
-                     {"file", projectFile.string()},
-                     {"since", owner.since},
-                     {"process", owner.process},
-                     {"processStart", owner.processStart},
-                     {"machine", owner.machine},
-                     {"project", Json::parse(formatProject(project))}};
-  return writeTextAtomically(unsavedWorkFile(folder, projectFile),
-                             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  const Json json = {
+      {"format", kFormat},        {"file", projectFile.string()},       {"since", owner.since},
+      {"process", owner.process}, {"processStart", owner.processStart}, {"machine", owner.machine},
+      {"project", *stated}};
+  return writeTextAtomically(unsavedWorkFile(folder, projectFile), jsonText(json, 2) + "\n");
 }
 
 Result<UnsavedWork> readUnsavedWork(const fs::path& autosave) {
   const auto json = readJson(autosave);
   if (!json) return tl::unexpected(json.error());
   try {
-    auto project = parseProject(json->at("project").dump(), autosave.string());
+    auto project = parseProject(jsonText(json->at("project")), autosave.string());
     if (!project) return tl::unexpected(project.error());
     return UnsavedWork{autosave, json->at("file").get<std::string>(), json->at("since"), std::move(*project)};
   } catch (const Json::exception&) {

@@ -71,6 +71,7 @@ class ToldSink final : public CaptureSink {
 
   bool has(const ContentKey& key) const override { return sink_.has(key); }
   void tell(const ContentKey& key, const SampleCounts& samples) override { sink_.tell(key, samples); }
+  bool passesOver(const ContentKey& key, const Error& error) override { return sink_.passesOver(key, error); }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     Status done = sink_.put(key, capture, stop);
     CameraNews news = take(key);

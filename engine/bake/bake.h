@@ -109,6 +109,12 @@ class CaptureSink {
   virtual void tell(const ContentKey& key, const SampleCounts& samples) {
     static_cast<void>(key), static_cast<void>(samples);
   }
+  /// Asked when a capture could not be put: is that this capture's trouble alone, so that the others are
+  /// baked all the same?
+  virtual bool passesOver(const ContentKey& key, const Error& error) {
+    static_cast<void>(key), static_cast<void>(error);
+    return false;
+  }
 };
 
 struct BakedCamera {

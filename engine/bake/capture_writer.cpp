@@ -78,6 +78,7 @@ void CaptureWriter::loop() {
     waiting_.pop_front();
     lock.unlock();
     Status done = putSafely(sink_, job->key, job->capture, giveUp_.get_token());
+    if (!done && sink_.passesOver(job->key, done.error())) done = {};
     job.reset();
     lock.lock();
     --unfinished_;

@@ -23,8 +23,8 @@ class CaptureWriter {
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
-  /// Waits while there is no room. The first error of the sink comes back here, and nothing is written after
-  /// it. `cancelled` when stopped.
+  /// Waits while there is no room. The first error that the sink does not pass over comes back here, and
+  /// nothing is written after it. `cancelled` when stopped.
   Status put(const ContentKey& key, Capture capture);
   /// Waits until all is written, or stopped and given up.
   Status finish();

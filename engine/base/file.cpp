@@ -30,8 +30,15 @@ tl::unexpected<Error> failErrno(const char* what, const fs::path& path) {
   return fail(kindOfErrno(code), fmt::format("{}: {}", what, std::strerror(code)), path.string());
 }
 
+/// The system would take the name for what comes before the NUL: another file.
+Status checkName(const fs::path& path) {
+  if (path.native().find('\0') == std::string::npos) return {};
+  return fail(ErrorKind::invalidArgument, "holds a NUL character, which no file name does", path.string());
+}
+
 template <class Container>
 Result<Container> readWhole(const fs::path& path, std::size_t maxBytes) {
+  if (Status sound = checkName(path); !sound) return tl::unexpected(sound.error());
   std::error_code error;
   if (fs::is_directory(path, error))
     return fail(ErrorKind::unreadable, "is a folder, not a file", path.string());
@@ -142,6 +149,7 @@ Result<std::string> readText(const fs::path& path, std::size_t maxBytes) {
 }
 
 Status replaceFileAtomically(const fs::path& path, const std::function<Status(const fs::path&)>& write) {
+  if (Status sound = checkName(path); !sound) return sound;
   std::error_code error;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   fs::create_directories(folder, error);
@@ -150,7 +158,12 @@ Status replaceFileAtomically(const fs::path& path, const std::function<Status(co
   const auto attempt = [&]() -> Status {
     if (auto written = write(temporary); !written) return written;
     if (auto flushed = flushToDisk(temporary, O_RDONLY); !flushed) return flushed;
-    if (::rename(temporary.c_str(), path.c_str()) != 0) return failErrno("cannot be put in place", path);
+    if (::rename(temporary.c_str(), path.c_str()) != 0) {
+      if (errno == EISDIR)
+        return fail(ErrorKind::unreadable, "cannot be put in place: a folder has this name; move it away",
+                    path.string());
+      return failErrno("cannot be put in place", path);
+    }
     return flushToDisk(folder, O_RDONLY | O_DIRECTORY);
   };
   Status result = attempt();

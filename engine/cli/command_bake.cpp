@@ -24,6 +24,11 @@ std::string cameraText(int camera, const std::optional<SampleCounts>& samples, s
       bytesText(bytes));
 }
 
+void addRefused(const ProjectBakeReport& baked, Report& report) {
+  report.success = baked.refused.empty();
+  for (const std::string& refused : baked.refused) report.text += fmt::format("not written: {}\n", refused);
+}
+
 Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, const BakeOptions& options,
                   const BakePlan& plan, const StoreyPlan& storey, const CaptureStore& store) {
   const BakeReport& captures = baked.captures;
@@ -60,11 +65,13 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
         {"resumedSamples", baked.surfaceLightResumed},
         {"seconds", baked.surfaceLightSeconds}}},
       {"damaged", baked.damaged},
+      {"refused", baked.refused},
       {"bytes", baked.bytes},
       {"neededBytes", baked.neededBytes},
       {"freeBytes", baked.freeBytes},
       {"cameras", std::move(cameras)}};
-  for (const std::string& damaged : baked.damaged) report.text += fmt::format("baked again: {}\n", damaged);
+  for (const std::string& damaged : baked.damaged) report.text += fmt::format("written again: {}\n", damaged);
+  addRefused(baked, report);
   report.text += fmt::format(
       "baked {} cameras{} in {:.1f} s ({} samples), {} were there already; light on local geometry {}; {} in "
       "{}\n",
@@ -101,7 +108,7 @@ Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const 
   const auto baked = bakeProject(open, request, store, runner, common.progress, common.stop);
   if (!baked) return tl::unexpected(baked.error());
   for (const int camera : *request.cameras)
-    if (!store.has(open.keys[std::size_t(camera)]))
+    if (baked->refused.empty() && !store.has(open.keys[std::size_t(camera)]))
       return fail(ErrorKind::unreadable, fmt::format("camera {} was baked but is not on disk", camera),
                   store.folder().string());
   return bakeReport(*baked, request, options, plan, plan.storeys[number], store);
@@ -128,10 +135,12 @@ Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& request
                  {"reused", all.captures.reused},
                  {"seconds", all.captures.seconds},
                  {"samples", toJson(all.captures.counts.samples)},
+                 {"refused", all.refused},
                  {"bytes", all.bytes}};
-  report.text = fmt::format("baked {} cameras as {} in {:.1f} s, {} were there already; {} in all\n",
-                            all.captures.baked, nameOf(quality), all.captures.seconds, all.captures.reused,
-                            bytesText(all.bytes));
+  addRefused(all, report);
+  report.text += fmt::format("baked {} cameras as {} in {:.1f} s, {} were there already; {} in all\n",
+                             all.captures.baked, nameOf(quality), all.captures.seconds, all.captures.reused,
+                             bytesText(all.bytes));
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/figure.h"
 #include "engine/cli/run_command.h"
@@ -43,8 +44,8 @@ Result<Json> runProgram(const fs::path& folder, const BenchFunctionsOptions& opt
                 kProgram);
   const auto text = readText(file);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("benches"))
+  auto json = parseJson<Json>(*text);
+  if (!json || !json->is_object() || !json->contains("benches"))
     return fail(ErrorKind::malformed, "wrote no figures", program.string());
   return json;
 }
@@ -77,7 +78,7 @@ std::string toText(const Json& report) {
   for (const Json& bench : report.at("benches")) {
     text += fmt::format("{}\n", bench.at("bench").get<std::string>());
     for (const auto& [what, value] : bench.at("facts").items())
-      text += fmt::format("  {}: {}\n", what, value.dump());
+      text += fmt::format("  {}: {}\n", what, jsonText(value));
     for (const Json& figure : bench.at("figures")) {
       text += fmt::format("  {:<62} {:>9.4g} {:<3} ({:.4g} to {:.4g})", figure.at("what").get<std::string>(),
                           figure.at("median").get<double>(), figure.at("unit").get<std::string>(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/geometry/conventions.h"
@@ -140,7 +141,7 @@ Result<Report> runBenchHoles(const BenchHolesOptions& options, const Common& com
   const auto picture = options.output / "holes.png", json = options.output / "holes.json",
              table = options.output / "holes.txt";
   if (Status written = writeColourImage(*sheet, picture); !written) return tl::unexpected(written.error());
-  if (Status written = writeTextAtomically(json, report.json.dump(2) + "\n"); !written)
+  if (Status written = writeTextAtomically(json, jsonText(report.json, 2) + "\n"); !written)
     return tl::unexpected(written.error());
   if (Status written = writeTextAtomically(table, report.text); !written)
     return tl::unexpected(written.error());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
@@ -17,7 +18,7 @@ Status writeFiles(const std::filesystem::path& folder, const Json& json, const N
                   const std::string& scene) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (Status written = writeTextAtomically(folder / "numerics.json", json.dump(2) + "\n"); !written)
+  if (Status written = writeTextAtomically(folder / "numerics.json", jsonText(json, 2) + "\n"); !written)
     return written;
   if (Status written = writeTextAtomically(folder / "numerics.csv", toCsv(numerics)); !written)
     return written;
@@ -50,7 +51,7 @@ Result<Report> runBenchNumerics(const BenchNumericsOptions& options, const Commo
                       {"height", walk->size.height},
                       {"frames", views.size()},
                       {"repeats", options.repeats},
-                      {"numerics", Json::parse(toJson(*numerics))}});
+                      {"numerics", parseJson<Json>(toJson(*numerics)).value_or(Json())}});
   report.text =
       fmt::format("{}, {} threads, {}x{}, {} frames x {}\n{}", processorName(), runner->threads(),
                   walk->size.width, walk->size.height, views.size(), options.repeats, toText(*numerics));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
@@ -153,7 +154,7 @@ Result<Report> runBenchRepresentations(const BenchRepresentationsOptions& option
   for (std::size_t s = 0; s < measured->sets.size(); ++s)
     if (!measured->sets[s].views.empty()) report.text += qualityTable(*measured, s);
   const auto json = options.output / "representations.json", table = options.output / "representations.txt";
-  if (Status written = writeTextAtomically(json, report.json.dump(2) + "\n"); !written)
+  if (Status written = writeTextAtomically(json, jsonText(report.json, 2) + "\n"); !written)
     return tl::unexpected(written.error());
   if (Status written = writeTextAtomically(table, report.text); !written)
     return tl::unexpected(written.error());

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/commit.h"
@@ -191,7 +192,7 @@ std::string lineOf(const SweepPoint& point) {
 
 Report reportOf(const Sweep& sweep, const fs::path& folder, int measuredNow) {
   Report report;
-  report.json = Json::parse(toJson(sweep));
+  report.json = parseJson<Json>(toJson(sweep)).value_or(Json());
   report.text =
       fmt::format("{}, {} threads, {}x{}, {} frames x {}; {} settings measured now\n", sweep.processor,
                   sweep.threads, sweep.width, sweep.height, sweep.frames, sweep.repeats, measuredNow);

@@ -17,11 +17,25 @@ Result<Report> validateStorey(const OpenProject& open, const Common& common) {
                  {"problems", check->problems},
                  {"capturesChecked", check->captures},
                  {"capturesMissing", check->capturesMissing},
+                 {"coarseChecked", check->coarse},
+                 {"surfaceLightMissing", check->surfaceLightMissing},
+                 {"withoutRecord", check->withoutRecord},
                  {"simplifiedChecked", check->simplified},
                  {"simplifiedMissing", check->simplifiedMissing}};
-  report.text =
-      fmt::format("{}{}: project, scene and layout are sound; {} captures checked, {} not baked\n",
-                  open.file.string(), storeyText(open.project), check->captures, check->capturesMissing);
+  report.text = fmt::format(
+      "{}{}: project, scene and layout are sound; {} captures checked, {} not baked, {} problem{}\n",
+      open.file.string(), storeyText(open.project), check->captures, check->capturesMissing,
+      check->problems.size(), check->problems.size() == 1 ? "" : "s");
+  if (check->coarse > 0)
+    report.text +=
+        fmt::format("  of those not baked {} have a preview or a draft, checked too\n", check->coarse);
+  if (check->surfaceLightMissing && check->captures > 0)
+    report.text += "  the light on local geometry is not baked\n";
+  if (check->withoutRecord > 0)
+    report.text += fmt::format(
+        "  {} have no record of their files: what of them are OpenEXR files was checked by the samples they "
+        "hold (acentric bake notes them)\n",
+        check->withoutRecord);
   if (open.project.budget.simplifies())
     report.text += fmt::format(
         "regions above the budget: {} simplified ones checked, {} not simplified yet (the next walk, or "

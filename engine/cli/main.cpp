@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/interrupt.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/command_line.h"
 #include "engine/cli/terminal.h"
 
@@ -18,16 +19,16 @@ int finish(const Result<Report>& result, bool json) {
   if (!result) {
     const Error& error = result.error();
     if (json)
-      fmt::print(
-          "{}\n",
-          Json{{"error",
-                {{"kind", acentric::nameOf(error.kind)}, {"message", error.message}, {"where", error.where}}}}
-              .dump(2));
+      fmt::print("{}\n", jsonText(Json{{"error",
+                                        {{"kind", acentric::nameOf(error.kind)},
+                                         {"message", error.message},
+                                         {"where", error.where}}}},
+                                  2));
     fmt::print(stderr, "acentric: {}\n", error.describe());
     return kFailed;
   }
   if (json)
-    fmt::print("{}\n", result->json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", jsonText(result->json, 2));
   else
     fmt::print("{}", result->text);
   return result->success ? 0 : kFailed;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/base/json_text.h"
+
 namespace acentric::cli {
 
 const char* nameOf(RegionKind kind) {
@@ -31,7 +33,7 @@ Json toJson(const Region& region) {
 
 std::string placeText(const Region& region) {
   const glm::dvec2 centre = region.polygon.centroid();
-  return fmt::format("{} {:<11} at ({:.2f}, {:.2f}) m", toJson(region.id).dump(), nameOf(region.kind),
+  return fmt::format("{} {:<11} at ({:.2f}, {:.2f}) m", jsonText(toJson(region.id)), nameOf(region.kind),
                      centre.x, centre.y);
 }
 

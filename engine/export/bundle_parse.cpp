@@ -22,6 +22,7 @@ constexpr std::size_t kMaxListed = 100'000, kMaxCameras = 2'000'000, kMaxPieces 
 constexpr int kMaxStoreys = 200;
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t(4) << 30;
 constexpr int kMaxTextureSide = 65536;
+constexpr std::int64_t kMaxTexturePixels = std::int64_t(1) << 28;
 
 template <int Size, class T = double>
 glm::vec<Size, T> vectorOf(const Node& node, double low = -kFarthest, double high = kFarthest) {
@@ -219,6 +220,8 @@ BundleTexture textureOf(const Node& node) {
   texture.file = fileOf(node);
   texture.width = int(node["width"].integer(1, kMaxTextureSide));
   texture.height = int(node["height"].integer(1, kMaxTextureSide));
+  if (std::int64_t(texture.width) * texture.height > kMaxTexturePixels)
+    node["height"].refuse("makes a texture of more than 2^28 pixels");
   texture.wrapU = Wrap(node["wrapU"].word(kWraps));
   texture.wrapV = Wrap(node["wrapV"].word(kWraps));
   constexpr const char* kFilters[] = {"linear", "nearest"};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 
 #include "engine/base/file.h"
 #include "engine/export/png.h"
@@ -39,9 +40,9 @@ Result<std::vector<std::byte>> readChecked(const BundleFiles& files, const Bundl
 }
 
 /// Does the pack hold what the index says of it?
-Status agree(const Capture& capture, const BundleCapture& described, const LayoutCamera& camera,
+Status agree(const PackHead& head, const BundleCapture& described, const LayoutCamera& camera,
              const BundleCamera& renditions) {
-  const ColumnCamera& c = capture.camera;
+  const ColumnCamera& c = head.camera;
   const auto differ = [&](const char* what) {
     return fail(ErrorKind::malformed, std::string("has another ") + what + " than the index says",
                 described.file.path);
@@ -53,8 +54,7 @@ Status agree(const Capture& capture, const BundleCapture& described, const Layou
   if (c.topElevation != renditions.topElevation || c.bottomElevation != renditions.bottomElevation)
     return differ("height");
   if (c.columns != described.columns || c.rows != described.rows) return differ("resolution");
-  if (capture.sampleCount() != described.samples ||
-      capture.reflections.sampleCount() != described.reflections)
+  if (head.samples != described.samples || head.reflections != described.reflections)
     return differ("number of samples");
   return {};
 }
@@ -83,11 +83,9 @@ Result<Capture> readBundleCapture(const BundleFiles& files, const BundleStorey& 
                                   const BundleCapture& capture) {
   auto bytes = readChecked(files, capture.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto read = withoutKey(keyedCaptureOf(std::move(*bytes), capture.file.path));
-  if (!read) return read;
-  if (Status same = agree(*read, capture, storey.layout.cameras[camera], storey.cameras[camera]); !same)
-    return tl::unexpected(same.error());
-  return read;
+  return withoutKey(keyedCaptureOf(std::move(*bytes), capture.file.path, [&](const PackHead& head) {
+    return agree(head, capture, storey.layout.cameras[camera], storey.cameras[camera]);
+  }));
 }
 
 Result<LocalGeometry> readBundleLocal(const BundleFiles& files, const Bundle& bundle,
@@ -109,11 +107,11 @@ Result<LocalGeometry> readBundleLocal(const BundleFiles& files, const Bundle& bu
 Result<ColourImage> readBundleTexture(const BundleFiles& files, const BundleTexture& texture) {
   const auto bytes = readChecked(files, texture.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto image = decodePng(*bytes, texture.file.path);
-  if (!image) return image;
-  if (image->width != texture.width || image->height != texture.height)
-    return fail(ErrorKind::malformed, "has another size than the index says", texture.file.path);
-  return image;
+  try {
+    return decodePng(*bytes, texture.width, texture.height, texture.file.path);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for this picture", texture.file.path);
+  }
 }
 
 ScenePtr sceneOf(const Bundle& bundle, std::vector<std::shared_ptr<const ColourImage>> images) {

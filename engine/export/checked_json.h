@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/json_text.h"
 #include "engine/base/result.h"
 #include "engine/export/bundle_json.h"
 
@@ -92,8 +93,9 @@ class CheckedJson {
 template <class Value, class Read>
 Result<Value> parseChecked(const std::string& text, const std::string& where, const Read& read) {
   try {
-    const BundleJson json = BundleJson::parse(text);
-    return read(CheckedJson(json));
+    const auto json = parseJson<BundleJson>(text, where);
+    if (!json) return tl::unexpected(json.error());
+    return read(CheckedJson(*json));
   } catch (const CheckedJson::Refused& refused) {
     return fail(ErrorKind::malformed, refused.pointer + ": " + refused.reason, where);
   } catch (const BundleJson::exception& problem) {

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/export/png.h"
 
 namespace acentric {
@@ -107,7 +108,7 @@ void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
 Result<std::uint64_t> Glb::write(const std::filesystem::path& file) const {
   Json json = json_;
   if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = jsonText(json);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t binary = (buffer_.size() + 3) / 4 * 4;
   const std::size_t size = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);

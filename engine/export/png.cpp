@@ -1,5 +1,6 @@
 #include "engine/export/png.h"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <algorithm>
@@ -26,8 +27,8 @@ Result<std::vector<std::byte>> encode(png_image png, const void* values) {
 
 }  // namespace
 
-Result<ColourImage> decodePng(std::span<const std::byte> bytes, const std::string& name) {
-  constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 28;
+Result<ColourImage> decodePng(std::span<const std::byte> bytes, int width, int height,
+                              const std::string& name) {
   png_image png = described(0, 0, 0);
   const auto failed = [&] {
     std::string reason = png.message;
@@ -35,12 +36,14 @@ Result<ColourImage> decodePng(std::span<const std::byte> bytes, const std::strin
     return fail(ErrorKind::malformed, "is no sound PNG: " + reason, name);
   };
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return failed();
-  if (std::uint64_t(png.width) * png.height > kMostPixels) {
+  if (png.width != png_uint_32(width) || png.height != png_uint_32(height)) {
+    const std::string size = fmt::format("{} x {}", png.width, png.height);
     png_image_free(&png);
-    return fail(ErrorKind::tooLarge, "has more than 2^28 pixels", name);
+    return fail(ErrorKind::malformed,
+                fmt::format("is {} pixels large, and the index says {} x {}", size, width, height), name);
   }
   png.format = PNG_FORMAT_RGBA;
-  ColourImage image(int(png.width), int(png.height));
+  ColourImage image(width, height);
   if (png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) == 0) return failed();
   return image;
 }

@@ -12,8 +12,10 @@
 
 namespace acentric {
 
-/// As 8-bit RGBA, straight alpha.
-Result<ColourImage> decodePng(std::span<const std::byte> bytes, const std::string& name);
+/// As 8-bit RGBA, straight alpha. A picture that its header says is not `width` by `height` is refused before
+/// anything of its size is allocated: a few kilobytes of PNG may unpack to gigabytes.
+Result<ColourImage> decodePng(std::span<const std::byte> bytes, int width, int height,
+                              const std::string& name);
 /// 8 bits, without alpha where all of it is opaque.
 Result<std::vector<std::byte>> encodePng(const ColourImage& image);
 /// One channel of 16 bits; `values` row by row.

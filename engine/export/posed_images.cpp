@@ -8,6 +8,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/export/png.h"
 
 namespace acentric {
@@ -56,7 +57,7 @@ std::string nerfstudioTransforms(std::span<const PosedImage> images, double dept
     json["frames"].push_back({{"file_path", image.colour},
                               {"depth_file_path", image.depth},
                               {"transform_matrix", worldFromEye(image.view)}});
-  return json.dump(1) + "\n";
+  return jsonText(json, 1) + "\n";
 }
 
 Status writeColmap(std::span<const PosedImage> images, std::span<const ColouredPoint> points,
@@ -117,7 +118,7 @@ std::string seuratManifest(std::span<const PosedImage> images, const glm::dvec3&
   }
   const Json json{{"headbox_center", {headBoxCentre.x, headBoxCentre.y, headBoxCentre.z}},
                   {"view_groups", std::move(groups)}};
-  return json.dump(1) + "\n";
+  return jsonText(json, 1) + "\n";
 }
 
 std::string panoramaList(std::span<const PosedPanorama> panoramas, double exposure) {
@@ -133,7 +134,7 @@ std::string panoramaList(std::span<const PosedPanorama> panoramas, double exposu
     json["panoramas"].push_back({{"file", panorama.file},
                                  {"region", panorama.region},
                                  {"position", {panorama.eye.x, panorama.eye.y, panorama.eye.z}}});
-  return json.dump(1) + "\n";
+  return jsonText(json, 1) + "\n";
 }
 
 Status writePointsPly(std::span<const ColouredPoint> points, const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_text.h"
 #include "engine/measure/csv_cell.h"
 #include "engine/measure/svg_plot.h"
 
@@ -53,13 +54,15 @@ std::string toJson(const Numerics& numerics) {
                     {"columns", table.columns},
                     {"rows", std::move(rows)}});
   }
-  return json.dump();
+  return jsonText(json);
 }
 
 Result<Numerics> parseNumerics(const std::string& text, const std::string& where) {
+  const auto parsed = parseJson<Json>(text, where);
+  if (!parsed) return tl::unexpected(parsed.error());
   try {
     Numerics numerics;
-    for (const Json& table : Json::parse(text)) numerics.push_back(tableFrom(table));
+    for (const Json& table : *parsed) numerics.push_back(tableFrom(table));
     return numerics;
   } catch (const nlohmann::json::exception& problem) {
     return fail(ErrorKind::malformed, fmt::format("holds no tables of numerics: {}", problem.what()), where);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_text.h"
 #include "engine/measure/csv_cell.h"
 #include "engine/measure/sweep.h"
 
@@ -89,7 +90,7 @@ Sweep sweepFrom(const Json& json) {
   sweep.truthPictures = json.at("truthPictures");
   for (const Json& point : json.at("points")) sweep.points.push_back(pointFrom(point));
   if (json.contains("numerics")) {
-    auto numerics = parseNumerics(json.at("numerics").dump(), "numerics");
+    auto numerics = parseNumerics(jsonText(json.at("numerics")), "numerics");
     if (numerics) sweep.numerics = std::move(*numerics);
   }
   return sweep;
@@ -104,8 +105,10 @@ std::vector<SweepPreset> presetsFrom(const Json& json) {
 
 template <class T>
 Result<T> parse(const std::string& text, const std::string& where, T (*from)(const Json&)) {
+  const auto parsed = parseJson<Json>(text, where);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const Json& json = *parsed;
   try {
-    const Json json = Json::parse(text);
     if (json.at("format") != kFormat || json.at("version") != kVersion)
       return fail(ErrorKind::unsupported, "is no sweep that this version reads", where);
     return from(json);
@@ -140,8 +143,8 @@ std::string toJson(const Sweep& sweep) {
   for (const SweepPoint& point : sweep.points) json["points"].push_back(jsonOf(point));
   for (const std::size_t i : frontOf(sweep)) json["front"].push_back(jsonOf(sweep.points[i].setting));
   for (const SweepPreset& preset : presetsOf(sweep)) json["presets"][preset.name] = jsonOf(preset.setting);
-  if (!sweep.numerics.empty()) json["numerics"] = Json::parse(toJson(sweep.numerics));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (!sweep.numerics.empty()) json["numerics"] = parseJson<Json>(toJson(sweep.numerics)).value_or(Json());
+  return jsonText(json, 2) + "\n";
 }
 
 Result<Sweep> parseSweep(const std::string& json, const std::string& where) {

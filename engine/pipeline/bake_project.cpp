@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <ranges>
+#include <set>
 
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/file.h"
@@ -70,6 +71,17 @@ class StoreSink final : public CaptureSink {
     return status();
   }
 
+  /// Where another file can be written, the one that could not be is in the way of nothing else.
+  bool passesOver(const ContentKey& key, const Error& error) override {
+    if (error.kind != ErrorKind::unreadable || !checkWritable(store_.folder())) return false;
+    const std::lock_guard lock(mutex_);
+    refusedKeys_.insert(key);
+    refused_.push_back(error.describe());
+    return true;
+  }
+  bool isRefused(const ContentKey& key) const { return refusedKeys_.contains(key); }
+  std::vector<std::string> takeRefused() { return std::move(refused_); }
+
   /// The first trouble in looking at what is there, other than damage.
   Status status() const {
     if (trouble_) return tl::unexpected(*trouble_);
@@ -85,6 +97,8 @@ class StoreSink final : public CaptureSink {
     const auto found = store_.inspect(key, toTheEnd, stop);
     if (found && found->condition == CaptureStore::Condition::sound) {
       if (!found->recorded) (void)note(key);  // if it cannot be noted, it is read again the next time
+      const std::lock_guard lock(mutex_);
+      if (found->recordDamage) damaged_.push_back(found->recordDamage->describe());
       return true;
     }
     // Should the bake end before it is baked again, the next one must not believe it by its size.
@@ -104,6 +118,8 @@ class StoreSink final : public CaptureSink {
   std::map<ContentKey, SampleCounts> samples_;  ///< of what was baked just now
   mutable std::vector<std::string> damaged_;
   mutable std::optional<Error> trouble_;
+  std::set<ContentKey> refusedKeys_;
+  std::vector<std::string> refused_;
 };
 
 /// Nothing where nothing was ever baked: asking makes no folder.
@@ -145,7 +161,7 @@ class StoreyBake {
     return sink_.verify(keys, runner_, progress_, stop_);
   }
   bool has(int camera) const { return sink_.has(plan_.cameras[std::size_t(camera)].key); }
-  bool hasLight() const { return lightBaked_ || sink_.has(open_.surfaceLightKey); }
+  bool hasLight() const { return lightTried_ || sink_.has(open_.surfaceLightKey); }
   double pixelsOf(int camera) const { return plan_.cameras[std::size_t(camera)].pixels; }
   double bytesOf(int camera) const { return double(store_.bytesOf(plan_.cameras[std::size_t(camera)].key)); }
 
@@ -154,6 +170,9 @@ class StoreyBake {
                          stop_, request_.memoryBytes, watch);
     if (!captures) return tl::unexpected(withAdvice(captures.error()));
     captures_ = std::move(*captures);
+    captures_.baked -= int(std::erase_if(captures_.cameras, [&](const BakedCamera& camera) {
+      return !camera.reused && sink_.isRefused(camera.key);
+    }));
     return {};
   }
   Status bakeLight() {
@@ -170,11 +189,12 @@ class StoreyBake {
                                         progress_, stop_, &parts);
     if (!light) return tl::unexpected(withAdvice(light.error()));
     if (Status sound = sink_.mayGoOn(); !sound) return sound;
-    if (Status put = store_.putSurfaceLight(key, *light, stop_); !put)
-      return tl::unexpected(withAdvice(put.error()));
-    if (Status noted = sink_.note(key); !noted) return tl::unexpected(withAdvice(noted.error()));
-    store_.forgetSurfaceLightParts(key);
-    lightBaked_ = true;
+    Status kept = store_.putSurfaceLight(key, *light, stop_);
+    if (kept) kept = sink_.note(key);
+    if (!kept && !sink_.passesOver(key, kept.error())) return tl::unexpected(withAdvice(kept.error()));
+    if (kept) store_.forgetSurfaceLightParts(key);
+    lightBaked_ = kept.has_value();
+    lightTried_ = true;
     lightResumed_ = parts.resumed;
     lightSeconds_ = watch.seconds();
     return {};
@@ -187,7 +207,8 @@ class StoreyBake {
     std::ranges::move(sink_.takeDamaged(), std::back_inserter(report.damaged));
     report.captures = std::move(captures_);
     report.surfaceLightBaked = lightBaked_;
-    report.surfaceLightReused = request_.surfaceLight && !lightBaked_;
+    report.surfaceLightReused = request_.surfaceLight && !lightTried_;
+    std::ranges::move(sink_.takeRefused(), std::back_inserter(report.refused));
     report.surfaceLightSeconds = lightSeconds_;
     report.surfaceLightResumed = lightResumed_;
     return {};
@@ -203,7 +224,7 @@ class StoreyBake {
   StoreyPlan plan_;
   StoreSink sink_;
   BakeReport captures_;
-  bool lightBaked_ = false;
+  bool lightBaked_ = false, lightTried_ = false;
   double lightSeconds_ = 0;
   std::uint64_t lightResumed_ = 0;
 };
@@ -286,6 +307,7 @@ Status checkRoom(const OpenProject& open, const Missing& missing, const BakeRequ
 
 void ProjectBakeReport::add(const ProjectBakeReport& other) {
   damaged.insert(damaged.end(), other.damaged.begin(), other.damaged.end());
+  refused.insert(refused.end(), other.refused.begin(), other.refused.end());
   captures.cameras.clear();
   captures.baked += other.captures.baked;
   captures.reused += other.captures.reused;

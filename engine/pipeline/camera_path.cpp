@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/pipeline/foreign_paths.h"
 
 namespace acentric {
@@ -143,8 +144,10 @@ Result<CameraPath> loadPath(const std::filesystem::path& path) {
   if (!text) return tl::unexpected(text.error());
   const std::string where = path.string();
   if (path.filename() == "images.txt") return pathFromColmap(*text, where);
+  const auto parsed = parseJson(*text, where);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const nlohmann::json& json = *parsed;
   try {
-    const auto json = nlohmann::json::parse(*text);
     if (isNerfstudio(json)) return pathFromNerfstudio(json, where);
     if (!json.is_object() || json.value("version", 0) != 1 || !json.contains("frames") ||
         !json["frames"].is_array())
@@ -179,7 +182,7 @@ Status savePath(const CameraPath& path, const std::filesystem::path& file) {
     if (path.timed()) frames.back()["seconds"] = tidy(pose.seconds);
   }
   const nlohmann::ordered_json json = {{"version", 1}, {"frames", std::move(frames)}};
-  return writeTextAtomically(file, json.dump(1) + "\n");
+  return writeTextAtomically(file, jsonText(json, 1) + "\n");
 }
 
 CameraPath tourOf(const Layout& layout, const glm::dvec2& start, int frames) {

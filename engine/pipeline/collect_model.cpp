@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/folder.h"
+#include "engine/base/json_text.h"
 #include "engine/base/link_file.h"
 
 namespace acentric {
@@ -161,7 +162,7 @@ Result<CollectedModel> collectLink(const fs::path& model, const fs::path& projec
 Result<std::pair<Json, fs::path>> statedScene(const fs::path& projectFile) {
   const auto text = readText(projectFile);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
+  Json json = parseJson<Json>(*text).value_or(Json());
   const bool sound = json.is_object() && json.value("format", Json()) == "acentric-project" &&
                      json.contains("scene") && json["scene"].is_string();
   fs::path scene = sound ? fs::path(json["scene"].get<std::string>()) : fs::path();
@@ -223,7 +224,7 @@ Result<CollectedModel> collectProject(const fs::path& projectFile, Collect how, 
   if (!stated) return tl::unexpected(stated.error());
   auto& [json, scene] = *stated;
   if (!scene.empty()) json["scene"] = "model";  // any that is allowed
-  auto project = parseProject(json.dump(), projectFile.string());
+  auto project = parseProject(jsonText(json), projectFile.string());
   if (!project) return tl::unexpected(project.error());
 
   fs::path model = (absoluteOf(projectFile).parent_path() / scene).lexically_normal();

@@ -120,6 +120,8 @@ struct BakeRequest {
 struct ProjectBakeReport {
   BakeReport captures;
   std::vector<std::string> damaged;  ///< what was found damaged and baked again; each names its file
+  /// What was baked and could not be put in place, though other files could: each names its file.
+  std::vector<std::string> refused;
   bool surfaceLightBaked = false;
   bool surfaceLightReused = false;
   double surfaceLightSeconds = 0;

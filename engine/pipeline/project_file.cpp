@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/project.h"
 #include "engine/pipeline/project_walks.h"
@@ -268,6 +269,12 @@ Status checkStoreys(const Project& project) {
 
 Status checkScene(const fs::path& scene) {
   if (scene.empty()) return fail(ErrorKind::malformed, "/scene: names no model file");
+  if (scene.native().find('\0') != std::string::npos)
+    return fail(ErrorKind::malformed, "/scene: holds a NUL character, which no file name does");
+  if (!isUtf8(scene.native()))
+    return fail(ErrorKind::malformed,
+                "/scene: the name of the model is not UTF-8, and a project file cannot state it; rename the "
+                "model");
   if (!liesWithin(scene))
     return fail(
         ErrorKind::malformed,
@@ -346,12 +353,14 @@ std::string formatProject(const Project& project) {
         {"fovDegrees", project.fovDegrees},
         {"exposure", std::stod(fmt::format("{}", project.exposure))}}}};  // the shortest decimal of the float
   addWalks(project, json);
-  return withShortArraysOnOneLine(json.dump(2)) + "\n";
+  return withShortArraysOnOneLine(jsonText(json, 2)) + "\n";
 }
 
 Result<Project> parseProject(const std::string& text, const std::string& where) {
+  const auto parsed = parseJson<Json>(text, where);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const Json& json = *parsed;
   try {
-    const Json json = Json::parse(text);
     if (json.is_object() && json.value("format", Json()) == "acentric-project" && json.contains("version") &&
         json["version"].is_number_integer() && json["version"].get<std::int64_t>() > 1)
       return fail(ErrorKind::unsupported,

@@ -13,6 +13,7 @@
 #include <random>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric {
 namespace {
@@ -47,7 +48,7 @@ std::string toText(const LockOwner& owner) {
                      {"user", owner.user},        {"since", owner.since},
                      {"process", owner.process},  {"processStart", owner.processStart},
                      {"machine", owner.machine},  {"token", owner.token}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json, 2) + "\n";
 }
 
 /// Makes the file unless it is there: of several who try at once, one succeeds.
@@ -80,7 +81,7 @@ Result<LockOwner> readLock(const fs::path& projectFile) {
   const fs::path file = lockFileFor(projectFile);
   const auto text = readText(file, kMostBytes);
   if (!text) return tl::unexpected(text.error());
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = parseJson<Json>(*text).value_or(Json());
   try {
     if (json.at("format") != "acentric-lock") throw std::invalid_argument("another format");
     return LockOwner{json.at("host"),         json.at("user"),    json.at("since"), json.at("process"),

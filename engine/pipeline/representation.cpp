@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric {
 namespace {
@@ -27,7 +28,7 @@ Result<std::uint64_t> packedBytes(const CaptureStore& store, std::span<const Con
 std::optional<BakeNote> readNote(const Workplace& at, const std::string& name, const ContentKey& key) {
   const auto text = readText(noteOf(at, name));
   if (!text) return std::nullopt;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  const auto json = parseJson(*text).value_or(nlohmann::json());
   if (!json.is_object() || !json.contains("key") || !json["key"].is_string() ||
       json["key"].get<std::string>() != key.toHex())
     return std::nullopt;
@@ -42,7 +43,7 @@ std::optional<BakeNote> readNote(const Workplace& at, const std::string& name, c
 Status writeNote(const Workplace& at, const std::string& name, const BakeNote& note) {
   const nlohmann::ordered_json json = {
       {"key", note.key.toHex()}, {"samplesPerDegree", note.samplesPerDegree}, {"seconds", note.seconds}};
-  return writeTextAtomically(noteOf(at, name), json.dump(2) + "\n");
+  return writeTextAtomically(noteOf(at, name), jsonText(json, 2) + "\n");
 }
 
 }  // namespace acentric

@@ -12,6 +12,8 @@
 #include <valijson/validator.hpp>
 #include <vector>
 
+#include "engine/base/json_text.h"
+
 namespace acentric {
 namespace {
 
@@ -40,7 +42,7 @@ class Explainer {
  private:
   static std::string shortText(const Json& value) {
     constexpr std::size_t kMost = 60;
-    std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = jsonText(value);
     if (text.size() > kMost) text = text.substr(0, kMost) + "…";
     return text;
   }
@@ -65,17 +67,17 @@ class Explainer {
 
   static std::string wrongValue(const Json& value, const Json& schema) {
     if (schema.contains("const") && value != schema.at("const"))
-      return fmt::format("must be {}, not {}", schema.at("const").dump(), shortText(value));
+      return fmt::format("must be {}, not {}", jsonText(schema.at("const")), shortText(value));
     if (schema.contains("enum") && std::ranges::find(schema.at("enum"), value) == schema.at("enum").end()) {
       std::vector<std::string> choices;
-      for (const Json& choice : schema.at("enum")) choices.push_back(choice.dump());
+      for (const Json& choice : schema.at("enum")) choices.push_back(jsonText(choice));
       return fmt::format("must be one of {}, not {}", fmt::join(choices, ", "), shortText(value));
     }
     if (!value.is_number()) return {};
     if (schema.contains("minimum") && !(value.get<double>() >= schema.at("minimum").get<double>()))
-      return fmt::format("must be at least {}, not {}", schema.at("minimum").dump(), shortText(value));
+      return fmt::format("must be at least {}, not {}", jsonText(schema.at("minimum")), shortText(value));
     if (schema.contains("maximum") && !(value.get<double>() <= schema.at("maximum").get<double>()))
-      return fmt::format("must be at most {}, not {}", schema.at("maximum").dump(), shortText(value));
+      return fmt::format("must be at most {}, not {}", jsonText(schema.at("maximum")), shortText(value));
     return {};
   }
 
@@ -107,7 +109,7 @@ class Explainer {
   static std::string wrongFields(const Json& value, const Json& schema) {
     if (!value.is_object()) return {};
     for (const Json& name : schema.value("required", Json::array()))
-      if (!value.contains(name.get<std::string>())) return fmt::format("has no {}", name.dump());
+      if (!value.contains(name.get<std::string>())) return fmt::format("has no {}", jsonText(name));
     const Json known = schema.value("properties", Json::object());
     if (schema.value("additionalProperties", Json(true)) == Json(false))
       for (const std::string& key : keysOf(value))
@@ -117,7 +119,7 @@ class Explainer {
     std::vector<std::string> alternatives;
     for (const Json& alternative : schema.value("oneOf", Json::array()))
       for (const Json& name : alternative.value("required", Json::array()))
-        alternatives.push_back(name.dump());
+        alternatives.push_back(jsonText(name));
     const auto given = std::ranges::count_if(alternatives, [&](const std::string& name) {
       return value.contains(name.substr(1, name.size() - 2));
     });
@@ -164,7 +166,9 @@ std::string valijsonsWords(valijson::ValidationResults& results) {
 
 Status checkSchema(const Json& json, std::string_view schemaText, const std::string& where) {
   const nlohmann::json plain = json;  // the adapter reads nlohmann::json
-  const Json schemaJson = Json::parse(schemaText);
+  const auto parsedSchema = parseJson<Json>(schemaText, "schema");
+  if (!parsedSchema) return tl::unexpected(parsedSchema.error());
+  const Json& schemaJson = *parsedSchema;
   valijson::Schema schema;
   valijson::SchemaParser parser;
   const nlohmann::json plainSchema = schemaJson;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/scene/gltf_compression.h"
 #include "engine/scene/gltf_extensions.h"
 
@@ -109,12 +110,9 @@ Result<GltfText> jsonOf(std::span<const std::byte> bytes) {
 
 /// A look at the JSON before tinygltf: syntax with a position, version, required extensions, buffer lengths.
 Result<nlohmann::json> checkJson(std::string_view text, FileAccess& access) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    return malformed(fmt::format("is not valid JSON: {}", oneLine(error.what())));
-  }
+  auto parsed = parseJson(text);
+  if (!parsed) return malformed(oneLine(parsed.error().message));
+  const nlohmann::json& json = *parsed;
   if (!json.is_object()) return malformed("is not a glTF file: its JSON is not an object");
   const auto asset = json.find("asset");
   if (asset == json.end() || !asset->is_object() || !asset->contains("version") ||
@@ -137,7 +135,7 @@ Result<nlohmann::json> checkJson(std::string_view text, FileAccess& access) {
         if (!uri.starts_with("data:"))
           access.bufferBytes[nameOf(percentDecoded(uri))] = buffer["byteLength"].get<std::size_t>();
       }
-  return json;
+  return parsed;
 }
 
 /// The file with other JSON: what follows a GLB's JSON chunk stays.
@@ -178,7 +176,7 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
   const auto compression = takeCompression(*json, text->binary);
   if (!compression) return tl::unexpected(compression.error());
   if (compression->any())
-    *bytes = withJson(*bytes, *text, json->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    *bytes = withJson(*bytes, *text, jsonText(*json));
 
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&keepImageBytes, nullptr);

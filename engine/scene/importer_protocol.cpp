@@ -3,13 +3,12 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_text.h"
+
 namespace acentric {
 namespace {
 
 using nlohmann::json;
-
-/// File names may be any bytes; JSON text must be UTF-8.
-std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 constexpr std::array kKinds{ErrorKind::notFound,    ErrorKind::unreadable, ErrorKind::malformed,
                             ErrorKind::unsupported, ErrorKind::tooLarge,   ErrorKind::timeout,
@@ -25,14 +24,16 @@ ErrorKind kindNamed(const std::string& name) {
 }  // namespace
 
 std::string optionsToJson(const ImportOptions& options) {
-  return dump({{"metresPerUnit", options.metresPerUnit},
-               {"up", int(options.up)},
-               {"defaultLight", options.defaultLight}});
+  return jsonText<json>({{"metresPerUnit", options.metresPerUnit},
+                         {"up", int(options.up)},
+                         {"defaultLight", options.defaultLight}});
 }
 
 Result<ImportOptions> optionsFromJson(const std::string& text) {
   try {
-    const json value = json::parse(text);
+    const auto parsed = parseJson(text, "import options");
+    if (!parsed) return fail(ErrorKind::invalidArgument, parsed.error().message, "import options");
+    const json& value = *parsed;
     ImportOptions options;
     options.metresPerUnit = value.at("metresPerUnit").get<double>();
     options.up = static_cast<UpAxis>(value.at("up").get<std::uint8_t>());
@@ -45,19 +46,19 @@ Result<ImportOptions> optionsFromJson(const std::string& text) {
 }
 
 std::string progressLine(const ProgressState& state) {
-  return dump({{"done", state.done}, {"total", state.total}, {"stage", state.stage}});
+  return jsonText<json>({{"done", state.done}, {"total", state.total}, {"stage", state.stage}});
 }
 
 std::string errorLine(const Error& error) {
-  return dump(
+  return jsonText<json>(
       {{"error", {{"kind", nameOf(error.kind)}, {"message", error.message}, {"where", error.where}}}});
 }
 
-std::string writtenLine() { return dump({{"written", true}}); }
+std::string writtenLine() { return jsonText<json>({{"written", true}}); }
 
 ImporterLine parseImporterLine(const std::string& line) {
   ImporterLine out;
-  const json value = json::parse(line, nullptr, false);
+  const json value = parseJson(line).value_or(json());
   if (!value.is_object()) return out;
   try {
     if (value.contains("error")) {

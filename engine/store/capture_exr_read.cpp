@@ -131,6 +131,10 @@ void readFlat(const Part& from) {
     std::uint32_t mirror;
   };
   const std::size_t columns = from.columns(), rows = from.rows();
+  constexpr std::uint64_t kBytesPerPixel =
+      20;  // R, G, B, A as half, Z, W as float, roles, before compression
+  if (kBytesPerPixel * columns * rows > kMaxDeflateRatio * from.fileBytes)
+    refuse("claims more pixels than a file of its size holds");
   std::vector<Pixel> pixels(columns * rows);  // column after column
   Imf::FrameBuffer buffer;
   const auto slice = [&](const char* name, Imf::PixelType type, auto& value) {

@@ -110,7 +110,8 @@ Status take(BlockFileReader& file, std::size_t columns, std::uint64_t runs, Capt
   return file.nextRecords(runLanes(out), runs);
 }
 
-Result<Keyed<Capture>> readPack(Result<BlockFileReader> file) {
+Result<Keyed<Capture>> readPack(Result<BlockFileReader> file,
+                                const std::function<Status(const PackHead&)>& accept = {}) {
   if (!file) return tl::unexpected(file.error());
   Capture capture;
   ColumnCamera& camera = capture.camera;
@@ -138,6 +139,9 @@ Result<Keyed<Capture>> readPack(Result<BlockFileReader> file) {
   if (samples > kMaxCaptureSamples || runs > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
       file->rawBytes() != bytesOf(samples) + backgroundBytes + (mirrors ? bytesOf(reflections) : 0))
     return file->malformed("its number of samples contradicts its size");
+  if (accept)
+    if (Status accepted = accept({camera, samples, reflections}); !accepted)
+      return tl::unexpected(accepted.error());
 
   if (Status read = take(*file, columns, samples, mirrors, capture); !read)
     return tl::unexpected(read.error());
@@ -162,9 +166,11 @@ Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path) {
   return withinMemory(path, [&] { return readPack(BlockFileReader::open(path, BlockFileKind::capture)); });
 }
 
-Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name) {
-  return withinMemory(
-      name, [&] { return readPack(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture)); });
+Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name,
+                                      const std::function<Status(const PackHead&)>& accept) {
+  return withinMemory(name, [&] {
+    return readPack(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture), accept);
+  });
 }
 
 Result<Capture> readCapturePack(const std::filesystem::path& path) {

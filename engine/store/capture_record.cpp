@@ -58,7 +58,8 @@ Result<CaptureRecord> parseRecord(const std::string& text, const std::string& wh
       record.parts.push_back({name, key ? *key : ContentKey{}});
     }
   }
-  if (formatRecord(record) != text) return fail(ErrorKind::malformed, "is no record of a capture", where);
+  if (formatRecord(record) != text)
+    return fail(ErrorKind::malformed, "is damaged, or no record of a capture", where);
   return record;
 }
 

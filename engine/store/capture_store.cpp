@@ -88,6 +88,12 @@ Status CaptureStore::put(const ContentKey& key, const Capture& capture, const st
 
 std::filesystem::path CaptureStore::packFile(const ContentKey& key) const { return packOf(folder_, key); }
 
+std::filesystem::path CaptureStore::fileOf(const ContentKey& key, const std::string& extension) const {
+  if (extension == kLightExtension) return lightOf(folder_, key);
+  if (extension == kSimplifiedExtension) return simplifiedOf(folder_, key);
+  return folder_ / (key.toHex() + extension);
+}
+
 Result<Capture> CaptureStore::get(const ContentKey& key) const {
   const fs::path exr = exrOf(folder_, key), pack = packOf(folder_, key);
   if (!has(key)) return fail(ErrorKind::notFound, "is not baked", pack.string());

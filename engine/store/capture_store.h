@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class CaptureStore {
   Result<Capture> get(const ContentKey& key) const;
   /// Where its pack is, or would be.
   std::filesystem::path packFile(const ContentKey& key) const;
+  /// The same of any file under the key, by its extension (".light").
+  std::filesystem::path fileOf(const ContentKey& key, const std::string& extension) const;
 
   /// Takes what another store has under the key, capture or light with its record: as further names of the
   /// same files (no file of a store is ever changed in place) or, across file systems, as copies. What is
@@ -93,6 +96,7 @@ class CaptureStore {
     Condition condition = Condition::missing;
     std::vector<Error> damage;  ///< each names its file
     bool recorded = false;
+    std::optional<Error> recordDamage;  ///< there is a record, and it cannot be used
   };
   /// Are the files under the key as they were written? Files that are no newer than their record are believed
   /// by their size, others by their content's hash; those without a record, and with `toTheEnd` all, are

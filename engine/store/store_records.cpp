@@ -94,6 +94,10 @@ Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, boo
   }
   const auto noted = record(key);
   found.recorded = noted.has_value() && noted->files.size() == files.size();
+  if (!noted && noted.error().kind != ErrorKind::notFound) found.recordDamage = noted.error();
+  if (noted && !found.recorded)
+    found.recordDamage =
+        Error{ErrorKind::malformed, "is of other files than there are", recordOf(folder_, key).string()};
   found.condition = Condition::sound;
   const auto damaged = [&](Error error) {
     found.condition = Condition::damaged;
@@ -122,9 +126,10 @@ Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, boo
         damaged({ErrorKind::malformed, "is damaged: its content is not what was written", path.string()});
     }
   }
-  // Files that are as they were need not be hashed the next time.
+  // Files that are as they were need not be hashed the next time. Who asked for all to be read changes
+  // nothing.
   std::error_code ignored;
-  if (hashed && found.damage.empty())
+  if (hashed && !toTheEnd && found.damage.empty())
     fs::last_write_time(recordPath, std::max(recorded, fs::file_time_type::clock::now()), ignored);
   return found;
 }

@@ -107,6 +107,23 @@ TEST_F(FileTest, NamesTheFileThatCannotBeRead) {
   EXPECT_FALSE(readText(folder_));
 }
 
+TEST_F(FileTest, RefusesNamesWithANulRatherThanCutThem) {
+  ASSERT_TRUE(writeTextAtomically(folder_ / "a.txt", "text"));
+  const std::filesystem::path name = folder_ / std::string("a.txt\0.png", 10);
+  const auto read = readText(name);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().kind, ErrorKind::invalidArgument);
+  EXPECT_EQ(writeTextAtomically(name, "other").error().kind, ErrorKind::invalidArgument);
+  EXPECT_EQ(readText(folder_ / "a.txt").value(), "text");
+}
+
+TEST_F(FileTest, SaysThatAFolderHasTheNameOfWhatIsWritten) {
+  std::filesystem::create_directories(folder_ / "taken");
+  const Status written = writeTextAtomically(folder_ / "taken", "text");
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find("a folder has this name"), std::string::npos);
+}
+
 TEST_F(FileTest, RefusesFilesAboveTheLimit) {
   ASSERT_TRUE(writeTextAtomically(folder_ / "big.txt", std::string(2000, 'x')));
   const auto read = readText(folder_ / "big.txt", 1000);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/machine/machine.h"
 #include "tests/bench/benches.h"
 
@@ -76,6 +77,6 @@ int main(int argc, char** argv) {
       return failed(fmt::format("{}: {}", bench.name, ran.error().describe()));
     report["benches"].push_back(figures.json());
   }
-  const Status written = writeTextAtomically(json, report.dump(2) + "\n");
+  const Status written = writeTextAtomically(json, jsonText(report, 2) + "\n");
   return written ? 0 : failed(written.error().describe());
 }

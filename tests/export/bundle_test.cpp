@@ -257,7 +257,7 @@ TEST_F(BundleTest, RefusesAnIndexThatIsWrongWithItsPlace) {
   EXPECT_EQ(has(refusal("\"polygon\": [", "\"polygon\": [[1e300,0],"), "/polygon/0/0"), "");
   EXPECT_EQ(has(refusal("\"polygon\": [", "\"polygon\": [[100,100],"), "convex"), "");
   EXPECT_EQ(has(refusal("\"roles\":", "\"roles\":3,\"was\":"), "one bit"), "");
-  EXPECT_EQ(has(refusal("{", "{{"), "no JSON"), "");
+  EXPECT_EQ(has(refusal("{", "{{"), "not JSON"), "");
   EXPECT_TRUE(parsedWith("\"generator\"", "\"from a later version\": [1, {}], \"generator\""));
 }
 
@@ -289,6 +289,48 @@ TEST_F(BundleTest, RefusesFilesThatAreNotWhatTheIndexSays) {
   const auto gone = readBundleCapture(*files, storey, 2, *storey.cameras[2].full);
   ASSERT_FALSE(gone);
   EXPECT_EQ(gone.error().kind, ErrorKind::notFound);
+}
+
+/// CRC-32 as PNG's chunks end in it.
+std::uint32_t crcOf(std::span<const std::byte> bytes) {
+  std::uint32_t crc = 0xffffffffu;
+  for (const std::byte byte : bytes) {
+    crc ^= std::to_integer<std::uint32_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+  }
+  return ~crc;
+}
+
+void putBigEndian(std::vector<std::byte>& bytes, std::size_t at, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = std::byte(value >> (24 - 8 * i));
+}
+
+TEST_F(BundleTest, RefusesTexturesThatUnpackToMoreThanTheIndexSaysByTheirHeader) {
+  const fs::path folder = room / "swollen";
+  fs::copy(room / "bundle", folder, fs::copy_options::recursive);
+  const auto bundle = readBundle(folder);
+  ASSERT_TRUE(bundle);
+  BundleTexture texture = bundle->textures[0];
+  auto bytes = readFile(folder / texture.file.path).value();
+  // The size in the first chunk, which ends in a checksum of its name and its 13 bytes.
+  putBigEndian(bytes, 16, 16384);
+  putBigEndian(bytes, 20, 16384);
+  putBigEndian(bytes, 29, crcOf(std::span(bytes).subspan(12, 17)));
+  ASSERT_TRUE(writeFileAtomically(folder / texture.file.path, bytes));
+  texture.file.hash = Hasher().bytes(bytes.data(), bytes.size()).finish();
+  const auto refused = readBundleTexture(*bundleFolder(folder), texture);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("is 16384 x 16384 pixels large, and the index says"),
+            std::string::npos)
+      << refused.error().describe();
+
+  // Packs: what their heads say is compared before their samples are unpacked.
+  const BundleStorey& storey = bundle->storeys.front();
+  BundleCapture capture = *storey.cameras[0].full;
+  capture.samples += 1;
+  const auto other = readBundleCapture(*bundleFolder(folder), storey, 0, capture);
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message.find("has another number of samples"), std::string::npos);
 }
 
 TEST_F(BundleTest, RefusesLocalFilesWithNumbersOutOfRange) {

@@ -86,7 +86,7 @@ bash "$shared/gallery.farm/submit.sh" > "$work/again.txt"
 read -r array merge < "$work/again.txt"
 waitFor "the second submission" jobsEnded
 [[ $(stateOf "$merge") == COMPLETED ]] || fail "the second merging job: $(stateOf "$merge")"
-grep -q "^baked again: .*$(basename "$pack")" "$shared/gallery.farm/merge.log" ||
+grep -q "^written again: .*$(basename "$pack")" "$shared/gallery.farm/merge.log" ||
   fail "the damaged capture is not named: $(cat "$shared/gallery.farm/merge.log")"
 diff -r "$work/expected" "$captures" || fail "the mended store differs from a local bake's"
 note "passed"

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <map>
+#include <regex>
+#include <sstream>
 
 #include "engine/base/file.h"
 #include "tests/layering/include_rules.h"
@@ -46,6 +50,38 @@ class PlantedTree : public testing::Test {
   }
   fs::path root_;
 };
+
+/// Calls that read or write JSON text without engine/base/json_text.h, each with its file and line.
+std::string jsonCallsBesideTheHelper(const fs::path& root) {
+  static const std::regex pattern(R"(([Jj]son|json_)::parse\(|\.dump\()");
+  std::string found;
+  for (const char* top : {"engine", "ui", "editor"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const fs::path& file = entry.path();
+      if ((file.extension() != ".cpp" && file.extension() != ".h") || file.filename() == "json_text.h")
+        continue;
+      std::istringstream lines(readText(file).value_or(""));
+      int number = 0;
+      for (std::string line; std::getline(lines, line);)
+        if (++number; std::regex_search(line, pattern))
+          found += fmt::format("{}:{}: {}\n", file.lexically_relative(root).string(), number, line);
+    }
+  return found;
+}
+
+TEST(Layering, JsonIsReadAndWrittenByOneHelperAlone) {
+  EXPECT_EQ(jsonCallsBesideTheHelper(ACENTRIC_SOURCE_FOLDER), "");
+}
+
+TEST_F(PlantedTree, JsonThatIsReadWithoutTheHelperIsSeen) {
+  plant("engine/base/json_text.h", "return json.dump(2);");
+  EXPECT_EQ(jsonCallsBesideTheHelper(root_), "");
+  plant("engine/view/note.cpp", "x();\nauto note = nlohmann::json::parse(text);");
+  plant("editor/note.cpp", "write(note.dump());");
+  EXPECT_EQ(jsonCallsBesideTheHelper(root_),
+            "engine/view/note.cpp:2: auto note = nlohmann::json::parse(text);\n"
+            "editor/note.cpp:1: write(note.dump());\n");
+}
 
 TEST(Layering, EveryIncludeOfTheProjectKeepsTheLayers) {
   const fs::path root = ACENTRIC_SOURCE_FOLDER;

@@ -328,5 +328,21 @@ TEST(ProjectFile, CapturesLieBesideTheProject) {
   EXPECT_EQ(captureFolderFor("gallery.json"), "gallery.captures");
 }
 
+TEST(ProjectFile, ASceneThatNoFileCanHaveOrNoProjectFileCanStateIsRefused) {
+  Project project = everythingSet();
+  project.scene = std::string("house.glb\0.txt", 14);
+  EXPECT_THAT(project.check().error().message, HasSubstr("/scene: holds a NUL"));
+  // As JSON states it, which the path must not cut.
+  std::string text = formatProject(everythingSet());
+  const std::string name = "house with spaces.glb";
+  text.replace(text.find(name), name.size(), "house.glb\\u0000.txt");
+  const auto read = parseProject(text, "p");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("/scene: holds a NUL"));
+
+  project.scene = "caf\xe9.glb";
+  EXPECT_THAT(project.check().error().message, HasSubstr("/scene: the name of the model is not UTF-8"));
+}
+
 }  // namespace
 }  // namespace acentric

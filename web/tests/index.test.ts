@@ -16,7 +16,7 @@ function sound() {
     view: { maxSplatPixels: 16 }, storey: 0,
     sky: { zenith: [0, 0, 0], horizon: [0, 0, 0], ground: [0, 0, 0] },
     bounds: { min: [0, 0, 0], max: [1, 1, 1] },
-    textures: [{ ...file('textures/a.png'), wrapU: 'repeat', wrapV: 'clamp', filter: 'linear', colourSpace: 'sRGB' }],
+    textures: [{ ...file('textures/a.png'), width: 4, height: 8, wrapU: 'repeat', wrapV: 'clamp', filter: 'linear', colourSpace: 'sRGB' }],
     materials: [
       {
         baseColour: [1, 1, 1, 1], baseColourTexture: { texture: 0, uvSet: 0, transform: [[1, 0, 0], [0, 1, 0]] }, emissive: [0, 0, 0],
@@ -77,6 +77,7 @@ describe('the index', () => {
     ['an absolute path', (i) => (i.textures[0].file = '/etc/a.png'), '/textures/0/file'],
     ['an address', (i) => (i.textures[0].file = 'http://host/a.png'), '/textures/0/file'],
     ['a hash too short', (i) => (i.textures[0].hash = 'ab'), '/textures/0/hash'],
+    ['a texture too large', (i) => (i.textures[0].width = i.textures[0].height = 65536), '/textures/0/height'],
     ['an absurd size', (i) => (i.textures[0].bytes = 1e15), '/textures/0/bytes'],
     ['a camera out of range', (i) => (i.storeys[0].regions[0].covers[0].pieces[0].camera = 1), '/storeys/0/regions/0/covers/0/pieces/0/camera'],
     ['a polygon of two corners', (i) => i.storeys[0].regions[0].polygon.pop(), '/storeys/0/regions/0/polygon'],

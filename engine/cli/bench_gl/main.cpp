@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/cli/bench_gl/gl_timing.h"
 
 namespace {
@@ -67,6 +68,6 @@ int main(int argc, char** argv) {
   if (!timing) return failed(timing.error());
   fmt::print("{}", timing->text);
   if (jsonFile.empty()) return 0;
-  const Status written = writeTextAtomically(jsonFile, timing->json.dump(2) + "\n");
+  const Status written = writeTextAtomically(jsonFile, jsonText(timing->json, 2) + "\n");
   return written ? 0 : failed(written.error());
 }

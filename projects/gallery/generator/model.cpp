@@ -12,6 +12,7 @@
 #include <span>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric::gallery {
 namespace {
@@ -268,12 +269,12 @@ Status writeModel(const Model& model, const std::filesystem::path& path) {
     return fail(ErrorKind::invalidArgument, "the name must end in .glb or .gltf", path.string());
   Writer writer(model);
   Json document = writer.document();
-  if (ending == ".glb") return writeFileAtomically(path, binaryFile(document.dump(), writer.buffer()));
+  if (ending == ".glb") return writeFileAtomically(path, binaryFile(jsonText(document), writer.buffer()));
   std::filesystem::path buffer = path;
   buffer.replace_extension(".bin");
   document["buffers"][0]["uri"] = buffer.filename().string();
   if (const Status done = writeFileAtomically(buffer, writer.buffer()); !done) return done;
-  return writeTextAtomically(path, document.dump(2) + "\n");
+  return writeTextAtomically(path, jsonText(document, 2) + "\n");
 }
 
 }  // namespace acentric::gallery

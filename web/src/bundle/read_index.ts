@@ -164,8 +164,15 @@ const material = (at: At, textures: number): Material => ({
   unlit: at.get('unlit').flag(),
 });
 
-const texture = (at: At): Texture => ({
-  ...fileRef(at),
+const maxTexturePixels = 2 ** 28;
+
+function texture(at: At): Texture {
+  const width = at.get('width').integer(1, 65536), height = at.get('height').integer(1, 65536);
+  if (width * height > maxTexturePixels) at.get('height').fail('makes a texture of more than 2^28 pixels');
+  return { ...fileRef(at), width, height, ...sampling(at) };
+}
+
+const sampling = (at: At) => ({
   wrapU: at.get('wrapU').oneOf(['repeat', 'mirror', 'clamp']),
   wrapV: at.get('wrapV').oneOf(['repeat', 'mirror', 'clamp']),
   nearest: at.get('filter').oneOf(['nearest', 'linear']) === 'nearest',

@@ -101,6 +101,8 @@ export interface Material {
 export type Wrap = 'repeat' | 'mirror' | 'clamp';
 
 export interface Texture extends FileRef {
+  width: number;
+  height: number;
   wrapU: Wrap;
   wrapV: Wrap;
   nearest: boolean;

@@ -27,11 +27,21 @@ export async function checkedBytes(bytes: Uint8Array, file: FileRef): Promise<Ui
   return bytes;
 }
 
+/** By the PNG's header, before anything is decoded: a few kilobytes may unpack to gigabytes. */
+export function checkPictureSize(bytes: Uint8Array, width: number, height: number): void {
+  const header = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const signature = [0x89504e47, 0x0d0a1a0a, 13, 0x49484452]; // and the first chunk: 13 bytes of IHDR
+  if (bytes.length < 24 || signature.some((word, i) => header.getUint32(4 * i) !== word)) throw new DamagedFile('it is no PNG');
+  const [w, h] = [header.getUint32(16), header.getUint32(20)];
+  if (w !== width || h !== height) throw new DamagedFile(`it is ${w} × ${h} pixels large, and the index says ${width} × ${height}`);
+}
+
 export async function loadFile(request: Request): Promise<Loaded> {
   const { task, file } = request;
   const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
   if (task.kind === 'capture') return { kind: 'capture', capture: await readCapture(bytes, task.exposure) };
   if (task.kind === 'local') return { kind: 'local', local: await readLocal(bytes, task.materials, task.origin) };
+  checkPictureSize(bytes, task.width, task.height);
   const blob = new Blob([bytes as BlobPart], { type: 'image/png' });
   return { kind: 'texture', picture: await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion: 'none' }) };
 }

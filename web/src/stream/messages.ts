@@ -8,7 +8,7 @@ import type { Vec3 } from '../geometry/vector';
 export type Task =
   | { kind: 'capture'; exposure: number }
   | { kind: 'local'; materials: Material[]; origin: Vec3 }
-  | { kind: 'texture' };
+  | { kind: 'texture'; width: number; height: number };
 
 export interface Request {
   id: number;

@@ -139,7 +139,7 @@ export class Stream {
     let done = this.textures.get(number);
     if (!done) {
       const file = this.bundle.textures[number];
-      done = this.pool.load({ kind: 'texture' }, file, this.retrying).then(
+      done = this.pool.load({ kind: 'texture', width: file.width, height: file.height }, file, this.retrying).then(
         (loaded) => {
           if (loaded.kind !== 'texture' || this.closed) return;
           this.renderer.uploadTexture(number, loaded.picture);
