@@ -14,6 +14,7 @@
 #include "editor/panels/settings_panel.h"
 #include "editor/panels/status_bar.h"
 #include "editor/panels/welcome.h"
+#include "editor/session/window_places.h"
 #include "ui/keys.h"
 #include "ui/splitter.h"
 #include "ui/widgets.h"
@@ -63,7 +64,7 @@ ui::Tone toneOf(MessageLevel level) {
 }  // namespace
 
 tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& options) {
-  auto window = ui::Window::open({"Acentric", options.width, options.height, false});
+  auto window = ui::Window::open({"Acentric"});
   if (!window) return tl::unexpected(window.error());
   std::unique_ptr<App> app(new App(options, std::move(*window)));
   if (!options.uiLog.empty() && !app->log_.open(options.uiLog))
@@ -86,6 +87,7 @@ tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& op
                                  "The font " + app->window_->missingFont() +
                                      " is missing; install fonts-dejavu-core for a better look.");
   const Preferences& preferences = app->session_.preferences();
+  app->window_->show(loadWindowPlaces(windowPlacesFile()), options.size);
   // Work that was not saved comes before what is opened by itself: the welcome offers it.
   const bool byItself = options.file.empty() && app->session_.unsavedWork().empty();
   const std::filesystem::path file = byItself ? startUpFile(preferences, options.sample) : options.file;
@@ -108,6 +110,9 @@ void App::run() {
   const std::stop_callback wakes(options_.stop, &ui::Window::wake);
   window_->run([this] { update(); }, [this] { draw(); });
   if (options_.stop.stop_requested()) session_.keepWork();
+  // Of a window whose size was asked for, nobody chose where it is. One that cannot be kept is no loss.
+  if (const auto place = window_->place(); place && !options_.size)
+    (void)keepWindowPlace(*place, windowPlacesFile());
   session_.savePreferencesNow();
 }
 

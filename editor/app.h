@@ -28,8 +28,7 @@ struct AppOptions {
   std::filesystem::path frameTimes;  ///< CSV to write, a line per frame; may be empty
   double exitAfterSeconds = 0;       ///< 0 = never
   std::stop_token stop;              ///< leave at once, and keep unsaved work for the next run
-  int width = 1600;
-  int height = 900;
+  std::optional<glm::ivec2> size;    ///< of the window; nothing = as it was left, within the screen
   ImportHost importHost;
 };
 

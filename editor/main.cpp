@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
       .add_option("--sample", options.sample,
                   "a project to open where no file is named, as the preferences say")
       ->type_name("FILE");
-  command.add_option("--size", size, "of the window, as WIDTHxHEIGHT (default 1600x900)");
+  command.add_option("--size", size,
+                     "of the window, as WIDTHxHEIGHT (default: as it was left, within the screen)");
   command.add_option("--importer", options.importHost.importer,
                      "program that parses models (default: beside this one)");
   command.add_option("--log-ui", options.uiLog, "write where widgets are and what happens, for tests")
@@ -28,9 +29,10 @@ int main(int argc, char** argv) {
   command.footer(
       "Examples:\n  acentric-editor\n  acentric-editor gallery.acentric.json\n  acentric-editor kitchen.glb");
   CLI11_PARSE(command, argc, argv);
-  if (!size.empty() &&
-      (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 || options.width < 640 ||
-       options.height < 400 || options.width > 16384 || options.height > 16384)) {
+  if (glm::ivec2 wanted(0); !size.empty())
+    options.size = std::sscanf(size.c_str(), "%dx%d", &wanted.x, &wanted.y) == 2 ? wanted : glm::ivec2(0);
+  if (options.size && (options.size->x < 640 || options.size->y < 400 || options.size->x > 16384 ||
+                       options.size->y > 16384)) {
     std::fprintf(stderr, "acentric-editor: --size: give WIDTHxHEIGHT of at least 640x400, not \"%s\"\n",
                  size.c_str());
     return 2;

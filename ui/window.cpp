@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "ui/colour.h"
 #include "ui/keys.h"
@@ -33,6 +34,8 @@ static_assert(mouse::right == GLFW_MOUSE_BUTTON_RIGHT && mouse::middle == GLFW_M
 static_assert(modifier::shift == GLFW_MOD_SHIFT && modifier::control == GLFW_MOD_CONTROL &&
               modifier::alt == GLFW_MOD_ALT);
 
+constexpr glm::ivec2 kFirstSize(1600, 900);  // on a display of 96 dpi
+
 Window& windowOf(GLFWwindow* handle) { return *static_cast<Window*>(glfwGetWindowUserPointer(handle)); }
 
 GLFWwindow* createWithVersion(const WindowOptions& options, int major, int minor) {
@@ -40,8 +43,28 @@ GLFWwindow* createWithVersion(const WindowOptions& options, int major, int minor
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_MAXIMIZED, options.maximised ? GLFW_TRUE : GLFW_FALSE);
-  return glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  return glfwCreateWindow(kFirstSize.x, kFirstSize.y, options.title.c_str(), nullptr, nullptr);
+}
+
+/// The system's first one first.
+std::vector<Monitor> monitorsThere() {
+  int count = 0;
+  GLFWmonitor** const found = glfwGetMonitors(&count);
+  std::vector<Monitor> monitors;
+  for (int m = 0; m < count; ++m) {
+    const GLFWvidmode* const mode = glfwGetVideoMode(found[m]);
+    if (mode == nullptr) continue;
+    Monitor monitor;
+    const char* const name = glfwGetMonitorName(found[m]);
+    monitor.name = name != nullptr ? name : "";
+    monitor.all.size = {mode->width, mode->height};
+    glfwGetMonitorPos(found[m], &monitor.all.at.x, &monitor.all.at.y);
+    glfwGetMonitorWorkarea(found[m], &monitor.work.at.x, &monitor.work.at.y, &monitor.work.size.x,
+                           &monitor.work.size.y);
+    monitors.push_back(std::move(monitor));
+  }
+  return monitors;
 }
 
 std::string lastGlfwError(const char* otherwise) {
@@ -96,6 +119,31 @@ Window::~Window() {
   if (ImGui::GetCurrentContext() != nullptr) ImGui::DestroyContext();
   if (window_ != nullptr) glfwDestroyWindow(window_);
   glfwTerminate();
+}
+
+void Window::show(std::span<const WindowPlace> remembered, const std::optional<glm::ivec2>& size) {
+  FrameSize frame;
+  glfwGetWindowFrameSize(window_, &frame.left, &frame.top, &frame.right, &frame.bottom);
+  const std::vector<Monitor> monitors = monitorsThere();
+  const glm::ivec2 wanted(glm::vec2(kFirstSize) * displayScale());
+  const PlacedWindow placed =
+      size ? placeWithSize(*size, frame, monitors) : placeWindow(wanted, frame, monitors, remembered);
+  normal_ = placed.rect;
+  glfwSetWindowSize(window_, normal_.size.x, normal_.size.y);
+  glfwSetWindowPos(window_, normal_.at.x, normal_.at.y);
+  if (placed.maximised) glfwMaximizeWindow(window_);
+  glfwShowWindow(window_);
+}
+
+std::optional<WindowPlace> Window::place() const {
+  const bool maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+  return placeToRemember({normal_, maximised}, monitorsThere());
+}
+
+void Window::noteRect() {
+  if (glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE) return;
+  glfwGetWindowPos(window_, &normal_.at.x, &normal_.at.y);
+  glfwGetWindowSize(window_, &normal_.size.x, &normal_.size.y);
 }
 
 void Window::installCallbacks() {
@@ -218,6 +266,7 @@ void Window::run(const std::function<void()>& update, const std::function<void()
     else
       glfwPollEvents();
     update();
+    if (!hidden) noteRect();
     if (!hidden && !closing_ && pacer_.shouldDraw(seconds())) drawFrame(draw);
   }
 }

@@ -6,6 +6,8 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "ui/frame_pacer.h"
 #include "ui/input_queue.h"
 #include "ui/theme.h"
+#include "ui/window_place.h"
 
 struct GLFWwindow;
 
@@ -31,20 +34,22 @@ struct FrameTime {
 
 struct WindowOptions {
   std::string title;
-  int width = 1600;  ///< screen coordinates
-  int height = 900;
-  bool maximised = false;
   bool light = false;  ///< theme
   float scale = 0;     ///< of the interface; 0 = the display's
 };
 
 class Window {
  public:
-  /// Tries OpenGL 4.5, 4.3 and 3.3 core. The error is one line for a person.
+  /// Hidden until show(). Tries OpenGL 4.5, 4.3 and 3.3 core. The error is one line for a person.
   static tl::expected<std::unique_ptr<Window>, std::string> open(const WindowOptions& options);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
+
+  /// Where and as large as it was left (window_place.h); `size`: just so large, screen coordinates.
+  void show(std::span<const WindowPlace> remembered, const std::optional<glm::ivec2>& size);
+  /// Where it is now, to be shown there again; nothing where no monitor shows it.
+  std::optional<WindowPlace> place() const;
 
   /// Until close() is called: waits for events, calls `update` after every wake (it may request frames
   /// through pacer()), and `draw` between an ImGui frame's begin and end whenever a frame is due.
@@ -84,6 +89,7 @@ class Window {
   void drawFrame(const std::function<void()>& draw);
   void applyLook();
   float displayScale() const;
+  void noteRect();
   void feedShortPresses();
 
   GLFWwindow* window_ = nullptr;
@@ -104,6 +110,7 @@ class Window {
   unsigned long frames_ = 0;
   FrameTime lastFrame_;
   std::function<void(const FrameTime&)> tellFrame_;
+  ScreenRect normal_;  ///< where it is, or was before it was maximised
 };
 
 }  // namespace acentric::ui

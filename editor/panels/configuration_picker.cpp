@@ -7,6 +7,7 @@
 
 #include "editor/commands/layout_edits.h"
 #include "editor/session/configuration_facts.h"
+#include "engine/layout/images_per_view.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
 
@@ -61,6 +62,12 @@ std::string textOf(const ConfigurationFacts& facts, const std::optional<LaidCoun
   return text;
 }
 
+std::string imagesText(Configuration configuration) {
+  const ImagesPerView& images = imagesPerView(configuration);
+  return fmt::format("Images that a view is painted from\n60° wide: {}\n90° wide: {}",
+                     sharesText(images.at60), sharesText(images.at90));
+}
+
 PixelCost costOf(Session& session) {
   PixelCost cost;
   const OpenProject& open = *session.built();
@@ -99,6 +106,7 @@ bool ConfigurationPicker::drawChoice(PanelContext& context, Configuration config
   const bool chosen = ImGui::Selectable("##choice", spec.configuration == configuration,
                                         ImGuiSelectableFlags_None, {thumb + ui::scaled(kTextWidth), thumb});
   const bool hovered = ImGui::IsItemHovered();
+  ui::tooltip(imagesText(configuration));
   context.log.item(fmt::format("configuration.{}", nameOf(configuration)));
   if (hovered && !std::exchange(entry.counted, true))
     entry.laid = laidCounts(spec, configuration, entry.facts);

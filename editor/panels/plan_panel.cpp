@@ -15,6 +15,7 @@
 #include "editor/overlays/walk_overlay.h"
 #include "editor/panels/array_panel.h"
 #include "editor/panels/plan_toolbar.h"
+#include "editor/session/scene_view.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
@@ -30,14 +31,9 @@ std::span<const std::uint8_t> bytesOf(const ColourImage& image) {
 
 void PlanPanel::fit(const Session& session) {
   const Bounds& bounds = session.built()->scene->bounds;
-  const Layout& layout = *session.built()->layout;
-  glm::dvec2 low(std::numeric_limits<double>::max());
-  glm::dvec2 high(std::numeric_limits<double>::lowest());
-  for (const Region& region : layout.regions)
-    for (const glm::dvec2& corner : region.polygon.corners)
-      low = glm::min(low, corner), high = glm::max(high, corner);
-  if (layout.regions.empty()) low = glm::dvec2(bounds.min), high = glm::dvec2(bounds.max);
-  view_.fit(low, high, 0.08);
+  const WalkableBox box = walkableBox(*session.built()->layout)
+                              .value_or(WalkableBox{glm::dvec2(bounds.min), glm::dvec2(bounds.max)});
+  view_.fit(box.low, box.high, 0.08);
 }
 
 void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {

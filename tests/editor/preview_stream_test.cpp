@@ -119,5 +119,30 @@ TEST(SceneView, FramesTheSelectionOrAllThatIsLaidOutOrTheScene) {
   EXPECT_EQ(boxToFrame(bounds, Layout{}, {}).high, glm::dvec3(4, 5, 6));
 }
 
+TEST(SceneView, FramesWhatCanBeWalkedNotHowFarCellsReachBeyondIt) {
+  LayoutSpec spec;
+  spec.configuration = Configuration::e;
+  spec.cellSize = 10;
+  spec.outline.loops = {{{-2, -2}, {31, -2}, {31, 2}, {-2, 2}}};
+  const WalkableBox hall = *walkableBox(*buildLayout(spec));
+  EXPECT_EQ(hall.low, glm::dvec2(-5, -5)) << "all of the cells, which end within an edge of it";
+  EXPECT_EQ(hall.high, glm::dvec2(35, 5));
+  spec.outline.loops.push_back({{2000, 0}, {2000.5, 0}, {2000.5, 0.5}, {2000, 0.5}});
+  EXPECT_EQ(*walkableBox(*buildLayout(spec)), hall) << "a speck, 2 km away";
+  EXPECT_LT(boxToFrame({}, *buildLayout(spec), {}).high.x, 40);
+  spec.outline.loops.back() = {{2000, 0}, {2006, 0}, {2006, 6}, {2000, 6}};
+  EXPECT_GT(walkableBox(*buildLayout(spec))->high.x, 2005) << "a second place to walk";
+  spec.outline.loops.pop_back();
+  spec.cellSize = 4;
+  spec.latticeOrigin = {0, 2};
+  spec.added = {{0, 20, 0}};
+  const WalkableBox more = *walkableBox(*buildLayout(spec));
+  EXPECT_EQ(more.low.y, -4) << "of the cells from -4 to 0 and to 4";
+  EXPECT_EQ(more.high.y, 84) << "the one that was added";
+  spec.outline.loops.clear();
+  EXPECT_EQ(walkableBox(*buildLayout(spec))->low, glm::dvec2(-2, 80)) << "it alone";
+  EXPECT_EQ(walkableBox(Layout{}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace acentric::editor

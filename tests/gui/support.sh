@@ -19,9 +19,10 @@ stop_all() {
   [ -n "${DISPLAY_PID:-}" ] && kill "$DISPLAY_PID" 2>/dev/null && wait "$DISPLAY_PID" 2>/dev/null
 }
 
+# $SCREEN: its size, else 1600x900
 start_display() {
   rm -f "$WORK/display"  # of an earlier run
-  Xvfb -displayfd 3 -screen 0 1600x900x24 -nolisten tcp 3>"$WORK/display" 2>"$WORK/xvfb.log" &
+  Xvfb -displayfd 3 -screen 0 "${SCREEN:-1600x900}x24" -nolisten tcp 3>"$WORK/display" 2>"$WORK/xvfb.log" &
   DISPLAY_PID=$!
   for _ in $(seq 100); do [ -s "$WORK/display" ] && break; sleep 0.1; done
   [ -s "$WORK/display" ] || fail "no virtual display: $(cat "$WORK/xvfb.log")"
