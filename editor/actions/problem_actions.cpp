@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "editor/commands/layout_edits.h"
+#include "engine/pipeline/scene_scale.h"
 
 namespace acentric::editor {
 
@@ -42,6 +43,11 @@ Edit pushOut(const Project& project, const ProblemFix& fix) {
   Apv moved = found->second;
   moved.centre += fix.push;
   return setFreeApv(project, *fix.freeApv, moved);
+}
+
+Edit changeScale(const Project& project, const Scene& scene, const ProblemFix& fix) {
+  const double metres = fix.metresPerUnit.value_or(scene.report.metresPerUnit);
+  return {atScale(project, scene, metres), fmt::format("Scale the model to {:g} metres per unit", metres)};
 }
 
 }  // namespace acentric::editor

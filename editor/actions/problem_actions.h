@@ -10,4 +10,6 @@ namespace acentric::editor {
 void showProblem(EditorState& state, const ProblemPlace& place);
 /// A move in plan as an edit.
 Edit pushOut(const Project& project, const ProblemFix& fix);
+/// The model at the scale that `fix` states, the layout with it. `scene` is the project's as it is now.
+Edit changeScale(const Project& project, const Scene& scene, const ProblemFix& fix);
 }  // namespace acentric::editor

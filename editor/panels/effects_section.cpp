@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "editor/commands/setting_edits.h"
+#include "editor/panels/project_field.h"
 #include "editor/panels/settings_panel.h"
 
 namespace acentric::editor {
@@ -27,12 +30,38 @@ void drawEffect(PanelContext& context, Effect effect, const EffectState& effectS
   ImGui::PopID();
 }
 
+/// What import made of the light, as it says itself.
+void drawWhy(const Scene& scene) {
+  for (const std::string& line : scene.report.guessed)
+    if (line.starts_with("light: ")) ui::wrappedText(ui::palette::faint, line);
+}
+
+void drawLighting(PanelContext& context, const Scene& scene) {
+  const Project& project = context.session().project();
+  const std::array<ui::Choice, 3> kLightings = {
+      ui::Choice{"Guessed", "By the file's materials, textures and meshes", true, ""},
+      ui::Choice{"In the textures", "Surfaces are shown as they are, as of a photographed or scanned place",
+                 true, ""},
+      ui::Choice{"Computed", "Lamps, sun and sky light all surfaces", true, ""}};
+  int lighting = int(project.import.lighting);
+  const ui::FieldEdit edit =
+      ui::choiceField("Light", kLightings, lighting, kLabelWidth, "Where the light on surfaces comes from");
+  context.log.item("effects.lighting");
+  if (edit) {
+    ImportOptions import = project.import;
+    import.lighting = Lighting(lighting);
+    applyFieldEdit(context, edit, setImport(project, import, "light"));
+  }
+  drawWhy(scene);
+}
+
 }  // namespace
 
 void drawEffects(PanelContext& context) {
   if (!ui::section("Effects", false)) return;
   const auto& built = context.session().built();
   if (!built) return;
+  drawLighting(context, *built->scene);
   int notCalledFor = 0;
   for (int i = 0; i < kEffectCount; ++i) {
     const EffectState& state = built->plan[Effect(i)];

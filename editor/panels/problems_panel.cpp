@@ -17,7 +17,9 @@ void drawFix(PanelContext& context, const ProblemFix& fix, int row) {
   const bool clicked = ImGui::SmallButton(fix.label.c_str());
   ImGui::EndDisabled();
   context.log.item(fmt::format("problem.{}.fix", row));
-  if (action == nullptr)
+  if (fix.metresPerUnit)
+    ui::tooltip("Imports the model again at this scale; cells, outline and paths stay where they are on it");
+  else if (action == nullptr)
     ui::tooltip(fix.freeApv ? "The smallest move that clears it"
                             : "The smallest move that clears it; all cells of the lattice go along");
   else if (!action->help.empty())
@@ -25,7 +27,9 @@ void drawFix(PanelContext& context, const ProblemFix& fix, int row) {
   if (!clicked || !possible) return;
   if (action != nullptr)
     runAction(context, *action);
-  else
+  else if (fix.metresPerUnit && session.built())
+    session.apply(changeScale(session.project(), *session.built()->scene, fix));
+  else if (!fix.metresPerUnit)
     session.apply(pushOut(session.project(), fix));
 }
 

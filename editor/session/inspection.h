@@ -3,11 +3,13 @@
 /// centres of projection stand badly. Made in the background after each edit.
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 
 #include "engine/inspect/budgets.h"
 #include "engine/inspect/placement_checks.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/scene_scale.h"
 
 namespace acentric::editor {
 
@@ -15,6 +17,7 @@ struct Inspection {
   std::shared_ptr<const Layout> layout;  ///< that it is of
   RegionBudgets budgets;
   PlacementReport placement;
+  std::optional<ScaleDoubt> scale;
 };
 
 /// Remembers the scene's tree and the counts of regions that an edit leaves alone. One caller at a time.
@@ -25,6 +28,7 @@ class Inspector {
 
  private:
   ScenePtr scene_;
+  std::optional<ScaleDoubt> scale_;  ///< of scene_
   std::unique_ptr<BudgetCounter> counter_;
 };
 

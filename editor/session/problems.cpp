@@ -180,6 +180,18 @@ void addScene(Problems& problems, const ProblemFacts& facts) {
       problems.push_back({Severity::warning, "Not shown: " + line, {.section = "Scene"}});
 }
 
+/// A scale that a person has chosen is not asked about.
+void addScale(Problems& problems, const ProblemFacts& facts) {
+  const auto& doubt = facts.inspection->scale;
+  if (!doubt || facts.built->project.import.metresPerUnit > 0) return;
+  problems.push_back({Severity::warning,
+                      fmt::format("Is the scale right? {}. If it is right, enter {:g} metres per unit",
+                                  doubt->text, facts.built->scene->report.metresPerUnit),
+                      {.section = "Scene"},
+                      ProblemFix{.label = fmt::format("Scale to {:g}", doubt->metresPerUnit),
+                                 .metresPerUnit = doubt->metresPerUnit}});
+}
+
 void addFiles(Problems& problems, const ProblemFacts& facts) {
   if (facts.lockedBy)
     problems.push_back({Severity::warning,
@@ -209,6 +221,7 @@ std::vector<Problem> findProblems(const ProblemFacts& facts) {
   addLayout(problems, *facts.built->layout);
   addCaptures(problems, facts);
   if (facts.inspection != nullptr && facts.inspection->layout == facts.built->layout) {
+    addScale(problems, facts);
     addPlacement(problems, *facts.inspection);
     addBudget(problems, *facts.inspection, facts.built->project.budget);
   }

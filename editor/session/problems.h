@@ -65,6 +65,8 @@ struct ProblemFix {
   std::string action = {};          ///< id; empty: `push` is it
   glm::dvec2 push{0};               ///< metres
   std::optional<int> freeApv = {};  ///< that is moved; nothing: the lattice is
+  /// The model's scale instead of a move; the layout is scaled along.
+  std::optional<double> metresPerUnit = {};
   bool operator==(const ProblemFix&) const = default;
 };
 

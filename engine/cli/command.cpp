@@ -286,10 +286,18 @@ Status saveEdited(Project project, const std::filesystem::path& file) {
   return saveProject(project, file);
 }
 
-ImportOptions importOptions(const std::string& up, double metresPerUnit) {
+Json scaleJson(const std::optional<ScaleDoubt>& doubt) {
+  if (!doubt) return nullptr;
+  return {{"metresPerUnit", doubt->metresPerUnit}, {"factor", doubt->factor}, {"text", doubt->text}};
+}
+
+ImportOptions importOptions(const std::string& up, double metresPerUnit, const std::string& light) {
   ImportOptions options;
   options.metresPerUnit = metresPerUnit;
   options.up = up == "y" ? UpAxis::y : up == "z" ? UpAxis::z : UpAxis::guess;
+  options.lighting = light == "in-textures" ? Lighting::inTextures
+                     : light == "computed"  ? Lighting::computed
+                                            : Lighting::guess;
   return options;
 }
 

@@ -18,6 +18,7 @@
 #include "engine/base/task_runner.h"
 #include "engine/inspect/storeys.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/scene_scale.h"
 
 namespace acentric::cli {
 
@@ -122,8 +123,11 @@ class FrameMaker {
   Shows shows_ = Shows::captures;
 };
 
-/// As --up and --metres-per-unit say.
-ImportOptions importOptions(const std::string& up, double metresPerUnit);
+/// Null where there is no doubt.
+Json scaleJson(const std::optional<ScaleDoubt>& doubt);
+
+/// As --up, --metres-per-unit and --light say.
+ImportOptions importOptions(const std::string& up, double metresPerUnit, const std::string& light);
 
 /// Of a camera's capture.
 double pixelsOf(const OpenProject& open, const LayoutCamera& camera);

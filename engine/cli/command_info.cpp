@@ -95,6 +95,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   const double megapixels = megapixelsOf(*open);
   const glm::vec3 size = scene.bounds.size();
 
+  const auto doubt = doubtScale(*open->rays, open->project.import);
   Report report;
   Json bookmarks = Json::array(), paths = Json::array();
   for (const Bookmark& bookmark : open->project.bookmarks)
@@ -124,7 +125,9 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
         {"found", scene.report.found},
         {"dropped", scene.report.dropped},
         {"ignored", scene.report.ignored},
-        {"guessed", scene.report.guessed}}},
+        {"guessed", scene.report.guessed},
+        {"metresPerUnit", scene.report.metresPerUnit},
+        {"scaleInDoubt", scaleJson(doubt)}}},
       {"effects", effectsJson(open->plan, costs)},
       {"layout",
        {{"configuration", nameOf(layout.spec.configuration)},
@@ -160,6 +163,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
        {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
         std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})
     for (const std::string& line : *lines) report.text += fmt::format("{:<8} {}\n", label, line);
+  if (doubt) report.text += fmt::format("{:<8} {}\n", "scale", doubt->text);
   report.text += effectsText(open->plan, costs);
 
   if (options.regions) {

@@ -50,7 +50,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   choices.eyeHeight = options.eyeHeight;
   choices.outline = options.outline;
   choices.samplesPerDegree = options.samplesPerDegree;
-  choices.import = importOptions(options.up, options.metresPerUnit);
+  choices.import = importOptions(options.up, options.metresPerUnit, options.light);
   choices.ignoreSides = options.ignoreSides;
   if (options.storey == "list") {
     StoreyOptions storeys;
@@ -94,6 +94,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
         spec.cellSize, storey.layout->regions.size(), storey.layout->cameras.size());
   }
+  const auto doubt = doubtScale(*open->rays, open->project.import);
   report.json = {{"project", options.output.string()},
                  {"model", model.json},
                  {"triangles", open->scene->triangleCount()},
@@ -101,11 +102,15 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
                  {"storeys", std::move(json)},
                  {"guessed", open->scene->report.guessed},
                  {"dropped", open->scene->report.dropped},
-                 {"ignored", open->scene->report.ignored}};
+                 {"ignored", open->scene->report.ignored},
+                 {"scaleInDoubt", scaleJson(doubt)}};
   for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
                                      std::pair{"dropped", &open->scene->report.dropped},
                                      std::pair{"ignored", &open->scene->report.ignored}})
     for (const std::string& line : *lines) report.text += fmt::format("  {}: {}\n", label, line);
+  if (doubt)
+    report.text +=
+        fmt::format("  scale in doubt: {} (--metres-per-unit {:g})\n", doubt->text, doubt->metresPerUnit);
   report.text += fmt::format("next: acentric bake {}\n", options.output.string());
   return report;
 }

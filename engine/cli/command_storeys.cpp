@@ -122,8 +122,9 @@ Result<Report> runStoreys(const StoreysOptions& options, const Common& common) {
     return fail(ErrorKind::invalidArgument,
                 "storeys are added to a project: make one with `acentric new` first", options.file.string());
   if (options.edits()) return editStoreys(options, storeys, common);
-  const auto found = findFileStoreys(options.file, importOptions(options.up, options.metresPerUnit), storeys,
-                                     common.host, common.progress, common.stop);
+  const auto found =
+      findFileStoreys(options.file, importOptions(options.up, options.metresPerUnit, options.light), storeys,
+                      common.host, common.progress, common.stop);
   if (!found) return tl::unexpected(found.error());
   return storeysReport(*found);
 }

@@ -15,7 +15,7 @@ namespace acentric::cli {
 
 struct NewOptions {
   std::filesystem::path scene, output;
-  std::string configuration = "b", outline = "auto", up = "guess";
+  std::string configuration = "b", outline = "auto", up = "guess", light = "guess";
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
   std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
   bool ignoreSides = false, force = false;
@@ -27,7 +27,7 @@ Report collectReport(const CollectedModel& collected);
 
 struct StoreysOptions {
   std::filesystem::path file;  ///< project or model
-  std::string up = "guess";
+  std::string up = "guess", light = "guess";
   double metresPerUnit = 0, eyeHeight = 1.6, stepHeight = 0.25, gridStep = 0, leastShare = 0.05,
          leastArea = 2;
   bool ignoreSides = false;

@@ -29,6 +29,12 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
+  c->add_option(
+       "--light", o.light,
+       "Where light comes from: in-textures (photographs and scans, shown as they are), computed, or "
+       "guess, which is said")
+      ->check(CLI::IsMember({"guess", "in-textures", "computed"}))
+      ->capture_default_str();
   c->add_option("--storey", o.storey,
                 "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
                 "(default: the one with most floor)");

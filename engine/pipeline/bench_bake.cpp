@@ -16,18 +16,18 @@ namespace acentric {
 namespace {
 
 /// What a set leaves on of the plan's effects.
-enum class Lighting { none, hardShadows, all };
+enum class BenchLight { none, hardShadows, all };
 
 /// One layer without pruning shows what the effects cost; the qualities are as a bake has them.
 struct Kind {
   const char* name;
-  Lighting light;
+  BenchLight light;
   std::optional<Quality> quality;
 };
 constexpr Kind kKinds[] = {
-    {"geometry", Lighting::none, {}},         {"one shadow ray", Lighting::hardShadows, {}},
-    {"all effects", Lighting::all, {}},       {"preview", Lighting::all, Quality::preview},
-    {"draft", Lighting::all, Quality::draft}, {"final", Lighting::all, Quality::full}};
+    {"geometry", BenchLight::none, {}},         {"one shadow ray", BenchLight::hardShadows, {}},
+    {"all effects", BenchLight::all, {}},       {"preview", BenchLight::all, Quality::preview},
+    {"draft", BenchLight::all, Quality::draft}, {"final", BenchLight::all, Quality::full}};
 constexpr std::size_t kGeometry = 0, kAllEffects = 2;
 
 /// The distance in two bytes instead of four.
@@ -38,15 +38,15 @@ double bytesWithBackground(const SampleCounts& samples) {
   return double(kCaptureSampleBytes) * double(samples.keptInAll() + samples.background);
 }
 
-EffectPlan planWith(const EffectPlan& plan, Lighting light) {
+EffectPlan planWith(const EffectPlan& plan, BenchLight light) {
   EffectPlan out = plan;
-  if (light == Lighting::all) return out;
+  if (light == BenchLight::all) return out;
   for (const Effect effect :
        {Effect::emission, Effect::directionalLights, Effect::pointLights, Effect::spotLights,
         Effect::areaLights, Effect::sky, Effect::hardShadows, Effect::softShadows, Effect::ambientOcclusion,
         Effect::diffuseInterreflection, Effect::mirrorReflection, Effect::transmission})
     out[effect].on = false;
-  if (light == Lighting::hardShadows) {
+  if (light == BenchLight::hardShadows) {
     out[Effect::directionalLights].on = plan.on(Effect::directionalLights);
     out[Effect::hardShadows].on = out.on(Effect::directionalLights);
   }
@@ -253,7 +253,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     const EffectPlan plan = planWith(open.plan, kind.light);
     const auto rays = RayScene::build(open.scene, plan);
     if (!rays) return tl::unexpected(rays.error());
-    if (kind.light == Lighting::none) {
+    if (kind.light == BenchLight::none) {
       const auto tracer = bench.traceAlone(**rays, runner);
       if (!tracer) return tl::unexpected(tracer.error());
       out.tracerSeconds = *tracer;
@@ -268,7 +268,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     if (!seconds) return tl::unexpected(seconds.error());
     set.seconds = *seconds;
     set.primaryShare = double(set.counts.rays.primary) / set.seconds / (out.firstRays / out.tracerSeconds);
-    if (kind.light == Lighting::none) {
+    if (kind.light == BenchLight::none) {
       BakeSettings everything = bench.settingsOf(Quality::full);
       everything.pruning = false;
       CaptureCounts met;
@@ -276,7 +276,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
         return tl::unexpected(counted.error());
       out.bytes.everySurface = bytesWithBackground(met.samples);
     }
-    if (kind.light == Lighting::hardShadows) {
+    if (kind.light == BenchLight::hardShadows) {
       const auto ringSeconds = bench.ringToFiles(**rays, runner, folder->path() / "ring");
       if (!ringSeconds) return tl::unexpected(ringSeconds.error());
       out.ringSeconds = *ringSeconds;

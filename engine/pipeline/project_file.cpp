@@ -35,6 +35,18 @@ const char* nameOf(UpAxis up) {
   return "guess";
 }
 
+const char* nameOf(Lighting lighting) {
+  switch (lighting) {
+    case Lighting::guess:
+      return "guess";
+    case Lighting::inTextures:
+      return "inTextures";
+    case Lighting::computed:
+      return "computed";
+  }
+  return "guess";
+}
+
 Json toJson(const glm::dvec2& point) { return Json::array({point.x, point.y}); }
 glm::dvec2 pointFrom(const Json& json) { return {json[0].get<double>(), json[1].get<double>()}; }
 
@@ -163,6 +175,10 @@ void readImport(const Json& json, ImportOptions& options) {
   read(json, "defaultLight", options.defaultLight);
   const std::string up = json.value("up", "guess");
   options.up = up == "y" ? UpAxis::y : up == "z" ? UpAxis::z : UpAxis::guess;
+  const std::string lighting = json.value("lighting", "guess");
+  options.lighting = lighting == "inTextures" ? Lighting::inTextures
+                     : lighting == "computed" ? Lighting::computed
+                                              : Lighting::guess;
 }
 
 void readView(const Json& json, Project& project) {
@@ -321,7 +337,8 @@ std::string formatProject(const Project& project) {
       {"import",
        {{"metresPerUnit", project.import.metresPerUnit},
         {"up", nameOf(project.import.up)},
-        {"defaultLight", project.import.defaultLight}}},
+        {"defaultLight", project.import.defaultLight},
+        {"lighting", nameOf(project.import.lighting)}}},
       {"effects", std::move(effects)},
       {"storeys", std::move(storeys)},
       {"storey", project.storeys[std::size_t(project.storey)].name},

@@ -7,6 +7,9 @@
 
 #include "engine/scene/default_light.h"
 #include "engine/scene/mesh_cleaning.h"
+#include "engine/scene/project_origin.h"
+#include "engine/scene/texture_light.h"
+#include "engine/scene/up_axis_guess.h"
 
 namespace acentric {
 namespace {
@@ -57,11 +60,19 @@ double chooseUnit(const SourceScene& source, const ImportOptions& options, doubl
   return unit;
 }
 
+/// The meshes are in the file's axes.
 UpAxis chooseUp(const SourceScene& source, const ImportOptions& options, ReportLines& guessed) {
   if (options.up != UpAxis::guess) return options.up;
   if (source.up != UpAxis::guess) {
     guessed.add(fmt::format("up axis: {} ({})", source.up == UpAxis::y ? "Y" : "Z", source.upSource));
     return source.up;
+  }
+  if (const auto times = levelAlongZ(source.meshes)) {
+    guessed.add(
+        fmt::format("up axis: Z (the file states none; {:.1f} times as much of its surfaces is level with Z "
+                    "up as with Y up)",
+                    *times));
+    return UpAxis::z;
   }
   guessed.add("up axis: Y (the file states none)");
   return UpAxis::y;
@@ -75,21 +86,6 @@ glm::dmat4 metresZUp(double metresPerUnit, UpAxis up) {
   }
   out[3] = glm::dvec4(0, 0, 0, 1);
   return out;
-}
-
-/// Floats keep 24 bits: far from zero they lose the millimetres, or of a small scene its details. Whole
-/// metres (of small scenes: halves, quarters ...) keep the origin exact in any format.
-glm::dvec3 chooseOrigin(const Box& box) {
-  const glm::dvec3 centre = 0.5 * (box.min + box.max);
-  const double distance = glm::length(centre);
-  const double reach = 0.5 * box.diagonal();
-  const bool far = distance > 10000;
-  const bool coarse =
-      distance > 4 * reach && (distance + reach > 1000 ||  // a float's step is above 0.06 mm there
-                               distance > 1000 * reach);   // or above an 8000th of the scene
-  if (!far && !coarse) return glm::dvec3(0);
-  const double step = reach > 0 ? std::min(1.0, std::exp2(std::floor(std::log2(reach)))) : 1;
-  return glm::round(centre / step) * step;
 }
 
 void reportDropped(const CleaningCounts& counts, ImportReport& report) {
@@ -141,7 +137,7 @@ class Finisher {
       applyTransform(mesh, world);
       box.add(mesh);
     }
-    scene_.origin = chooseOrigin(box);
+    scene_.origin = projectOriginFor(box.min, box.max);
     if (scene_.origin != glm::dvec3(0))
       source_.guessed.add(fmt::format("project origin: moved to ({}, {}, {}) m, near the scene",
                                       scene_.origin.x, scene_.origin.y, scene_.origin.z));
@@ -180,7 +176,8 @@ class Finisher {
     scene_.images = std::move(source_.images);
     scene_.bounds = boundsOf(scene_);
     const std::size_t ownLights = scene_.lights.size();
-    addDefaultLight(scene_, options_.defaultLight, source_.guessed);
+    if (!applyLighting(scene_, options_.lighting, source_.guessed))
+      addDefaultLight(scene_, options_.defaultLight, source_.guessed);
     if (counts_.normalsMade > 0)
       source_.guessed.add(fmt::format("normals: {} without any are shaded flat",
                                       counted(counts_.normalsMade, "mesh", "meshes")));
@@ -198,6 +195,7 @@ class Finisher {
     report.found.push_back(
         fmt::format("{0:.{3}f} x {1:.{3}f} x {2:.{3}f} m (x, y, z up)", size.x, size.y, size.z, decimals));
     reportDropped(counts_, report);
+    report.metresPerUnit = metresPerUnit_;
     report.ignored = source_.ignored.take();
     report.guessed = source_.guessed.take();
     scene_.parts = partsOf(scene_);

@@ -18,10 +18,19 @@ namespace acentric {
 
 enum class UpAxis : std::uint8_t { guess, y, z };
 
+/// Where the light on surfaces comes from.
+enum class Lighting : std::uint8_t {
+  guess,
+  inTextures,  ///< colours are shown as they are, as of a photographed or scanned place: no lamp, no shadow
+  computed     ///< also for materials that the file declares unlit
+};
+
 struct ImportOptions {
   double metresPerUnit = 0;   ///< 0 = guess (glTF: 1; others: by the file's unit, else by size)
-  UpAxis up = UpAxis::guess;  ///< glTF: Y; others: by the file, else Y
+  UpAxis up = UpAxis::guess;  ///< glTF: Y; others: by the file, else by level surfaces (up_axis_guess.h)
   bool defaultLight = true;   ///< add a sun and sky when the file has no light
+  /// Guess: by the file's unlit materials, else by what textures and meshes look like (texture_light.h).
+  Lighting lighting = Lighting::guess;
 
   Status check() const;
   void addTo(Hasher& hasher) const;

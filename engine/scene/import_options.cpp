@@ -13,11 +13,13 @@ Status ImportOptions::check() const {
                             metresPerUnit));
   if (up != UpAxis::guess && up != UpAxis::y && up != UpAxis::z)
     return fail(ErrorKind::invalidArgument, "the up axis must be guess, y or z");
+  if (lighting != Lighting::guess && lighting != Lighting::inTextures && lighting != Lighting::computed)
+    return fail(ErrorKind::invalidArgument, "lighting must be guess, inTextures or computed");
   return {};
 }
 
 void ImportOptions::addTo(Hasher& hasher) const {
-  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight));
+  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight)).value(lighting);
 }
 
 }  // namespace acentric

@@ -26,7 +26,8 @@ ErrorKind kindNamed(const std::string& name) {
 std::string optionsToJson(const ImportOptions& options) {
   return jsonText<json>({{"metresPerUnit", options.metresPerUnit},
                          {"up", int(options.up)},
-                         {"defaultLight", options.defaultLight}});
+                         {"defaultLight", options.defaultLight},
+                         {"lighting", int(options.lighting)}});
 }
 
 Result<ImportOptions> optionsFromJson(const std::string& text) {
@@ -38,6 +39,7 @@ Result<ImportOptions> optionsFromJson(const std::string& text) {
     options.metresPerUnit = value.at("metresPerUnit").get<double>();
     options.up = static_cast<UpAxis>(value.at("up").get<std::uint8_t>());
     options.defaultLight = value.at("defaultLight").get<bool>();
+    options.lighting = static_cast<Lighting>(value.at("lighting").get<std::uint8_t>());
     if (auto status = options.check(); !status) return tl::unexpected(status.error());
     return options;
   } catch (const json::exception& error) {

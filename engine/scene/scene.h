@@ -103,6 +103,7 @@ struct ImportReport {
   std::vector<std::string> ignored;  ///< "extension KHR_materials_specular"
   std::vector<std::string>
       guessed;  ///< "unit: metres (glTF)", "up axis: Y (glTF)", "no lights: a sun and sky were added"
+  double metresPerUnit = 1;  ///< what the file's lengths were taken times
 };
 
 /// What a scene's key is made of.

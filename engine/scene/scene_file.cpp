@@ -4,6 +4,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 
@@ -231,6 +232,7 @@ void write(ByteWriter& out, const Scene& scene) {
   for (const auto* lines :
        {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
     writeAll(out, *lines);
+  out.value(scene.report.metresPerUnit);
 }
 
 void read(ByteReader& in, Scene& scene) {
@@ -251,6 +253,7 @@ void read(ByteReader& in, Scene& scene) {
   for (auto* lines :
        {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
     readAll(in, *lines);
+  in.value(scene.report.metresPerUnit);
 }
 
 /// What the Scene type promises, for a file whose checksum may have been forged.
@@ -278,6 +281,7 @@ bool keepsPromises(const Scene& scene) {
     for (const glm::uvec3& t : m.triangles)
       if (std::max({t.x, t.y, t.z}) >= n) return false;
   }
+  if (!(scene.report.metresPerUnit > 0 && std::isfinite(scene.report.metresPerUnit))) return false;
   return scene.triangleCount() <= std::numeric_limits<std::uint32_t>::max();
 }
 

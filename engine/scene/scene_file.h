@@ -12,7 +12,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSceneFileVersion = 3;
+inline constexpr std::uint32_t kSceneFileVersion = 4;
 
 struct SceneFile {
   Scene scene;

@@ -87,6 +87,26 @@ TEST(Problems, RegionsOverTheBudgetAreShownAndCanBeSplitOrFitted) {
   }
 }
 
+TEST(Problems, AScaleInDoubtIsAskedAboutOnceAndChangedWithTheLayout) {
+  ProblemFacts facts = sound();
+  change(facts.inspection, [](Inspection& inspection) {
+    inspection.scale = ScaleDoubt{0.15, 0.15, "As the model is scaled now, its storeys are 20 m high"};
+  });
+  const Problem problem = only(facts);
+  EXPECT_EQ(problem.severity, Severity::warning);
+  EXPECT_TRUE(says(problem, "its storeys are 20 m high. If it is right, enter 1 metres per unit"))
+      << problem.text;
+  EXPECT_EQ(problem.place.section, "Scene");
+  ASSERT_TRUE(problem.fix.has_value());
+  EXPECT_EQ(problem.fix->label, "Scale to 0.15");
+  const Project& project = facts.built->project;
+  const Edit edit = changeScale(project, *facts.built->scene, *problem.fix);
+  EXPECT_EQ(edit.project.import.metresPerUnit, 0.15);
+  EXPECT_NEAR(edit.project.layout().outline.area(), 0.15 * 0.15 * project.layout().outline.area(), 1e-9);
+  change(facts.built, [](OpenProject& open) { open.project.import.metresPerUnit = 1; });
+  EXPECT_TRUE(findProblems(facts).empty()) << "answered";
+}
+
 TEST(Problems, ManyOfAKindAreSummedUp) {
   ProblemFacts facts = sound();
   change(facts.built, [](OpenProject& open) {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 Project everythingSet() {
   Project project;
   project.scene = "models/house with spaces.glb";
-  project.import = {0.01, UpAxis::z, false};
+  project.import = {0.01, UpAxis::z, false, Lighting::inTextures};
   project.effects = {{Effect::ambientOcclusion, false}, {Effect::normalMaps, true}};
   project.layout().configuration = Configuration::e;
   project.layout().cellSize = 1.7000000000000002;

@@ -45,7 +45,7 @@ TEST(SchemaCheck, SaysWhereAndWhatWouldBeRight) {
       {"/bake", Json::object({{"maxLayers", 2.5}}), "/bake/maxLayers: must be a whole number, not 2.5"},
       {"/bake", Json::object({{"pruning", 1}}), "/bake/pruning: must be true or false, not 1"},
       {"/import", Json::object({{"unit", 1}}),
-       "/import: has \"unit\", which is none of the fields here: metresPerUnit, up, defaultLight"},
+       "/import: has \"unit\", which is none of the fields here: metresPerUnit, up, defaultLight, lighting"},
       {"/layout", Json::object({{"configuration", "b"}, {"cellSize", 1}}),
        "/: must have just one of \"storeys\" and \"layout\""},
   };

@@ -69,6 +69,31 @@ TEST_F(ModelFormats, AbsurdSizesAreTakenAsCentimetresOrMillimetres) {
   EXPECT_NEAR(parsed("told.obj", boxOf(3000), {0.125, UpAxis::guess, true}).bounds.size().x, 375, 1e-3);
 }
 
+/// A house of two storeys, 12 x 9 m and 6 m high, as a box with a floor between; `up` is 1 for Y, 2 for Z.
+std::string houseObj(int up) {
+  std::string text;
+  for (const double height : {0.0, 3.0, 6.0})
+    for (const auto& [along, across] : {std::pair{0, 0}, {12, 0}, {12, 9}, {0, 9}})
+      text += up == 2 ? fmt::format("v {} {} {}\n", along, across, height)
+                      : fmt::format("v {} {} {}\n", along, height, -across);
+  for (const char* floor : {"f 1 2 3 4\n", "f 5 6 7 8\n", "f 9 10 11 12\n"}) text += floor;
+  for (int side = 1; side <= 4; ++side)
+    text += fmt::format("f {} {} {} {}\n", side, side % 4 + 1, side % 4 + 9, side + 8);
+  return text;
+}
+
+TEST_F(ModelFormats, TheUpAxisIsTheOneThatLevelSurfacesFace) {
+  const Scene zUp = parsed("z.obj", houseObj(2));
+  EXPECT_TRUE(mentions(zUp.report.guessed, "up axis: Z (the file states none; 2.2 times as much"));
+  EXPECT_LT(glm::distance(zUp.bounds.size(), glm::vec3(12, 9, 6)), 1e-4f);
+  const Scene yUp = parsed("y.obj", houseObj(1));
+  EXPECT_TRUE(mentions(yUp.report.guessed, "up axis: Y (the file states none)"));
+  EXPECT_LT(glm::distance(yUp.bounds.size(), glm::vec3(12, 9, 6)), 1e-4f);
+  EXPECT_LT(
+      glm::distance(parsed("told.obj", houseObj(2), {0, UpAxis::y, true}).bounds.size(), glm::vec3(12, 6, 9)),
+      1e-4f);
+}
+
 TEST_F(ModelFormats, StlAndPlyAndOffAreRead) {
   const Scene stl = parsed("a.stl",
                            "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
