@@ -4,12 +4,6 @@
 #include <limits>
 
 namespace acentric {
-namespace {
-
-/// Of a sample's footprint: what lies nearer behind it than this is still the same surface.
-constexpr double kSameDepth = 0.5;
-
-}  // namespace
 
 ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
     : setting_(setting),

@@ -30,6 +30,24 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
   return sight;
 }
 
+RegionSight RegionSight::untraced(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
+                                  const BakeSettings& settings) {
+  RegionSight sight;
+  sight.scene_ = &scene;
+  const Role* former = nullptr;
+  for (const Role& role : camera.roles) {
+    if (former == nullptr || former->region != role.region) {
+      sight.eyes_.emplace_back();
+      for (const glm::dvec3& eye : testEyes(role.polygon, eyeZ, settings))
+        sight.eyes_.back().push_back(EyeView::untraced(eye));
+      sight.skies_.emplace_back();
+    }
+    sight.region_.push_back(sight.eyes_.size() - 1);
+    former = &role;
+  }
+  return sight;
+}
+
 RegionSight RegionSight::withEyes(int count, const LayoutCamera& camera, double eyeZ,
                                   BakeSettings settings) const {
   RegionSight more = *this;

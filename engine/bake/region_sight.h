@@ -13,12 +13,19 @@
 
 namespace acentric {
 
+/// Of a sample's footprint: what lies nearer behind it than this is still the same surface.
+inline constexpr double kSameDepth = 0.5;
+
 class RegionSight {
  public:
   /// Nothing when stopped.
   static std::optional<RegionSight> look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
                                          const BakeSettings& settings, EyeViews& views, RegionSkies& skies,
                                          TaskRunner& runner, RayCounts& rays, const std::stop_token& stop);
+
+  /// The same answers without maps, by rays alone; the sky is seen nowhere. At once.
+  static RegionSight untraced(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
+                              const BakeSettings& settings);
 
   /// With more eyes, without maps: `count` a region. `camera` and `eyeZ` as before.
   RegionSight withEyes(int count, const LayoutCamera& camera, double eyeZ, BakeSettings settings) const;

@@ -11,8 +11,6 @@ namespace {
 
 /// Directions that one task asks about.
 constexpr std::size_t kBatch = 64;
-/// Of a region, for the search: the eyes asked in one direction.
-constexpr int kSearchEyes = 64;
 /// Regions that are remembered: those of cameras near by.
 constexpr std::size_t kKept = 64;
 
@@ -93,7 +91,7 @@ std::shared_ptr<const RegionSky> RegionSkies::at(const ConvexPolygon& region, do
                                                  TaskRunner& runner, RayCounts& rays,
                                                  const std::stop_token& stop) {
   BakeSettings search = settings_;
-  search.testEyes = kSearchEyes;
+  search.testEyes = kSkyEyes;
   std::vector<glm::dvec3> eyes = testEyes(region, eyeZ, search);
   if (const auto known = std::ranges::find(kept_, eyes, &Kept::eyes); known != kept_.end()) {
     std::rotate(known, known + 1, kept_.end());

@@ -16,6 +16,9 @@
 
 namespace acentric {
 
+/// Of a region, that are asked for the sky.
+inline constexpr int kSkyEyes = 64;
+
 class RegionSky {
  public:
   /// `views`: of the region's test eyes, one at least, all of one lattice and of the same elevations; `eyes`:

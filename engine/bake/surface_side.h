@@ -16,7 +16,9 @@ class MetSurface {
  public:
   /// The hit lies at `point`; `direction` is the ray's (unit).
   MetSurface(const Hit& hit, const glm::dvec3& point, const glm::vec3& direction)
-      : point_(point), toViewer_(-direction), normal_(hit.geometricNormal()) {
+      : MetSurface(hit.geometricNormal(), point, direction) {}
+  MetSurface(const glm::vec3& normal, const glm::dvec3& point, const glm::vec3& direction)
+      : point_(point), toViewer_(-direction), normal_(normal) {
     fromWithin_ = glm::dot(normal_, direction) > 0;
     if (fromWithin_) normal_ = -normal_;
   }

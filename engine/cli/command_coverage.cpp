@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kSurfaceSize = "960x540";
 constexpr const char* kFrameSize = "640x360";
+constexpr const char* kLookSize = "320x180";
 
 struct PlanBox {
   glm::dvec2 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
@@ -289,10 +290,18 @@ Json toJson(const Correlation& correlation) {
 }
 
 Result<Report> correlation(const CoverageOptions& options, const Common& common) {
-  auto walk = openAlong(options.project, options.path, options.size.empty() ? kFrameSize : options.size, 0,
+  const bool random = options.path.empty();
+  const std::string usual = random ? kLookSize : kFrameSize;
+  auto walk = openAlong(options.project, options.path, options.size.empty() ? usual : options.size, 0,
                         kTourFrames, common, Along::oneStorey);
   if (!walk) return tl::unexpected(walk.error());
-  const auto views = evenly(walk->views, options.frames);
+  auto views = evenly(walk->views, options.frames);
+  if (random) {
+    auto looks = randomLooks(walk->storeys.front(), options.frames > 0 ? options.frames : kTourFrames,
+                             walk->size.width, walk->size.height);
+    if (!looks) return tl::unexpected(looks.error());
+    views = std::move(*looks);
+  }
   const auto runner = common.runner();
   auto maker = FrameMaker::create(walk->storeys, options.renderer, common, *runner);
   if (!maker) return tl::unexpected(maker.error());
@@ -325,6 +334,7 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
   Report report;
   report.json = {{"project", options.project.string()},
                  {"renderer", options.renderer},
+                 {"eyes", result->eyes},
                  {"width", walk->size.width},
                  {"height", walk->size.height},
                  {"missed", toJson(result->missed)},
@@ -337,8 +347,9 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
                        c.pearson, c.spearman);
   };
   report.text =
-      fmt::format("{} frames of {}x{}, renderer {}: holes measured, mean {:.4f} %; foretold as\n", n,
-                  walk->size.width, walk->size.height, options.renderer, 100 * measured / n) +
+      fmt::format(
+          "{} frames of {}x{} from {} eyes, renderer {}: holes measured, mean {:.4f} %; foretold as\n", n,
+          walk->size.width, walk->size.height, result->eyes, options.renderer, 100 * measured / n) +
       line("missed", missed, result->missed) + line("open", open, result->open) +
       line("expected", expected, result->expected) +
       fmt::format(

@@ -75,7 +75,7 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
   c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
   c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
   c->add_flag("--correlate", o.correlate,
-              "Along a path, compare predicted holes with those of rendered frames (needs a bake)");
+              "Compare predicted holes with those of rendered frames, eye by eye (needs a bake)");
   c->add_option("--points", o.points, "Points on the surfaces")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
@@ -88,10 +88,15 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
   c->add_option("--reach", o.reach, "In the plan, only cameras within so many metres (0 = any distance)")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
-  c->add_option("--path", o.path, "Camera path (JSON; default: a tour)");
-  c->add_option("--frames", o.frames, "Frames of the path that are compared, evenly chosen (0 = all)")
+  c->add_option("--path", o.path, "Camera path (JSON; default: random eyes)");
+  c->add_option(
+       "--frames", o.frames,
+       "Frames of the path that are compared, evenly chosen (0 = all); without a path: random eyes, each "
+       "of which looks all round in six frames")
       ->capture_default_str();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360)");
+  c->add_option("--size", o.size,
+                "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360; "
+                "320x180 without a path)");
   c->add_option("--renderer", o.renderer, "Renderer of compared frames")
       ->check(CLI::IsMember(rendererNames()))
       ->capture_default_str();

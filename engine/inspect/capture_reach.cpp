@@ -30,19 +30,26 @@ bool hidden(const OpaqueTracer& tracer, const glm::dvec3& from, const glm::dvec3
 
 /// A ray from a centre of projection, and where it leaves the served regions on its way.
 struct CaptureReach::Way {
+  struct Exit {
+    double horizontal = 0;  ///< metres
+    std::size_t role = 0;
+  };
   glm::dvec3 origin{0}, direction{0};
-  double flat = 1;            ///< horizontal metres per metre of ray
-  std::vector<double> exits;  ///< horizontal distances, sorted, up to the place asked for
+  double flat = 1;          ///< horizontal metres per metre of ray
+  std::vector<Exit> exits;  ///< sorted, up to the place asked for
+
+  glm::dvec3 at(double distance) const { return origin + distance * direction; }
 };
 
 CaptureReach::CaptureReach(const Layout& layout, std::vector<ColumnCamera> columns, int maxLayers,
-                           const OpaqueTracer& tracer)
-    : layout_(layout), columns_(std::move(columns)), maxLayers_(maxLayers), tracer_(tracer) {
+                           const OpaqueTracer& tracer, const CaptureSight* sight)
+    : layout_(layout), columns_(std::move(columns)), maxLayers_(maxLayers), tracer_(tracer), sight_(sight) {
   require(columns_.size() == layout.cameras.size(), "every camera of the layout has its columns");
 }
 
 /// False where the camera has no ray, or its ray reaches `horizontal` metres before it left any region.
-bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizontal, Way& way) const {
+bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizontal, int role,
+                         Way& way) const {
   const ColumnCamera& columns = columns_[std::size_t(camera)];
   way.origin = columns.centreOfProjection;
   way.direction = direction;
@@ -51,42 +58,87 @@ bool CaptureReach::wayTo(int camera, const glm::dvec3& direction, double horizon
   const double elevation = std::atan2(direction.z, way.flat);
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
   const LayoutCamera& served = layout_.cameras[std::size_t(camera)];
-  for (const Role& role : served.roles) {
-    const double exit = exitDistance(served, role, glm::dvec2(direction) / way.flat);
-    if (exit <= horizontal * (1 + kBorderSlack)) way.exits.push_back(exit);
+  const std::uint8_t wanted = roleBit(served, role);
+  for (std::size_t r = 0; r < served.roles.size(); ++r) {
+    if ((roleBit(served, int(r)) & wanted) == 0) continue;
+    const double exit = exitDistance(served, served.roles[r], glm::dvec2(direction) / way.flat);
+    if (exit <= horizontal * (1 + kBorderSlack)) way.exits.push_back({exit, r});
   }
-  std::ranges::sort(way.exits);
+  std::ranges::sort(way.exits, {}, &Way::Exit::horizontal);
   return !way.exits.empty();
 }
 
 /// Are the layers of the bake's march used up before it comes to `distance` metres along the ray? Of the
 /// roles that need the place, the one left last has the fewest surfaces in front of it.
 bool CaptureReach::endsBefore(const Way& way, double distance) const {
-  double from = way.exits.back() / way.flat;
+  double from = way.exits.back().horizontal / way.flat;
   for (int layers = 0;;) {
     const OpaqueHit hit = tracer_.trace(way.origin, way.direction, from, distance);
     if (!hit.found()) return false;
     if (++layers >= maxLayers_) return true;
-    from = hit.distance * (1 + kSameSurface) + roundingAt(way.origin + hit.distance * way.direction);
+    from = hit.distance * (1 + kSameSurface) + roundingAt(way.at(hit.distance));
   }
 }
 
-bool CaptureReach::holds(int camera, const glm::dvec3& point) const {
+/// Does the march for a role, from where its grown region ends, keep the surface at `distance`, or one so
+/// little before it that it passes for it?
+bool CaptureReach::keptFor(int camera, std::size_t role, const Way& way, double from, double distance) const {
+  const Role& served = layout_.cameras[std::size_t(camera)].roles[role];
+  const double rounding = roundingAt(way.at(distance));
+  const double nearest = distance * (1 - kSameSurface) - rounding;
+  const double farthest = distance * (1 + kSameSurface) + rounding;
+  std::vector<OpaqueHit> before;
+  OpaqueHit own{distance, -way.direction};
+  for (double at = from;;) {
+    const OpaqueHit hit = tracer_.trace(way.origin, way.direction, at, farthest);
+    if (!hit.found()) break;
+    if (hit.distance >= nearest) {
+      own = hit;
+      break;
+    }
+    before.push_back(hit);
+    at = hit.distance * (1 + kSameSurface) + roundingAt(way.at(hit.distance));
+  }
+  const auto kept = [&](const OpaqueHit& hit) {
+    const glm::dvec3 point = way.at(hit.distance);
+    return (!served.clip || served.clip->holds(glm::dvec2(point))) &&
+           sight_->keeps(camera, role, point, hit, way.direction);
+  };
+  const double near = distance * (1 - sight_->rightBehind(camera));
+  const bool mayBeFull = int(before.size()) >= maxLayers_;
+  if (!mayBeFull && kept(own)) return true;
+  int layers = 0;
+  for (const OpaqueHit& hit : before) {
+    if ((!mayBeFull && hit.distance < near) || !kept(hit)) continue;
+    if (hit.distance >= near) return true;
+    if (++layers >= maxLayers_) return false;
+  }
+  return mayBeFull && kept(own);
+}
+
+bool CaptureReach::holds(int camera, const glm::dvec3& point, int role) const {
   const glm::dvec3 offset = point - columns_[std::size_t(camera)].centreOfProjection;
   const double distance = glm::length(offset);
   if (!(distance > 0)) return false;
   Way way;
-  if (!wayTo(camera, offset / distance, glm::length(glm::dvec2(offset)), way)) return false;
+  if (!wayTo(camera, offset / distance, glm::length(glm::dvec2(offset)), role, way)) return false;
+  if (sight_ != nullptr)
+    return std::ranges::any_of(way.exits, [&](const Way::Exit& exit) {
+      return keptFor(camera, exit.role, way, exit.horizontal / way.flat, distance);
+    });
   return !endsBefore(way, distance * (1 - kSameSurface) - roundingAt(point));
 }
 
-bool CaptureReach::holdsSky(int camera, const glm::dvec3& direction) const {
+bool CaptureReach::holdsSky(int camera, const glm::dvec3& direction, int role) const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double elevation = std::asin(std::clamp(direction.z, -1.0, 1.0));
   const ColumnCamera& columns = columns_[std::size_t(camera)];
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return true;
   Way way;
-  return wayTo(camera, direction, kInfinity, way) && !endsBefore(way, kInfinity);
+  if (!wayTo(camera, direction, kInfinity, role, way)) return false;
+  if (sight_ == nullptr) return !endsBefore(way, kInfinity);
+  return std::ranges::any_of(
+      way.exits, [&](const Way::Exit& exit) { return sight_->keepsSky(camera, exit.role, direction); });
 }
 
 std::vector<Cover> drawnCovers(const Layout& layout, int region) {
@@ -95,10 +147,9 @@ std::vector<Cover> drawnCovers(const Layout& layout, int region) {
   return covers;
 }
 
-int cameraAt(const Cover& cover, const glm::dvec2& place) {
-  for (const Piece& piece : cover.pieces)
-    if (piece.holds(place)) return piece.camera;
-  return -1;
+const Piece* pieceAt(const Cover& cover, const glm::dvec2& place) {
+  const auto found = std::ranges::find_if(cover.pieces, [&](const Piece& p) { return p.holds(place); });
+  return found == cover.pieces.end() ? nullptr : &*found;
 }
 
 }  // namespace acentric

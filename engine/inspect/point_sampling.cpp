@@ -35,7 +35,7 @@ std::set<int> candidates(const CaptureReach& reach, const SurfaceJudge& judge,
     const std::vector<Cover> covers =
         judge.options().everyCover ? drawnCovers(layout, int(r)) : region.covers;
     for (const Cover& cover : covers)
-      if (const int camera = cameraAt(cover, place); camera >= 0) cameras.insert(camera);
+      if (const Piece* piece = pieceAt(cover, place)) cameras.insert(piece->camera);
   }
   return cameras;
 }

@@ -89,15 +89,19 @@ SurfaceJudge::SurfaceJudge(const CaptureReach& reach, const SurfaceCoverageOptio
       if (!eyes_[r].empty()) covers_[r] = drawnCovers(reach.layout(), int(r));
 }
 
-/// Which cameras hold the point at hand: each is asked once, whichever regions it serves.
+/// Which cameras hold the point at hand: each is asked once for each of its roles.
 struct SurfaceJudge::Sampling {
-  std::vector<std::pair<int, bool>> asked;
+  struct Asked {
+    int camera, role;
+    bool holds;
+  };
+  std::vector<Asked> asked;
 
-  bool holds(const CaptureReach& reach, int camera, const glm::dvec3& point) {
-    for (const auto& [known, answer] : asked)
-      if (known == camera) return answer;
-    asked.emplace_back(camera, reach.holds(camera, point));
-    return asked.back().second;
+  bool holds(const CaptureReach& reach, const Piece& piece, const glm::dvec3& point) {
+    for (const Asked& known : asked)
+      if (known.camera == piece.camera && known.role == piece.role) return known.holds;
+    asked.push_back({piece.camera, piece.role, reach.holds(piece.camera, point, piece.role)});
+    return asked.back().holds;
   }
 };
 
@@ -114,8 +118,8 @@ PointCoverage SurfaceJudge::judge(const SurfacePoint& point) const {
   const glm::dvec2 place(point.position);
   Sampling sampling;
   const auto held = [&](const Cover& cover) {
-    const int camera = cameraAt(cover, place);
-    return camera >= 0 && sampling.holds(reach_, camera, point.position);
+    const Piece* piece = pieceAt(cover, place);
+    return piece != nullptr && sampling.holds(reach_, *piece, point.position);
   };
   glm::dvec3 nearestEye(0);
   double nearest = std::numeric_limits<double>::infinity();
@@ -150,7 +154,7 @@ PointCoverage SurfaceJudge::judge(const SurfacePoint& point) const {
   double best = -1;
   for (const Cover& cover : coversFor(std::size_t(out.nearestRegion), nearestEye, place)) {
     if (!held(cover)) continue;
-    const int camera = cameraAt(cover, place);
+    const int camera = pieceAt(cover, place)->camera;
     const RateAndNeed found =
         compareRates(samplesPerMetre(reach_.columns(camera), point.position, axes), pixels);
     if (!(found.ratio() > best)) continue;

@@ -76,10 +76,10 @@ class ViewJudge {
   double openAt(const glm::dvec3& point, const glm::dvec3& normal, bool& nothing) const {
     double open = 1;
     for (const Cover& cover : covers_) {
-      const int camera = cameraAt(cover, glm::dvec2(point));
-      if (camera < 0 || !reach_.holds(camera, point)) continue;
+      const Piece* piece = pieceAt(cover, glm::dvec2(point));
+      if (piece == nullptr || !reach_.holds(piece->camera, point, piece->role)) continue;
       nothing = false;
-      open *= openBetween(camera, point, normal);
+      open *= openBetween(piece->camera, point, normal);
     }
     return open;
   }
@@ -109,8 +109,8 @@ class ViewJudge {
     constexpr double kFarAway = 1e7;
     const glm::dvec2 place = glm::dvec2(view_.eye) + kFarAway * glm::normalize(plan);
     return std::ranges::any_of(covers_, [&](const Cover& cover) {
-      const int camera = cameraAt(cover, place);
-      return camera >= 0 && reach_.holdsSky(camera, direction);
+      const Piece* piece = pieceAt(cover, place);
+      return piece != nullptr && reach_.holdsSky(piece->camera, direction, piece->role);
     });
   }
 

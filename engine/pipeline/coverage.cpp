@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/region_sight.h"
 #include "engine/bake/shading.h"
 #include "engine/bake/surface.h"
+#include "engine/inspect/random_poses.h"
 #include "engine/measure/compare.h"
 #include "engine/measure/correlation.h"
 #include "engine/scene/surface_alpha.h"
@@ -56,6 +60,67 @@ class SceneTracer final : public OpaqueTracer {
   DetailRules detail_;
 };
 
+/// Asks RegionSight, by which the bake prunes. The eyes of a camera are placed when it is asked first.
+class BakeSight final : public CaptureSight {
+ public:
+  explicit BakeSight(const OpenProject& open)
+      : rays_(open.rays),
+        layout_(open.layout),
+        settings_(open.project.bake),
+        rowPitch_(radians(1.0) / settings_.samplesPerDegree),
+        sights_(std::make_unique<Lazy[]>(layout_->cameras.size())) {}
+
+  bool keeps(int camera, std::size_t role, const glm::dvec3& point, const OpaqueHit& hit,
+             const glm::dvec3& direction) const override {
+    const FlushDenormals flush;
+    const RegionSight& sight = sightOf(camera).toKeep;
+    RegionSight::Hints hints = sight.hints();
+    RayCounts rays;
+    const MetSurface surface(glm::vec3(hit.normal), point, glm::vec3(direction));
+    return sight.sees(role, surface, kSameDepth * rowPitch_ * hit.distance, hints, rays) != Side::none;
+  }
+  bool keepsSky(int camera, std::size_t role, const glm::dvec3& direction) const override {
+    const FlushDenormals flush;
+    const RegionSight& sight = sightOf(camera).ofSky;
+    RegionSight::Hints hints = sight.hints();
+    return sight.any(role, hints, [&](const EyeView& view) {
+      return !std::isfinite(rays_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
+    });
+  }
+  double rightBehind(int) const override { return std::max(kSameDepth * rowPitch_, kSameSurface); }
+
+ private:
+  struct Sights {
+    RegionSight toKeep, ofSky;
+  };
+  struct Lazy {
+    std::once_flag once;
+    std::unique_ptr<const Sights> sights;
+  };
+  const Sights& sightOf(int camera) const {
+    Lazy& lazy = sights_[std::size_t(camera)];
+    std::call_once(lazy.once, [&] {
+      const LayoutCamera& served = layout_->cameras[std::size_t(camera)];
+      BakeSettings ofSky = settings_;
+      ofSky.testEyes = kSkyEyes;
+      lazy.sights = std::make_unique<const Sights>(
+          Sights{RegionSight::untraced(*rays_, served, layout_->eyeZ(), settings_),
+                 RegionSight::untraced(*rays_, served, layout_->eyeZ(), ofSky)});
+    });
+    return *lazy.sights;
+  }
+
+  RayScenePtr rays_;
+  std::shared_ptr<const Layout> layout_;
+  BakeSettings settings_;
+  double rowPitch_;
+  std::unique_ptr<Lazy[]> sights_;
+};
+
+std::unique_ptr<CaptureSight> sightFor(const OpenProject& open) {
+  return open.project.bake.pruning ? std::make_unique<BakeSight>(open) : nullptr;
+}
+
 std::vector<ColumnCamera> columnsOf(const OpenProject& open) {
   std::vector<ColumnCamera> columns;
   for (const LayoutCamera& camera : open.layout->cameras)
@@ -75,9 +140,26 @@ void countPixels(const Frame& frame, const ViewHoles& holes, HoleSample& sample)
   }
 }
 
-Correlation correlationOf(const std::vector<HoleSample>& frames, double HoleSample::*predicted) {
+/// Means over the frames of each eye.
+std::vector<HoleSample> byEye(const std::vector<HoleSample>& frames) {
+  std::vector<HoleSample> eyes;
+  for (std::size_t first = 0, last = 0; first < frames.size(); first = last) {
+    HoleSample sum = frames[first];
+    for (last = first + 1; last < frames.size() && frames[last].view.eye == sum.view.eye; ++last) {
+      const HoleSample& frame = frames[last];
+      sum.missed += frame.missed, sum.open += frame.open;
+      sum.expected += frame.expected, sum.measured += frame.measured;
+    }
+    const double n = double(last - first);
+    sum.missed /= n, sum.open /= n, sum.expected /= n, sum.measured /= n;
+    eyes.push_back(sum);
+  }
+  return eyes;
+}
+
+Correlation correlationOf(const std::vector<HoleSample>& eyes, double HoleSample::*predicted) {
   std::vector<double> x, y;
-  for (const HoleSample& frame : frames) x.push_back(frame.*predicted), y.push_back(frame.measured);
+  for (const HoleSample& eye : eyes) x.push_back(eye.*predicted), y.push_back(eye.measured);
   return {pearson(x, y), spearman(x, y)};
 }
 
@@ -90,7 +172,8 @@ std::unique_ptr<OpaqueTracer> opaqueTracerFor(RayScenePtr rays) {
 ProjectReach::ProjectReach(const OpenProject& open)
     : layout_(open.layout),
       tracer_(opaqueTracerFor(open.rays)),
-      reach_(*layout_, columnsOf(open), open.project.bake.maxLayers, *tracer_) {}
+      sight_(sightFor(open)),
+      reach_(*layout_, columnsOf(open), open.project.bake.maxLayers, *tracer_, sight_.get()) {}
 
 ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings) {
   ViewHoleOptions options;
@@ -106,8 +189,31 @@ ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings) {
 SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int displayWidth) {
   SurfaceCoverageOptions options;
   options.everyCover = project.view.secondaryCover;
+  options.eyes.lower = options.eyes.higher = project.bake.eyeRange;
   options.focalPixels = 0.5 * displayWidth / std::tan(0.5 * radians(project.fovDegrees));
   return options;
+}
+
+Result<std::vector<PerspectiveView>> randomLooks(const OpenProject& open, int count, int width, int height) {
+  constexpr int kLooks = 6;
+  RandomPoseOptions options;
+  options.count = count;
+  const auto poses = randomPoses(standingAreaOf(*open.layout), options);
+  if (!poses) return tl::unexpected(poses.error());
+  std::vector<PerspectiveView> views;
+  for (const RandomPose& pose : *poses) {
+    PerspectiveView view;
+    // Pitches are as good as drawn for heights.
+    const double above = open.project.bake.eyeRange * pose.pitchRadians / options.mostPitch;
+    view.eye = {pose.place, open.layout->eyeZ() + above};
+    view.fovRadians = kTwoPi / kLooks;
+    view.width = width, view.height = height;
+    for (int k = 0; k < kLooks; ++k) {
+      view.yawRadians = pose.yawRadians + k * kTwoPi / kLooks;
+      views.push_back(view);
+    }
+  }
+  return views;
 }
 
 Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vector<PerspectiveView>& views,
@@ -131,9 +237,11 @@ Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vec
     countPixels(*frame, *holes, sample);
     out.frames.push_back(sample);
   }
-  out.missed = correlationOf(out.frames, &HoleSample::missed);
-  out.open = correlationOf(out.frames, &HoleSample::open);
-  out.expected = correlationOf(out.frames, &HoleSample::expected);
+  const std::vector<HoleSample> eyes = byEye(out.frames);
+  out.eyes = int(eyes.size());
+  out.missed = correlationOf(eyes, &HoleSample::missed);
+  out.open = correlationOf(eyes, &HoleSample::open);
+  out.expected = correlationOf(eyes, &HoleSample::expected);
   return out;
 }
 

@@ -15,6 +15,7 @@ namespace acentric {
 std::unique_ptr<OpaqueTracer> opaqueTracerFor(RayScenePtr rays);
 
 /// What the captures of a project would hold. Keeps what it refers to alive; immutable.
+/// Its pruning asks the bake's own test, from the bake's test eyes.
 class ProjectReach {
  public:
   explicit ProjectReach(const OpenProject& open);
@@ -23,6 +24,7 @@ class ProjectReach {
  private:
   std::shared_ptr<const Layout> layout_;
   std::unique_ptr<OpaqueTracer> tracer_;
+  std::unique_ptr<CaptureSight> sight_;  ///< null without pruning
   CaptureReach reach_;
 };
 
@@ -47,8 +49,15 @@ struct Correlation {
 
 struct HoleCorrelation {
   std::vector<HoleSample> frames;
-  Correlation missed, open, expected;  ///< each against `measured`
+  int eyes = 0;  ///< that frames in a row were made from
+  /// Each against `measured`, eye by eye: the frames that one eye looks through are taken together, since
+  /// single frames of a good capture have too few holes to compare.
+  Correlation missed, open, expected;
 };
+
+/// Views all round from places drawn at random where one may stand, six to a place, each 60 degrees wide, and
+/// within the bake's eye range: `count` places.
+Result<std::vector<PerspectiveView>> randomLooks(const OpenProject& open, int count, int width, int height);
 
 /// `render`: the frame of a view, with the project's captures.
 Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vector<PerspectiveView>& views,

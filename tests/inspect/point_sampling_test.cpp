@@ -63,7 +63,7 @@ TEST(PointSampling, NamesEveryCameraThatARegionWhichSeesThePointCouldShowItFromO
   std::set<int> expected, told;
   for (const std::uint32_t region : sampling.coverage.seenFrom)
     for (const Cover& cover : drawnCovers(world.layout, int(region)))
-      expected.insert(cameraAt(cover, glm::dvec2(point.position)));
+      expected.insert(pieceAt(cover, glm::dvec2(point.position))->camera);
   expected.erase(-1);
   bool held = true;
   for (const CameraSampling& camera : sampling.cameras) {

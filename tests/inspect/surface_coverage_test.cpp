@@ -19,15 +19,17 @@ using test::World;
 
 /// What the bake's march along the ray to a point would keep for some role: the first surfaces beyond its
 /// region.
-bool heldSlowly(const World& world, int camera, const glm::dvec3& point, int maxLayers) {
+bool heldSlowly(const World& world, int camera, const glm::dvec3& point, int maxLayers, int role = -1) {
   const ColumnCamera& columns = world.columns[std::size_t(camera)];
   const glm::dvec3 offset = point - columns.centreOfProjection, direction = glm::normalize(offset);
   const double flat = glm::length(glm::dvec2(direction)), distance = glm::length(offset);
   const double elevation = std::asin(direction.z);
   if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
-  for (const Role& role : world.layout.cameras[std::size_t(camera)].roles) {
+  const LayoutCamera& served = world.layout.cameras[std::size_t(camera)];
+  for (std::size_t r = 0; r < served.roles.size(); ++r) {
+    if ((roleBit(served, int(r)) & roleBit(served, role)) == 0) continue;
     const auto span =
-        role.grown.raySpan(glm::dvec2(columns.centreOfProjection), glm::dvec2(direction) / flat);
+        served.roles[r].grown.raySpan(glm::dvec2(columns.centreOfProjection), glm::dvec2(direction) / flat);
     double from = span ? span->second / flat : 0;
     for (int layer = 0; layer < maxLayers; ++layer) {
       const OpaqueHit hit = world.tracer.trace(columns.centreOfProjection, direction, from, 1e9);
@@ -57,6 +59,41 @@ TEST(CaptureReach, HoldsWhatTheMarchOfTheBakeWouldKeep) {
     EXPECT_GT(held, checked / 20);
     EXPECT_LT(held, checked * 19 / 20);
   }
+}
+
+/// Keeps what lies on one side of a plane across x.
+class KeepsBeyond final : public CaptureSight {
+ public:
+  explicit KeepsBeyond(double x) : x_(x) {}
+  bool keeps(int, std::size_t, const glm::dvec3& point, const OpaqueHit&, const glm::dvec3&) const override {
+    return point.x > x_;
+  }
+  bool keepsSky(int, std::size_t, const glm::dvec3&) const override { return false; }
+  double rightBehind(int) const override { return 2e-3; }
+
+ private:
+  double x_;
+};
+
+TEST(CaptureReach, SurfacesThatPruningDropsAreNotHeldAndUseUpNoLayers) {
+  const World world(
+      {{{-9, -9, -0.2}, {29, 9, 0}}, {{16, -9, 0}, {16.2, 9, 2.5}}, {{20, -9, 0}, {20.2, 9, 3}}},
+      Configuration::b);
+  const KeepsBeyond sight(18);
+  const CaptureReach all(world.layout, world.columns, 1, world.tracer);
+  const CaptureReach pruned(world.layout, world.columns, 1, world.tracer, &sight);
+  int cameras = 0;
+  for (std::size_t c = 0; c < world.columns.size(); ++c) {
+    const glm::dvec3& centre = world.columns[c].centreOfProjection;
+    const auto ahead = [&](double x) { return glm::dvec3(x, centre.y, centre.z); };
+    if (!all.holds(int(c), ahead(16))) continue;
+    ++cameras;
+    EXPECT_FALSE(pruned.holds(int(c), ahead(16))) << "no test eye sees it";
+    EXPECT_FALSE(all.holds(int(c), ahead(20))) << "the one layer is the screen's";
+    EXPECT_TRUE(pruned.holds(int(c), ahead(20))) << "the layer is still free";
+    EXPECT_FALSE(pruned.holdsSky(int(c), glm::normalize(glm::dvec3(-1, 0.1, 0.2))));
+  }
+  EXPECT_GT(cameras, 3);
 }
 
 TEST(CaptureReach, HoldsTheSkyWhereNothingIsBeyondTheRegions) {
@@ -186,7 +223,8 @@ TEST(SurfaceCoverage, AgreesWithAskingEveryRegionEyeAndCoverOneByOne) {
             const Hand facing = preferredHand(region, glm::dvec2(eye), std::atan2(way.y, way.x));
             if (!everyCover && region.covers.size() > 1 && cover.hand != facing) continue;
             for (const Piece& piece : cover.pieces)
-              held = held || (piece.holds(place) && heldSlowly(world, piece.camera, point.position, 1));
+              held = held ||
+                     (piece.holds(place) && heldSlowly(world, piece.camera, point.position, 1, piece.role));
           }
           if (!held) misses = true, ++eyesMissing;
         }
