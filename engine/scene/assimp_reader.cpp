@@ -25,12 +25,16 @@ namespace {
 /// Reads only what the model may name, and remembers it.
 class RecordingFiles : public Assimp::DefaultIOSystem {
  public:
-  explicit RecordingFiles(References& references) : references_(references) {}
+  RecordingFiles(References& references, ReportLines& ignored) : references_(references), ignored_(ignored) {}
 
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!references_.mayRead(file) || std::string_view(mode).find_first_of("wa+") != std::string_view::npos)
-      return nullptr;
+    if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
     std::error_code error;
+    if (!references_.mayRead(file)) {
+      if (std::filesystem::exists(file, error))
+        ignored_.add(fmt::format("file {}: {}", file, References::outside(file, {}).message));
+      return nullptr;
+    }
     if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
       return nullptr;
     references_.noteRead(file);
@@ -39,6 +43,7 @@ class RecordingFiles : public Assimp::DefaultIOSystem {
 
  private:
   References& references_;
+  ReportLines& ignored_;
 };
 
 glm::dmat4 matrixOf(const aiMatrix4x4& m) {
@@ -245,7 +250,7 @@ Result<SourceScene> readWithAssimp(const ReadContext& context) {
   if (!importer.IsExtensionSupported(extension))
     return fail(ErrorKind::unsupported,
                 fmt::format("has the extension '{}', which is not a model format that is read", extension));
-  importer.SetIOHandler(new RecordingFiles(context.references));  // the importer owns it
+  importer.SetIOHandler(new RecordingFiles(context.references, scene.ignored));  // the importer owns it
   // The up axis is ours to apply, so that the options can override it.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   double rootScale = 1;

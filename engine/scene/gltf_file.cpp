@@ -30,6 +30,7 @@ std::string oneLine(std::string text) {
 struct FileAccess {
   const ReadContext* context = nullptr;
   ReportLines* ignored = nullptr;
+  std::optional<Error> refused;  ///< the first file that may not be read
   std::map<std::string, std::size_t> bufferBytes;  ///< declared length by URI as tinygltf asks for it
 };
 
@@ -41,7 +42,10 @@ std::string nameOf(const std::string& asked) {
 bool fileExists(const std::string& asked, void* user) {
   FileAccess& access = *static_cast<FileAccess*>(user);
   const auto found = access.context->references.find(nameOf(asked));
-  if (!found) access.ignored->add(fmt::format("file {}: {}", nameOf(asked), found.error().message));
+  if (!found) {
+    access.ignored->add(fmt::format("file {}: {}", nameOf(asked), found.error().message));
+    if (found.error().kind == ErrorKind::unsupported && !access.refused) access.refused = found.error();
+  }
   return found.has_value();
 }
 
@@ -170,7 +174,7 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
   if (bytes->empty()) return malformed("is empty");
   const auto text = jsonOf(*bytes);
   if (!text) return tl::unexpected(text.error());
-  FileAccess access{&context, &ignored, {}};
+  FileAccess access{&context, &ignored, {}, {}};
   auto json = checkJson(text->json, access);
   if (!json) return tl::unexpected(json.error());
   const auto compression = takeCompression(*json, text->binary);
@@ -189,6 +193,7 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
                                                  reinterpret_cast<const unsigned char*>(bytes->data()), size)
                    : loader.LoadASCIIFromString(&model, &error, &warning,
                                                 reinterpret_cast<const char*>(bytes->data()), size, "");
+  if (!loaded && access.refused) return tl::unexpected(*access.refused);
   if (!loaded) return malformed(error.empty() ? "is not a sound glTF file" : oneLine(error));
   if (Status played = checkExtensions(model.extensionsRequired, model.extensionsUsed, ignored); !played)
     return played;

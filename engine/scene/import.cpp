@@ -1,9 +1,11 @@
 #include "engine/scene/import.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <optional>
 
 #include "engine/base/file.h"
 #include "engine/scene/import_process.h"
@@ -89,8 +91,38 @@ class Temporary {
   fs::path path_;
 };
 
+/// A folder that is nobody else's, for machines whose user has no cache: gone when the machine tidies up.
+std::optional<fs::path> temporaryCacheFolder() {
+  std::error_code error;
+  const fs::path folder =
+      fs::temp_directory_path(error) / fmt::format("acentric-{}", static_cast<unsigned>(::geteuid()));
+  if (error) return std::nullopt;
+  (void)::mkdir(folder.c_str(), 0700);
+  struct stat status {};
+  const bool own = ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+                   status.st_uid == ::geteuid() && (status.st_mode & 077) == 0;
+  if (!own || ::access(folder.c_str(), W_OK | X_OK) != 0) return std::nullopt;
+  return folder;
+}
+
+bool canBeWritten(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  return !error && ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+/// Without a home that can be written, imports are kept in a temporary folder.
 fs::path cacheFolderOf(const ImportHost& host) {
-  return host.cacheFolder.empty() ? userCacheFolder() / "scenes" : host.cacheFolder;
+  if (!host.cacheFolder.empty()) return host.cacheFolder;
+  const fs::path usual = userCacheFolder() / "scenes";
+  if (canBeWritten(usual)) return usual;
+  const auto temporary = temporaryCacheFolder();
+  return temporary ? *temporary / "scenes" : usual;
+}
+
+ImportOptions permitted(ImportOptions options, const ImportHost& host) {
+  options.outsideFiles = host.outsideFiles;
+  return options;
 }
 
 Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& options, const ImportHost& host,
@@ -102,8 +134,14 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
   const fs::path folder = cacheFolderOf(host);
   fs::create_directories(folder, error);
   if (error)
-    return fail(ErrorKind::unreadable, "the cache folder cannot be made: " + error.message(),
+    return fail(ErrorKind::unreadable,
+                "imports cannot be kept here: " + error.message() +
+                    "; set XDG_CACHE_HOME to a folder that can be written",
                 folder.string());
+  if (host.cacheFolder.empty() && folder != userCacheFolder() / "scenes" && progress)
+    progress({0, 0,
+              fmt::format("{} cannot be made: imports are kept in {}", (userCacheFolder() / "scenes").string(),
+                          folder.string())});
   removeStaleTemporaries(folder);
   if (progress) progress({0, 0, "looking in the cache"});
   const auto content = hashFile(path);
@@ -141,7 +179,7 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
 Result<ScenePtr> importScene(const fs::path& path, const ImportOptions& options, const ImportHost& host,
                              const Progress& progress, std::stop_token stop) {
   try {
-    return importUnguarded(path, options, host, progress, std::move(stop));
+    return importUnguarded(path, permitted(options, host), host, progress, std::move(stop));
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "the scene does not fit in memory", path.string());
   } catch (const std::exception& error) {
@@ -149,7 +187,8 @@ Result<ScenePtr> importScene(const fs::path& path, const ImportOptions& options,
   }
 }
 
-ScenePtr lastImported(const fs::path& asked, const ImportOptions& options, const ImportHost& host) {
+ScenePtr lastImported(const fs::path& asked, const ImportOptions& given, const ImportHost& host) {
+  const ImportOptions options = permitted(given, host);
   std::error_code error;
   const fs::path model = fs::weakly_canonical(asked, error);
   const fs::path folder = cacheFolderOf(host);
@@ -161,8 +200,8 @@ ScenePtr lastImported(const fs::path& asked, const ImportOptions& options, const
   return std::make_shared<const Scene>(std::move(file->scene));
 }
 
-std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& options,
-                                    const ImportHost& host) {
+std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& given, const ImportHost& host) {
+  const ImportOptions options = permitted(given, host);
   std::error_code error;
   const fs::path model = fs::weakly_canonical(asked, error);
   const auto content = hashFile(model);

@@ -31,6 +31,8 @@ struct ImportOptions {
   bool defaultLight = true;   ///< add a sun and sky when the file has no light
   /// Guess: by the file's unlit materials, else by what textures and meshes look like (texture_light.h).
   Lighting lighting = Lighting::guess;
+  /// Read files outside the model's own folder too. The host's to say (ImportHost), never a project file's.
+  bool outsideFiles = false;
 
   Status check() const;
   void addTo(Hasher& hasher) const;
@@ -44,6 +46,7 @@ struct ImportHost {
   double timeLimitSeconds = 120;
   std::size_t memoryLimitBytes = std::size_t(8) << 30;
   bool useCache = true;
+  bool outsideFiles = false;  ///< models may name files outside their own folder
 };
 
 Result<ScenePtr> importScene(const std::filesystem::path& path, const ImportOptions& options,

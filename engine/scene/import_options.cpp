@@ -19,7 +19,7 @@ Status ImportOptions::check() const {
 }
 
 void ImportOptions::addTo(Hasher& hasher) const {
-  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight)).value(lighting);
+  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight)).value(lighting).value(std::uint8_t(outsideFiles));
 }
 
 }  // namespace acentric

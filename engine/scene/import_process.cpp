@@ -173,7 +173,8 @@ Status runImporter(const fs::path& program, const fs::path& model, const ImportO
                    std::stop_token stop) {
   const std::string where = model.string();
   const auto child = spawn({program.string(), model.string(), optionsToJson(options), output.string(),
-                            std::to_string(host.memoryLimitBytes), std::to_string(host.timeLimitSeconds)});
+                            std::to_string(host.memoryLimitBytes), std::to_string(host.timeLimitSeconds),
+                            std::to_string(::getpid())});
   if (!child) return tl::unexpected(child.error());
   Listener listener(progress);
   const auto start = Clock::now();
@@ -182,7 +183,8 @@ Status runImporter(const fs::path& program, const fs::path& model, const ImportO
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the import was cancelled", where);
     if (std::chrono::duration<double>(Clock::now() - start).count() > host.timeLimitSeconds)
       return fail(ErrorKind::timeout,
-                  fmt::format("reading it took longer than the limit of {:g} s; the file is probably damaged",
+                  fmt::format("reading it took longer than the limit of {:g} s: give it more time with "
+                              "--import-seconds, or simplify or split the model",
                               host.timeLimitSeconds),
                   where);
     if ((*child)->residentBytes() > host.memoryLimitBytes) return tooMuchMemory(host, where);

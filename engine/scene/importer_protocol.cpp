@@ -27,7 +27,8 @@ std::string optionsToJson(const ImportOptions& options) {
   return jsonText<json>({{"metresPerUnit", options.metresPerUnit},
                          {"up", int(options.up)},
                          {"defaultLight", options.defaultLight},
-                         {"lighting", int(options.lighting)}});
+                         {"lighting", int(options.lighting)},
+                         {"outsideFiles", options.outsideFiles}});
 }
 
 Result<ImportOptions> optionsFromJson(const std::string& text) {
@@ -40,6 +41,7 @@ Result<ImportOptions> optionsFromJson(const std::string& text) {
     options.up = static_cast<UpAxis>(value.at("up").get<std::uint8_t>());
     options.defaultLight = value.at("defaultLight").get<bool>();
     options.lighting = static_cast<Lighting>(value.at("lighting").get<std::uint8_t>());
+    options.outsideFiles = value.at("outsideFiles").get<bool>();
     if (auto status = options.check(); !status) return tl::unexpected(status.error());
     return options;
   } catch (const json::exception& error) {

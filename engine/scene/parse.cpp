@@ -35,7 +35,7 @@ Result<SceneFile> parseUnguarded(const std::filesystem::path& path, const Import
     return fail(ErrorKind::unreadable, "is not a regular file");
   if (std::filesystem::file_size(path, error) == 0) return fail(ErrorKind::malformed, "is empty");
 
-  References references(path);
+  References references(path, options.outsideFiles);
   const ReadContext context{path, references, progress};
   auto source = isGltf(path) ? readGltf(context) : readWithAssimp(context);
   if (!source) return tl::unexpected(source.error());

@@ -60,7 +60,7 @@ bool isRegular(const fs::path& path) {
 
 }  // namespace
 
-References::References(const fs::path& model) {
+References::References(const fs::path& model, bool allowOutside) : allowOutside_(allowOutside) {
   std::error_code error;
   model_ = fs::weakly_canonical(fs::absolute(model, error), error);
   folder_ = model_.parent_path();
@@ -73,12 +73,20 @@ std::string References::keyFor(const fs::path& path) const {
 }
 
 bool References::mayRead(const fs::path& path) const {
+  if (allowOutside_) return true;
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(path, error);
-  if (error) return false;
-  // A model in the root folder or just below it must not open up the whole disk.
-  const fs::path parent = folder_.parent_path();
-  return isBelow(canonical, folder_) || (parent.has_relative_path() && isBelow(canonical, parent));
+  return !error && isBelow(canonical, folder_);
+}
+
+Error References::outside(const fs::path& path, std::string named) {
+  std::error_code error;
+  const fs::path leads = fs::weakly_canonical(path, error);
+  return {ErrorKind::unsupported,
+          fmt::format("lies outside the model's folder ({}) and is not read; bring it there, or allow it with "
+                      "--outside-files",
+                      (error ? path : leads).string()),
+          std::move(named)};
 }
 
 Result<fs::path> References::find(std::string_view named) {
@@ -89,10 +97,14 @@ Result<fs::path> References::find(std::string_view named) {
     return fail(ErrorKind::notFound, "is not a file name", text.substr(0, 80));
   fs::path path(text);
   std::error_code error;
+  std::optional<fs::path> outside;
   if (path.is_absolute() && isRegular(path)) {
-    const fs::path canonical = fs::weakly_canonical(path, error);
-    files_[keyFor(canonical)] = true;
-    return canonical;
+    if (mayRead(path)) {
+      const fs::path canonical = fs::weakly_canonical(path, error);
+      files_[keyFor(canonical)] = true;
+      return canonical;
+    }
+    outside = path;
   }
   const bool foreign = path.is_absolute() || (text.size() > 1 && text[1] == ':');  // another machine's disk
   std::vector<fs::path> candidates;
@@ -100,19 +112,18 @@ Result<fs::path> References::find(std::string_view named) {
   candidates.push_back(path.filename());
   candidates.push_back(fs::path("textures") / path.filename());
   candidates.push_back(fs::path("../textures") / path.filename());
-  bool outside = false;
   for (const fs::path& candidate : candidates) {
     const auto found = findIgnoringCase(folder_, candidate);
     if (!found || !isRegular(*found)) continue;
     if (!mayRead(*found)) {
-      outside = true;
-      break;
+      if (!outside) outside = *found;
+      continue;
     }
     const fs::path canonical = fs::weakly_canonical(*found, error);
     files_[keyFor(canonical)] = true;
     return canonical;
   }
-  if (outside) return fail(ErrorKind::unsupported, "lies outside the model's folder and is not read", text);
+  if (outside) return tl::unexpected(References::outside(*outside, text));
   if (!foreign) files_.try_emplace(path.lexically_normal().string(), false);
   return fail(ErrorKind::notFound, "does not exist", text);
 }

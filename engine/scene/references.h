@@ -3,8 +3,9 @@
 /// may be read, and which were read, so that a cached import knows when it is out of date. Private to this
 /// folder.
 ///
-/// A file is read only from the model's folder, its parent, or below them; or from an absolute path that the
-/// model itself states. Back slashes, a missing drive and wrong letter case are forgiven.
+/// A file is read only from the model's own folder or below it, all links resolved: a model from elsewhere must
+/// not bring other files of this machine into what is published. Who means it may allow more. Back slashes, a
+/// missing drive and wrong letter case are forgiven.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +30,7 @@ struct Dependency {
 
 class References {
  public:
-  explicit References(const std::filesystem::path& model);
+  explicit References(const std::filesystem::path& model, bool allowOutside = false);
 
   const std::filesystem::path& folder() const { return folder_; }
 
@@ -40,6 +41,8 @@ class References {
   /// A library opened this file itself.
   void noteRead(const std::filesystem::path& path);
   bool mayRead(const std::filesystem::path& path) const;
+  /// What to say of a file that may not be read.
+  static Error outside(const std::filesystem::path& path, std::string named);
 
   /// Everything asked for, with sizes, times and contents as they are now.
   Result<std::vector<Dependency>> dependencies() const;
@@ -49,6 +52,7 @@ class References {
 
   std::filesystem::path folder_;  ///< canonical
   std::filesystem::path model_;
+  bool allowOutside_;
   std::map<std::string, bool> files_;  ///< path as in Dependency -> existed
 };
 

@@ -1,4 +1,4 @@
-/// acentric-importer MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS
+/// acentric-importer MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS PARENT
 /// Reads one model and writes one scene file, under limits of its own, so that a broken model takes down this
 /// process and nothing else. Started by importScene; what it prints is for that (importer_protocol.h).
 
@@ -42,13 +42,14 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
 
 int main(int argc, char** argv) {
   using namespace acentric;
-  if (argc != 6) {
-    std::fputs("acentric-importer is run by acentric; it takes MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS\n",
+  if (argc != 7) {
+    std::fputs("acentric-importer is run by acentric; it takes MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS PARENT\n",
                stderr);
     return 2;
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan goes on when the editor is killed
-  if (::getppid() == 1) return 1;
+  // Gone before that was said? The parent may well be process 1, as in a container.
+  if (::getppid() != std::strtol(argv[6], nullptr, 10)) return 1;
   const double seconds = std::strtod(argv[5], nullptr);
   const unsigned long long memory = std::strtoull(argv[4], nullptr, 10);
   limit(RLIMIT_CORE, 0);
