@@ -74,6 +74,24 @@ TEST_F(CoverageTest, ForetellsTheHolesOfRenderedFrames) {
   EXPECT_GT(report["expected"]["spearman"].get<double>(), 0.6);
 }
 
+TEST_F(CoverageTest, ForetellsTheHolesThatPruningLeavesAtTheUsualLayers) {
+  Json pruned = Json::parse(std::ifstream(project->file()));
+  ASSERT_TRUE(pruned["bake"]["pruning"].get<bool>());
+  ASSERT_EQ(pruned["bake"]["maxLayers"].get<int>(), 8);
+  pruned["bake"]["samplesPerDegree"] = 3.0;
+  pruned["bake"]["ambientRays"] = 0;
+  const auto file = std::filesystem::path(project->file()).replace_filename("pruned.acentric.json").string();
+  std::ofstream(file) << pruned;
+  const auto baked = acentric({"bake", file, "--light", "without", "--json"});
+  ASSERT_EQ(baked.exitCode, 0) << baked.errors;
+  const auto run =
+      acentric({"coverage", file, "--correlate", "--frames", "24", "--size", "240x136", "--json"});
+  ASSERT_EQ(run.exitCode, 0) << run.errors;
+  const Json report = Json::parse(run.output);
+  EXPECT_GT(report["pixels"]["holes"].get<int>(), 200) << "else there is nothing to foretell";
+  EXPECT_GE(report["open"]["pearson"].get<double>(), 0.9) << report["open"] << report["expected"];
+}
+
 TEST_F(CoverageTest, SaysWhatIsWrong) {
   struct Case {
     std::vector<std::string> arguments;
