@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
                      "of the window, as WIDTHxHEIGHT (default: as it was left, within the screen)");
   command.add_option("--importer", options.importHost.importer,
                      "program that parses models (default: beside this one)");
+  command.add_flag("--outside-files", options.importHost.outsideFiles,
+                   "let models name files outside their own folder");
   command.add_option("--log-ui", options.uiLog, "write where widgets are and what happens, for tests")
       ->type_name("FILE");
   command.add_option("--frame-times", options.frameTimes, "write how long each frame took, as CSV")

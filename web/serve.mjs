@@ -1,6 +1,6 @@
 // A tiny server of static files: node serve.mjs FOLDER [PORT]. On this machine alone; port 0 takes a free one.
 import { createReadStream } from 'node:fs';
-import { stat } from 'node:fs/promises';
+import { realpath, stat } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join, normalize, resolve, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -22,19 +22,38 @@ export function fileOf(folder, address) {
   return file.startsWith(resolve(folder) + sep) && !path.includes('\0') ? file : undefined;
 }
 
+/** The same with all links followed; undefined if they lead out of the folder, or nowhere. */
+async function realFileOf(folder, address) {
+  const file = fileOf(folder, address);
+  if (!file) return undefined;
+  try {
+    const [real, root] = await Promise.all([realpath(file), realpath(folder)]);
+    return real.startsWith(root.endsWith(sep) ? root : root + sep) ? real : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
 /** Resolves to the server, listening. `before(request, response)` may answer itself: it then returns true. */
 export function serve(folder, port = 0, before = () => false) {
   const root = resolve(folder);
   const server = createServer(async (request, response) => {
     if (before(request, response)) return;
-    const file = fileOf(root, request.url ?? '/');
-    const found = file && (await stat(file).catch(() => undefined));
+    const file = await realFileOf(root, request.url ?? '/');
+    const found = file && (await stat(file, { bigint: true }).catch(() => undefined));
     if (!found?.isFile()) {
       response.writeHead(404, { 'Content-Type': 'text/plain' }).end('not found\n');
       return;
     }
+    // Changed in content, it has another time, or lies elsewhere.
+    const tag = `"${found.ino.toString(36)}-${found.size.toString(36)}-${found.mtimeNs.toString(36)}"`;
+    if ((request.headers['if-none-match'] ?? '').split(',').some((known) => known.trim().replace(/^W\//, '') === tag)) {
+      response.writeHead(304, { ETag: tag, 'Cache-Control': 'no-cache' }).end();
+      return;
+    }
     response.writeHead(200, {
-      'Content-Type': kTypes[extname(file)] ?? 'application/octet-stream', 'Content-Length': found.size, 'Cache-Control': 'no-cache',
+      'Content-Type': kTypes[extname(file)] ?? 'application/octet-stream', 'Content-Length': Number(found.size),
+      'Cache-Control': 'no-cache', ETag: tag,
     });
     if (request.method === 'HEAD') response.end();
     else createReadStream(file).on('error', () => response.destroy()).pipe(response);

@@ -12,7 +12,8 @@ namespace {
 using namespace acentric;
 using namespace acentric::cli;
 
-constexpr int kFailed = 1, kUsage = 2;
+/// As shells say of a program that SIGINT ended.
+constexpr int kFailed = 1, kUsage = 2, kInterrupted = 130;
 
 int finish(const Result<Report>& result, bool json) {
   finishProgress();
@@ -25,7 +26,7 @@ int finish(const Result<Report>& result, bool json) {
                                          {"where", error.where}}}},
                                   2));
     fmt::print(stderr, "acentric: {}\n", error.describe());
-    return kFailed;
+    return error.kind == ErrorKind::cancelled ? kInterrupted : kFailed;
   }
   if (json)
     fmt::print("{}\n", jsonText(result->json, 2));
@@ -53,6 +54,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--import-seconds", common.host.timeLimitSeconds, "Time limit of an import")
       ->capture_default_str();
+  app.add_flag(
+      "--outside-files", common.host.outsideFiles,
+      "Let models name files outside their own folder; what they name may end up in what is exported");
 
   Chosen chosen;
   addProjectCommands(app, chosen);

@@ -30,7 +30,7 @@ std::string oneLine(std::string text) {
 struct FileAccess {
   const ReadContext* context = nullptr;
   ReportLines* ignored = nullptr;
-  std::optional<Error> refused;  ///< the first file that may not be read
+  std::optional<Error> refused;                    ///< the first file that may not be read
   std::map<std::string, std::size_t> bufferBytes;  ///< declared length by URI as tinygltf asks for it
 };
 
@@ -179,8 +179,7 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
   if (!json) return tl::unexpected(json.error());
   const auto compression = takeCompression(*json, text->binary);
   if (!compression) return tl::unexpected(compression.error());
-  if (compression->any())
-    *bytes = withJson(*bytes, *text, jsonText(*json));
+  if (compression->any()) *bytes = withJson(*bytes, *text, jsonText(*json));
 
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&keepImageBytes, nullptr);

@@ -140,8 +140,8 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
                 folder.string());
   if (host.cacheFolder.empty() && folder != userCacheFolder() / "scenes" && progress)
     progress({0, 0,
-              fmt::format("{} cannot be made: imports are kept in {}", (userCacheFolder() / "scenes").string(),
-                          folder.string())});
+              fmt::format("{} cannot be made: imports are kept in {}",
+                          (userCacheFolder() / "scenes").string(), folder.string())});
   removeStaleTemporaries(folder);
   if (progress) progress({0, 0, "looking in the cache"});
   const auto content = hashFile(path);
@@ -200,7 +200,8 @@ ScenePtr lastImported(const fs::path& asked, const ImportOptions& given, const I
   return std::make_shared<const Scene>(std::move(file->scene));
 }
 
-std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& given, const ImportHost& host) {
+std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& given,
+                                    const ImportHost& host) {
   const ImportOptions options = permitted(given, host);
   std::error_code error;
   const fs::path model = fs::weakly_canonical(asked, error);

@@ -19,7 +19,11 @@ Status ImportOptions::check() const {
 }
 
 void ImportOptions::addTo(Hasher& hasher) const {
-  hasher.value(metresPerUnit).value(up).value(std::uint8_t(defaultLight)).value(lighting).value(std::uint8_t(outsideFiles));
+  hasher.value(metresPerUnit)
+      .value(up)
+      .value(std::uint8_t(defaultLight))
+      .value(lighting)
+      .value(std::uint8_t(outsideFiles));
 }
 
 }  // namespace acentric

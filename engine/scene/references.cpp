@@ -82,11 +82,12 @@ bool References::mayRead(const fs::path& path) const {
 Error References::outside(const fs::path& path, std::string named) {
   std::error_code error;
   const fs::path leads = fs::weakly_canonical(path, error);
-  return {ErrorKind::unsupported,
-          fmt::format("lies outside the model's folder ({}) and is not read; bring it there, or allow it with "
-                      "--outside-files",
-                      (error ? path : leads).string()),
-          std::move(named)};
+  return {
+      ErrorKind::unsupported,
+      fmt::format("lies outside the model's folder ({}) and is not read; bring it there, or allow it with "
+                  "--outside-files",
+                  (error ? path : leads).string()),
+      std::move(named)};
 }
 
 Result<fs::path> References::find(std::string_view named) {

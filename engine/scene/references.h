@@ -3,9 +3,9 @@
 /// may be read, and which were read, so that a cached import knows when it is out of date. Private to this
 /// folder.
 ///
-/// A file is read only from the model's own folder or below it, all links resolved: a model from elsewhere must
-/// not bring other files of this machine into what is published. Who means it may allow more. Back slashes, a
-/// missing drive and wrong letter case are forgiven.
+/// A file is read only from the model's own folder or below it, all links resolved: a model from elsewhere
+/// must not bring other files of this machine into what is published. Who means it may allow more. Back
+/// slashes, a missing drive and wrong letter case are forgiven.
 
 #include <cstdint>
 #include <filesystem>

@@ -89,7 +89,7 @@ TEST(InterruptedBake, WithCtrlCLeavesCompleteCapturesAndSaysSo) {
   ASSERT_TRUE(owner.has_value()) << owner.error().describe();
   ASSERT_EQ(::kill(pid_t(owner->process), SIGINT), 0);
   const ProcessResult stopped = running.get();
-  EXPECT_NE(stopped.exitCode, 0);
+  EXPECT_EQ(stopped.exitCode, 130);
   EXPECT_EQ(stopped.signal, 0) << "it ends by itself";
   EXPECT_TRUE(stopped.errors.find("was stopped") != std::string::npos ||
               stopped.errors.find("was cancelled") != std::string::npos)
