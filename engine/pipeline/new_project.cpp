@@ -10,6 +10,7 @@
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
+#include "engine/pipeline/start_view.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -96,49 +97,6 @@ Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewPro
   return Storeys{{std::move(plane)}, {}, area->ignoredSides};
 }
 
-/// Direction with the longest free view at eye height.
-double longestView(const RayScene& rays, const glm::dvec3& eye) {
-  double best = -1, yaw = 0;
-  for (int k = 0; k < 72; ++k) {
-    const glm::dvec2 d = directionOf(kTwoPi * k / 72);
-    const double distance =
-        std::min(50.0, double(rays.trace({glm::vec3(eye), glm::vec3(d.x, d.y, 0)}).distance));
-    if (distance > best) best = distance, yaw = kTwoPi * k / 72;
-  }
-  return yaw;
-}
-
-/// Free distance around an eye, at knee, hip and eye height, metres, at most `most`.
-double clearance(const RayScene& rays, const glm::dvec3& eye, double eyeHeight, double most) {
-  double least = most;
-  for (const double drop : {0.7 * eyeHeight, 0.4 * eyeHeight, 0.0})
-    for (int k = 0; k < 16; ++k) {
-      const glm::dvec2 d = directionOf(kTwoPi * k / 16);
-      least = std::min(
-          least,
-          double(rays.trace({glm::vec3(eye.x, eye.y, eye.z - drop), glm::vec3(d.x, d.y, 0)}).distance));
-    }
-  return least;
-}
-
-/// The place nearest to the outline's middle where a person has room; else the roomiest.
-Spawn chooseSpawn(const Layout& layout, const RayScene& rays) {
-  constexpr double kRoom = 0.8;  // metres
-  const glm::dvec2 middle = middleOf(layout.spec.outline);
-  glm::dvec2 best = clampToPlan(layout, middle);
-  double bestRoom = -1, bestDistance = std::numeric_limits<double>::infinity();
-  for (const Region& region : layout.regions) {
-    const glm::dvec2 place = region.polygon.centroid();
-    if (!layout.spec.outline.empty() && !layout.spec.outline.contains(place)) continue;
-    const double room = clearance(rays, {place, layout.eyeZ()}, layout.spec.eyeHeight, kRoom);
-    const double distance = glm::distance(place, middle);
-    if (room > bestRoom || (room == bestRoom && distance < bestDistance))
-      best = place, bestRoom = room, bestDistance = distance;
-  }
-  const glm::dvec2 tidied{roundTo(best.x, 0.01), roundTo(best.y, 0.01)};
-  return {layout.regionAt(tidied) ? tidied : best, longestView(rays, {best, layout.eyeZ()})};
-}
-
 std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
   std::vector<glm::dvec3> eyes;
   const std::size_t step = std::max<std::size_t>(1, layout.regions.size() / most);
@@ -167,7 +125,7 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
   if (layout->regions.empty())
     return fail(ErrorKind::invalidArgument,
                 "no region fits the outline; draw a larger one or choose smaller cells");
-  return Storey{std::move(name), std::move(spec), chooseSpawn(*layout, rays)};
+  return Storey{std::move(name), std::move(spec), chooseStart(*layout, rays)};
 }
 
 }  // namespace

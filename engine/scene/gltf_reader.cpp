@@ -10,6 +10,7 @@
 #include <map>
 
 #include "engine/scene/gltf_accessors.h"
+#include "engine/scene/gltf_deformation.h"
 #include "engine/scene/gltf_file.h"
 #include "engine/scene/gltf_materials.h"
 #include "engine/scene/source_scene.h"
@@ -21,20 +22,6 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorKind::malformed, std::move(message));
 }
 
-glm::dmat4 matrixOf(const std::vector<double>& translation, const std::vector<double>& rotation,
-                    const std::vector<double>& scale) {
-  glm::dmat4 out(1);
-  if (rotation.size() == 4) {
-    const glm::dquat q(rotation[3], rotation[0], rotation[1], rotation[2]);
-    const double length = glm::length(q);
-    if (length > 0) out = glm::mat4_cast(q / length);
-  }
-  if (scale.size() == 3)
-    for (int axis = 0; axis < 3; ++axis) out[axis] *= scale[std::size_t(axis)];
-  if (translation.size() == 3) out[3] = glm::dvec4(translation[0], translation[1], translation[2], 1);
-  return out;
-}
-
 glm::dmat4 matrixOf(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
   return matrixOf(node.translation, node.rotation, node.scale);
@@ -43,7 +30,11 @@ glm::dmat4 matrixOf(const tinygltf::Node& node) {
 class GltfReader {
  public:
   GltfReader(const tinygltf::Model& model, const ReadContext& context, SourceScene scene)
-      : model_(model), context_(context), scene_(std::move(scene)), materials_(model, context, scene_) {}
+      : model_(model),
+        context_(context),
+        scene_(std::move(scene)),
+        materials_(model, context, scene_),
+        skins_(model) {}
 
   Result<SourceScene> read() {
     scene_.metresPerUnit = 1;
@@ -120,12 +111,12 @@ class GltfReader {
     if (node.mesh < 0) return {};
     if (std::size_t(node.mesh) >= model_.meshes.size())
       return malformed(fmt::format("mesh {} does not exist", node.mesh));
-    if (node.skin >= 0) scene_.ignored.add("skins (the meshes stand as modelled)");
     const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node.mesh)];
     const auto instances = instancesOf(node);
     if (!instances) return tl::unexpected(instances.error());
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      auto read = readPrimitive(primitive, node.name.empty() ? mesh.name : node.name);
+      bool placed = false;
+      auto read = readPrimitive(primitive, node, mesh, placed);
       if (!read) {
         read.error().message = fmt::format("mesh {} ({}): {}", node.mesh, mesh.name, read.error().message);
         return tl::unexpected(read.error());
@@ -137,7 +128,7 @@ class GltfReader {
           return fail(ErrorKind::tooLarge, "has more than 2^31 indices with all instances; split it");
         const bool last = i + 1 == instances->size();
         scene_.meshes.push_back(last ? std::move(*read) : *read);
-        applyTransform(scene_.meshes.back(), worldFromNode * (*instances)[i]);
+        applyTransform(scene_.meshes.back(), (placed ? glm::dmat4(1) : worldFromNode) * (*instances)[i]);
       }
     }
     return {};
@@ -219,9 +210,11 @@ class GltfReader {
     scene_.lights.push_back(std::move(out));
   }
 
-  Result<SourceMesh> readPrimitive(const tinygltf::Primitive& primitive, const std::string& name) {
+  /// `placed`: it stands in the world already, by its skin's joints.
+  Result<SourceMesh> readPrimitive(const tinygltf::Primitive& primitive, const tinygltf::Node& node,
+                                   const tinygltf::Mesh& mesh, bool& placed) {
     SourceMesh out;
-    out.name = name;
+    const std::string& name = out.name = node.name.empty() ? mesh.name : node.name;
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode < TINYGLTF_MODE_TRIANGLES) {
       scene_.ignored.add(mode == TINYGLTF_MODE_POINTS ? "points" : "lines");
@@ -256,8 +249,25 @@ class GltfReader {
     const GltfMaterial material = materials_.take(primitive.material);
     out.material = material.index;
     readAttributes(primitive, material, out);
-    if (!primitive.targets.empty()) scene_.ignored.add("morph targets");
+    if (Status bent = bend(primitive, node, mesh, out, placed); !bent) return tl::unexpected(bent.error());
     return out;
+  }
+
+  /// Morph targets and skin, as they are at rest.
+  Status bend(const tinygltf::Primitive& primitive, const tinygltf::Node& node, const tinygltf::Mesh& mesh,
+              SourceMesh& out, bool& placed) {
+    if (!primitive.targets.empty()) {
+      scene_.guessed.add("morph targets: by their default weights");
+      if (Status done = morph(model_, primitive, node.weights.empty() ? mesh.weights : node.weights, out);
+          !done)
+        return done;
+    }
+    if (node.skin < 0) return {};
+    scene_.guessed.add("skins: in the pose of the file's nodes");
+    const auto bent = skins_.bend(node.skin, primitive, out);
+    if (!bent) return tl::unexpected(bent.error());
+    placed = *bent;
+    return {};
   }
 
   static void assemble(const std::vector<std::uint32_t>& indices, int mode,
@@ -331,6 +341,7 @@ class GltfReader {
   const ReadContext& context_;
   SourceScene scene_;
   GltfMaterials materials_;
+  GltfSkins skins_;
 };
 
 }  // namespace

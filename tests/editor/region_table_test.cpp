@@ -35,7 +35,8 @@ TEST(RegionTable, RowsHoldWhatIsKnownAndNothingElse) {
   EXPECT_EQ(std::size_t(rows[1].cameras), cameras.size());
   EXPECT_FALSE(rows[1].triangles);
   EXPECT_FALSE(rows[1].holes);
-  Inspection inspection{layout, {}, {}};
+  Inspection inspection;
+  inspection.layout = layout;
   inspection.budgets.triangles.resize(layout->regions.size());
   std::iota(inspection.budgets.triangles.begin(), inspection.budgets.triangles.end(), 100);
   EXPECT_EQ(regionRows(*layout, &status, status.regions, &inspection, nullptr)[4].triangles, 104U);

@@ -270,6 +270,48 @@ TEST_F(GltfImport, CyclesMissingNodesAndUnknownRequirementsAreRefused) {
   EXPECT_THAT(refusal(), HasSubstr("MSFT_texture_dds"));
 }
 
+TEST_F(GltfImport, MorphTargetsStandByTheirDefaultWeights) {
+  builder.triangle();
+  builder.primitive()["targets"] = {{{"POSITION", builder.vec3({0, 0, 4, 0, 0, 4, 0, 0, 4})}},
+                                    {{"POSITION", builder.vec3({9, 9, 9, 9, 9, 9, 9, 9, 9})}}};
+  EXPECT_EQ(parsed().bounds.min.y, 0) << "without weights nothing moves";
+  builder.json["meshes"][0]["weights"] = {0.5, 0};
+  EXPECT_EQ(parsed().bounds.min.y, -2);
+  builder.json["nodes"][0]["weights"] = {0.25, 0};
+  EXPECT_EQ(parsed().bounds.min.y, -1) << "the node's weights come before the mesh's";
+  builder.primitive()["targets"][0]["POSITION"] = builder.vec3({0, 0, 4});
+  EXPECT_THAT(refusal(), HasSubstr("morph target 0"));
+}
+
+TEST_F(GltfImport, SkinsStandInThePoseOfTheirJointsAndNotWhereTheirNodeIs) {
+  builder.triangle();
+  builder.primitive()["attributes"]["JOINTS_0"] =
+      builder.accessor(std::vector<std::uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, "VEC4", 5121, 4);
+  builder.primitive()["attributes"]["WEIGHTS_0"] = builder.vec4({1, 0, 0, 0, 0.5, 0.5, 0, 0, 0, 1, 0, 0});
+  // Bound at x = 10; the joints stand at (0, 0, 0) and, below a parent, at (0, 0, 2) of the file.
+  const auto bind = [](std::vector<float>& out) {
+    out.insert(out.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -10, 0, 0, 1});
+  };
+  std::vector<float> inverse;
+  bind(inverse), bind(inverse);
+  builder.json["skins"] = {
+      {{"joints", {1, 3}}, {"inverseBindMatrices", builder.accessor(inverse, "MAT4", 5126, 16)}}};
+  builder.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {50, 50, 50}}},
+                           {{"translation", {10, 0, 0}}},
+                           {{"translation", {10, 0, 0}}, {"children", {3}}},
+                           {{"translation", {0, 0, 2}}}};
+  builder.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const Scene scene = parsed();
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  std::vector<glm::vec3> corners(scene.meshes[0].positions);
+  std::ranges::sort(corners, {}, [](const glm::vec3& p) { return -p.y; });
+  EXPECT_EQ(corners, (std::vector<glm::vec3>{{0, 0, 0}, {1, -1, 0}, {0, -2, 1}}));
+  builder.json["skins"][0]["joints"] = {1, 77};
+  EXPECT_THAT(refusal(), HasSubstr("joint 77"));
+  builder.json["skins"][0]["joints"] = {1};
+  EXPECT_THAT(refusal(), HasSubstr("no joint 1"));
+}
+
 TEST_F(GltfImport, ADiamondOfNodesDoesNotMultiply) {
   builder.triangle();
   // Node k has node k-1 as a child twice: 2^40 paths.
