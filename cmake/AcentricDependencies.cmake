@@ -20,6 +20,7 @@ find_package(OpenEXR REQUIRED)
 find_package(assimp REQUIRED)
 find_package(OpenMesh CONFIG REQUIRED)
 find_package(TinyGLTF REQUIRED)
+# Debian's libdraco exports a tinygltf of its own, built otherwise: wherever both are linked, TinyGLTF comes first.
 pkg_check_modules(DRACO REQUIRED IMPORTED_TARGET draco)
 find_package(meshoptimizer REQUIRED)
 find_package(embree 3.13 REQUIRED)

@@ -6,6 +6,7 @@
 #include "engine/base/json_text.h"
 #include "engine/cli/command_line.h"
 #include "engine/cli/terminal.h"
+#include "engine/scene/import_cache.h"
 
 namespace {
 
@@ -78,5 +79,6 @@ int main(int argc, char** argv) {
   common.walkMegabytes = chosen.walkMegabytes;
   common.stop = stopOnInterrupt();
   if (!json) common.progress = terminalProgress();
+  if (const auto notice = importCacheNotice(common.host)) fmt::print(stderr, "acentric: {}\n", *notice);
   return finish(chosen.run(common), json);
 }

@@ -17,11 +17,6 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorKind::malformed, std::move(message));
 }
 
-glm::dmat4 localMatrix(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-  return matrixOf(node.translation, node.rotation, node.scale);
-}
-
 /// Rows of `components` for each of the mesh's positions.
 Result<GltfNumbers> rowsFor(const tinygltf::Model& model, int accessor, std::size_t count, int components,
                             const std::string& what) {
@@ -58,6 +53,11 @@ glm::dmat4 matrixOf(const std::vector<double>& translation, const std::vector<do
     for (int axis = 0; axis < 3; ++axis) out[axis] *= scale[std::size_t(axis)];
   if (translation.size() == 3) out[3] = glm::dvec4(translation[0], translation[1], translation[2], 1);
   return out;
+}
+
+glm::dmat4 matrixOf(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
+  return matrixOf(node.translation, node.rotation, node.scale);
 }
 
 Status morph(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -107,7 +107,7 @@ const glm::dmat4& GltfSkins::worldFromNode(int node) {
     const int parent = parent_[std::size_t(*n)];
     const bool known = parent >= 0 && world_[std::size_t(parent)];
     world_[std::size_t(*n)] =
-        (known ? *world_[std::size_t(parent)] : glm::dmat4(1)) * localMatrix(model_.nodes[std::size_t(*n)]);
+        (known ? *world_[std::size_t(parent)] : glm::dmat4(1)) * matrixOf(model_.nodes[std::size_t(*n)]);
   }
   return *world_[std::size_t(node)];
 }

@@ -10,6 +10,7 @@
 
 namespace tinygltf {
 class Model;
+class Node;
 struct Primitive;
 }  // namespace tinygltf
 
@@ -40,5 +41,6 @@ class GltfSkins {
 /// A node's own transform, by matrix or by its parts.
 glm::dmat4 matrixOf(const std::vector<double>& translation, const std::vector<double>& rotation,
                     const std::vector<double>& scale);
+glm::dmat4 matrixOf(const tinygltf::Node& node);
 
 }  // namespace acentric

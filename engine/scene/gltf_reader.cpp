@@ -22,11 +22,6 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorKind::malformed, std::move(message));
 }
 
-glm::dmat4 matrixOf(const tinygltf::Node& node) {
-  if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-  return matrixOf(node.translation, node.rotation, node.scale);
-}
-
 class GltfReader {
  public:
   GltfReader(const tinygltf::Model& model, const ReadContext& context, SourceScene scene)

@@ -1,13 +1,12 @@
 #include "engine/scene/import.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <optional>
 
 #include "engine/base/file.h"
+#include "engine/scene/import_cache.h"
 #include "engine/scene/import_process.h"
 #include "engine/scene/scene_file.h"
 
@@ -91,35 +90,6 @@ class Temporary {
   fs::path path_;
 };
 
-/// A folder that is nobody else's, for machines whose user has no cache: gone when the machine tidies up.
-std::optional<fs::path> temporaryCacheFolder() {
-  std::error_code error;
-  const fs::path folder =
-      fs::temp_directory_path(error) / fmt::format("acentric-{}", static_cast<unsigned>(::geteuid()));
-  if (error) return std::nullopt;
-  (void)::mkdir(folder.c_str(), 0700);
-  struct stat status {};
-  const bool own = ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
-                   status.st_uid == ::geteuid() && (status.st_mode & 077) == 0;
-  if (!own || ::access(folder.c_str(), W_OK | X_OK) != 0) return std::nullopt;
-  return folder;
-}
-
-bool canBeWritten(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  return !error && ::access(folder.c_str(), W_OK | X_OK) == 0;
-}
-
-/// Without a home that can be written, imports are kept in a temporary folder.
-fs::path cacheFolderOf(const ImportHost& host) {
-  if (!host.cacheFolder.empty()) return host.cacheFolder;
-  const fs::path usual = userCacheFolder() / "scenes";
-  if (canBeWritten(usual)) return usual;
-  const auto temporary = temporaryCacheFolder();
-  return temporary ? *temporary / "scenes" : usual;
-}
-
 ImportOptions permitted(ImportOptions options, const ImportHost& host) {
   options.outsideFiles = host.outsideFiles;
   return options;
@@ -131,17 +101,13 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
   if (auto status = checkModel(asked); !status) return tl::unexpected(status.error());
   std::error_code error;
   const fs::path path = fs::weakly_canonical(asked, error);
-  const fs::path folder = cacheFolderOf(host);
+  const fs::path folder = importCacheFolder(host);
   fs::create_directories(folder, error);
   if (error)
     return fail(ErrorKind::unreadable,
                 "imports cannot be kept here: " + error.message() +
                     "; set XDG_CACHE_HOME to a folder that can be written",
                 folder.string());
-  if (host.cacheFolder.empty() && folder != userCacheFolder() / "scenes" && progress)
-    progress({0, 0,
-              fmt::format("{} cannot be made: imports are kept in {}",
-                          (userCacheFolder() / "scenes").string(), folder.string())});
   removeStaleTemporaries(folder);
   if (progress) progress({0, 0, "looking in the cache"});
   const auto content = hashFile(path);
@@ -191,7 +157,7 @@ ScenePtr lastImported(const fs::path& asked, const ImportOptions& given, const I
   const ImportOptions options = permitted(given, host);
   std::error_code error;
   const fs::path model = fs::weakly_canonical(asked, error);
-  const fs::path folder = cacheFolderOf(host);
+  const fs::path folder = importCacheFolder(host);
   const auto name = readText(pointerFor(folder, model, options), 4096);
   if (error || !name || fs::path(*name).has_parent_path()) return nullptr;
   auto file = readSceneFile(folder / *name, nullptr);
@@ -208,7 +174,7 @@ std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& 
   const auto content = hashFile(model);
   if (error || !content || !host.useCache) return {};
   std::vector<fs::path> files;
-  (void)readSceneFile(entryFor(cacheFolderOf(host), *content, options),
+  (void)readSceneFile(entryFor(importCacheFolder(host), *content, options),
                       [&](const std::vector<Dependency>& dependencies) {
                         files.push_back(model);
                         for (const Dependency& dependency : dependencies)

@@ -57,15 +57,15 @@ TEST(BenchHoles, FindsWhatThePaperFindsAndThatLayersCloseWhatTheRingLeavesOpen) 
     EXPECT_GT(method.samples, 1000u);
     for (std::size_t v = 0; v < 3; ++v) {
       const ColourImage& picture = method.pictures[v];
-      std::size_t open = 0;
+      std::size_t unpainted = 0;
       double squares = 0, pixels = 0;
       for (std::size_t p = 0; p < picture.pixels.size(); ++p) {
         const glm::dvec4 shown(picture.pixels[p]), truth(bench->truth[v].pixels[p]);
-        open += shown.a == 0;
+        unpainted += shown.a == 0;
         for (int c = 0; c < 3; ++c) squares += std::pow((shown.a == 0 ? 0 : shown[c]) - truth[c], 2);
         pixels += 3;
       }
-      EXPECT_NEAR(double(open) / double(picture.pixels.size()), method.openShares[v], 1e-12)
+      EXPECT_NEAR(double(unpainted) / double(picture.pixels.size()), method.openShares[v], 1e-12)
           << method.name << ": pictures show what is open";
       if (method.openShares[v] < 0.01) continue;
       EXPECT_GT(method.comparisons[v].psnr, 10 * std::log10(255 * 255 * pixels / squares))

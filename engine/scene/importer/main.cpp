@@ -43,8 +43,9 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
 int main(int argc, char** argv) {
   using namespace acentric;
   if (argc != 7) {
-    std::fputs("acentric-importer is run by acentric; it takes MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS PARENT\n",
-               stderr);
+    std::fputs(
+        "acentric-importer is run by acentric; it takes MODEL OPTIONS OUTPUT MEMORY_BYTES SECONDS PARENT\n",
+        stderr);
     return 2;
   }
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan goes on when the editor is killed
