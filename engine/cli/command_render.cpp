@@ -42,7 +42,9 @@ Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProje
     return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, {});
   }
   PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
-                radians(options.yawDegrees),
+                options.yawDegrees    ? radians(*options.yawDegrees)
+                : options.eye.empty() ? open.project.spawn().yawRadians
+                                      : 0,
                 radians(options.pitchDegrees)};
   if (!options.eye.empty()) {
     const auto eye = parseEye(options.eye, *open.layout);

@@ -145,8 +145,9 @@ struct RenderOptions {
   std::string eye, size = "960x540";
   std::string renderer;  ///< empty = the project's
   Look look;
-  std::string mode = "picture";  ///< frame_pictures.h
-  double yawDegrees = 0, pitchDegrees = 0, fovDegrees = 60;
+  std::string mode = "picture";      ///< frame_pictures.h
+  std::optional<double> yawDegrees;  ///< none = as the walk begins; with an eye of its own, 0
+  double pitchDegrees = 0, fovDegrees = 60;
   int truthSamples = 4;
   int gain = kDifferenceGain;
   bool stats = false;

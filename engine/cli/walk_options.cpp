@@ -73,7 +73,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
   addMemory(*c, chosen);
   auto* eye = c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
   auto* yaw =
-      c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x")->capture_default_str();
+      c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x (default: as the walk begins)");
   auto* pitch = c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
   auto* fov =
       c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();

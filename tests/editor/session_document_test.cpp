@@ -226,20 +226,20 @@ TEST_F(DocumentTest, ABakeOfAnotherProgramIsNotDisturbedUntilItIsTakenOver) {
   ASSERT_TRUE(other.has_value());
   Session session(options());
   openAndSettle(session, file);
-  const auto told = [&](const char* words) {
-    return std::ranges::any_of(session.messages().all(), [&](const Message& message) {
-      return message.text.find(words) != std::string::npos;
-    });
-  };
+  const std::string refused = "is being baked by";
   session.startBake();
-  waitFor(session, [&] { return told("is being baked by"); });
-  EXPECT_TRUE(told("Take over bake"));
-  waitFor(session, [&] { return !session.working(); });
+  waitFor(
+      session, [&] { return told(session, refused); }, refused);
+  EXPECT_TRUE(told(session, "Take over bake"));
+  waitFor(
+      session, [&] { return !session.working(); }, refused);
   EXPECT_FALSE(session.captures()->complete());
   EXPECT_TRUE(other->check().has_value());
   session.startBake({}, true);
-  waitFor(session, [&] { return session.baking().running(); });
-  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  waitFor(
+      session, [&] { return session.baking().running(); }, refused);
+  waitFor(
+      session, [&] { return !session.working() && session.captures()->complete(); }, refused);
   EXPECT_FALSE(fs::exists(lockFileFor(file.string() + ".bake")));
 }
 
