@@ -6,6 +6,7 @@
 
 #include "editor/session/unsaved_work.h"
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 
 namespace acentric::editor {
 namespace {
@@ -58,7 +59,7 @@ std::vector<ui::WindowPlace> loadWindowPlaces(const fs::path& file) {
   if (file.empty()) return places;
   const auto text = readText(file, kMostBytes);
   if (!text) return places;
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = parseJson<Json>(*text).value_or(Json());
   if (!json.is_array()) return places;
   for (const Json& entry : json)
     if (auto place = placeOf(entry); place && places.size() < ui::kMostWindowPlaces)
@@ -77,7 +78,7 @@ Status keepWindowPlace(const ui::WindowPlace& place, const fs::path& file) {
   if (error)
     return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(),
                 file.parent_path().string());
-  return writeTextAtomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return writeTextAtomically(file, jsonText(json, 2) + "\n");
 }
 
 }  // namespace acentric::editor

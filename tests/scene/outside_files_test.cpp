@@ -59,14 +59,8 @@ class OutsideFiles : public testing::Test {
   }
   fs::path model() const { return folder.path() / "model" / "model.gltf"; }
   std::vector<std::string> waysOut(const std::string& name) const {
-    return {"../" + name,
-            "%2e%2e/" + name,
-            "..%2F" + name,
-            "..\\" + name,
-            "sub/../../" + name,
-            "link-" + name,
-            "up/" + name,
-            (folder.path() / name).string()};
+    return {"../" + name,        "%2e%2e/" + name, "..%2F" + name, "..\\" + name,
+            "sub/../../" + name, "link-" + name,   "up/" + name,   (folder.path() / name).string()};
   }
   void linkOut(const std::string& name) {
     fs::create_directories(folder.path() / "model" / "sub");
