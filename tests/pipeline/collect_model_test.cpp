@@ -97,7 +97,8 @@ TEST_F(CollectTest, AModelComesWithTheFilesItNames) {
   EXPECT_EQ(keyOfScene(folder_ / "moved" / collected->scene), key);
 }
 
-TEST_F(CollectTest, FilesBesideTheModelsFolderKeepTheirPlaceToIt) {
+TEST_F(CollectTest, FilesBesideTheModelsFolderKeepTheirPlaceToItWhereTheyMayBeRead) {
+  host_.outsideFiles = true;
   write(folder_ / "made" / "obj" / "floor.obj", floorOf("../materials/red.mtl"));
   write(folder_ / "made" / "materials" / "red.mtl", kRed);
   const ContentKey key = keyOfScene(folder_ / "made" / "obj" / "floor.obj");
