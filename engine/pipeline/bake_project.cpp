@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <ranges>
 #include <set>
 
@@ -343,20 +342,6 @@ std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const C
         !std::ranges::all_of(best, [](const auto& key) { return key.has_value(); }))
       take(captureKeys(*open.scene, open.plan, open.project.bake.at(quality), *open.layout));
   return best;
-}
-
-std::vector<int> bakingOrder(const OpenProject& open) {
-  return bakingOrder(open, open.project.spawn().position);
-}
-
-std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from) {
-  std::vector<int> order(open.layout->cameras.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto distance = [&](int camera) {
-    return glm::distance(open.layout->cameras[std::size_t(camera)].position, from);
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return distance(a) < distance(b); });
-  return order;
 }
 
 std::vector<bool> bakedCameras(const OpenProject& open) {

@@ -152,9 +152,10 @@ std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const C
 std::vector<bool> bakedCameras(const OpenProject& open);
 bool surfaceLightBaked(const OpenProject& open);
 
-/// Cameras in baking order: nearest to the spawn first.
+/// Cameras in baking order: first all that views from the spawn's region are painted from, then the rest,
+/// each nearest to the spawn first.
 std::vector<int> bakingOrder(const OpenProject& open);
-/// The same, nearest to a place on the plan first.
+/// The same, from a place on the plan.
 std::vector<int> bakingOrder(const OpenProject& open, const glm::dvec2& from);
 
 /// What is baked, loaded for the walk: as a whole, or as much as was there at some moment (walk_stream.h).
