@@ -129,12 +129,11 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       const int first = int(chunk) * kColumnsPerChunk;
       const int last = std::min(first + kColumnsPerChunk, columns.columns);
       const std::size_t pixels = std::size_t(last - first) * std::size_t(columns.rows);
-      if (!budget_.waitForRoom(pixels * ChunkSamples::kBytes, stop)) return;
       try {
         ChunkSamples samples;  // not in `chunks`, where another thread works on the next
         samples.held = MemoryBudget::Share(budget_);
+        if (!samples.held.setWhenRoom(pixels * ChunkSamples::kBytes, stop)) return;
         samples.reserve(pixels);
-        samples.held.set(pixels * ChunkSamples::kBytes);
         ColumnMarch march(setting, samples);
         for (int column = first; column < last && march.run(column, stop);) ++column;
         samples.close();
@@ -155,9 +154,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     CaptureCounts counted;
     for (const ChunkSamples& s : chunks) counted += s.counts;
     counts += counted;
-    if (!budget_.waitForRoom(total * ChunkSamples::kBytes, stop)) return stopped();
     MemoryBudget::Share whole(budget_);
-    whole.set(total * ChunkSamples::kBytes);
+    if (!whole.setWhenRoom(total * ChunkSamples::kBytes, stop)) return stopped();
     Capture capture = joined(chunks, counted.reflections > 0, runner, stop);
     if (stop.stop_requested()) return stopped();
     capture.camera = columns;

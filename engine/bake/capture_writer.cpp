@@ -41,11 +41,10 @@ Status CaptureWriter::put(const ContentKey& key, Capture capture) {
   // In OpenEXR the background takes samples like others.
   const std::size_t bytes = job.capture.bytes() + kCaptureSampleBytes * job.capture.background.pixelCount();
   job.held.set(bytes);
-  const bool room = budget_.waitForRoom((kCopies - 1) * bytes, stop_);
+  const bool room = job.held.setWhenRoom(kCopies * bytes, stop_);
   const std::lock_guard lock(mutex_);
   if (error_) return status();
   if (!room) return fail(ErrorKind::cancelled, "the bake was stopped");
-  job.held.set(kCopies * bytes);
   job.held.pass();
   ++unfinished_;
   waiting_.push_back(std::move(job));

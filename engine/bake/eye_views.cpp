@@ -71,12 +71,9 @@ EyeView::EyeView(const glm::dvec3& eye, int texelsPerEdge)
 std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
                                               RayCounts& rays, const std::stop_token& stop,
-                                              MemoryBudget* budget) {
+                                              MemoryBudget::Share held) {
   const std::shared_ptr<EyeView> view(new EyeView(eye, texelsPerEdge));
-  if (budget != nullptr) {
-    view->share_ = MemoryBudget::Share(*budget);
-    view->share_.set(view->bytes());
-  }
+  view->held_ = std::move(held);
   const int samples = view->lattice_.cornersPerEdge();
   const double low = std::sin(elevations.bottom), high = std::sin(elevations.top);
   std::atomic<std::uint64_t> traced = 0;
@@ -180,8 +177,9 @@ std::shared_ptr<const EyeView> EyeViews::at(const glm::dvec3& eye, TaskRunner& r
   }
   const std::size_t bytes = EyeView::bytesOf(texelsPerEdge_);
   while (!views_.empty() && bytes_ + bytes > budget_.limit() / kSightShare) dropOldest();
-  if (!budget_.waitForRoom(bytes, stop)) return nullptr;
-  auto view = EyeView::trace(scene_, eye, texelsPerEdge_, elevations_, runner, rays, stop, &budget_);
+  MemoryBudget::Share held(budget_);
+  if (!held.setWhenRoom(bytes, stop)) return nullptr;
+  auto view = EyeView::trace(scene_, eye, texelsPerEdge_, elevations_, runner, rays, stop, std::move(held));
   if (!view) return nullptr;
   views_[place] = {view, ++uses_};
   ++traced_;

@@ -40,11 +40,11 @@ std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, cons
 class EyeView {
  public:
   /// Traces the map, `texelsPerEdge` to a face's edge. Directions outside the elevations are not looked at.
-  /// Null when stopped. Counted by `budget`, if there is one, as long as it lives.
+  /// Null when stopped. `held`: what counts its bytes, as long as it lives.
   static std::shared_ptr<const EyeView> trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
                                               RayCounts& rays, const std::stop_token& stop,
-                                              MemoryBudget* budget = nullptr);
+                                              MemoryBudget::Share held = {});
 
   /// Without a map: every point is asked of a ray.
   static std::shared_ptr<const EyeView> untraced(const glm::dvec3& eye) {
@@ -72,7 +72,7 @@ class EyeView {
   CubeLattice lattice_;
   /// By corner: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
   std::vector<float> inverseZ_;
-  MemoryBudget::Share share_;
+  MemoryBudget::Share held_;
 };
 
 /// Does an eye see a point? The map's answer, or else a ray's: nothing opaque on the way but the last

@@ -18,6 +18,12 @@ void MemoryBudget::Share::set(std::size_t bytes) {
   bytes_ = bytes;
 }
 
+bool MemoryBudget::Share::setWhenRoom(std::size_t bytes, const std::stop_token& stop) {
+  if (budget_ != nullptr && !budget_->growWhenRoom(bytes_, bytes, stop)) return false;
+  bytes_ = bytes;
+  return true;
+}
+
 void MemoryBudget::Share::pass() {
   if (budget_ == nullptr || passing_) return;
   passing_ = true;
@@ -29,9 +35,13 @@ void MemoryBudget::Share::release() {
   budget_ = nullptr;
 }
 
-bool MemoryBudget::waitForRoom(std::size_t bytes, const std::stop_token& stop) {
+bool MemoryBudget::growWhenRoom(std::size_t before, std::size_t after, const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  return less_.wait(lock, stop, [&] { return held_ + bytes <= limit_ || passing_ == 0; });
+  const auto room = [&] { return held_ - before + after <= limit_ || passing_ == 0; };
+  if (!less_.wait(lock, stop, room)) return false;
+  held_ = held_ - before + after;
+  peak_ = std::max(peak_, held_);
+  return true;
 }
 
 std::size_t MemoryBudget::held() const {

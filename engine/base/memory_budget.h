@@ -32,6 +32,9 @@ class MemoryBudget {
     ~Share() { release(); }
 
     void set(std::size_t bytes);
+    /// Waits until its growth has room, or nothing is left that goes by itself, and takes it before anybody
+    /// else can. False, and as it was, when stopped.
+    bool setWhenRoom(std::size_t bytes, const std::stop_token& stop);
     void add(std::size_t bytes) { set(bytes_ + bytes); }
     /// From now on it goes by itself, without any work of those that wait: they may wait for it.
     void pass();
@@ -45,15 +48,13 @@ class MemoryBudget {
     bool passing_ = false;
   };
 
-  /// Waits until so many more bytes have room, or nothing is left that goes by itself. False when stopped.
-  bool waitForRoom(std::size_t bytes, const std::stop_token& stop);
-
   std::size_t limit() const { return limit_; }
   std::size_t held() const;
   std::size_t peak() const;  ///< the most that was held
 
  private:
   void change(std::size_t before, std::size_t after, int passing);
+  bool growWhenRoom(std::size_t before, std::size_t after, const std::stop_token& stop);
 
   std::size_t limit_;
   mutable std::mutex mutex_;

@@ -32,7 +32,9 @@ TEST(MemoryBudget, WaitsForWhatGoesByItselfAndForNothingElse) {
   MemoryBudget budget(100);
   MemoryBudget::Share own(budget);
   own.set(90);
-  EXPECT_TRUE(budget.waitForRoom(50, {})) << "nobody would ever make room";
+  MemoryBudget::Share more(budget);
+  EXPECT_TRUE(more.setWhenRoom(50, {})) << "nobody would ever make room";
+  more.set(0);
   MemoryBudget::Share passing(budget);
   passing.set(10);
   passing.pass();
@@ -41,13 +43,33 @@ TEST(MemoryBudget, WaitsForWhatGoesByItselfAndForNothingElse) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     stop.request_stop();
   });
-  EXPECT_FALSE(budget.waitForRoom(50, stop.get_token()));
+  EXPECT_FALSE(more.setWhenRoom(50, stop.get_token()));
+  EXPECT_EQ(more.bytes(), 0u);
   std::jthread writer([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     passing = {};
   });
-  EXPECT_TRUE(budget.waitForRoom(50, {}));
-  EXPECT_EQ(budget.held(), 90u);
+  EXPECT_TRUE(more.setWhenRoom(50, {}));
+  EXPECT_EQ(budget.held(), 140u);
+}
+
+TEST(MemoryBudget, GivesRoomToOneAtATime) {
+  MemoryBudget budget(100);
+  MemoryBudget::Share passing(budget);
+  passing.set(1);
+  passing.pass();
+  // Room for one of two: both ask at once, many times.
+  const auto ask = [&] {
+    for (int n = 0; n < 2'000; ++n) {
+      MemoryBudget::Share share(budget);
+      ASSERT_TRUE(share.setWhenRoom(60, {}));
+      std::this_thread::yield();
+    }
+  };
+  std::jthread other(ask);
+  ask();
+  other.join();
+  EXPECT_EQ(budget.peak(), 61u);
 }
 
 }  // namespace
