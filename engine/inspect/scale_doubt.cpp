@@ -23,6 +23,17 @@ constexpr double kLargestScene = 20000, kSmallestScene = 0.5;  // metres across:
 constexpr double kLargestWalk = 2000, kSmallestWalk = 3;       // metres across, with a scale that fits
 constexpr double kTexelMetres = 0.005;                         // of textures made for walking by
 
+constexpr int kEnoughSteps = 8, kEnoughDoors = 3;
+constexpr double kMostly = 0.5;  // share of what was found that is alike
+constexpr double kRiserMetres = 0.17, kDoorMetres = 2.1;
+constexpr double kLeastRiser = 0.08, kLargestRiser = 0.35;            // metres: people climb these
+constexpr double kTinyRiser = 0.03, kHugeRiser = 1.05;                // metres: no terrace of blocks either
+constexpr double kLeastRiserShare = 0.008, kLargestRiserShare = 0.2;  // of the rooms' height
+constexpr double kLeastDoorShare = 0.12;                              // of the rooms' height
+constexpr double kLowDoor = 1.5, kHighDoor = 4;                       // metres: people pass these
+constexpr double kLowestDoor = 1.2, kHighestGate = 6.5;               // metres: no hatch or gate either
+constexpr double kAgree = 2.5;  // factor between the scales that two findings ask for
+
 struct Space {
   double floor, ceiling;
   double height() const { return ceiling - floor; }
@@ -80,7 +91,7 @@ void measureStacks(const std::vector<std::vector<Space>>& columns, Headways& out
 /// Where little is covered: only what no one walks through is doubted.
 std::optional<ScaleEvidence> weighExtent(double across, double texelMetres) {
   if (across <= kLargestScene && across >= kSmallestScene) return std::nullopt;
-  ScaleEvidence evidence{1, across, "it is", "across"};
+  ScaleEvidence evidence{1, {{"it is", across, "across"}}};
   if (across < kSmallestScene) {
     while (across * evidence.factor < kSmallestWalk) evidence.factor *= 10;
     return evidence;
@@ -93,6 +104,76 @@ std::optional<ScaleEvidence> weighExtent(double across, double texelMetres) {
     factor /= 10;
     if (distance(factor) < distance(evidence.factor)) evidence.factor = factor;
   }
+  return evidence;
+}
+
+/// Something of a known size, and how sure that size is.
+struct Clue {
+  ScaleFinding finding;
+  double expected;  ///< metres
+  double spread;    ///< of its natural logarithm
+  double factor() const { return expected / finding.metres; }
+};
+
+bool isCovered(const ScaleMeasures& m) { return m.headways.coveredShare >= kEnoughCovered; }
+
+/// Furniture has mouldings and holes with the proportions of steps and doors; rooms tell them apart.
+bool hasSteps(const ScaleMeasures& m) {
+  const CommonLength& riser = m.built.riser;
+  const double share = isCovered(m) ? riser.metres / m.headways.typical : kLeastRiserShare;
+  return riser.count >= kEnoughSteps && riser.count >= kMostly * riser.of && share >= kLeastRiserShare &&
+         share <= kLargestRiserShare;
+}
+
+bool hasDoors(const ScaleMeasures& m) {
+  const CommonLength& door = m.built.doorHeight;
+  return isCovered(m) && door.count >= kEnoughDoors && door.count >= kMostly * door.of &&
+         door.metres >= kLeastDoorShare * m.headways.typical;
+}
+
+/// Do people climb the steps, or pass the doorways?
+bool suitsPeople(const ScaleMeasures& m) {
+  const double riser = m.built.riser.metres, door = m.built.doorHeight.metres;
+  if (hasSteps(m) && riser >= kLeastRiser && riser <= kLargestRiser) return true;
+  return hasDoors(m) && door >= kLowDoor && door <= kHighDoor;
+}
+
+/// What alone speaks against the scale, surest first.
+std::vector<Clue> gatherClues(const ScaleMeasures& m) {
+  const Headways& headways = m.headways;
+  const double riser = m.built.riser.metres, door = m.built.doorHeight.metres;
+  std::vector<Clue> clues;
+  // Stands and terraces have large steps too: then the rooms have to be too high as well.
+  const bool tooHigh = isCovered(m) && headways.typical > kMostFitting;
+  const bool tooLow = isCovered(m) && headways.typical < kLeastFitting;
+  if (hasSteps(m) &&
+      (riser > (tooHigh ? kLargestRiser : kHugeRiser) || riser < (tooLow ? kLeastRiser : kTinyRiser)))
+    clues.push_back({{"its steps are", riser, "high"}, kRiserMetres, 0.2});
+  if (hasDoors(m) && (door < kLowestDoor || door > kHighestGate))
+    clues.push_back({{"its doorways are", door, "high"}, kDoorMetres, 0.15});
+  if (!isCovered(m)) return clues;
+  const bool storeys = headways.stackedShare >= kStacked;
+  if (storeys && headways.typical >= kHighStorey)
+    clues.push_back({{"its storeys are", headways.storey, "high"}, kStoreyMetres, 0.2});
+  else if (headways.typical <= kTooLow || headways.typical >= kHighHall)
+    clues.push_back(
+        {{"the spaces between its floors and ceilings are", headways.typical, "high"}, kHeadwayMetres, 0.6});
+  return clues;
+}
+
+/// The scale that suits the clues best, of those that agree with the first.
+ScaleEvidence combine(const std::vector<Clue>& clues) {
+  ScaleEvidence evidence;
+  double logarithms = 0, weights = 0;
+  for (const Clue& clue : clues) {
+    const double apart = clue.factor() / clues.front().factor();
+    if (apart > kAgree || apart < 1 / kAgree) continue;
+    const double weight = 1 / (clue.spread * clue.spread);
+    logarithms += weight * std::log(clue.factor());
+    weights += weight;
+    evidence.findings.push_back(clue.finding);
+  }
+  evidence.factor = std::exp(logarithms / weights);
   return evidence;
 }
 
@@ -125,18 +206,12 @@ Headways measureHeadways(const Bounds& bounds, const SurfaceProbe& probe) {
   return found;
 }
 
-std::optional<ScaleEvidence> weighScale(const Bounds& bounds, const SurfaceProbe& probe, double texelMetres) {
-  const Headways headways = measureHeadways(bounds, probe);
-  if (headways.coveredShare < kEnoughCovered)
-    return weighExtent(glm::length(glm::dvec3(bounds.size())), texelMetres);
-  if (headways.fittingShare >= kFits) return std::nullopt;
-  const bool storeys = headways.stackedShare >= kStacked;
-  if (storeys && headways.typical >= kHighStorey)
-    return ScaleEvidence{kStoreyMetres / headways.storey, headways.storey, "its storeys are", "high"};
-  if (headways.typical <= kTooLow || headways.typical >= kHighHall)
-    return ScaleEvidence{kHeadwayMetres / headways.typical, headways.typical,
-                         "the spaces between its floors and ceilings are", "high"};
-  return std::nullopt;
+std::optional<ScaleEvidence> weighScale(const ScaleMeasures& measures) {
+  if (suitsPeople(measures)) return std::nullopt;
+  if (isCovered(measures) && measures.headways.fittingShare >= kFits) return std::nullopt;
+  if (const auto clues = gatherClues(measures); !clues.empty()) return combine(clues);
+  if (isCovered(measures)) return std::nullopt;
+  return weighExtent(measures.across, measures.texelMetres);
 }
 
 }  // namespace acentric

@@ -1,11 +1,13 @@
 #pragma once
-/// Whether a scene's scale can be right, told by what people stand on and under: how high the spaces between
-/// floors and ceilings are, whether they lie one above another as storeys do, and where little is covered,
-/// how far the whole extends.
+/// Whether a scene's scale can be right, told by what people stand on, pass through and stand under: steps,
+/// doorways, how high the spaces between floors and ceilings are, whether they lie one above another as
+/// storeys do, and where little is covered, how far the whole extends.
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "engine/inspect/built_sizes.h"
 #include "engine/inspect/surface_probe.h"
 #include "engine/scene/scene.h"
 
@@ -20,16 +22,28 @@ struct Headways {
 };
 Headways measureHeadways(const Bounds& bounds, const SurfaceProbe& probe);
 
-struct ScaleEvidence {
-  double factor = 1;      ///< the scene's lengths times this would fit people; not rounded
-  double measured = 0;    ///< metres now
+/// What a scene's scale can be told by.
+struct ScaleMeasures {
+  Headways headways;
+  BuiltSizes built;
+  double across = 0;       ///< metres from corner to corner of the whole
+  double texelMetres = 0;  ///< typical edge of a texel, 0 = unknown; of use only where little is covered
+};
+
+struct ScaleFinding {
   std::string subject;    ///< what was measured: "its storeys are"
+  double metres = 0;      ///< now
   std::string dimension;  ///< "high", "across"
 };
 
-/// Nothing where the scale may well be right: a hall, a cathedral, a landscape. `texelMetres`: typical edge
-/// of a texel on the scene's surfaces, 0 = unknown; a weak hint, of use only where nothing is covered.
-std::optional<ScaleEvidence> weighScale(const Bounds& bounds, const SurfaceProbe& probe,
-                                        double texelMetres = 0);
+struct ScaleEvidence {
+  double factor = 1;                   ///< the scene's lengths times this would fit people; not rounded
+  std::vector<ScaleFinding> findings;  ///< at least one; what people are surest of first
+};
+
+/// Nothing where the scale may well be right: a hall, a cathedral, a landscape. Steps and doorways of
+/// people's size outweigh high rooms; steps that are too large count only where nothing else fits people, for
+/// there are stands and terraces.
+std::optional<ScaleEvidence> weighScale(const ScaleMeasures& measures);
 
 }  // namespace acentric

@@ -98,17 +98,30 @@ void rescale(LayoutSpec& spec, const Rescaling& to) {
 
 }  // namespace
 
+ScaleMeasures measureScale(const RayScene& rays) {
+  const Scene& scene = rays.scene();
+  const SurfaceProbe probe = probeFor(rays);
+  return {measureHeadways(scene.bounds, probe), measureBuiltSizes(scene, probe),
+          glm::length(glm::dvec3(scene.bounds.size())), typicalTexel(scene)};
+}
+
 std::optional<ScaleDoubt> doubtScale(const RayScene& rays, const ImportOptions& chosen) {
   if (chosen.metresPerUnit > 0) return std::nullopt;
-  const Scene& scene = rays.scene();
-  const auto evidence = weighScale(scene.bounds, probeFor(rays), typicalTexel(scene));
+  const auto evidence = weighScale(measureScale(rays));
   if (!evidence) return std::nullopt;
   ScaleDoubt doubt;
-  doubt.metresPerUnit = readableScale(scene.report.metresPerUnit * evidence->factor);
-  doubt.factor = doubt.metresPerUnit / scene.report.metresPerUnit;
-  doubt.text = fmt::format("As the model is scaled now, {} {} {}; at {:g} metres per unit that would be {}",
-                           evidence->subject, lengthText(evidence->measured), evidence->dimension,
-                           doubt.metresPerUnit, lengthText(evidence->measured * doubt.factor));
+  const double now = rays.scene().report.metresPerUnit;
+  doubt.metresPerUnit = readableScale(now * evidence->factor);
+  doubt.factor = doubt.metresPerUnit / now;
+  std::string before, after;
+  for (const ScaleFinding& finding : evidence->findings) {
+    const bool first = before.empty();
+    before += fmt::format("{}{} {} {}", first ? "" : " and ", finding.subject, lengthText(finding.metres),
+                          finding.dimension);
+    after += (first ? "" : " and ") + lengthText(finding.metres * doubt.factor);
+  }
+  doubt.text = fmt::format("As the model is scaled now, {}; at {:g} metres per unit {} would be {}", before,
+                           doubt.metresPerUnit, evidence->findings.size() == 1 ? "that" : "these", after);
   return doubt;
 }
 

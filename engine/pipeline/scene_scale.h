@@ -5,9 +5,12 @@
 #include <string>
 
 #include "engine/bake/ray_scene.h"
+#include "engine/inspect/scale_doubt.h"
 #include "engine/pipeline/project.h"
 
 namespace acentric {
+
+ScaleMeasures measureScale(const RayScene& rays);
 
 struct ScaleDoubt {
   double metresPerUnit = 1;  ///< that would fit

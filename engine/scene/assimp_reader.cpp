@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
@@ -79,6 +80,29 @@ void readColladaHead(const ReadContext& context, SourceScene& scene) {
     if (head.substr(up, 32).find("Z_UP") != head.npos) scene.up = UpAxis::z;
     if (head.substr(up, 32).find("X_UP") != head.npos) scene.ignored.add("X as up axis (Y is taken)");
   }
+}
+
+/// OBJ has no place for a unit, but programs that write it say theirs in the comments at the top: SketchUp
+/// "# File units = inches"; the engine of Cube 2 (Sauerbraten, Red Eclipse) that the file is a level of it,
+/// whose grid has eight units to the metre.
+void readObjHead(const ReadContext& context, SourceScene& scene) {
+  std::string head(4096, '\0');
+  std::ifstream file(context.path, std::ios::binary);
+  file.read(head.data(), std::streamsize(head.size()));
+  head.resize(std::size_t(file.gcount()));
+  if (head.find("# obj file of Cube 2 level") != head.npos) {
+    scene.metresPerUnit = 0.125;
+    scene.unitSource = "the file says that it is a level of Cube 2, which has 8 units to the metre";
+    return;
+  }
+  constexpr std::string_view kUnits = "# File units = ";
+  const auto at = head.find(kUnits);
+  if (at == head.npos) return;
+  const std::string_view unit = std::string_view(head).substr(at + kUnits.size(), 12);
+  for (const auto& [name, metres] :
+       {std::pair{"inches", 0.0254}, std::pair{"feet", 0.3048}, std::pair{"millimeters", 0.001},
+        std::pair{"centimeters", 0.01}, std::pair{"meters", 1.0}})
+    if (unit.starts_with(name)) scene.metresPerUnit = metres, scene.unitSource = "the file's comments";
 }
 
 void readMetadata(const aiScene& from, SourceScene& scene) {
@@ -258,6 +282,8 @@ Result<SourceScene> readWithAssimp(const ReadContext& context) {
     readColladaHead(context, scene);
     rootScale = 1 / scene.metresPerUnit;  // assimp scales COLLADA to metres and has no switch for it
   }
+
+  if (extension == ".obj") readObjHead(context, scene);
 
   context.tell(0, 0, "reading the file");
   const aiScene* from = importer.ReadFile(

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kEntryExtension = ".acscene";
 /// Raised whenever the same file would import to another scene than before.
-constexpr std::uint32_t kImportVersion = 1;
+constexpr std::uint32_t kImportVersion = 2;
 
 /// Entries are found by the model file's content; the files that it names are then compared one by one.
 fs::path entryFor(const fs::path& folder, const ContentKey& model, const ImportOptions& options) {

@@ -26,15 +26,19 @@ BoxWorld towers(double across, double top, double storey) {
 }
 
 std::optional<ScaleEvidence> weigh(const BoxWorld& world, double texelMetres = 0) {
-  return weighScale(world.bounds(), world.probe(), texelMetres);
+  return weighScale({measureHeadways(world.bounds(), world.probe()),
+                     {},
+                     glm::length(glm::dvec3(world.bounds().size())),
+                     texelMetres});
 }
 
 TEST(ScaleDoubt, IsRaisedByACityWhoseStoreysAreTwentyMetresHigh) {
   const auto evidence = weigh(towers(2192, 740, 20));
   ASSERT_TRUE(evidence.has_value());
   EXPECT_NEAR(evidence->factor, 0.15, 1e-6);
-  EXPECT_NEAR(evidence->measured, 20, 1e-4);
-  EXPECT_EQ(evidence->subject, "its storeys are");
+  ASSERT_EQ(evidence->findings.size(), 1U);
+  EXPECT_NEAR(evidence->findings[0].metres, 20, 1e-4);
+  EXPECT_EQ(evidence->findings[0].subject, "its storeys are");
   EXPECT_FALSE(weigh(scaled(towers(2192, 740, 20), evidence->factor)).has_value());
 }
 

@@ -55,6 +55,101 @@ TEST(SceneScale, OfACityWithStoreysOfTwentyMetresIsInDoubt) {
   EXPECT_FALSE(doubtScale(*traceable(city(), {.metresPerUnit = 0.15}), {}).has_value());
 }
 
+/// Nothing but a mesh.
+SourceScene emptySource(double metresPerUnit) {
+  SourceScene source;
+  source.metresPerUnit = metresPerUnit;
+  source.unitSource = source.upSource = "test";
+  source.up = UpAxis::z;
+  source.materials.emplace_back();
+  source.meshes.emplace_back();
+  return source;
+}
+
+/// Ground and `flights` straight stairs of ten steps on it, in the open; metres.
+SourceScene stairs(int flights, double riser, double going, double metresPerUnit) {
+  SourceScene source = emptySource(metresPerUnit);
+  SourceMesh& mesh = source.meshes.front();
+  addBox(mesh, {-20, -20, -0.5}, {60, 60, 0});
+  for (int flight = 0; flight < flights; ++flight)
+    for (int step = 0; step < 10; ++step)
+      addBox(mesh, {going * step, 4.0 * flight, riser * step},
+             {going * 10, 4.0 * flight + 1.4, riser * (step + 1)});
+  return source;
+}
+
+/// Two rooms of 14 m height side by side, the wall between them with three doorways of 0.9 x 2.1 m.
+SourceScene halls(double metresPerUnit) {
+  SourceScene source = emptySource(metresPerUnit);
+  SourceMesh& mesh = source.meshes.front();
+  addBox(mesh, {-0.3, -0.3, -0.3}, {30.3, 24.3, 0});
+  addBox(mesh, {-0.3, -0.3, 14}, {30.3, 24.3, 14.3});
+  addBox(mesh, {-0.3, -0.3, 0}, {0, 24.3, 14});
+  addBox(mesh, {30, -0.3, 0}, {30.3, 24.3, 14});
+  addBox(mesh, {0, -0.3, 0}, {30, 0, 14});
+  addBox(mesh, {0, 24, 0}, {30, 24.3, 14});
+  addBox(mesh, {15, 0, 2.1}, {15.3, 24, 14});
+  double from = 0;
+  for (const double door : {5.0, 12.0, 19.0}) {
+    addBox(mesh, {15, from, 0}, {15.3, door, 2.1});
+    from = door + 0.9;
+  }
+  addBox(mesh, {15, from, 0}, {15.3, 24, 2.1});
+  return source;
+}
+
+TEST(SceneScale, IsToldByStepsWhateverItIs) {
+  for (const double unit : {1.0, 0.01, 7.0, 39.37, 1000.0}) {
+    const auto built = measureScale(*traceable(stairs(2, 0.17, 0.29, unit))).built;
+    EXPECT_NEAR(built.riser.metres, 0.17 * unit, 0.01 * unit) << unit;
+    EXPECT_GE(built.riser.count, 12) << unit;
+    EXPECT_EQ(built.riser.count, built.riser.of) << unit;
+  }
+}
+
+TEST(SceneScale, OfStairsInTheOpenIsInDoubtWhereNobodyCouldClimbThem) {
+  const auto doubt = doubtScale(*traceable(stairs(2, 0.17, 0.29, 7)), {});
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_NEAR(doubt->factor, 1 / 7.0, 0.01);
+  EXPECT_NE(doubt->text.find("its steps are 1.2 m high"), std::string::npos) << doubt->text;
+  EXPECT_TRUE(doubtScale(*traceable(stairs(2, 0.17, 0.29, 0.1)), {}).has_value()) << "a staircase for mice";
+  EXPECT_FALSE(doubtScale(*traceable(stairs(2, 0.17, 0.29, 1)), {}).has_value());
+  EXPECT_FALSE(doubtScale(*traceable(stairs(2, 0.45, 0.8, 1)), {}).has_value()) << "a stand's rows";
+  EXPECT_FALSE(doubtScale(*traceable(stairs(2, 1, 1, 1)), {}).has_value()) << "terraces of blocks";
+}
+
+TEST(SceneScale, OfHallsIsToldByTheirDoorways) {
+  const auto built = measureScale(*traceable(halls(1))).built;
+  EXPECT_EQ(built.doorHeight.count, 3);
+  EXPECT_NEAR(built.doorHeight.metres, 2.1, 1e-3);
+  EXPECT_NEAR(built.doorWidth, 0.9, 1e-3);
+  EXPECT_FALSE(doubtScale(*traceable(halls(1)), {}).has_value());
+  EXPECT_FALSE(doubtScale(*traceable(halls(1.5)), {}).has_value());
+  const auto doubt = doubtScale(*traceable(halls(39.37)), {});
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_EQ(doubt->metresPerUnit, 1) << doubt->text;
+  EXPECT_NE(doubt->text.find("its doorways are 83 m high"), std::string::npos) << doubt->text;
+}
+
+TEST(SceneScale, OfHallsIsNotQuestionedWhereItsStepsSuitPeople) {
+  // Storeys of 20 m, with stairs of 0.17 m risers on the ground: built so large on purpose.
+  SourceScene source = city();
+  for (int step = 0; step < 20; ++step)
+    addBox(source.meshes.front(), {20 + 0.29 * step, 20, 0.17 * step}, {40, 40, 0.17 * (step + 1)});
+  EXPECT_FALSE(doubtScale(*traceable(std::move(source)), {}).has_value());
+}
+
+TEST(SceneScale, OfACityNamesItsStepsAndItsStoreysWhereBothAreTooHigh) {
+  SourceScene source = city();
+  for (int step = 0; step < 20; ++step)
+    addBox(source.meshes.front(), {20 + 2 * step, 20, 1.2 * step}, {90, 60, 1.2 * (step + 1)});
+  const auto doubt = doubtScale(*traceable(std::move(source)), {});
+  ASSERT_TRUE(doubt.has_value());
+  EXPECT_EQ(doubt->text,
+            "As the model is scaled now, its steps are 1.2 m high and its storeys are 20 m high; at 0.15 "
+            "metres per unit these would be 0.18 m and 3 m");
+}
+
 TEST(SceneScale, IsChangedWithAllThatStandsOnTheModel) {
   // So far away that positions are counted from near the city; at the other scale from elsewhere.
   const glm::dvec3 at(300000, -70000, 0);

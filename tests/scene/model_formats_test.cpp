@@ -69,6 +69,19 @@ TEST_F(ModelFormats, AbsurdSizesAreTakenAsCentimetresOrMillimetres) {
   EXPECT_NEAR(parsed("told.obj", boxOf(3000), {0.125, UpAxis::guess, true}).bounds.size().x, 375, 1e-3);
 }
 
+TEST_F(ModelFormats, AUnitThatTheCommentsOfAnObjFileStateIsTaken) {
+  const std::string box = "v 0 0 0\nv 3000 0 0\nv 0 3000 0\nf 1 2 3\n";
+  const Scene level = parsed("level.obj", "# obj file of Cube 2 level\n\n" + box);
+  EXPECT_NEAR(level.bounds.size().x, 375, 1e-3);
+  EXPECT_TRUE(mentions(level.report.guessed, "8 units to the metre"));
+  const Scene inches = parsed("inches.obj", "# Exported from SketchUp\n# File units = inches\n" + box);
+  EXPECT_NEAR(inches.bounds.size().x, 76.2, 1e-3);
+  EXPECT_TRUE(mentions(inches.report.guessed, "unit: 0.0254 m (the file's comments)"));
+  EXPECT_NEAR(parsed("told.obj", "# File units = inches\n" + box, {2, UpAxis::guess, true}).bounds.size().x,
+              6000, 1e-2);
+  EXPECT_NEAR(parsed("odd.obj", "# File units = parsecs\n" + box).bounds.size().x, 30, 1e-4);
+}
+
 /// A house of two storeys, 12 x 9 m and 6 m high, as a box with a floor between; `up` is 1 for Y, 2 for Z.
 std::string houseObj(int up) {
   std::string text;
