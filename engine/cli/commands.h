@@ -212,6 +212,15 @@ struct CollectOptions {
 };
 Result<Report> runCollect(const CollectOptions& options, const Common& common);
 
+/// How a project's model is read: the twin of the editor's choice of light and its answer to a scale in
+/// doubt.
+struct ModelOptions {
+  std::filesystem::path project;
+  std::optional<double> metresPerUnit;  ///< nothing = as it is
+  std::string light;                    ///< empty = as it is
+};
+Result<Report> runModel(const ModelOptions& options, const Common& common);
+
 struct ValidateOptions {
   std::filesystem::path project;
 };

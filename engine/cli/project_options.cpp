@@ -7,6 +7,15 @@
 namespace acentric::cli {
 namespace {
 
+CLI::Option* addLight(CLI::App& command, std::string& light) {
+  return command
+      .add_option(
+          "--light", light,
+          "Where light comes from: in-textures (photographs and scans, shown as they are), computed, or "
+          "guess, which is said")
+      ->check(CLI::IsMember({"guess", "in-textures", "computed"}));
+}
+
 void addNew(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "new", "Import a scene and lay a first tessellation over its walkable floor",
                     "  acentric new kitchen.glb -o kitchen.acentric.json\n"
@@ -29,12 +38,7 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
-  c->add_option(
-       "--light", o.light,
-       "Where light comes from: in-textures (photographs and scans, shown as they are), computed, or "
-       "guess, which is said")
-      ->check(CLI::IsMember({"guess", "in-textures", "computed"}))
-      ->capture_default_str();
+  addLight(*c, o.light)->capture_default_str();
   c->add_option("--storey", o.storey,
                 "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
                 "(default: the one with most floor)");
@@ -55,6 +59,20 @@ void addCollect(CLI::App& app, Chosen& chosen) {
           runCollect);
   c->add_option("project", o.project, "Project file")->required();
   c->add_flag("--link", o.link, "Make a link to a model that lies elsewhere, instead of bringing its files");
+}
+
+void addModel(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "model",
+                    "Change how a project's model is read: its scale, with all that was laid out on it, and "
+                    "where its light comes from",
+                    "  acentric model city.acentric.json --metres-per-unit 0.15\n"
+                    "  acentric model scan.acentric.json --light in-textures",
+                    runModel);
+  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("--metres-per-unit", o.metresPerUnit,
+                "Scale of the model: outlines, floors, bookmarks and paths stay where they are on it")
+      ->check(CLI::Range(1e-9, 1e6));
+  addLight(*c, o.light);
 }
 
 void addInfo(CLI::App& app, Chosen& chosen) {
@@ -90,6 +108,7 @@ void addStoreys(CLI::App& app, Chosen& chosen) {
   c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
       ->check(CLI::IsMember({"guess", "y", "z"}))
       ->capture_default_str();
+  addLight(*c, o.light)->capture_default_str();
   c->add_option("--add", o.add,
                 "Lay cells on a plane found: its number here, its height (3.2m), or all that have none yet");
   c->add_option("--remove", o.remove, "Take a storey out of the project");
@@ -206,6 +225,7 @@ void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise) {
 void addProjectCommands(CLI::App& app, Chosen& chosen) {
   addNew(app, chosen);
   addCollect(app, chosen);
+  addModel(app, chosen);
   addInfo(app, chosen);
   addStoreys(app, chosen);
   addLayout(app, chosen);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/scene/import_cache.h"
 
 namespace acentric {
 namespace fs = std::filesystem;
@@ -51,7 +52,7 @@ PlanMemory::PlanMemory(const fs::path& file, std::optional<int> storey, const st
     : file_(file), host_(host) {
   std::error_code error;
   const fs::path absolute = fs::weakly_canonical(fs::absolute(file, error), error);
-  const fs::path folder = host.cacheFolder.empty() ? userCacheFolder() / "plans" : host.cacheFolder / "plans";
+  const fs::path folder = host.cacheFolder.empty() ? keptFolder("plans") : host.cacheFolder / "plans";
   const std::string name =
       Hasher().text(absolute.string()).value(storey.value_or(-1)).finish().toHex() + ".acplan";
   entry_ = folder / name;

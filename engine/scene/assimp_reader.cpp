@@ -28,6 +28,10 @@ class RecordingFiles : public Assimp::DefaultIOSystem {
  public:
   RecordingFiles(References& references, ReportLines& ignored) : references_(references), ignored_(ignored) {}
 
+  bool Exists(const char* file) const override {
+    return references_.mayRead(file) && DefaultIOSystem::Exists(file);
+  }
+
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
     std::error_code error;

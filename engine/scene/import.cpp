@@ -8,6 +8,7 @@
 #include "engine/base/file.h"
 #include "engine/scene/import_cache.h"
 #include "engine/scene/import_process.h"
+#include "engine/scene/references.h"
 #include "engine/scene/scene_file.h"
 
 namespace acentric {
@@ -19,13 +20,16 @@ constexpr const char* kEntryExtension = ".acscene";
 constexpr std::uint32_t kImportVersion = 2;
 
 /// Entries are found by the model file's content; the files that it names are then compared one by one.
-fs::path entryFor(const fs::path& folder, const ContentKey& model, const ImportOptions& options) {
+/// What may be read depends on where the model lies.
+fs::path entryFor(const fs::path& folder, const fs::path& path, const ContentKey& model,
+                  const ImportOptions& options) {
   Hasher hasher;
   hasher.text("acentric import")
       .value(kImportVersion)
       .value(kSceneFileVersion)
       .value(model.high)
-      .value(model.low);
+      .value(model.low)
+      .text(path.parent_path().lexically_relative(readableFolderOf(path)).generic_string());
   options.addTo(hasher);
   return folder / (hasher.finish().toHex() + kEntryExtension);
 }
@@ -112,7 +116,7 @@ Result<ScenePtr> importUnguarded(const fs::path& asked, const ImportOptions& opt
   if (progress) progress({0, 0, "looking in the cache"});
   const auto content = hashFile(path);
   if (!content) return tl::unexpected(content.error());
-  const fs::path entry = entryFor(folder, *content, options);
+  const fs::path entry = entryFor(folder, path, *content, options);
   if (host.useCache)
     if (ScenePtr scene = fromCache(entry, path)) {
       noteLastImport(pointerFor(folder, path, options), entry);
@@ -174,7 +178,7 @@ std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& 
   const auto content = hashFile(model);
   if (error || !content || !host.useCache) return {};
   std::vector<fs::path> files;
-  (void)readSceneFile(entryFor(importCacheFolder(host), *content, options),
+  (void)readSceneFile(entryFor(importCacheFolder(host), model, *content, options),
                       [&](const std::vector<Dependency>& dependencies) {
                         files.push_back(model);
                         for (const Dependency& dependency : dependencies)

@@ -30,15 +30,21 @@ bool canBeWritten(const fs::path& folder) {
   return !error && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-fs::path usualFolder() { return userCacheFolder() / "scenes"; }
+constexpr std::string_view kScenes = "scenes";
+
+fs::path usualFolder() { return userCacheFolder() / kScenes; }
 
 }  // namespace
 
-fs::path importCacheFolder(const ImportHost& host) {
-  if (!host.cacheFolder.empty()) return host.cacheFolder;
-  if (canBeWritten(usualFolder())) return usualFolder();
+fs::path keptFolder(std::string_view name) {
+  const fs::path usual = userCacheFolder() / name;
+  if (canBeWritten(usual)) return usual;
   const auto temporary = temporaryCacheFolder();
-  return temporary ? *temporary / "scenes" : usualFolder();
+  return temporary ? *temporary / name : usual;
+}
+
+fs::path importCacheFolder(const ImportHost& host) {
+  return host.cacheFolder.empty() ? keptFolder(kScenes) : host.cacheFolder;
 }
 
 std::optional<std::string> importCacheNotice(const ImportHost& host) {

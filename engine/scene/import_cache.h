@@ -4,13 +4,17 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/scene/import.h"
 
 namespace acentric {
 
-/// The host's folder, else the user's; where that cannot be written (no home, as in containers), one in the
-/// folder for temporary files that is nobody else's.
+/// A folder of this name in the user's cache; where that cannot be written (no home, as in containers), in
+/// one in the folder for temporary files that is nobody else's.
+std::filesystem::path keptFolder(std::string_view name);
+
+/// The host's folder, else the kept one for scenes.
 std::filesystem::path importCacheFolder(const ImportHost& host);
 
 /// What to tell the user where it is not the usual one.

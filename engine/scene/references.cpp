@@ -58,12 +58,27 @@ bool isRegular(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
+bool holdsProject(const fs::path& folder) {
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error))
+    if (entry->path().native().ends_with(".acentric.json") && isRegular(entry->path())) return true;
+  return false;
+}
+
 }  // namespace
+
+fs::path readableFolderOf(const fs::path& model) {
+  for (fs::path at = model.parent_path(); at.has_relative_path(); at = at.parent_path())
+    if (at.parent_path().filename() == "models" && holdsProject(at.parent_path().parent_path())) return at;
+  return model.parent_path();
+}
 
 References::References(const fs::path& model, bool allowOutside) : allowOutside_(allowOutside) {
   std::error_code error;
   model_ = fs::weakly_canonical(fs::absolute(model, error), error);
   folder_ = model_.parent_path();
+  within_ = readableFolderOf(model_);
 }
 
 std::string References::keyFor(const fs::path& path) const {
@@ -76,7 +91,7 @@ bool References::mayRead(const fs::path& path) const {
   if (allowOutside_) return true;
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(path, error);
-  return !error && isBelow(canonical, folder_);
+  return !error && isBelow(canonical, within_);
 }
 
 Error References::outside(const fs::path& path, std::string named) {

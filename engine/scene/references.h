@@ -4,8 +4,10 @@
 /// folder.
 ///
 /// A file is read only from the model's own folder or below it, all links resolved: a model from elsewhere
-/// must not bring other files of this machine into what is published. Who means it may allow more. Back
-/// slashes, a missing drive and wrong letter case are forgiven.
+/// must not bring other files of this machine into what is published. A model that was brought to
+/// models/NAME beside a project file may lie deeper there, with its files beside its folder: then models/NAME
+/// is the limit. Who means it may allow more. Back slashes, a missing drive and wrong letter case are
+/// forgiven.
 
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +20,9 @@
 #include "engine/base/result.h"
 
 namespace acentric {
+
+/// The folder within which a model may name files; `model` is canonical.
+std::filesystem::path readableFolderOf(const std::filesystem::path& model);
 
 struct Dependency {
   std::string path;  ///< relative to the model's folder, or absolute
@@ -50,7 +55,8 @@ class References {
  private:
   std::string keyFor(const std::filesystem::path& path) const;
 
-  std::filesystem::path folder_;  ///< canonical
+  std::filesystem::path folder_;  ///< canonical, the model's own
+  std::filesystem::path within_;  ///< canonical: files are read from here
   std::filesystem::path model_;
   bool allowOutside_;
   std::map<std::string, bool> files_;  ///< path as in Dependency -> existed

@@ -110,6 +110,30 @@ TEST_F(CollectTest, FilesBesideTheModelsFolderKeepTheirPlaceToItWhereTheyMayBeRe
   EXPECT_EQ(keyOfScene(folder_ / "walk" / collected->scene), key);
 }
 
+TEST_F(CollectTest, WhatWasBroughtOnceIsReadFromThereWithoutLeaveToReadOutside) {
+  host_.outsideFiles = true;
+  write(folder_ / "made" / "obj" / "floor.obj", floorOf("../materials/red.mtl"));
+  write(folder_ / "made" / "materials" / "red.mtl", kRed);
+  const ContentKey key = keyOfScene(folder_ / "made" / "obj" / "floor.obj");
+  const auto collected = collect(folder_ / "made" / "obj" / "floor.obj");
+  ASSERT_TRUE(collected) << collected.error().describe();
+  const fs::path model = folder_ / "walk" / collected->scene;
+  host_.outsideFiles = false;
+  const ContentKey without = keyOfScene(model);
+  EXPECT_NE(without, key) << "no project lies there yet";
+  writeProject(collected->scene.generic_string());
+  EXPECT_EQ(keyOfScene(model), key) << "also where it was imported with less before";
+
+  // Out of models/NAME nothing leads: not a name, not a link.
+  write(folder_ / "walk" / "models" / "red.mtl", "newmtl red\nKd 0 1 0\n");
+  const fs::path library = folder_ / "walk" / "models" / "floor" / "materials" / "red.mtl";
+  fs::remove(library);
+  fs::create_symlink(folder_ / "walk" / "models" / "red.mtl", library);
+  EXPECT_EQ(keyOfScene(model), without);
+  write(model, floorOf("../../red.mtl"));
+  EXPECT_EQ(keyOfScene(model), without);
+}
+
 TEST_F(CollectTest, TheSameModelComesOnceAndAnotherOfTheNameBesideIt) {
   write(folder_ / "a" / "floor.obj", floorOf("none.mtl"));
   write(folder_ / "b" / "floor.obj", floorOf("none.mtl") + "v 9 9 9\n");
