@@ -38,11 +38,13 @@ double crowding(const Layout& layout, const CrowdingRules& rules, const SurfaceP
 
 LatticeShift findFreestOrigin(const LayoutSpec& spec, const ShiftOptions& options, const SurfaceProbe& probe,
                               std::stop_token stop) {
+  std::size_t cameras = 1;  // of the layout looked at last
   const auto crowdingAt = [&](const glm::dvec2& origin) {
     LayoutSpec moved = spec;
     moved.latticeOrigin = origin;
     const auto layout = buildLayout(moved);
     if (!layout || layout->regions.empty()) return std::numeric_limits<double>::infinity();
+    cameras = std::max(cameras, layout->cameras.size());
     return crowding(*layout, options.crowding, probe);
   };
   LatticeShift best{spec.latticeOrigin, crowdingAt(spec.latticeOrigin), 0};
@@ -51,11 +53,11 @@ LatticeShift findFreestOrigin(const LayoutSpec& spec, const ShiftOptions& option
   const glm::dvec2 middle = cellPolygon(spec, {0, 0, 0}).centroid();
   const glm::dvec2 along = cellPolygon(spec, {1, 0, 0}).centroid() - middle;
   const glm::dvec2 across = cellPolygon(spec, {0, 1, 0}).centroid() - middle;
-  for (int i = 0; i < options.steps; ++i)
-    for (int j = 0; j < options.steps; ++j) {
-      if (stop.stop_requested()) return best;
-      const glm::dvec2 to =
-          spec.latticeOrigin + (along * double(i) + across * double(j)) / double(options.steps);
+  const int steps = std::min(options.steps, int(std::sqrt(double(options.mostCameras) / double(cameras))));
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      if (stop.stop_requested() || best.after == 0) return best;
+      const glm::dvec2 to = spec.latticeOrigin + (along * double(i) + across * double(j)) / double(steps);
       const glm::dvec2 origin(roundTo(to.x, options.rounding), roundTo(to.y, options.rounding));
       const double crowded = crowdingAt(origin);
       if (crowded < best.after - 1e-9) best.origin = origin, best.after = crowded;

@@ -20,7 +20,9 @@ double crowding(const Layout& layout, const CrowdingRules& rules, const SurfaceP
 
 struct ShiftOptions {
   CrowdingRules crowding;
-  int steps = 6;           ///< each way over the lattice's cell: steps x steps origins are tried
+  int steps = 6;  ///< each way over the lattice's cell: steps x steps origins are tried
+  /// Cameras looked at in all: over very large layouts fewer origins are tried, at last none but the spec's.
+  std::size_t mostCameras = 400'000;
   double rounding = 0.01;  ///< metres: origins that a person can read
 };
 
@@ -29,7 +31,8 @@ struct LatticeShift {
   double before = 0, after = 0;  ///< crowding
 };
 
-/// The spec's own origin wins a tie, then the first tried. Origins where nothing is placed are passed over.
+/// The spec's own origin wins a tie, then the first tried. Origins where nothing is placed are passed
+/// over, and once no camera is crowded no more are tried.
 /// Stopped: the best so far.
 LatticeShift findFreestOrigin(const LayoutSpec& spec, const ShiftOptions& options, const SurfaceProbe& probe,
                               std::stop_token stop = {});

@@ -229,5 +229,42 @@ TEST(LatticeShift, StaysWhereItIsInTheOpen) {
   EXPECT_EQ(shift.before, 0);
 }
 
+/// Rays that finding an origin takes.
+std::size_t raysOf(const LayoutSpec& spec, const ShiftOptions& options, const BoxWorld& world) {
+  std::size_t rays = 0;
+  (void)findFreestOrigin(spec, options, [&rays, probe = world.probe()](const auto& from, const auto& along) {
+    ++rays;
+    return probe(from, along);
+  });
+  return rays;
+}
+
+TEST(LatticeShift, TriesNoMoreOnceNoCameraIsCrowded) {
+  const BoxWorld open{{{{-50, -50, -1}, {50, 50, 0}}}, {}};
+  const LayoutSpec spec = squares({1.23, 0.77});
+  std::size_t once = 0;
+  (void)crowding(buildLayout(spec).value(), {}, [&once](const auto&, const auto&) {
+    ++once;
+    return SurfaceHit{};
+  });
+  ASSERT_GT(once, 0U);
+  EXPECT_EQ(raysOf(spec, {}, open), once);
+}
+
+TEST(LatticeShift, TriesFewerOriginsOverManyCameras) {
+  // A post in the middle of every cell's way: some camera is crowded wherever the lattice lies.
+  BoxWorld posts = BoxWorld::room(8, 6, 3);
+  for (double x = 0; x < 8; x += 0.5)
+    for (double y = 0; y < 6; y += 0.5) posts.boxes.push_back({{x, y, 0}, {x + 0.1, y + 0.1, 3}});
+  const LayoutSpec spec = squares({1.1, 1.1});
+  const std::size_t cameras = buildLayout(spec)->cameras.size();
+  const std::size_t whole = raysOf(spec, {}, posts);
+  ShiftOptions few;
+  few.mostCameras = 4 * cameras;  // two origins each way, and the spec's own
+  EXPECT_LT(raysOf(spec, few, posts), whole / 5);
+  few.mostCameras = cameras - 1;
+  EXPECT_LT(raysOf(spec, few, posts), whole / 25) << "the spec's own alone";
+}
+
 }  // namespace
 }  // namespace acentric
