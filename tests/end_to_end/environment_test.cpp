@@ -1,6 +1,8 @@
 /// Machines that are not a person's desk: process 1 of a container, and users without a home.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "engine/base/file.h"
 #include "tests/end_to_end/sample_project.h"
@@ -46,6 +48,15 @@ TEST_F(Environment, WithoutAHomeEverythingWorksAndItIsSaidOnceWhereImportsAreKep
   const auto first = made.errors.find(words);
   EXPECT_NE(first, std::string::npos) << made.errors;
   EXPECT_EQ(made.errors.find(words, first + 1), std::string::npos);
+  // What bakes on several machines remember of their plan is kept there too.
+  const std::string project = (folder.path() / "two.acentric.json").string();
+  const ProcessResult part =
+      runProcess({"env", "-u", "XDG_CACHE_HOME", "HOME=/dev/null", "TMPDIR=" + folder.path().string(),
+                  ACENTRIC_PROGRAM, "bake", project, "--quality", "preview", "--shard", "1/9"});
+  EXPECT_EQ(part.exitCode, 0) << part.errors;
+  const auto kept = folder.path() / fmt::format("acentric-{}", static_cast<unsigned>(::geteuid())) / "plans";
+  ASSERT_TRUE(std::filesystem::exists(kept));
+  EXPECT_FALSE(std::filesystem::is_empty(kept));
   const ProcessResult usual =
       run({"env", "XDG_CACHE_HOME=" + (folder.path() / "cache").string()}, "three.acentric.json");
   EXPECT_EQ(usual.exitCode, 0) << usual.errors;
