@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -8,39 +7,14 @@
 #include "editor/session/project_files.h"
 #include "editor/session/unsaved_work.h"
 #include "engine/base/file.h"
+#include "tests/support/project_folder.h"
 
 namespace acentric::editor {
 namespace {
 
 namespace fs = std::filesystem;
 
-class DocumentFiles : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("acentric_document_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    file_ = folder_ / "walk.acentric.json";
-    std::ofstream(file_) << "{}";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Runs it in a process of its own, which then ends without tidying up: as by a kill.
-  template <class Work>
-  static void inAnotherProcess(Work work) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      work();
-      ::_exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_EQ(status, 0);
-  }
-  void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::trunc) << text; }
-
-  fs::path folder_, file_;
-};
+class DocumentFiles : public test::ProjectFolder {};
 
 TEST_F(DocumentFiles, AChangeIsToldOnceItKeepsStillAndOnlyIfTheContentDiffers) {
   write(folder_ / "a", "one");

@@ -1,7 +1,6 @@
 #include "engine/pipeline/project_lock.h"
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -9,36 +8,15 @@
 
 #include "engine/base/file.h"
 #include "engine/pipeline/bake_guard.h"
+#include "tests/support/project_folder.h"
 
 namespace acentric {
 namespace {
 
 namespace fs = std::filesystem;
 
-class ProjectLocks : public testing::Test {
+class ProjectLocks : public test::ProjectFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("acentric_locks_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    file_ = folder_ / "walk.acentric.json";
-    std::ofstream(file_) << "{}";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Runs it in a process of its own, which then ends without tidying up: as by a kill.
-  template <class Work>
-  static void inAnotherProcess(Work work) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      work();
-      ::_exit(0);
-    }
-    int status = 0;
-    ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_EQ(status, 0);
-  }
-  void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::trunc) << text; }
   Result<BakeGuard> begin(BakePart part = {}, bool takeOver = false) const {
     return BakeGuard::begin(file_, {part, takeOver});
   }
@@ -49,8 +27,6 @@ class ProjectLocks : public testing::Test {
       if (entry.path() != file_) names.push_back(entry.path().filename().string());
     return names;
   }
-
-  fs::path folder_, file_;
 };
 
 TEST_F(ProjectLocks, ALockIsHeldByOneAndGoneWithIt) {
