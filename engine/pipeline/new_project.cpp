@@ -10,6 +10,7 @@
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
+#include "engine/pipeline/scene_scale.h"
 #include "engine/pipeline/start_view.h"
 
 namespace acentric {
@@ -177,6 +178,8 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
     if (!storey) {
       Error failure = storey.error();
       failure.where = sceneFile.string();
+      if (const auto doubt = doubtScale(**rays, options.import))
+        failure.message += fmt::format(". {} (--metres-per-unit {:g})", doubt->text, doubt->metresPerUnit);
       return tl::unexpected(std::move(failure));
     }
     if (&planes->planes[s] == &*largest) project.storey = int(s);
