@@ -48,10 +48,32 @@ void drawPace(PanelContext& context) {
   std::string pace;
   if (const auto rays = queue.raysPerSecond(); rays && !session.bakePaused())
     pace = fmt::format("{:.2f} million rays/s", *rays / 1e6);
-  if (const auto left = queue.secondsLeft(context.now); left && !session.bakePaused())
-    pace += fmt::format(", about {} left", ui::formatDuration(*left));
+  if (const auto left = session.bakeSecondsLeft(); left && !session.bakePaused())
+    pace += fmt::format("{}about {} left", pace.empty() ? "" : ", ", ui::formatDuration(*left));
   ui::keyValue("Pace", pace.empty() ? "not known yet" : pace, kValueX);
   ui::tooltip("Measured over the last half minute. What light on local geometry takes is not foretold.");
+}
+
+/// What the bake was to take when it was begun.
+void drawForecast(const Session& session) {
+  const std::optional<BakeForecast>& forecast = session.bakeForecast();
+  if (!forecast) return ui::keyValue("To bake", "being estimated…", kValueX);
+  if (forecast->nothing()) return ui::keyValue("To bake", "nothing: all of it is there", kValueX);
+  std::string what = forecast->cameras == 0
+                         ? std::string()
+                         : fmt::format("{} {}", ui::formatCount(std::uint64_t(forecast->cameras)),
+                                       forecast->cameras == 1 ? "capture" : "captures");
+  if (forecast->lights > 0) what += what.empty() ? "light" : " and light";
+  ui::keyValue(
+      "To bake",
+      fmt::format("{}: about {}, {} on disk, up to {} of memory", what,
+                  ui::formatDuration(forecast->seconds()), ui::formatBytes(std::uint64_t(forecast->bytes())),
+                  ui::formatBytes(forecast->memoryBytes)),
+      kValueX);
+  ui::tooltip(fmt::format(
+      "Estimated when the bake began, for {} {} (±{:.0f} %). The memory is that of captures "
+      "until they are written; the scene comes on top.",
+      forecast->threads, forecast->threads == 1 ? "thread" : "threads", 100 * forecast->relativeError));
 }
 
 void drawDisk(Session& session) {
@@ -73,7 +95,10 @@ void drawDisk(Session& session) {
 void drawFacts(PanelContext& context) {
   Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
-  if (session.baking().running()) drawPace(context);
+  if (session.baking().running()) {
+    drawForecast(session);
+    drawPace(context);
+  }
   if (captures != nullptr) {
     const auto& walk = session.walk();
     ui::keyValue("Captures",
