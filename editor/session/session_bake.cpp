@@ -125,7 +125,10 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
   context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
   const auto forecast = foretell(*plan, known, memoryBytes, runner, context);
   if (!forecast) return tl::unexpected(forecast.error());
-  context.post([this, told = *forecast] { bakeForecast_ = told; });
+  context.post([this, told = *forecast] {
+    bakeForecast_ = told;
+    neededBytes_ = told.bytes();
+  });
   ProjectBakeReport all;
   for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
     const OpenProject& storey = plan->storeys[s];
@@ -143,9 +146,6 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
     request.mayGoOn = [&] { return guard.check(); };
     request.watch = [&, gate = std::make_shared<NewsGate>()](const CameraNews& news) {
       if (gate->open(news)) context.post([this, s, news] { bakeQueue_.tell(now_, int(s), news); });
-    };
-    request.tellRoom = [&](double needed, std::uint64_t) {
-      context.post([this, needed] { neededBytes_ = needed; });
     };
     const auto report = bakeProject(storey, request, runner, part, context.stop());
     if (!report) return report;
@@ -243,8 +243,10 @@ std::optional<BakeForecast> Session::forecastOfEstimate() const {
 
 std::optional<double> Session::bakeSecondsLeft() const {
   if (!baking_.running()) return std::nullopt;
-  if (const auto left = bakeQueue_.secondsLeft(now_)) return left;
-  if (!bakeForecast_) return std::nullopt;
+  // The first cameras gather light for those that come after: their pace is not the bake's.
+  constexpr int kTelling = 8;
+  const auto left = bakeQueue_.secondsLeft(now_);
+  if (!bakeForecast_ || (left && bakeQueue_.count(CameraStage::done) >= kTelling)) return left;
   return bakeForecast_->captureSeconds * (1 - bakeQueue_.share()) + bakeForecast_->lightSeconds;
 }
 

@@ -348,7 +348,6 @@ Status checkRoom(const OpenProject& open, const Missing& missing, const BakeRequ
                 figures + ": make room, bake fewer cameras, or lower the samples per degree",
                 store.folder().string());
   if (progress) progress({0, 0, figures});
-  if (request.tellRoom) request.tellRoom(report.neededBytes, *available);
   return {};
 }
 

@@ -115,9 +115,6 @@ struct BakeRequest {
   /// Asked before anything is stored, by any thread, and once more at the end; a failure ends the bake with
   /// it.
   std::function<Status()> mayGoOn;
-  /// Told what all that is missing is expected to take, previews too, and what there is, before the first of
-  /// it is baked.
-  std::function<void(double neededBytes, std::uint64_t freeBytes)> tellRoom;
 };
 struct ProjectBakeReport {
   BakeReport captures;
