@@ -48,10 +48,38 @@ void drawPace(PanelContext& context) {
   std::string pace;
   if (const auto rays = queue.raysPerSecond(); rays && !session.bakePaused())
     pace = fmt::format("{:.2f} million rays/s", *rays / 1e6);
-  if (const auto left = queue.secondsLeft(context.now); left && !session.bakePaused())
-    pace += fmt::format(", about {} left", ui::formatDuration(*left));
+  if (const auto left = session.bakeSecondsLeft(); left && !session.bakePaused())
+    pace += fmt::format("{}about {} left", pace.empty() ? "" : ", ", ui::formatDuration(*left));
   ui::keyValue("Pace", pace.empty() ? "not known yet" : pace, kValueX);
-  ui::tooltip("Measured over the last half minute. What light on local geometry takes is not foretold.");
+  ui::tooltip(
+      "Measured over the last half minute; time left is as foretold while the first cameras are baked, and "
+      "then "
+      "without light on local geometry.");
+}
+
+/// What the bake was to take when it was begun.
+void drawForecast(const Session& session) {
+  const std::optional<BakeForecast>& forecast = session.bakeForecast();
+  std::string text = "being estimated…";
+  if (forecast && forecast->nothing()) text = "nothing: all of it is there";
+  if (forecast && !forecast->nothing()) {
+    std::string what;
+    if (forecast->cameras > 0)
+      what = fmt::format("{} {}", ui::formatCount(std::uint64_t(forecast->cameras)),
+                         forecast->cameras == 1 ? "capture" : "captures");
+    if (forecast->lights > 0) what += what.empty() ? "light" : " and light";
+    text = fmt::format(
+        "{}: about {}, {} on disk, up to {} of memory", what, ui::formatDuration(forecast->seconds()),
+        ui::formatBytes(std::uint64_t(forecast->bytes())), ui::formatBytes(forecast->memoryBytes));
+  }
+  ui::mutedText("To bake");
+  ImGui::SameLine(ui::scaled(kValueX));
+  ui::wrappedText(ui::palette::text, text);
+  if (forecast && !forecast->nothing())
+    ui::tooltip(fmt::format(
+        "Estimated when the bake began, for {} {} (±{:.0f} %). The memory is that of captures "
+        "until they are written; the scene comes on top.",
+        forecast->threads, forecast->threads == 1 ? "thread" : "threads", 100 * forecast->relativeError));
 }
 
 void drawDisk(Session& session) {
@@ -73,7 +101,10 @@ void drawDisk(Session& session) {
 void drawFacts(PanelContext& context) {
   Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
-  if (session.baking().running()) drawPace(context);
+  if (session.baking().running()) {
+    drawForecast(session);
+    drawPace(context);
+  }
   if (captures != nullptr) {
     const auto& walk = session.walk();
     ui::keyValue("Captures",

@@ -31,6 +31,7 @@
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
 #include "engine/inspect/wall_slice.h"
+#include "engine/pipeline/bake_forecast.h"
 #include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
@@ -179,6 +180,11 @@ class Session {
   /// expected to take when it began.
   std::optional<std::uint64_t> freeBytes() const { return freeBytes_; }
   std::optional<double> neededBytes() const { return neededBytes_; }
+  /// What the bake that runs, or ran last, was to take: known a second or two after it was begun, before the
+  /// first camera.
+  const std::optional<BakeForecast>& bakeForecast() const { return bakeForecast_; }
+  /// Of the bake that runs: by its pace, or by the forecast while that is not known.
+  std::optional<double> bakeSecondsLeft() const;
   /// Of what the current storey lacks, by baking a little of it.
   void estimateBake();
   /// Null until asked for, and when something has changed since.
@@ -253,10 +259,12 @@ class Session {
   void dropStream();
   void drawBackdropIfStale();
   void inspectIfStale();
+  /// What the last estimate says of a bake that begins now; nothing where it is of something else.
+  std::optional<BakeForecast> forecastOfEstimate() const;
   void bakeEnded(const Result<ProjectBakeReport>& report);
   Result<ProjectBakeReport> bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
-                                        std::size_t memoryBytes, const ImportHost& host,
-                                        const BakeGuard& guard, TaskRunner& runner,
+                                        const std::optional<BakeForecast>& known, std::size_t memoryBytes,
+                                        const ImportHost& host, const BakeGuard& guard, TaskRunner& runner,
                                         const Job::Context& context);
   void lookAtDisk();
   /// As an edit, unless the layout is no longer what was searched with.
@@ -372,6 +380,7 @@ class Session {
     EffectCosts costs;
   };
   std::optional<Estimate> estimate_;
+  std::optional<BakeForecast> bakeForecast_;
   BakeQueue bakeQueue_;
   std::optional<std::uint64_t> freeBytes_;
   std::optional<double> neededBytes_;

@@ -45,6 +45,24 @@ std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
   return queue;
 }
 
+/// `known`: an estimate of the first storey; it does where that is all there is to bake.
+Result<BakeForecast> foretell(const StoreysToBake& plan, const std::optional<BakeForecast>& known,
+                              std::size_t memoryBytes, TaskRunner& runner, const Job::Context& context) {
+  std::vector<BakeShare> shares;
+  for (std::size_t s = 0; s < plan.storeys.size(); ++s) {
+    BakeRequest request;
+    request.cameras = plan.order[s];
+    request.coarseFirst = true;
+    shares.push_back(missingOf(plan.storeys[s], request));
+  }
+  if (known && shares.size() == 1 && known->cameras == int(shares[0].cameras.size()) &&
+      known->lights == int(shares[0].light) && known->memoryBytes == memoryBytes)
+    return *known;
+  BakeForecastOptions options;
+  options.memoryBytes = memoryBytes;
+  return forecastBake(shares, options, runner, context.progress(), context.stop());
+}
+
 /// Lets through what is new of a camera, and of how far it is traced about 20 times a second.
 class NewsGate {
  public:
@@ -69,11 +87,13 @@ int Session::bakeThreads() const {
 
 void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
   if (!built_ || baking_.running()) return;
-  estimating_.abandon();  // it would compete
+  estimating_.abandon();  // it would compete; the bake foretells for itself
   bakeQueue_.begin({});
+  bakeForecast_.reset();
   neededBytes_.reset();
   bakeGate_.open();
-  baking_.restart("Baking", [this, open = built_, from, takeOver, threads = bakeThreads(),
+  baking_.restart("Baking", [this, open = built_, from, takeOver, known = forecastOfEstimate(),
+                             threads = bakeThreads(),
                              memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
                              host = options_.importHost](const Job::Context& context) {
     lowerThreadPriority();  // the window comes first
@@ -86,7 +106,7 @@ void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
       guard->watch(modelFiles(open->file, open->project, host, std::filesystem::file_time_type::max()));
       if (!guard->note().empty())
         context.post([this, note = guard->note()] { messages_.add(MessageLevel::warning, note); });
-      report = bakeStoreys(*open, from, memory, host, *guard, runner, context);
+      report = bakeStoreys(*open, from, known, memory, host, *guard, runner, context);
     } else {
       report = tl::unexpected(guard.error());
     }
@@ -96,12 +116,19 @@ void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
 
 /// Progress runs from 0 to 1 over all storeys.
 Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
+                                               const std::optional<BakeForecast>& known,
                                                std::size_t memoryBytes, const ImportHost& host,
                                                const BakeGuard& guard, TaskRunner& runner,
                                                const Job::Context& context) {
   const auto plan = planStoreys(open, from, host, context.stop());
   if (!plan) return tl::unexpected(plan.error());
   context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
+  const auto forecast = foretell(*plan, known, memoryBytes, runner, context);
+  if (!forecast) return tl::unexpected(forecast.error());
+  context.post([this, told = *forecast] {
+    bakeForecast_ = told;
+    neededBytes_ = told.bytes();
+  });
   ProjectBakeReport all;
   for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
     const OpenProject& storey = plan->storeys[s];
@@ -114,13 +141,11 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
     BakeRequest request;
     request.memoryBytes = memoryBytes;
     request.coarseFirst = true;
+    request.from = from;
     request.cameras = plan->order[s];
     request.mayGoOn = [&] { return guard.check(); };
     request.watch = [&, gate = std::make_shared<NewsGate>()](const CameraNews& news) {
       if (gate->open(news)) context.post([this, s, news] { bakeQueue_.tell(now_, int(s), news); });
-    };
-    request.tellRoom = [&](double needed, std::uint64_t) {
-      context.post([this, needed] { neededBytes_ = needed; });
     };
     const auto report = bakeProject(storey, request, runner, part, context.stop());
     if (!report) return report;
@@ -199,6 +224,30 @@ const BakeEstimate* Session::estimate() const {
                        estimate_->of->surfaceLightKey == built_->surfaceLightKey &&
                        estimate_->threads == bakeThreads();
   return current ? &estimate_->figures : nullptr;
+}
+
+std::optional<BakeForecast> Session::forecastOfEstimate() const {
+  const BakeEstimate* figures = estimate();
+  if (figures == nullptr) return std::nullopt;
+  BakeForecast forecast;
+  forecast.cameras = figures->cameras;
+  forecast.lights = figures->lightSamples.value > 0 ? 1 : 0;
+  forecast.threads = estimate_->threads;
+  forecast.captureSeconds = figures->captureSeconds.value,
+  forecast.lightSeconds = figures->lightSeconds.value;
+  forecast.captureBytes = figures->captureBytes.value, forecast.lightBytes = figures->lightBytes.value;
+  forecast.relativeError = figures->seconds.relativeError;
+  forecast.memoryBytes = std::size_t(preferences_.bakeMegabytes) * 1'000'000;
+  return forecast;
+}
+
+std::optional<double> Session::bakeSecondsLeft() const {
+  if (!baking_.running()) return std::nullopt;
+  // The first cameras gather light for those that come after: their pace is not the bake's.
+  constexpr int kTelling = 8;
+  const auto left = bakeQueue_.secondsLeft(now_);
+  if (!bakeForecast_ || (left && bakeQueue_.count(CameraStage::done) >= kTelling)) return left;
+  return bakeForecast_->captureSeconds * (1 - bakeQueue_.share()) + bakeForecast_->lightSeconds;
 }
 
 const EffectCosts* Session::effectCosts() const {

@@ -99,6 +99,13 @@ class SurfaceLightBaker {
     return starts;
   }
 
+  /// Is one of a run's triangles among these?
+  bool holdsAny(std::size_t first, std::size_t last, const std::vector<std::uint8_t>& triangles) const {
+    return std::any_of(plan_.triangles.begin() + std::ptrdiff_t(first),
+                       plan_.triangles.begin() + std::ptrdiff_t(last),
+                       [&](const TriangleRef& ref) { return triangles[ref.sceneTriangle] != 0; });
+  }
+
   void bakeTriangles(std::size_t first, std::size_t last, const std::stop_token& stop) {
     for (std::size_t i = first; i < last; ++i) bakeTriangle(plan_.triangles[i], stop);
   }
@@ -183,10 +190,18 @@ class PartKeeper {
     parts_->resumed = 0;
     for (const SurfaceLightPart& part : parts_->known) take(part);
     parts_->known.clear();
+    if (parts_->only.empty()) return;
+    for (std::size_t run = 0; run < known_.size(); ++run)
+      leftOut_.push_back(!baker_.holdsAny(starts_[run], starts_[run + 1], parts_->only));
   }
 
-  bool has(std::size_t run) const { return known_[run] != 0; }
-  std::size_t knownRuns() const { return std::size_t(std::ranges::count(known_, 1)); }
+  /// Is this run to be baked?
+  bool wants(std::size_t run) const { return known_[run] == 0 && (leftOut_.empty() || !leftOut_[run]); }
+  std::size_t wantedRuns() const {
+    std::size_t count = 0;
+    for (std::size_t run = 0; run < known_.size(); ++run) count += wants(run) ? 1 : 0;
+    return count;
+  }
 
   /// By any thread, when the run is baked.
   Status done(std::size_t run) {
@@ -199,6 +214,8 @@ class PartKeeper {
     watch_.emplace();
     return kept_;
   }
+  /// When no thread bakes any more: where runs are left out, somebody comes back for those that are baked.
+  Status end() { return leftOut_.empty() || baked_.empty() || !parts_->keep ? Status() : keep(); }
 
  private:
   std::span<HalfColour> samplesOf(std::size_t run) {
@@ -233,7 +250,8 @@ class PartKeeper {
   SurfaceLightBaker& baker_;
   const std::vector<std::size_t>& starts_;
   SurfaceLightParts* parts_;
-  std::vector<char> known_;  ///< by run; nobody writes it once the bake has begun
+  std::vector<char> known_;    ///< by run; nobody writes it once the bake has begun
+  std::vector<bool> leftOut_;  ///< by run; empty: none is
   std::mutex mutex_;
   std::vector<std::uint32_t> baked_;  ///< and not kept yet
   std::optional<Stopwatch> watch_;    ///< since something was kept
@@ -262,20 +280,23 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
             : std::string("baking surface light");
     PartKeeper keeper(baker, starts, parts);
     std::mutex progressMutex;
-    std::size_t done = keeper.knownRuns();
+    const bool all = parts == nullptr || parts->only.empty();
+    const std::size_t total = all ? chunks : keeper.wantedRuns();
+    std::size_t done = total - keeper.wantedRuns();
     Status kept;
     std::atomic<bool> failed = false;
     runner.parallelFor(chunks, [&](std::size_t chunk) {
-      if (stop.stop_requested() || failed || keeper.has(chunk)) return;
+      if (stop.stop_requested() || failed || !keeper.wants(chunk)) return;
       const FlushDenormals flush;
       baker.bakeTriangles(starts[chunk], starts[chunk + 1], stop);
       if (stop.stop_requested()) return;  // the run may be half baked
       const Status stored = keeper.done(chunk);
       const std::lock_guard lock(progressMutex);
       if (!stored && !failed.exchange(true)) kept = stored;
-      if (progress) progress({double(++done), double(chunks), stage});
+      if (progress) progress({double(++done), double(total), stage});
     });
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+    if (kept) kept = keeper.end();
     if (!kept) return tl::unexpected(kept.error());
     return baker.take();
   } catch (const std::bad_alloc&) {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "engine/base/file.h"
-#include "engine/pipeline/estimate_bake.h"
+#include "engine/cli/bake_notice.h"
 
 namespace acentric::cli {
 namespace {
@@ -112,32 +112,29 @@ Result<Report> dryRun(BakePlan& plan, const std::vector<BakeRequest>& requests, 
     names.push_back(plan.storeys[s].storey);
     reports.push_back(storeyReport(plan.storeys[s], requests[s], (*states)[s], plan.storeys.size() > 1));
   }
-  double seconds = 0, bytes = 0;
+  std::vector<BakeShare> shares;
   for (std::size_t s = 0; s < plan.storeys.size(); ++s) {
-    const std::vector<int> stale = staleOf(requests[s], (*states)[s]);
-    EstimateOptions options;
-    options.surfaceLight = requests[s].surfaceLight && !(*states)[s].light.baked();
-    options.effort = 1 / double(plan.storeys.size());
-    if (stale.empty() && !options.surfaceLight) continue;
+    BakeShare share;
+    share.cameras = staleOf(requests[s], (*states)[s]);
+    share.light = requests[s].surfaceLight && !(*states)[s].light.baked();
+    if (!share.any()) continue;
     if (Status open = openStoreysOf(plan, common); !open) return tl::unexpected(open.error());
-    const auto runner = common.runner();
-    const auto estimate =
-        estimateProjectBake(plan.open[s], stale, options, *runner, common.progress, common.stop);
-    if (!estimate) return tl::unexpected(estimate.error());
-    if (!stale.empty()) seconds += estimate->captureSeconds.value, bytes += estimate->captureBytes.value;
-    if (options.surfaceLight) seconds += estimate->lightSeconds.value, bytes += estimate->lightBytes.value;
+    share.open = &plan.open[s];
+    shares.push_back(std::move(share));
   }
+  BakeForecastOptions options;
+  options.brief = false;
+  options.memoryBytes = requests.front().memoryBytes;
+  const auto forecast = forecastBake(shares, options, *common.runner(), common.progress, common.stop);
+  if (!forecast) return tl::unexpected(forecast.error());
   Report report = byStorey(names, std::move(reports));
   const auto space = freeSpace(captureFolderFor(plan.file));
   if (!space) return tl::unexpected(space.error());
-  report.json["seconds"] = seconds;
-  report.json["bytes"] = bytes;
+  report.json["seconds"] = forecast->seconds();
+  report.json["bytes"] = forecast->bytes();
+  report.json["forecast"] = toJson(*forecast);
   report.json["freeBytes"] = *space;
-  if (seconds > 0)
-    report.text += fmt::format("about {} with {} threads, about {}", timeText(seconds), common.threadCount(),
-                               bytesText(std::uint64_t(bytes)));
-  else
-    report.text += "nothing to do";
+  report.text += describe(*forecast);
   report.text += fmt::format("; {} free where the captures are kept\n", bytesText(*space));
   return report;
 }

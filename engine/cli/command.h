@@ -36,8 +36,10 @@ struct Common {
   std::filesystem::path presetFrom;     ///< the sweep's folder or file; empty = beside the project
   int threads = 0;                      ///< 0 = all processors
   std::optional<double> walkMegabytes;  ///< for captures in memory; none = a share of the machine's
-  Progress progress;                    ///< empty when not on a terminal or with --json
-  std::stop_token stop;                 ///< Ctrl-C
+  /// Something to be known before a command goes on: as a line, or with --json as an event.
+  std::function<void(const std::string& text, const Json& event)> notice;
+  Progress progress;     ///< empty when not on a terminal or with --json
+  std::stop_token stop;  ///< Ctrl-C
   ImportHost host;
 
   int threadCount() const;

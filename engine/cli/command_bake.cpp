@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/bake_requests.h"
 #include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/simplified_regions.h"
@@ -114,29 +115,38 @@ Result<Report> bakeStorey(std::size_t number, const BakeRequest& request, const 
   return bakeReport(*baked, request, options, plan, plan.storeys[number], store);
 }
 
+/// Of all storeys, before the first of them is baked.
+Result<BakeForecast> foretell(std::span<const OpenProject> storeys, const std::vector<BakeRequest>& requests,
+                              const CaptureStore& store, const Common& common, TaskRunner& runner) {
+  std::vector<BakeShare> shares;
+  for (std::size_t s = 0; s < storeys.size(); ++s)
+    shares.push_back(missingOf(storeys[s], requests[s], store));
+  return foretellBake(shares, requests.front().memoryBytes, common, runner);
+}
+
 /// Captures alone, of a lower quality than the project's.
 Result<Report> bakeLower(BakePlan& plan, const std::vector<BakeRequest>& requests, Quality quality,
                          const Common& common) {
   const auto store = openCaptures(plan.file);
   if (!store) return tl::unexpected(store.error());
   const auto runner = common.runner();
+  std::vector<OpenProject> lower;
+  std::vector<BakeRequest> captures = requests;
+  for (const OpenProject& open : plan.open) lower.push_back(atQuality(open, quality));
+  for (BakeRequest& request : captures) request.surfaceLight = request.coarseFirst = false;
+  const auto forecast = foretell(lower, captures, *store, common, *runner);
+  if (!forecast) return tl::unexpected(forecast.error());
   ProjectBakeReport all;
-  for (std::size_t s = 0; s < plan.open.size(); ++s) {
-    BakeRequest request = requests[s];
-    request.surfaceLight = false;
-    const auto baked =
-        bakeProject(atQuality(plan.open[s], quality), request, *store, *runner, common.progress, common.stop);
+  for (std::size_t s = 0; s < lower.size(); ++s) {
+    const auto baked = bakeProject(lower[s], captures[s], *store, *runner, common.progress, common.stop);
     if (!baked) return tl::unexpected(baked.error());
     all.add(*baked);
   }
   Report report;
-  report.json = {{"quality", nameOf(quality)},
-                 {"baked", all.captures.baked},
-                 {"reused", all.captures.reused},
-                 {"seconds", all.captures.seconds},
-                 {"samples", toJson(all.captures.counts.samples)},
-                 {"refused", all.refused},
-                 {"bytes", all.bytes}};
+  report.json = {{"quality", nameOf(quality)},      {"forecast", toJson(*forecast)},
+                 {"baked", all.captures.baked},     {"reused", all.captures.reused},
+                 {"seconds", all.captures.seconds}, {"samples", toJson(all.captures.counts.samples)},
+                 {"refused", all.refused},          {"bytes", all.bytes}};
   addRefused(all, report);
   report.text += fmt::format("baked {} cameras as {} in {:.1f} s, {} were there already; {} in all\n",
                              all.captures.baked, nameOf(quality), all.captures.seconds, all.captures.reused,
@@ -152,6 +162,7 @@ std::uint64_t prune(std::span<const OpenProject> storeys, const CaptureStore& st
     for (const auto& best : bestKeys(open, store))
       if (best) used.push_back(*best);
     used.push_back(open.surfaceLightKey);
+    if (!store.hasSurfaceLight(open.surfaceLightKey)) used.push_back(firstLightKey(open.surfaceLightKey));
     std::ranges::copy(simplifiedKeys(open), std::back_inserter(used));
   }
   return store.prune(used);
@@ -253,6 +264,9 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
   const auto runner = common.runner();
   std::vector<Report> reports;
   std::vector<std::string> names;
+  const auto forecast =
+      idle ? foretellBake({}, 0, common, *runner) : foretell(plan->open, requests, *store, common, *runner);
+  if (!forecast) return tl::unexpected(forecast.error());
   for (std::size_t s = 0; s < plan->storeys.size(); ++s) {
     auto report = idle ? Result<Report>(nothingToDo(requests[s], options, *plan, plan->storeys[s], *store))
                        : bakeStorey(s, requests[s], options, *plan, *store, common, *runner);
@@ -261,6 +275,7 @@ Result<Report> runBake(const BakeOptions& options, const Common& common) {
     names.push_back(plan->storeys[s].storey);
   }
   Report report = byStorey(names, std::move(reports));
+  report.json["forecast"] = toJson(*forecast);
   if (guard && !guard->note().empty()) report.text += guard->note() + "\n";
   std::uint64_t freed = 0;
   if (options.prune) {

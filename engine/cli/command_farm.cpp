@@ -5,9 +5,9 @@
 
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/run_command.h"
-#include "engine/pipeline/estimate_bake.h"
 #include "engine/pipeline/slurm_farm.h"
 
 namespace acentric::cli {
@@ -16,35 +16,6 @@ namespace {
 
 /// A task opens the project first; that should be a small part of it.
 constexpr double kLeastOpenings = 10;
-
-/// What is still to be baked of all storeys, by this machine's pace.
-struct Work {
-  int cameras = 0, lights = 0;
-  double cameraSeconds = 0, lightSeconds = 0, bytes = 0;
-};
-
-Result<Work> workOf(std::span<const OpenProject> storeys, const Common& common) {
-  Work work;
-  const auto runner = common.runner();
-  for (const OpenProject& open : storeys) {
-    const std::vector<bool> baked = bakedCameras(open);
-    std::vector<int> missing;
-    for (std::size_t camera = 0; camera < baked.size(); ++camera)
-      if (!baked[camera]) missing.push_back(int(camera));
-    EstimateOptions options;
-    options.effort = 1 / double(storeys.size());
-    options.surfaceLight = !surfaceLightBaked(open);
-    if (missing.empty() && !options.surfaceLight) continue;
-    const auto estimate = estimateProjectBake(open, missing, options, *runner, common.progress, common.stop);
-    if (!estimate) return tl::unexpected(estimate.error());
-    work.cameras += int(missing.size());
-    work.lights += options.surfaceLight ? 1 : 0;
-    work.cameraSeconds += missing.empty() ? 0 : estimate->captureSeconds.value;
-    work.lightSeconds += estimate->lightSeconds.value;
-    work.bytes += estimate->bytes.value;
-  }
-  return work;
-}
 
 Status writeScripts(const FarmScripts& scripts, const fs::path& folder) {
   for (const auto& [name, text] :
@@ -90,7 +61,11 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
   const auto storeys = openStoreys(options.project, common);
   if (!storeys) return tl::unexpected(storeys.error());
   const double taskSeconds = std::max(options.taskSeconds, kLeastOpenings * opening.seconds());
-  const auto work = workOf(*storeys, common);
+  std::vector<BakeShare> shares;
+  for (const OpenProject& open : *storeys) shares.push_back(missingOf(open, {}));
+  BakeForecastOptions exact;
+  exact.brief = false;
+  const auto work = forecastBake(shares, exact, *common.runner(), common.progress, common.stop);
   if (!work) return tl::unexpected(work.error());
 
   std::error_code error;
@@ -102,18 +77,19 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
   farm.partition = options.partition;
   farm.nodes = options.nodes;
   farm.threads = common.threads;
-  farm.cameraTasks = farmTasks(work->cameraSeconds, work->cameras, taskSeconds);
+  farm.cameraTasks = farmTasks(work->captureSeconds, work->cameras, taskSeconds);
   farm.light = work->lights > 0;
 
   Report report;
   report.json = {{"missingCameras", work->cameras},
                  {"cameraTasks", farm.cameraTasks},
                  {"lightTask", farm.light},
-                 {"taskSeconds", farm.cameraTasks > 0 ? work->cameraSeconds / farm.cameraTasks : 0},
+                 {"taskSeconds", farm.cameraTasks > 0 ? work->captureSeconds / farm.cameraTasks : 0},
                  {"lightSeconds", work->lightSeconds},
-                 {"bytes", work->bytes},
+                 {"bytes", work->bytes()},
                  {"submitted", nullptr}};
-  if (work->cameras == 0 && work->lights == 0) {
+  report.json["forecast"] = toJson(*work);
+  if (work->nothing()) {
     report.text = "everything is baked: there is nothing to submit\n";
     return report;
   }
@@ -127,11 +103,11 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
   report.text = fmt::format(
       "{} cameras in {} tasks of about {:.0f} s{}, {} at once, then one that verifies; by this machine's "
       "pace "
-      "with {} threads\n",
+      "with {} threads\n{}\n",
       work->cameras, farm.cameraTasks, report.json["taskSeconds"].get<double>(),
       farm.light ? fmt::format(" and the light on local geometry in one of {:.0f} s", work->lightSeconds)
                  : "",
-      options.nodes, common.threadCount());
+      options.nodes, common.threadCount(), describe(*work));
   if (options.print) {
     report.json["scripts"] = {{kFarmBakeScript, scripts.bake},
                               {kFarmMergeScript, scripts.merge},

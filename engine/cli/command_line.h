@@ -51,6 +51,7 @@ void addSweepCommands(CLI::App& app, Chosen& chosen);
 /// Of those of `acentric bench`.
 void addPackCommand(CLI::App& bench, Chosen& chosen);
 void addRepresentationsCommand(CLI::App& bench, Chosen& chosen);
+void addFirstViewCommand(CLI::App& bench, Chosen& chosen);
 void addNumericsCommand(CLI::App& bench, Chosen& chosen);
 void addFunctionsCommand(CLI::App& bench, Chosen& chosen);
 

@@ -254,6 +254,13 @@ struct BenchBakeOptions {
 };
 Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& common);
 
+/// From a model to its first view, with a project of its own for each; nothing of them stays.
+struct BenchFirstViewOptions {
+  std::vector<std::filesystem::path> scenes;
+  double metresPerUnit = 0, cellSize = 0, samplesPerDegree = 0;  ///< as for `new`
+};
+Result<Report> runBenchFirstView(const BenchFirstViewOptions& options, const Common& common);
+
 struct BenchHolesOptions {
   std::filesystem::path project, output;  ///< output: a folder; empty = nothing is written
   std::string size = "640x360";

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "engine/base/interrupt.h"
 #include "engine/base/json_text.h"
 #include "engine/cli/command_line.h"
@@ -67,6 +69,7 @@ int main(int argc, char** argv) {
   addSweepCommands(app, chosen);
   addPackCommand(*app.get_subcommand("bench"), chosen);
   addRepresentationsCommand(*app.get_subcommand("bench"), chosen);
+  addFirstViewCommand(*app.get_subcommand("bench"), chosen);
   addNumericsCommand(*app.get_subcommand("bench"), chosen);
   addFunctionsCommand(*app.get_subcommand("bench"), chosen);
   try {
@@ -79,6 +82,11 @@ int main(int argc, char** argv) {
   common.walkMegabytes = chosen.walkMegabytes;
   common.stop = stopOnInterrupt();
   if (!json) common.progress = terminalProgress();
+  common.notice = [json](const std::string& text, const Json& event) {
+    if (!json) finishProgress();
+    fmt::print(stderr, "{}\n", json ? jsonText(event, -1) : "acentric: " + text);
+    (void)std::fflush(stderr);
+  };
   if (const auto notice = importCacheNotice(common.host)) fmt::print(stderr, "acentric: {}\n", *notice);
   return finish(chosen.run(common), json);
 }

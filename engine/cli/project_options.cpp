@@ -174,7 +174,7 @@ void addBake(CLI::App& app, Chosen& chosen) {
       ->check(CLI::IsMember({"preview", "draft", "final"}))
       ->capture_default_str();
   c->add_flag("--coarse-first", o.coarseFirst,
-              "A preview of every camera that has nothing yet, before the first is final");
+              "Begin with all of the first view, then a preview of every camera, then the rest");
   c->add_option("--memory", o.memoryMegabytes, "Megabytes that what is baked may take until it is written")
       ->check(CLI::Range(1.0, 1e6));
   c->add_flag("--verify", o.verify, "Read what is baked to its end first, and bake again what is damaged");

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "engine/base/stopwatch.h"
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
 #include "engine/pipeline/bench_numerics.h"
-#include "engine/pipeline/estimate_bake.h"
 
 namespace acentric::cli {
 namespace fs = std::filesystem;
@@ -129,13 +129,18 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
   if (before && missing == 0 && light) {
     prospect.bakeSeconds = (*before)[Measure::bakeSeconds].median;
   } else {
-    EstimateOptions estimating;
-    estimating.effort = kEffort;
-    const auto estimate = estimateProjectBake(*open, {}, estimating, runner_, common_.progress, common_.stop);
-    if (!estimate) return tl::unexpected(estimate.error());
-    prospect.bakeSeconds = estimate->captureSeconds.value + estimate->lightSeconds.value;
-    prospect.missingSeconds =
-        missing * estimate->captureSeconds.value + (light ? 0 : estimate->lightSeconds.value);
+    BakeShare whole{&*open, bakingOrder(*open), true};
+    BakeForecastOptions foretelling;
+    foretelling.brief = false;
+    foretelling.effort = kEffort;
+    auto forecast = forecastBake(std::span(&whole, 1), foretelling, runner_, common_.progress, common_.stop);
+    if (!forecast) return tl::unexpected(forecast.error());
+    prospect.bakeSeconds = forecast->seconds();
+    forecast->cameras -= int(there);
+    forecast->captureSeconds *= missing, forecast->captureBytes *= missing;
+    if (light) forecast->lights = 0, forecast->lightSeconds = forecast->lightBytes = 0;
+    prospect.missingSeconds = forecast->seconds();
+    if (!forecast->nothing()) prospect.forecast = std::move(*forecast);
   }
   prospect.open = std::move(*open);
   return prospect;
@@ -144,6 +149,7 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
 Status SweepRun::bake(const Prospect& prospect, const Sweep& known, SweepPoint& point) {
   const OpenProject& open = *prospect.open;
   BakeRequest request;
+  if (prospect.forecast) tell(*prospect.forecast, common_);
   const auto report = bakeProject(open, request, *store_, runner_, common_.progress, common_.stop);
   if (!report) return tl::unexpected(report.error());
   const bool all = report->captures.reused == 0 && !report->surfaceLightReused;

@@ -8,6 +8,7 @@
 #include "engine/bake/truth.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/sweep.h"
+#include "engine/pipeline/bake_forecast.h"
 #include "engine/pipeline/knobs.h"
 
 namespace acentric::cli {
@@ -30,9 +31,10 @@ class SweepRun {
   struct Prospect {
     std::optional<OpenProject> open;  ///< none: it cannot be measured
     std::string whyNot;
-    double bakeSeconds = 0;     ///< of all its captures and its light, as foretold
-    double missingSeconds = 0;  ///< of what is not there yet
-    std::string bakeKey;        ///< SweepPoint::bakeKey
+    double bakeSeconds = 0;                     ///< of all its captures and its light, as foretold
+    double missingSeconds = 0;                  ///< of what is not there yet
+    std::optional<BakeForecast> forecast = {};  ///< of what is not there yet, if anything is not
+    std::string bakeKey = {};                   ///< SweepPoint::bakeKey
   };
   /// `known`: points of the sweep so far; what is known of a bake need not be foretold again.
   Result<Prospect> foretell(const SweepSetting& setting, const Sweep& known);

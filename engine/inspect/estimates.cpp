@@ -15,6 +15,8 @@ constexpr std::size_t kFewestProbes = 16;
 constexpr std::size_t kSlicedProbes = 8;
 /// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
 constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
+/// The same where it is to be brief.
+constexpr std::size_t kBriefProbes = 10, kBriefSliced = 5;
 
 /// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
 /// probed.
@@ -59,8 +61,8 @@ struct Pace {
 /// How much of the time that parts foretell dense slices take.
 Result<Figure> measurePace(const std::vector<double>& pixels, const std::vector<int>& order,
                            const std::vector<CaptureProbe>& probes, const CaptureOverhead& overhead,
-                           BakeProber& prober) {
-  const std::size_t count = std::min(kSlicedProbes, probes.size());
+                           bool brief, BakeProber& prober) {
+  const std::size_t count = std::min(brief ? kBriefSliced : kSlicedProbes, probes.size());
   const auto slices = prober.bakeSlices({order.begin(), order.begin() + std::ptrdiff_t(count)});
   if (!slices) return tl::unexpected(slices.error());
   std::vector<Pace> tracing, writing;
@@ -85,13 +87,14 @@ Result<Figure> measurePace(const std::vector<double>& pixels, const std::vector<
 Result<std::vector<CaptureProbe>> probeCaptures(const std::vector<int>& order, const EstimateOptions& options,
                                                 BakeProber& prober, const Progress& progress,
                                                 const std::stop_token& stop) {
-  const double wanted = kCaptureRays * options.effort;
+  const double wanted = options.brief ? 0 : kCaptureRays * options.effort;
+  const std::size_t fewestProbes = options.brief ? kBriefProbes : kFewestProbes;
   double rays = 0;
   for (std::size_t probed = 0; probed < order.size(); ++probed) {
-    if (probed >= kFewestProbes && rays >= wanted) break;
+    if (probed >= fewestProbes && rays >= wanted) break;
     if (stop.stop_requested()) return tl::unexpected(stopped());
     if (progress) {
-      const double fewest = double(probed) / double(std::min(kFewestProbes, order.size()));
+      const double fewest = double(probed) / double(std::min(fewestProbes, order.size()));
       progress({std::min(fewest, wanted > 0 ? rays / wanted : fewest), 1, "probing cameras"});
     }
     const auto traced = prober.probeCapture(order[probed]);
@@ -131,7 +134,7 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   estimate.captureBytes = sum(perSample(&CaptureProbe::bytes), {}, cameras * overhead->bytes);
   const Figure tracing = sum(perPixel(&CaptureProbe::traceSeconds), {}, cameras * overhead->traceSeconds);
   const Figure writing = sum(perSample(&CaptureProbe::writeSeconds), {}, cameras * overhead->writeSeconds);
-  const auto pace = measurePace(pixels, order, *probes, *overhead, prober);
+  const auto pace = measurePace(pixels, order, *probes, *overhead, options.brief, prober);
   if (!pace) return tl::unexpected(pace.error());
   estimate.traceSeconds = sum(product(tracing, *pace), times(gathered, gathering.secondsPerRay));
   estimate.writeSeconds = product(writing, *pace);
@@ -153,9 +156,9 @@ Status estimateLight(const EstimateOptions& options, const GatherForecast& gathe
   const std::vector<double>& samples = overhead->samplesOfKind;
   std::vector<std::vector<LightProbe>> probes(samples.size());
   std::vector<bool> exhausted(samples.size(), false);
-  const double wanted = kLightSamples * options.effort;
+  const double wanted = options.brief ? 0 : kLightSamples * options.effort;
   double all = 0;
-  for (int round = 0; round < 2 || all < wanted; ++round) {
+  for (int round = 0; round < (options.brief ? 1 : 2) || all < wanted; ++round) {
     for (std::size_t kind = 0; kind < samples.size(); ++kind) {
       if (exhausted[kind]) continue;
       if (stop.stop_requested()) return tl::unexpected(stopped());

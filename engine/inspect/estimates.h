@@ -91,6 +91,8 @@ struct EstimateOptions {
   /// halve the error. 0..1000.
   double effort = 1;
   bool surfaceLight = true;
+  /// A tenth of the probes, whatever the effort: good to within a factor of two or so, in seconds.
+  bool brief = false;
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
   Status check() const;
 };

@@ -16,6 +16,19 @@ std::vector<bool> seenFrom(const Layout& layout, int region) {
 
 }  // namespace
 
+std::vector<int> firstViewCameras(const OpenProject& open, const glm::dvec2& from) {
+  const auto region = open.layout->regionAt(from);
+  if (!region) return {};
+  std::vector<int> cameras = bakingOrder(open, from);
+  const std::vector<bool> first = seenFrom(*open.layout, *region);
+  std::erase_if(cameras, [&](int camera) { return !first[std::size_t(camera)]; });
+  return cameras;
+}
+
+ContentKey firstLightKey(const ContentKey& surfaceLightKey) {
+  return Hasher().text("first light").value(surfaceLightKey.high).value(surfaceLightKey.low).finish();
+}
+
 std::vector<int> bakingOrder(const OpenProject& open) {
   return bakingOrder(open, open.project.spawn().position);
 }

@@ -139,6 +139,21 @@ Error withAdvice(Error error) {
   return error;
 }
 
+/// Gives triangles that were left out the mean light of the others, so that none of them is black.
+void spreadMean(const std::vector<std::uint8_t>& baked, SurfaceLight& light) {
+  glm::dvec3 sum(0);
+  double samples = 0;
+  const auto each = [&](bool wanted, const auto& use) {
+    for (std::size_t t = 0; t < baked.size(); ++t)
+      if ((baked[t] != 0) == wanted)
+        for (std::uint32_t s = light.firstSample[t]; s < light.firstSample[t + 1]; ++s) use(light.light[s]);
+  };
+  each(true, [&](const HalfColour& sample) { sum += glm::dvec3(unpackColour(sample)), ++samples; });
+  if (samples == 0) return;
+  const HalfColour mean = packColour({glm::vec3(sum / samples), 1});
+  each(false, [&](HalfColour& sample) { sample = mean; });
+}
+
 /// The captures and the light of one storey in one quality.
 class StoreyBake {
  public:
@@ -164,38 +179,55 @@ class StoreyBake {
   double pixelsOf(int camera) const { return plan_.cameras[std::size_t(camera)].pixels; }
   double bytesOf(int camera) const { return double(store_.bytesOf(plan_.cameras[std::size_t(camera)].key)); }
 
+  /// May be called again, with other cameras.
   Status bakeCaptures(const std::vector<int>& cameras, const BakeWatch& watch) {
     auto captures = bake(*open_.rays, *open_.layout, cameras, open_.project.bake, sink_, runner_, progress_,
                          stop_, request_.memoryBytes, watch);
     if (!captures) return tl::unexpected(withAdvice(captures.error()));
-    captures_ = std::move(*captures);
-    captures_.baked -= int(std::erase_if(captures_.cameras, [&](const BakedCamera& camera) {
+    captures->baked -= int(std::erase_if(captures->cameras, [&](const BakedCamera& camera) {
       return !camera.reused && sink_.isRefused(camera.key);
     }));
+    std::ranges::move(captures->cameras, std::back_inserter(captures_.cameras));
+    captures_.baked += captures->baked;
+    captures_.reused += captures->reused;
+    captures_.seconds += captures->seconds;
+    captures_.counts += captures->counts;
+    captures_.peakBytes = std::max(captures_.peakBytes, captures->peakBytes);
+    return {};
+  }
+  /// What one region draws; what was baked of it is the light's own, and is not baked again.
+  Status bakeFirstLight(const Region& region) {
+    const Stopwatch watch;
+    const std::vector<std::uint8_t> near = localTrianglesOf(*open_.scene, region, stop_);
+    if (std::ranges::find(near, 1) == near.end()) return {};
+    auto light = gatherLight(near);
+    if (!light) return tl::unexpected(withAdvice(light.error()));
+    spreadMean(near, *light);
+    if (Status sound = sink_.mayGoOn(); !sound) return sound;
+    const ContentKey key = firstLightKey(open_.surfaceLightKey);
+    if (Status kept = store_.putSurfaceLight(key, *light, stop_);
+        !kept && !sink_.passesOver(key, kept.error()))
+      return tl::unexpected(withAdvice(kept.error()));
+    lightSeconds_ += watch.seconds();
     return {};
   }
   Status bakeLight() {
     const Stopwatch watch;
-    const LocalTriangles local = localTrianglesOf(*open_.scene, *open_.layout, stop_);
     const ContentKey& key = open_.surfaceLightKey;
-    SurfaceLightParts parts;
-    parts.known = store_.getSurfaceLightParts(key);
-    parts.keep = [&](const SurfaceLightPart& part) {
-      if (Status sound = sink_.mayGoOn(); !sound) return sound;
-      return store_.putSurfaceLightPart(key, part);
-    };
-    const auto light = bakeSurfaceLight(*open_.rays, local.wanted, local.viewer, open_.project.bake, runner_,
-                                        progress_, stop_, &parts);
+    const auto light = gatherLight({});
     if (!light) return tl::unexpected(withAdvice(light.error()));
     if (Status sound = sink_.mayGoOn(); !sound) return sound;
     Status kept = store_.putSurfaceLight(key, *light, stop_);
     if (kept) kept = sink_.note(key);
     if (!kept && !sink_.passesOver(key, kept.error())) return tl::unexpected(withAdvice(kept.error()));
-    if (kept) store_.forgetSurfaceLightParts(key);
+    if (kept) {
+      store_.forgetSurfaceLightParts(key);
+      std::error_code ignored;
+      std::filesystem::remove(store_.fileOf(firstLightKey(key), ".light"), ignored);
+    }
     lightBaked_ = kept.has_value();
     lightTried_ = true;
-    lightResumed_ = parts.resumed;
-    lightSeconds_ = watch.seconds();
+    lightSeconds_ += watch.seconds();
     return {};
   }
 
@@ -209,11 +241,28 @@ class StoreyBake {
     report.surfaceLightReused = request_.surfaceLight && !lightTried_;
     std::ranges::move(sink_.takeRefused(), std::back_inserter(report.refused));
     report.surfaceLightSeconds = lightSeconds_;
-    report.surfaceLightResumed = lightResumed_;
+    report.surfaceLightResumed = lightResumed_.value_or(0);
     return {};
   }
 
  private:
+  /// Of what `only` marks, or of all.
+  Result<SurfaceLight> gatherLight(std::vector<std::uint8_t> only) {
+    if (!local_) local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    const ContentKey& key = open_.surfaceLightKey;
+    SurfaceLightParts parts;
+    parts.only = std::move(only);
+    parts.known = store_.getSurfaceLightParts(key);
+    parts.keep = [&](const SurfaceLightPart& part) {
+      if (Status sound = sink_.mayGoOn(); !sound) return sound;
+      return store_.putSurfaceLightPart(key, part);
+    };
+    auto light = bakeSurfaceLight(*open_.rays, local_->wanted, local_->viewer, open_.project.bake, runner_,
+                                  progress_, stop_, &parts);
+    if (!lightResumed_) lightResumed_ = parts.resumed;  // later ones find what this bake has left
+    return light;
+  }
+
   const OpenProject& open_;
   const BakeRequest& request_;
   const CaptureStore& store_;
@@ -225,7 +274,8 @@ class StoreyBake {
   BakeReport captures_;
   bool lightBaked_ = false, lightTried_ = false;
   double lightSeconds_ = 0;
-  std::uint64_t lightResumed_ = 0;
+  std::optional<std::uint64_t> lightResumed_;
+  std::optional<LocalTriangles> local_;
 };
 
 /// What comes before the first camera is done: previews of those that have nothing yet.
@@ -298,8 +348,35 @@ Status checkRoom(const OpenProject& open, const Missing& missing, const BakeRequ
                 figures + ": make room, bake fewer cameras, or lower the samples per degree",
                 store.folder().string());
   if (progress) progress({0, 0, figures});
-  if (request.tellRoom) request.tellRoom(report.neededBytes, *available);
   return {};
+}
+
+/// All that comes before the first view can be left. `rest`: the cameras to be baked; of these the first
+/// view's are taken away when they are baked.
+Status bakeCoarseFirst(const OpenProject& open, const BakeRequest& request, Previews& previews,
+                       StoreyBake& full, bool light, std::vector<int>& rest, ProjectBakeReport& report) {
+  const glm::dvec2 from = request.from.value_or(glm::dvec2(open.project.spawn().position));
+  const std::vector<int> view = firstViewCameras(open, from);
+  const auto isFirst = [&](int camera) { return std::ranges::find(view, camera) != view.end(); };
+  const auto takeFirst = [&](std::vector<int>& cameras) {
+    const auto other = std::ranges::stable_partition(cameras, isFirst).begin();
+    std::vector<int> first(cameras.begin(), other);
+    cameras.erase(cameras.begin(), other);
+    return first;
+  };
+  BakeWatch watch;
+  if (request.watch)
+    watch = [&](CameraNews news) {
+      news.preview = true;
+      request.watch(news);
+    };
+  if (Status done = previews.bake->bakeCaptures(takeFirst(previews.cameras), watch); !done) return done;
+  if (Status done = full.bakeCaptures(takeFirst(rest), request.watch); !done) return done;
+  if (const auto region = open.layout->regionAt(from); light && region)
+    if (Status done = full.bakeFirstLight(open.layout->regions[std::size_t(*region)]); !done) return done;
+  if (Status done = previews.bake->bakeCaptures(previews.cameras, watch); !done) return done;
+  if (Status told = previews.bake->tell(report); !told) return told;
+  return light ? full.bakeLight() : Status();
 }
 
 }  // namespace
@@ -395,19 +472,11 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
   if (Status room = checkRoom(open, missing, request, store, runner, report, progress, stop); !room)
     return tl::unexpected(room.error());
 
-  if (previews) {
-    const BakeWatch watch = [&](CameraNews news) {
-      news.preview = true;
-      request.watch(news);
-    };
-    if (Status done = previews->bake->bakeCaptures(previews->cameras, request.watch ? watch : BakeWatch());
-        !done)
+  std::vector<int> rest = cameras;
+  if (previews)
+    if (Status done = bakeCoarseFirst(open, request, *previews, full, missing.light, rest, report); !done)
       return tl::unexpected(done.error());
-    if (Status told = previews->bake->tell(report); !told) return tl::unexpected(told.error());
-    if (missing.light)
-      if (Status done = full.bakeLight(); !done) return tl::unexpected(done.error());
-  }
-  if (Status done = full.bakeCaptures(cameras, request.watch); !done) return tl::unexpected(done.error());
+  if (Status done = full.bakeCaptures(rest, request.watch); !done) return tl::unexpected(done.error());
   if (request.surfaceLight && !full.hasLight())
     if (Status done = full.bakeLight(); !done) return tl::unexpected(done.error());
   if (Status told = full.tell(report); !told) return tl::unexpected(told.error());

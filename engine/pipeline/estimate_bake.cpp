@@ -33,6 +33,7 @@ constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 constexpr int kSliceColumns = 32;
 constexpr double kSlicePixels = 2e5;
 constexpr std::size_t kTimedViews = 8;  ///< what eyes see, as finely as a bake looks
+constexpr double kBriefly = 10;         ///< so many times fewer of all these, where it is to be brief
 
 /// With which cameras are probed: maps of what eyes see that do for few pixels (more is traced along edges),
 /// and little gathering, since a part would gather nearly all for itself alone. Colours are then rougher by
@@ -62,8 +63,8 @@ ColumnCamera sliceOf(const ColumnCamera& whole, int first, int columns) {
 }
 
 /// Slices spread over a camera; all of it where they would be half.
-std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole) {
-  const int count = std::max(1, int(kSlicePixels / (double(kSliceColumns) * whole.rows)));
+std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, double pixels) {
+  const int count = std::max(1, int(pixels / (double(kSliceColumns) * whole.rows)));
   if (2 * count * kSliceColumns > whole.columns) return {whole};
   std::vector<ColumnCamera> slices;
   for (int n = 0; n < count; ++n)
@@ -149,12 +150,14 @@ std::size_t kindOf(double samples) { return samples < 100 ? 0 : samples < 1000 ?
 class ProjectProber final : public BakeProber {
  public:
   ProjectProber(const OpenProject& open, const std::vector<int>& cameras, TaskRunner& runner,
-                std::stop_token stop, const TrialFolder& folder, std::size_t memoryBytes)
+                std::stop_token stop, const TrialFolder& folder, const EstimateOptions& options)
       : open_(open),
         cameras_(cameras),
         runner_(runner),
         stop_(std::move(stop)),
-        budget_(memoryBytes),
+        brief_(options.brief),
+        fewer_(options.brief ? kBriefly : 1),
+        budget_(options.memoryBytes),
         baker_(*open.rays, probingSettings(open.project.bake), &budget_),
         lightFile_(folder.path() / "trial.light"),
         sink_(folder.path()) {}
@@ -166,8 +169,8 @@ class ProjectProber final : public BakeProber {
   Result<GatherForecast> forecastGathering(bool surfaceLight) override {
     if (surfaceLight)
       if (Status laidOut = layOutLight(); !laidOut) return tl::unexpected(laidOut.error());
-    auto forecast =
-        acentric::forecastGathering(open_, cameras_, surfaceLight ? &layout_ : nullptr, runner_, stop_);
+    auto forecast = acentric::forecastGathering(open_, cameras_, surfaceLight ? &layout_ : nullptr, runner_,
+                                                stop_, brief_);
     if (forecast) secondsPerGatheredRay_ = forecast->secondsPerRay;
     return forecast;
   }
@@ -192,7 +195,7 @@ class ProjectProber final : public BakeProber {
   Result<double> probeCapture(int camera) override {
     if (!writer_) writer_.emplace(sink_, budget_, stop_);
     const ColumnCamera whole = columnsOf(camera);
-    const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads());
+    const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
     const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
     if (thinning < 2) return traceTrial(camera, whole, Thinned::not_at_all);
@@ -233,7 +236,7 @@ class ProjectProber final : public BakeProber {
     std::vector<SliceProbe> probes;
     for (const int camera : cameras) {
       SliceProbe& probe = probes.emplace_back();
-      const std::vector<ColumnCamera> slices = slicesOf(columnsOf(camera));
+      const std::vector<ColumnCamera> slices = slicesOf(columnsOf(camera), kSlicePixels / fewer_);
       const Stopwatch watch;
       double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
       for (const ColumnCamera& slice : slices) {
@@ -261,7 +264,8 @@ class ProjectProber final : public BakeProber {
           eyes.insert({eye.x, eye.y, eye.z});
     const ColumnCamera columns = columnsOf(0);
     EyeViews views(*open_.rays, {columns.bottomElevation, columns.topElevation}, open_.project.bake, budget_);
-    const std::size_t step = std::max<std::size_t>(1, eyes.size() / kTimedViews);
+    const std::size_t step =
+        std::max<std::size_t>(1, std::size_t(double(eyes.size()) * fewer_ / kTimedViews));
     RayCounts rays;
     const Stopwatch watch;
     std::size_t n = 0;
@@ -290,7 +294,7 @@ class ProjectProber final : public BakeProber {
 
   Result<LightProbe> probeLight(int kind) override {
     constexpr double kUsualRays = 64;  // with more, fewer samples do
-    const double wanted = kLightSamples * std::min(1.0, kUsualRays / open_.project.bake.ambientRays);
+    const double wanted = kLightSamples / fewer_ * std::min(1.0, kUsualRays / open_.project.bake.ambientRays);
     const std::vector<std::size_t> chosen = kinds_[std::size_t(kind)].next(wanted);
     if (chosen.empty()) return LightProbe{};
     auto probe = bakeLight(chosen);
@@ -396,6 +400,8 @@ class ProjectProber final : public BakeProber {
   const std::vector<int>& cameras_;
   TaskRunner& runner_;
   std::stop_token stop_;
+  bool brief_;
+  double fewer_;
   MemoryBudget budget_;
   CameraBaker baker_;
   fs::path lightFile_;
@@ -427,7 +433,7 @@ Result<BakeEstimate> estimateProjectBake(const OpenProject& open, const std::vec
   const auto folder = TrialFolder::make(fs::absolute(open.file).parent_path());
   if (!folder) return tl::unexpected(folder.error());
   try {
-    ProjectProber prober(open, which, runner, stop, *folder, options.memoryBytes);
+    ProjectProber prober(open, which, runner, stop, *folder, options);
     std::vector<double> pixels;
     for (std::size_t c = 0; c < which.size(); ++c) {
       const ColumnCamera columns = prober.columnsOf(int(c));

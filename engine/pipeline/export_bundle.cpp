@@ -34,7 +34,7 @@ Result<BundleStoreyInput> storeyInput(const OpenProject& open, const CaptureStor
   input.name = open.project.current().name;
   input.layout = open.layout;
   input.start = open.project.spawn().position, input.startYaw = open.project.spawn().yawRadians;
-  input.light = start->walk.walk.surfaceLight;
+  if (start->walk.surfaceLightKey == open.surfaceLightKey) input.light = start->walk.walk.surfaceLight;
   const auto best = bestKeys(open, store);
   for (std::size_t c = 0; c < best.size(); ++c) {
     const bool full = best[c] && *best[c] == open.keys[c];

@@ -25,6 +25,8 @@ constexpr double kPlenty = 4;
 /// Neighbouring places gathered one after the other, as surfaces ask for them; rays to measure the rate by.
 constexpr std::size_t kRun = 16;
 constexpr double kRateRays = 2e6;
+constexpr std::size_t kBriefly = 10;  ///< so many times fewer of all these
+constexpr std::size_t kBriefRun = 2;  ///< with bounces, a few places read a great many cells
 
 double chanceOf(double expected) { return 1 - std::exp(-expected); }
 
@@ -145,8 +147,10 @@ struct Chances {
 class Forecaster {
  public:
   Forecaster(const OpenProject& open, const std::vector<int>& cameras, const SurfaceLight* light,
-             TaskRunner& runner, const std::stop_token& stop)
+             TaskRunner& runner, const std::stop_token& stop, bool brief)
       : open_(open),
+        fewer_(brief ? kBriefly : 1),
+        run_(brief ? kBriefRun : kRun),
         settings_(open.project.bake),
         gathered_(*open.rays, open.project.bake),
         readers_(open, cameras, light),
@@ -155,7 +159,7 @@ class Forecaster {
         stop_(stop) {}
 
   GatherForecast run() {
-    const std::vector<std::size_t> numbers = spread(kPlaces, gathered_.placeCount());
+    const std::vector<std::size_t> numbers = spread(kPlaces / fewer_, gathered_.placeCount());
     std::vector<Chances> places(numbers.size());
     runner_.parallelFor(numbers.size(), [&](std::size_t n) {
       const FlushDenormals flush;
@@ -189,24 +193,25 @@ class Forecaster {
   double measureRate(const std::vector<std::size_t>& read, GatherForecast& forecast) {
     std::vector<std::size_t> starts;
     for (const std::size_t n : read)
-      if (starts.empty() || n >= starts.back() + kRun) starts.push_back(n);
+      if (starts.empty() || n >= starts.back() + run_) starts.push_back(n);
     std::ranges::sort(starts, {}, [](std::size_t n) { return mixBits(std::uint32_t(n)); });
-    const std::size_t batch = std::size_t(4 * runner_.threads());
+    const std::size_t batch = std::size_t(fewer_ > 1 ? 1 : 4) * std::size_t(runner_.threads());
     RayCounts rays;
     std::size_t places = 0;
     const Stopwatch watch;
-    for (std::size_t first = 0; first < starts.size() && double(rays.gathered) < kRateRays; first += batch) {
+    for (std::size_t first = 0; first < starts.size() && double(rays.gathered) * double(fewer_) < kRateRays;
+         first += batch) {
       const std::size_t count = std::min(batch, starts.size() - first);
       std::vector<RayCounts> counts(count);
       runner_.parallelFor(count, [&](std::size_t run) {
         const FlushDenormals flush;
         const std::size_t begin = starts[first + run];
-        for (std::size_t n = begin; n < std::min(begin + kRun, gathered_.placeCount()); ++n)
+        for (std::size_t n = begin; n < std::min(begin + run_, gathered_.placeCount()); ++n)
           if (!stop_.stop_requested()) gathered_.gatherPlace(n, counts[run], stop_);
       });
       for (const RayCounts& count1 : counts) rays += count1;
       for (std::size_t run = 0; run < count; ++run)
-        places += std::min(kRun, gathered_.placeCount() - starts[first + run]);
+        places += std::min(run_, gathered_.placeCount() - starts[first + run]);
       if (stop_.stop_requested()) return 0;
     }
     if (rays.gathered > 0) forecast.secondsPerRay = watch.seconds() / double(rays.gathered);
@@ -249,7 +254,7 @@ class Forecaster {
 
   /// Rays gathered for all cells that are read, of every bounce: the last from places, others from cells.
   Chances raysForCells() const {
-    const std::vector<std::size_t> numbers = spread(kCells, gathered_.cellCount());
+    const std::vector<std::size_t> numbers = spread(kCells / fewer_, gathered_.cellCount());
     if (numbers.empty()) return {};
     std::vector<Chances> rays(numbers.size());
     runner_.parallelFor(numbers.size(), [&](std::size_t n) {
@@ -275,6 +280,8 @@ class Forecaster {
   }
 
   const OpenProject& open_;
+  std::size_t fewer_;
+  std::size_t run_;
   const BakeSettings& settings_;
   GatheredLight gathered_;
   Readers readers_;
@@ -287,9 +294,9 @@ class Forecaster {
 
 Result<GatherForecast> forecastGathering(const OpenProject& open, const std::vector<int>& cameras,
                                          const SurfaceLight* light, TaskRunner& runner,
-                                         const std::stop_token& stop) {
+                                         const std::stop_token& stop, bool brief) {
   if (!gathersLight(open.plan, open.project.bake)) return GatherForecast{};
-  const GatherForecast forecast = Forecaster(open, cameras, light, runner, stop).run();
+  const GatherForecast forecast = Forecaster(open, cameras, light, runner, stop, brief).run();
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
   return forecast;
 }

@@ -23,9 +23,10 @@ namespace acentric {
 
 /// `cameras`: those that will be baked. `light`: samples of the surfaces' own light as they are laid out,
 /// which is baked after the captures; null: none. Gathers some of the places, with `runner`, to measure the
-/// rate: for about a million rays, but nothing of it is kept. Nothing to gather gives zeros.
+/// rate: for about a million rays, but nothing of it is kept. Nothing to gather gives zeros. `brief`: a tenth
+/// of all that.
 Result<GatherForecast> forecastGathering(const OpenProject& open, const std::vector<int>& cameras,
                                          const SurfaceLight* light, TaskRunner& runner,
-                                         const std::stop_token& stop = {});
+                                         const std::stop_token& stop = {}, bool brief = false);
 
 }  // namespace acentric

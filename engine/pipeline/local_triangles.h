@@ -17,6 +17,9 @@ struct LocalTriangles {
   std::vector<glm::vec3> viewer;  ///< an eye in the first region (in layout order) that draws the triangle
 };
 
+/// Those that this region draws.
+std::vector<std::uint8_t> localTrianglesOf(const Scene& scene, const Region& region,
+                                           const std::stop_token& stop = {});
 /// Stopped, it knows of some of them only.
 LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout, const std::stop_token& stop = {});
 

@@ -106,16 +106,15 @@ struct BakeRequest {
   bool surfaceLight = true;
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< for all that grows with the captures (bake.h)
   bool verify = false;  ///< reads what is there to its end first, instead of believing sizes and times
-  /// A preview of every camera that has nothing yet, then the surfaces' light, before the first camera is
-  /// done.
+  /// Begins with all of the first view, from `from`: previews of the cameras that it is painted from, their
+  /// captures, and light on its local geometry. Then previews of all others that have nothing yet, the
+  /// surfaces' light, and the other captures.
   bool coarseFirst = false;
+  std::optional<glm::dvec2> from;  ///< on the plan; none: the spawn
   BakeWatch watch;
   /// Asked before anything is stored, by any thread, and once more at the end; a failure ends the bake with
   /// it.
   std::function<Status()> mayGoOn;
-  /// Told what all that is missing is expected to take, previews too, and what there is, before the first of
-  /// it is baked.
-  std::function<void(double neededBytes, std::uint64_t freeBytes)> tellRoom;
 };
 struct ProjectBakeReport {
   BakeReport captures;
@@ -152,6 +151,12 @@ std::vector<std::optional<ContentKey>> bestKeys(const OpenProject& open, const C
 std::vector<bool> bakedCameras(const OpenProject& open);
 bool surfaceLightBaked(const OpenProject& open);
 
+/// The cameras that views from a place on the plan are painted from, nearest first; outside all regions none.
+std::vector<int> firstViewCameras(const OpenProject& open, const glm::dvec2& from);
+/// Light on the local geometry of the region where a bake began, until the whole of it is there: under this
+/// key. What lies in other regions has the mean of it.
+ContentKey firstLightKey(const ContentKey& surfaceLightKey);
+
 /// Cameras in baking order: first all that views from the spawn's region are painted from, then the rest,
 /// each nearest to the spawn first.
 std::vector<int> bakingOrder(const OpenProject& open);
@@ -164,7 +169,7 @@ struct LoadedWalk {
   WalkScene walk;
   std::vector<ContentKey> keys;  ///< of walk.captures
   std::vector<bool> standsIn;    ///< by camera: a coarser rendition is shown for the capture of its key
-  ContentKey surfaceLightKey;
+  ContentKey surfaceLightKey;    ///< OpenProject's, or its firstLightKey
   std::vector<std::string> warnings;
   int missing = 0;  ///< cameras not on disk
   int coarse = 0;   ///< cameras of which only a preview or a draft is

@@ -138,10 +138,13 @@ Result<WalkStart> startWalk(const OpenProject& open, const LoadedWalk* former) {
     if (best[i] && *best[i] != open.keys[i]) ++loaded.coarse;
     loaded.keys[i] = best[i].value_or(open.keys[i]);
   }
-  if (former && former->surfaceLightKey == open.surfaceLightKey && former->walk.surfaceLight) {
+  if (const ContentKey first = firstLightKey(open.surfaceLightKey);
+      store && !store->hasSurfaceLight(open.surfaceLightKey) && store->hasSurfaceLight(first))
+    loaded.surfaceLightKey = first;
+  if (former && former->surfaceLightKey == loaded.surfaceLightKey && former->walk.surfaceLight) {
     walk.surfaceLight = former->walk.surfaceLight;
-  } else if (store && store->hasSurfaceLight(open.surfaceLightKey)) {
-    auto light = store->getSurfaceLight(open.surfaceLightKey);
+  } else if (store && store->hasSurfaceLight(loaded.surfaceLightKey)) {
+    auto light = store->getSurfaceLight(loaded.surfaceLightKey);
     if (light)
       walk.surfaceLight = std::make_shared<const SurfaceLight>(std::move(*light));
     else
@@ -151,8 +154,10 @@ Result<WalkStart> startWalk(const OpenProject& open, const LoadedWalk* former) {
     loaded.captureMemory = former->captureMemory;
     takeFormer(open, *former, loaded);
   }
-  start.source =
-      std::make_shared<const StoreSource>(open, std::move(store), std::move(best), walk.surfaceLight);
+  // What is simplified is kept on disk: only with light that is whole.
+  const bool whole = loaded.surfaceLightKey == open.surfaceLightKey;
+  start.source = std::make_shared<const StoreSource>(open, std::move(store), std::move(best),
+                                                     whole ? walk.surfaceLight : nullptr);
   return start;
 }
 

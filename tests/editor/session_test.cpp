@@ -163,6 +163,47 @@ TEST_F(SessionTest, AnEstimateIsOfWhatIsMissingAndForgottenWithAnEdit) {
   EXPECT_EQ(session.estimate()->seconds.value, 0);
 }
 
+TEST_F(SessionTest, ABakeSaysWhatItWillTakeBeforeItsFirstCamera) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  EXPECT_FALSE(session.bakeForecast());
+  const int cameras = int(session.built()->layout->cameras.size());
+  session.startBake();
+  EXPECT_EQ(session.bakeSecondsLeft(), std::nullopt);
+  waitFor(session, [&] { return session.bakeForecast().has_value(); });
+  EXPECT_EQ(session.bakeForecast()->cameras, cameras);
+  EXPECT_EQ(session.bakeForecast()->lights, 1);
+  EXPECT_EQ(session.bakeForecast()->threads, session.bakeThreads());
+  EXPECT_GT(session.bakeForecast()->seconds(), 0);
+  EXPECT_GT(session.bakeForecast()->bytes(), 0);
+  waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
+  EXPECT_EQ(session.bakeForecast()->cameras, cameras) << "it stays";
+  session.startBake();
+  EXPECT_FALSE(session.bakeForecast()) << "of another bake";
+  waitFor(session, [&] { return session.bakeForecast().has_value(); });
+  EXPECT_TRUE(session.bakeForecast()->nothing());
+  waitFor(session, [&] { return !session.working(); });
+}
+
+TEST_F(SessionTest, ABakeIsForetoldByTheEstimateThatWasAskedForBefore) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  session.estimateBake();
+  waitFor(session, [&] { return session.estimate() != nullptr; });
+  const double seconds = session.estimate()->seconds.value;
+  session.startBake();
+  waitFor(session, [&] { return session.bakeForecast().has_value(); });
+  EXPECT_EQ(session.bakeForecast()->seconds(), seconds);
+  EXPECT_EQ(session.bakeForecast()->cameras, int(session.built()->layout->cameras.size()));
+  waitFor(session, [&] { return !session.working(); });
+}
+
 TEST_F(SessionTest, CellsAreFittedToTheBudgetAsAnEditThatCanBeUndone) {
   Session session(options());
   openAndSettle(session, folder_ / "room.obj");

@@ -114,6 +114,19 @@ EstimateOptions brief() {
   return options;
 }
 
+TEST(Estimates, AreOfFewProbesWhereTheyAreToBeBrief) {
+  KnownBake bake = KnownBake::random(200, 3);
+  EstimateOptions options;
+  options.brief = true;
+  options.effort = 1000;
+  const auto estimate = estimateBake(bake.pixels(), options, bake);
+  ASSERT_TRUE(estimate) << estimate.error().describe();
+  EXPECT_EQ(estimate->probedCameras, 10);
+  EXPECT_EQ(bake.lightProbes, (std::vector{1, 1})) << "one of each kind";
+  EXPECT_NEAR(estimate->samples.value / bake.samples(), 1, 0.3);
+  EXPECT_NEAR(estimate->traceSeconds.value / bake.traceSeconds(), 1, 0.5);
+}
+
 TEST(Estimates, OfEveryCameraProbedWholeAreExact) {
   KnownBake bake = KnownBake::random(12, 1);
   bake.probedShare = 1;

@@ -77,6 +77,7 @@ TEST_F(Qualities, CoarseFirstMakesPreviewsOnlyOfWhatHasNothingYet) {
   request.coarseFirst = true;
   std::stop_source stop;
   TaskRunner runner(1);
+  request.from = glm::dvec2(100, 0);  // where there is no view that comes first
   // Stopped at the first camera of the final pass: by then every camera has a preview.
   request.watch = [&](const CameraNews& news) {
     if (!news.preview) stop.request_stop();

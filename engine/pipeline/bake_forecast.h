@@ -1,0 +1,56 @@
+#pragma once
+/// What a bake will take, said before it begins wherever one is begun: cameras, seconds, bytes, memory. What
+/// is on disk already is left out.
+
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/pipeline/pipeline.h"
+
+namespace acentric {
+
+/// What a bake has before it, of one storey.
+struct BakeShare {
+  const OpenProject* open = nullptr;
+  std::vector<int> cameras;  ///< that are not on disk
+  bool light = false;        ///< the surfaces' own is to be baked
+  double previews = 0;       ///< that come before captures, in pixels over those of the captures
+  bool any() const { return !cameras.empty() || light; }
+};
+/// As far as the names of files tell.
+BakeShare missingOf(const OpenProject& open, const BakeRequest& request);
+/// The same in a store of its own.
+BakeShare missingOf(const OpenProject& open, const BakeRequest& request, const CaptureStore& store);
+
+struct BakeForecastOptions {
+  /// Takes a second or two, and may be wrong by half as much again; else as exact as estimateProjectBake().
+  bool brief = true;
+  double effort = 1;                               ///< of all shares together, where it is not brief
+  std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
+};
+
+struct BakeForecast {
+  int cameras = 0;  ///< to be baked
+  int lights = 0;   ///< storeys whose surfaces' light is to be baked
+  int threads = 1;
+  double captureSeconds = 0, lightSeconds = 0;  ///< with these threads, nothing else being done
+  double captureBytes = 0, lightBytes = 0;      ///< on disk
+  double relativeError = 0;     ///< one standard deviation of the seconds, as far as the probes tell
+  std::size_t memoryBytes = 0;  ///< at most, of captures until they are written; the scene comes on top
+  double probeSeconds = 0;      ///< that the forecast itself took
+  double seconds() const { return captureSeconds + lightSeconds; }
+  double bytes() const { return captureBytes + lightBytes; }
+  bool nothing() const { return cameras == 0 && lights == 0; }
+};
+/// Bakes a little of each share to know. Nothing of it stays on disk.
+Result<BakeForecast> forecastBake(std::span<const BakeShare> shares, const BakeForecastOptions& options,
+                                  TaskRunner& runner, const Progress& progress = {},
+                                  std::stop_token stop = {});
+
+/// "12 cameras and light on surfaces to bake: about 1.3 min with 2 threads, 85.0 MB on disk, at most 1610.6
+/// MB of memory besides the scene". One line for a person.
+std::string describe(const BakeForecast& forecast);
+
+}  // namespace acentric

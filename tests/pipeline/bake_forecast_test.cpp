@@ -1,0 +1,128 @@
+#include "engine/pipeline/bake_forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/pipeline/estimate_bake.h"
+#include "tests/pipeline/small_project.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+
+using test::SceneBuilder;
+
+class BakeForecastTest : public FolderTest {
+ protected:
+  OpenProject openRoom(double samplesPerDegree) const {
+    SceneBuilder builder;
+    const int matte = builder.material(test::matte());
+    builder.box(matte, {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5f}, 50);
+    builder.box(matte, {2, 2, 0}, {2.5f, 2.5f, 2});
+    Project project = test::smallProject(1.5, samplesPerDegree);
+    project.bake.ambientRays = 8;
+    return test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
+  }
+  static BakeForecast forecastOf(const OpenProject& open, const BakeRequest& request) {
+    TaskRunner runner(1);
+    const BakeShare share = missingOf(open, request);
+    const auto forecast = forecastBake(std::span(&share, 1), {}, runner);
+    EXPECT_TRUE(forecast) << (forecast ? "" : forecast.error().describe());
+    return forecast ? *forecast : BakeForecast{};
+  }
+};
+
+TEST_F(BakeForecastTest, LeavesOutWhatIsThere) {
+  const OpenProject open = openRoom(1);
+  const int cameras = int(open.keys.size());
+  ASSERT_GT(cameras, 6);
+  const BakeForecast all = forecastOf(open, {});
+  EXPECT_EQ(all.cameras, cameras);
+  EXPECT_EQ(all.lights, 1);
+  EXPECT_EQ(all.threads, 2);
+  EXPECT_GT(all.captureSeconds, 0);
+  EXPECT_GT(all.lightSeconds, 0);
+  EXPECT_GT(all.captureBytes, 0);
+  EXPECT_EQ(all.memoryBytes, MemoryBudget::kUsual);
+  EXPECT_FALSE(std::filesystem::exists(captureFolderFor(open.file))) << "asking bakes nothing";
+
+  TaskRunner runner(1);
+  BakeRequest some;
+  some.surfaceLight = false;
+  some.cameras = std::vector{1, 4, 5};
+  ASSERT_TRUE(bakeProject(open, some, runner));
+  EXPECT_TRUE(forecastOf(open, some).nothing());
+  EXPECT_EQ(forecastOf(open, {}).cameras, cameras - 3);
+  some.cameras = std::vector{1, 2};
+  const BakeForecast one = forecastOf(open, some);
+  EXPECT_EQ(one.cameras, 1);
+  EXPECT_EQ(one.lights, 0);
+  EXPECT_EQ(one.lightSeconds, 0);
+  ASSERT_TRUE(bakeProject(open, {}, runner));
+  EXPECT_TRUE(forecastOf(open, {}).nothing());
+  EXPECT_EQ(forecastOf(open, {}).probeSeconds, 0) << "nothing is probed for nothing";
+}
+
+TEST_F(BakeForecastTest, CountsPreviewsThatComeFirst) {
+  const OpenProject open = openRoom(4);
+  BakeRequest request;
+  EXPECT_EQ(missingOf(open, request).previews, 0);
+  request.coarseFirst = true;
+  EXPECT_NEAR(missingOf(open, request).previews, 1.0 / 16, 0.01) << "a quarter of the resolution";
+  request.surfaceLight = false;
+  TaskRunner runner(1);
+  ASSERT_TRUE(bakeProject(atQuality(open, Quality::preview), request, runner));
+  EXPECT_EQ(missingOf(open, request).previews, 0) << "those are there";
+}
+
+TEST_F(BakeForecastTest, ForetellsBrieflyWhatTheBakeDoesWithinAFactorOfTwo) {
+  const OpenProject open = openRoom(2);
+  TaskRunner runner(1);
+  EstimateOptions brief;
+  brief.brief = true;
+  const auto estimate = estimateProjectBake(open, {}, brief, runner);
+  ASSERT_TRUE(estimate) << estimate.error().describe();
+  EXPECT_LE(estimate->probedCameras, 10);
+  const auto report = bakeProject(open, {}, runner);
+  ASSERT_TRUE(report) << report.error().describe();
+  const BakeReport& captures = report->captures;
+  EXPECT_EQ(estimate->cameras, captures.baked);
+  const auto within = [](double foretold, double found) {
+    EXPECT_GT(foretold, found / 2);
+    EXPECT_LT(foretold, found * 2);
+  };
+  // What time is spent on; how long that takes depends on what else the machine does.
+  within(estimate->rays.value, double(captures.counts.rays.total() - captures.counts.rays.visibility));
+  within(estimate->samples.value, double(captures.counts.samples.keptInAll()));
+  within(
+      estimate->bytes.value,
+      double(report->bytes + CaptureStore::open(captureFolderFor(open.file))->bytesOf(open.surfaceLightKey)));
+  const auto light = CaptureStore::open(captureFolderFor(open.file))->getSurfaceLight(open.surfaceLightKey);
+  ASSERT_TRUE(light);
+  EXPECT_EQ(estimate->lightSamples.value, double(light->light.size()));
+  std::printf("[ bench    ] foretold: %.2f of the seconds that it took\n",
+              estimate->seconds.value / (captures.seconds + report->surfaceLightSeconds));
+}
+
+TEST(BakeForecast, IsOneLineForAPerson) {
+  BakeForecast forecast;
+  EXPECT_EQ(describe(forecast), "nothing to bake: all of it is there");
+  forecast.cameras = 1;
+  forecast.captureSeconds = 5.24;
+  forecast.captureBytes = 2.04e6;
+  forecast.memoryBytes = 1'500'000'000;
+  EXPECT_EQ(
+      describe(forecast),
+      "1 camera to bake: about 5.2 s with 1 thread, 2.0 MB on disk, at most 1500 MB of memory besides the "
+      "scene");
+  forecast.cameras = 1200, forecast.lights = 1, forecast.threads = 2;
+  forecast.lightSeconds = 200;
+  EXPECT_EQ(describe(forecast),
+            "1200 cameras and light on surfaces to bake: about 3.4 min with 2 threads, 2.0 MB on disk, at "
+            "most 1500 "
+            "MB of memory besides the scene");
+}
+
+}  // namespace
+}  // namespace acentric
