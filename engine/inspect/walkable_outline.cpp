@@ -30,10 +30,10 @@ tl::unexpected<Error> none(const std::string& what) {
 }
 
 constexpr double kOpenGround = 0.01;  // what a spot counts that nothing encloses
-constexpr int kMostParts = 16;         // of the floor at one height
-constexpr double kSmallPart = 0.1;     // of the largest part's area: a hut on its ground
-constexpr double kNoWalls = 0.05;      // mean enclosure on the outside of a box around everything
-constexpr double kHiddenFloor = 0.1;   // share of such an outside with floor below
+constexpr int kMostParts = 16;        // of the floor at one height
+constexpr double kSmallPart = 0.1;    // of the largest part's area: a hut on its ground
+constexpr double kNoWalls = 0.05;     // mean enclosure on the outside of a box around everything
+constexpr double kHiddenFloor = 0.1;  // share of such an outside with floor below
 
 /// How much a spot counts for the choice of the floor. Who stands before a building sees surfaces in half of
 /// the directions at most, in a room or a street in more: only what is beyond half counts. Where nothing is
