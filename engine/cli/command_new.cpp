@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/cli/commands.h"
+#include "engine/pipeline/first_cell.h"
 #include "engine/pipeline/scene_storeys.h"
 
 namespace acentric::cli {
@@ -31,6 +32,15 @@ Result<CollectedModel> makeAndSave(const NewOptions& options, const NewProjectOp
   if (made) return collected;
   takeBack(*collected);
   return tl::unexpected(made.error());
+}
+
+/// Why cells that were not asked for are larger than usual; empty where they are not.
+std::string largeCellsText(const LayoutSpec& spec) {
+  if (spec.cellSize <= kLargestUsualCell) return {};
+  return fmt::format(
+      "{:g} m, since {:.3g} km2 are walkable; choose smaller ones with --cell and a smaller area with "
+      "--outline",
+      spec.cellSize, 1e-6 * spec.outline.area());
 }
 
 }  // namespace
@@ -94,6 +104,8 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
         spec.cellSize, storey.layout->regions.size(), storey.layout->cameras.size());
   }
+  const std::string large = options.cellSize > 0 ? std::string() : largeCellsText(open->layout->spec);
+  if (!large.empty()) report.text += fmt::format("  large cells: {}\n", large);
   const auto doubt = doubtScale(*open->rays, open->project.import);
   report.json = {{"project", options.output.string()},
                  {"model", model.json},
@@ -104,6 +116,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
                  {"dropped", open->scene->report.dropped},
                  {"ignored", open->scene->report.ignored},
                  {"scaleInDoubt", scaleJson(doubt)}};
+  if (!large.empty()) report.json["largeCells"] = large;
   for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
                                      std::pair{"dropped", &open->scene->report.dropped},
                                      std::pair{"ignored", &open->scene->report.ignored}})

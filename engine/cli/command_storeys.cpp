@@ -16,6 +16,7 @@ Report storeysReport(const Storeys& storeys) {
                       {"height", plane.height},
                       {"squareMetres", plane.outline.area()},
                       {"coveredShare", plane.coveredShare},
+                      {"enclosure", plane.enclosure},
                       {"outline", formatOutline(plane.outline)}});
     report.text += describeStorey(storeys, int(s)) + "\n";
   }

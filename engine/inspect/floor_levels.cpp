@@ -63,22 +63,29 @@ FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double 
   return levels;
 }
 
-std::optional<double> dominantHeight(std::vector<float> heights, double tolerance) {
+std::optional<double> dominantHeight(std::vector<WeightedHeight> heights, double tolerance) {
   if (heights.empty()) return std::nullopt;
-  std::ranges::sort(heights);
-  // How many lie in [heights[k], heights[k] + tolerance].
-  std::vector<std::size_t> within(heights.size());
+  std::ranges::sort(heights, {}, &WeightedHeight::height);
+  std::vector<double> before{0};  // weight of heights[0..k)
+  for (const WeightedHeight& height : heights) before.push_back(before.back() + height.weight);
+  // Of the heights in [heights[k], heights[k] + tolerance]: one past the last, and their weight.
+  std::vector<std::size_t> ends(heights.size());
+  std::vector<double> within(heights.size());
   for (std::size_t k = 0, end = 0; k < heights.size(); ++k) {
-    while (end < heights.size() && heights[end] <= heights[k] + tolerance) ++end;
-    within[k] = end - k;
+    while (end < heights.size() && double(heights[end].height) <= double(heights[k].height) + tolerance)
+      ++end;
+    ends[k] = end;
+    within[k] = before[end] - before[k];
   }
-  const double enough = 0.6 * double(std::ranges::max(within));
+  const double enough = 0.6 * std::ranges::max(within);
   std::size_t chosen = 0;
-  while (double(within[chosen]) < enough) ++chosen;
+  while (within[chosen] < enough) ++chosen;
   // On to the fullest window that still overlaps this one.
-  for (std::size_t k = chosen, end = chosen + within[chosen]; k < end; ++k)
+  for (std::size_t k = chosen, end = ends[chosen]; k < end; ++k)
     if (within[k] > within[chosen]) chosen = k;
-  return heights[chosen + within[chosen] / 2];
+  std::size_t middle = chosen;
+  while (middle + 1 < ends[chosen] && before[middle + 1] - before[chosen] < 0.5 * within[chosen]) ++middle;
+  return double(heights[middle].height);
 }
 
 }  // namespace acentric

@@ -37,8 +37,13 @@ std::vector<FloorLevel> floorLevelsAt(const glm::dvec2& place, const Bounds& bou
 FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double headRoom,
                             const SurfaceProbe& probe);
 
-/// The height with most floor, but a lower one is preferred that has at least 60 % as much: a house's roof is
-/// larger than its floor. Nothing if there are no heights.
-std::optional<double> dominantHeight(std::vector<float> heights, double tolerance);
+struct WeightedHeight {
+  float height = 0;   ///< z, metres
+  double weight = 1;  ///< > 0
+};
+
+/// The height with most weight, but a lower one is preferred that has at least 60 % as much: a house's roof
+/// is larger than its floor. Nothing if there are no heights.
+std::optional<double> dominantHeight(std::vector<WeightedHeight> heights, double tolerance);
 
 }  // namespace acentric

@@ -28,13 +28,14 @@ using FreeWay = std::array<float, 4>;
 struct Body {
   bool fits = false;
   bool seemsInside = false;
+  float enclosure = 0;
   FreeWay freeWay{};
 };
 
 Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRules& rules,
                 const std::array<double, 3>& heights, const SurfaceProbe& probe) {
   Body body;
-  int found = 0, backs = 0;
+  int found = 0, backs = 0, walls = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < kSides; ++d) {
     const glm::dvec3 direction(directionOf(kTwoPi * d / kSides), 0);
@@ -45,10 +46,12 @@ Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRul
       least = std::min(least, hit.distance);
       ++found;
       if (hit.showsBack(direction)) ++backs;
+      if (above == rules.eyeHeight && hit.distance <= rules.wallReach) ++walls;
     }
     nearest = std::min(nearest, least);
     if (d % 2 == 0) body.freeWay[std::size_t(d / 2)] = static_cast<float>(least);
   }
+  body.enclosure = static_cast<float>(walls) / kSides;
   body.fits = nearest >= rules.wallClearance;
   const bool open = found <= kSides;  // hardly anything around tells anything
   body.seemsInside = level.maybeInside && (open ? level.faceDown : backs >= kInside * found);
@@ -165,7 +168,7 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
       for (const FloorLevel& level : levels[cell]) {
         const Body body = surveyor.feel(grid.centreOf(x, y), level);
         if (!body.fits) continue;
-        standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside});
+        standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside, body.enclosure});
         freeWays.push_back(body.freeWay);
       }
       firstOfCell[cell + 1] = static_cast<int>(standing.spots.size());

@@ -18,6 +18,7 @@ struct StandingRules {
   /// that is walked about without passing a surface is inside where most of its spots seem so. (Models are
   /// often wound the other way in places, and one does not walk out of a solid.)
   bool refuseInside = true;
+  double wallReach = 20;  ///< metres: surfaces at eye height up to here enclose who stands there
 };
 
 struct StandingSpot {
@@ -25,6 +26,7 @@ struct StandingSpot {
   float height = 0;  ///< of the floor, z, metres
   bool covered = false;
   bool seemsInside = false;  ///< of a solid
+  float enclosure = 0;       ///< share of the directions at eye height that meet a surface within wallReach
   /// Spots a step away towards +x, +y, -x, -y; -1 = none. If a leads to b, b leads back to a.
   std::array<int, 4> next{-1, -1, -1, -1};
 };

@@ -100,11 +100,13 @@ WalkPlane planeOf(const CellMask& part, const Slice& slice, const Standing& stan
     const StandingSpot& spot = standing.spots[std::size_t(slice.spotOf[cell])];
     heights.push_back(spot.height);
     covered += spot.covered ? 1 : 0;
+    plane.enclosure += double(spot.enclosure);
   }
   const auto middle = heights.begin() + std::ptrdiff_t(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
   plane.height = *middle;
   plane.coveredShare = double(covered) / double(heights.size());
+  plane.enclosure /= double(heights.size());
   plane.outline = outlineOf(part, standing.grid);
   return plane;
 }

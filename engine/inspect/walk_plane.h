@@ -13,6 +13,7 @@ struct WalkPlane {
   double height = 0;        ///< z, metres: the middle one of its floor
   Outline outline;          ///< one outer loop and its holes, simplified to about one grid step
   double coveredShare = 0;  ///< of its floor: what lies below a ceiling, a roof or a tree
+  double enclosure = 0;     ///< mean of its floor: see StandingSpot
   std::vector<int> spots;   ///< into Standing::spots
 };
 

@@ -4,7 +4,12 @@
 /// Floor is what faces upwards, has the head room, and is not inside a solid. Outside and inside are told by
 /// the sides that surfaces show, as they are wound. A scene whose walls all show their backs to the room (a
 /// shell made to be seen from outside) is then a solid, and nothing is floor in it: only if there is no other
-/// floor at all, sides are ignored.
+/// floor at all, or only the outside of such a shell with floor in it, sides are ignored.
+///
+/// Of several heights and parts, the floor is chosen on which most is enclosed: surfaces at eye height within
+/// 20 m in more than half of the directions. So rooms and streets win over the ground around a building. Open
+/// ground counts a hundredth, and wins where it is vast or where nothing is enclosed. A hut does not win
+/// over the ground at its own height.
 
 #include <limits>
 
@@ -21,8 +26,7 @@ struct WalkableOptions {
   double stepHeight = 0.25;      ///< metres: what a foot climbs at once, on the way from place to place
   double wallClearance = 0.2;    ///< metres from obstacles
   double gridStep = 0;           ///< metres; 0 = from the scene's size (about 200 x 200 points)
-  double floorHeight = std::numeric_limits<double>::quiet_NaN();  ///< NaN = the height with most
-                                                                  ///< upward-facing area at walkable height
+  double floorHeight = std::numeric_limits<double>::quiet_NaN();  ///< NaN = chosen: see above
   bool ignoreSides = false;  ///< every surface may be floor, and nothing is the inside of a solid
 
   Status check() const;
@@ -32,7 +36,7 @@ struct WalkableOptions {
 
 struct WalkableArea {
   double floorHeight = 0;
-  Outline outline;  ///< largest connected area, simplified to about one grid step
+  Outline outline;  ///< one connected area, simplified to about one grid step
   bool ignoredSides = false;
 };
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/collect_model.h"
+#include "engine/pipeline/first_cell.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/scene_scale.h"
@@ -19,7 +21,9 @@ namespace {
 
 /// Rings that a first layout aims at: enough to walk, few enough to bake in minutes.
 constexpr double kFirstRings = 12;
-constexpr double kSmallestFirstCell = 0.8, kLargestFirstCell = 6.0;
+constexpr double kSmallestFirstCell = 0.8;
+/// A first layout has no more: larger cells are chosen instead.
+constexpr double kMostFirstRings = 2000;
 
 double roundTo(double value, double step) { return std::round(value / step) * step; }
 
@@ -132,8 +136,11 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
 }  // namespace
 
 double firstCellSize(double walkableSquareMetres, Configuration configuration) {
-  const double middling = std::sqrt(walkableSquareMetres / (kFirstRings * areaPerRing(configuration)));
-  return std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestFirstCell);
+  const double perRing = areaPerRing(configuration);
+  const double middling = std::sqrt(walkableSquareMetres / (kFirstRings * perRing));
+  const double coarse = std::sqrt(walkableSquareMetres / (kMostFirstRings * perRing));
+  if (coarse > kLargestUsualCell) return std::min(std::ceil(coarse), kLargestCellSize);
+  return std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestUsualCell);
 }
 
 Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,

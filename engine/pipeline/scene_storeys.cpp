@@ -74,8 +74,8 @@ std::string describeStorey(const Storeys& storeys, int number) {
   std::ranges::sort(joined);
   const auto repeated = std::ranges::unique(joined);
   joined.erase(repeated.begin(), repeated.end());
-  return fmt::format("{}: {:.2f} m, {:.1f} m2, {:.0f} % covered{}", number, plane.height,
-                     plane.outline.area(), 100 * plane.coveredShare,
+  return fmt::format("{}: {:.2f} m, {:.1f} m2, {:.0f} % covered, {:.0f} % enclosed{}", number, plane.height,
+                     plane.outline.area(), 100 * plane.coveredShare, 100 * plane.enclosure,
                      joined.empty() ? "" : fmt::format(", joined to {}", fmt::join(joined, ", ")));
 }
 

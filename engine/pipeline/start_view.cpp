@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "engine/geometry/conventions.h"
@@ -34,7 +35,7 @@ struct Candidate {
   double room = 0;
 };
 
-/// The middles of regions, spread evenly, of those that have room; if none has, the roomiest.
+/// The middles of regions, spread evenly, of those that have room; if none has, the roomiest quarter.
 std::vector<glm::dvec2> placesToStand(const Layout& layout, const RayScene& rays) {
   std::vector<glm::dvec2> middles;
   for (const Region& region : layout.regions) {
@@ -48,11 +49,13 @@ std::vector<glm::dvec2> placesToStand(const Layout& layout, const RayScene& rays
   for (std::size_t i = 0; i < middles.size(); i += step)
     candidates.push_back(
         {middles[i], clearance(rays, {middles[i], layout.eyeZ()}, layout.spec.eyeHeight, kRoom)});
-  double roomiest = 0;
-  for (const Candidate& candidate : candidates) roomiest = std::max(roomiest, candidate.room);
+  std::vector<double> rooms;
+  for (const Candidate& candidate : candidates) rooms.push_back(candidate.room);
+  std::ranges::sort(rooms, std::ranges::greater());
+  const double enough = rooms.front() >= kRoom ? kRoom : rooms[(rooms.size() - 1) / 4];
   std::vector<glm::dvec2> places;
   for (const Candidate& candidate : candidates)
-    if (candidate.room >= roomiest) places.push_back(candidate.place);
+    if (candidate.room >= enough) places.push_back(candidate.place);
   return places;
 }
 

@@ -67,6 +67,10 @@ struct BoxWorld {
     nearest.normal[axis] = (direction[axis] > 0) == fromOutside ? -1 : 1;
   }
 
+  /// Two sheets leave no gap at the edge that they share, as no tracer of ours does: a point counts that lies
+  /// outside by this share of the sheet's size.
+  static constexpr double kOnEdge = 1e-9;
+
   static void meet(const Sheet& sheet, const glm::dvec3& origin, const glm::dvec3& direction,
                    SurfaceHit& nearest) {
     const glm::dvec3 normal = glm::cross(sheet.b - sheet.a, sheet.c - sheet.a);
@@ -77,7 +81,7 @@ struct BoxWorld {
     const glm::dvec3 at = origin + distance * direction;
     for (const auto& [from, to] :
          {std::pair{sheet.a, sheet.b}, std::pair{sheet.b, sheet.c}, std::pair{sheet.c, sheet.a}})
-      if (glm::dot(glm::cross(to - from, at - from), normal) < 0) return;
+      if (glm::dot(glm::cross(to - from, at - from), normal) < -kOnEdge * glm::dot(normal, normal)) return;
     nearest = {distance, glm::normalize(normal)};
   }
 

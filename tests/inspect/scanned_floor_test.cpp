@@ -46,7 +46,7 @@ TEST(ScannedFloor, IsOneStoreyThoughItIsUneven) {
   ASSERT_TRUE(storeys) << storeys.error().describe();
   ASSERT_EQ(storeys->planes.size(), 1U);
   EXPECT_NEAR(storeys->planes[0].height, kSlope * 2.5, 0.05);
-  EXPECT_GT(storeys->planes[0].outline.area(), 0.7 * 4.8 * 3.8);
+  EXPECT_GT(storeys->planes[0].outline.area(), 0.95 * 4.8 * 3.8);
 }
 
 TEST(ScannedFloor, IsOneStoreyAroundItsHoles) {
@@ -56,10 +56,10 @@ TEST(ScannedFloor, IsOneStoreyAroundItsHoles) {
   const auto storeys = findStoreys(world.bounds(), options, world.probe());
   ASSERT_TRUE(storeys) << storeys.error().describe();
   ASSERT_EQ(storeys->planes.size(), 1U);
-  EXPECT_GT(storeys->planes[0].outline.area(), 0.65 * 4.8 * 3.8);
+  EXPECT_GT(storeys->planes[0].outline.area(), 0.88 * 4.8 * 3.8);
   const auto area = findWalkableArea(world.bounds(), options.walkable, world.probe());
   ASSERT_TRUE(area) << area.error().describe();
-  EXPECT_GT(area->outline.area(), 0.65 * 4.8 * 3.8);
+  EXPECT_GT(area->outline.area(), 0.88 * 4.8 * 3.8);
 }
 
 }  // namespace
