@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bake/pruning_loss.h"
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/path_frames.h"
@@ -289,6 +290,59 @@ Json toJson(const Correlation& correlation) {
   return {{"pearson", correlation.pearson}, {"spearman", correlation.spearman}};
 }
 
+// ---------------------------------------------------------------- pruning
+
+constexpr int kLooks = 400'000;  // of all regions, with each number of test eyes
+constexpr int kMostTestEyes = 64;
+
+Result<Report> lossesOfPruning(const CoverageOptions& options, const Common& common) {
+  const auto open = openChosen(options.project, common);
+  if (!open) return tl::unexpected(open.error());
+  BakeSettings settings = open->project.bake;
+  if (!settings.pruning)
+    return fail(ErrorKind::invalidArgument, "the project's bakes do not prune: nothing is lost",
+                options.project.string());
+  const auto& regions = open->layout->regions;
+  const int looks = std::max(1, kLooks / int(regions.size()));
+  const auto runner = common.runner();
+  Report report;
+  Json rows = Json::array();
+  report.text = fmt::format(
+      "{} regions, {} looks of random eyes in each: of what they see, pruning loses\n"
+      "  test eyes     lost   95 % sure   worst region\n",
+      regions.size(), looks);
+  const int own = settings.testEyes;
+  for (int count = own; count <= kMostTestEyes; count *= 2) {
+    settings.testEyes = count;
+    std::vector<PruningLoss> byRegion(regions.size());
+    runner->parallelFor(regions.size(), [&](std::size_t r) {
+      if (common.stop.stop_requested()) return;
+      byRegion[r] = pruningLoss(*open->rays, regions[r], open->layout->eyeZ(), settings, looks, r);
+    });
+    if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
+    PruningLoss all;
+    for (const PruningLoss& loss : byRegion) all += loss;
+    const auto worst =
+        std::size_t(std::ranges::max_element(byRegion, {}, &PruningLoss::share) - byRegion.begin());
+    rows.push_back({{"testEyes", count},
+                    {"looks", all.looks},
+                    {"lost", all.lost},
+                    {"share", all.share()},
+                    {"atMost", all.atMost()},
+                    {"worstRegion", worst},
+                    {"worstShare", byRegion[worst].share()},
+                    {"worstAtMost", byRegion[worst].atMost()}});
+    report.text += fmt::format("  {:>9}  {:6.3f} %   < {:6.3f} %   {}: {:.2f} % (< {:.2f} %){}\n", count,
+                               100 * all.share(), 100 * all.atMost(), worst, 100 * byRegion[worst].share(),
+                               100 * byRegion[worst].atMost(), count == own ? "   as the project bakes" : "");
+  }
+  report.json = {{"project", options.project.string()},
+                 {"regions", regions.size()},
+                 {"looksPerRegion", looks},
+                 {"byTestEyes", std::move(rows)}};
+  return report;
+}
+
 Result<Report> correlation(const CoverageOptions& options, const Common& common) {
   const bool random = options.path.empty();
   const std::string usual = random ? kLookSize : kFrameSize;
@@ -366,8 +420,14 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
 }  // namespace
 
 Result<Report> runCoverage(const CoverageOptions& options, const Common& common) {
-  if (int(options.plan) + int(options.surfaces) + int(options.correlate) > 1)
-    return fail(ErrorKind::invalidArgument, "choose one of --plan, --surfaces and --correlate");
+  if (int(options.plan) + int(options.surfaces) + int(options.pruning) + int(options.correlate) > 1)
+    return fail(ErrorKind::invalidArgument, "choose one of --plan, --surfaces, --pruning and --correlate");
+  if (options.pruning) {
+    if (!options.output.empty() || !options.csv.empty())
+      return fail(ErrorKind::invalidArgument,
+                  "--pruning has no picture and no CSV; take its figures with --json");
+    return lossesOfPruning(options, common);
+  }
   if (options.correlate) {
     if (!options.output.empty())
       return fail(ErrorKind::invalidArgument, "--correlate has no picture; write its figures with --csv");

@@ -305,7 +305,7 @@ Result<Report> runEstimate(const EstimateCommandOptions& options, const Common& 
 
 struct CoverageOptions {
   std::filesystem::path project, path, output, csv;
-  bool plan = false, surfaces = false, correlate = false;
+  bool plan = false, surfaces = false, pruning = false, correlate = false;
   int points = 20000, eyesPerRegion = 7, grid = 512, frames = 20;
   double reach = 0;                     ///< metres; 0 = any distance
   std::string size, renderer = "list";  ///< size empty: 960x540, or 640x360 to correlate

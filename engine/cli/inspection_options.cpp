@@ -68,12 +68,15 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
       "Show how densely the cameras sample the plan and the surfaces, and which surfaces would be holes",
       "  acentric coverage kitchen.acentric.json --plan -o plan.svg\n"
       "  acentric coverage kitchen.acentric.json --surfaces --points 50000 -o surfaces.png --csv points.csv\n"
+      "  acentric coverage kitchen.acentric.json --pruning\n"
       "  acentric coverage kitchen.acentric.json --path tour.json --correlate --json",
       runCoverage);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "where the walk begins");
   c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
   c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
+  c->add_flag("--pruning", o.pruning,
+              "Tell what pruning loses of what random eyes see, with the project's test eyes and with more");
   c->add_flag("--correlate", o.correlate,
               "Compare predicted holes with those of rendered frames, eye by eye (needs a bake)");
   c->add_option("--points", o.points, "Points on the surfaces")
