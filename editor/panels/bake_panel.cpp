@@ -128,6 +128,14 @@ void drawFacts(PanelContext& context) {
                       ui::formatCount(report.counts.rays.shadow),
                       ui::formatCount(report.counts.rays.ambient)),
           kValueX);
+    if (const TestEyeSummary& eyes = report.testEyes; eyes.loss.looks > 0) {
+      ui::keyValue("Pruning", fmt::format("loses less than {:.2g} % of what is seen", 100 * eyes.worstLimit),
+                   kValueX);
+      ui::tooltip(fmt::format(
+          "With 95 % confidence, from any of the regions that the baked cameras serve. {:.1f} test eyes a "
+          "region, {} at most.",
+          double(eyes.eyes) / double(eyes.regions), eyes.most));
+    }
     if (report.peakBytes > 0)
       ui::keyValue("Memory used", fmt::format("{} at most", ui::formatBytes(report.peakBytes)), kValueX);
     ui::keyValue("On disk", ui::formatBytes(last->bytes), kValueX);

@@ -199,6 +199,19 @@ void bakeNumber(PanelContext& context, const char* logName, const ui::NumberFiel
   applyBakeEdit(context, logName, edit, bake, what);
 }
 
+void drawPruningLoss(PanelContext& context) {
+  constexpr double kPercent = 100;
+  BakeSettings bake = context.session().project().bake;
+  double percent = kPercent * bake.pruningLoss;
+  const ui::FieldEdit edit = ui::numberField(
+      {"Pruning loss", "%.3f %%", 0.002, 0, kPercent,
+       "Of what is seen from a region, pruning loses no more (with 95 % confidence): test eyes "
+       "are added until then. Less closes finer holes and takes longer. 0: none are added."},
+      percent, kLabelWidth);
+  bake.pruningLoss = percent > 0 ? std::max(percent / kPercent, kLeastPruningLoss) : 0;
+  applyBakeEdit(context, "pruningLoss", edit, bake, "pruning loss");
+}
+
 void drawBake(PanelContext& context) {
   if (!askedSection(context, "Bake quality")) return;
   bakeNumber(context, "samplesPerDegree",
@@ -233,12 +246,15 @@ void drawBake(PanelContext& context) {
       ui::checkField("Prune", bake.pruning, kLabelWidth,
                      "Keep only what can be seen from somewhere in a region that the camera serves.");
   applyBakeEdit(context, "pruning", edit, bake, "pruning");
-  if (bake.pruning)
+  if (bake.pruning) {
+    drawPruningLoss(context);
     bakeNumber(
         context, "testEyes",
-        {"Test eyes", "%.0f", 0.05, 1, 64,
-         "Places in each region that pruning looks from: more close finer holes and take longer. 1 to 64."},
+        {"Test eyes", "%.0f", 0.05, 1, kMostTestEyes,
+         "Places spread over each region that pruning looks from; where they lose too much, others are "
+         "added. 1 to 64."},
         &BakeSettings::testEyes, "test eyes");
+  }
   bakeNumber(context, "eyeRange",
              {"Eye range", "%.2f m", 0.005, 0, 10, "How far above and below eye height the walk may go."},
              &BakeSettings::eyeRange, "eye range");

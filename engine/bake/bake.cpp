@@ -150,6 +150,7 @@ class BakeRun {
   Status finish() { return writer_.finish(); }
   BakeReport takeReport() {
     report_.peakBytes = budget_.peak();
+    report_.testEyes = baker_.testEyes();
     return std::move(report_);
   }
 

@@ -12,6 +12,7 @@
 #include "engine/bake/bake_settings.h"
 #include "engine/bake/bake_watch.h"
 #include "engine/bake/ray_scene.h"
+#include "engine/bake/test_eyes.h"
 #include "engine/base/memory_budget.h"
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
@@ -79,6 +80,9 @@ class CameraBaker {
   Result<Capture> bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
                        CaptureCounts& counts, std::stop_token stop = {}, const Traced& traced = {});
 
+  /// Of the regions served so far.
+  TestEyeSummary testEyes() const;
+
  private:
   const RayScene& scene_;
   BakeSettings settings_;
@@ -88,6 +92,7 @@ class CameraBaker {
   std::stop_token shaderStop_;
   std::unique_ptr<FlatMirrors> mirrors_;
   std::unique_ptr<TexturePyramids> textures_;
+  std::unique_ptr<TestEyes> testEyes_;
   std::unique_ptr<EyeViews> views_;
   std::unique_ptr<RegionSkies> skies_;
 };
@@ -131,6 +136,7 @@ struct BakeReport {
   int reused = 0;
   double seconds = 0;
   CaptureCounts counts;
+  TestEyeSummary testEyes;    ///< of the regions that the baked cameras serve, where the bake prunes
   std::size_t peakBytes = 0;  ///< the most that was held of what `memoryBytes` limits
 };
 

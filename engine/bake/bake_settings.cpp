@@ -32,6 +32,7 @@ BakeSettings BakeSettings::at(Quality quality) const {
   out.maxLayers = preview ? 1 : std::min(maxLayers, 4);
   out.pruning = !preview && pruning;
   fewer(out.testEyes, 4);
+  out.pruningLoss = 0;
   return out;
 }
 
@@ -54,7 +55,11 @@ Status BakeSettings::check() const {
     if (!inRange(metres, kLeastBakeLength, kLargestBakeLength))
       return bad(
           fmt::format("{} {} m: must lie in {}..{:.0f}", what, metres, kLeastBakeLength, kLargestBakeLength));
-  if (testEyes < 1 || testEyes > 64) return bad(fmt::format("{} test eyes: must lie in 1..64", testEyes));
+  if (testEyes < 1 || testEyes > kMostTestEyes)
+    return bad(fmt::format("{} test eyes: must lie in 1..{}", testEyes, kMostTestEyes));
+  if (pruningLoss != 0 && !inRange(pruningLoss, kLeastPruningLoss, 1))
+    return bad(fmt::format("pruning may lose {} of what is seen: must be 0 or lie in {}..1", pruningLoss,
+                           kLeastPruningLoss));
   if (!inRange(eyeRange, 0, kLargestBakeLength))
     return bad(fmt::format("eye range {} m: must lie in 0..{:.0f}", eyeRange, kLargestBakeLength));
   if (!inRange(distanceShift, 0, kLargestDistanceShift))
@@ -72,7 +77,7 @@ void BakeSettings::addTo(Hasher& hasher) const {
       .value(maxLayers)
       .value(shadowRays)
       .value(bounces);
-  hasher.value(int(pruning)).value(testEyes).value(eyeRange);
+  hasher.value(int(pruning)).value(testEyes).value(pruningLoss).value(eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
 }

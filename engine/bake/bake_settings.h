@@ -11,6 +11,9 @@ namespace acentric {
 /// Metres, of the settings' lengths; a project may be drawn in any unit.
 inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
 
+inline constexpr int kMostTestEyes = 64;
+inline constexpr double kLeastPruningLoss = 1e-5;
+
 inline constexpr double kUsualDistanceShift = 0.1, kLargestDistanceShift = 16;
 
 /// How much of the settings a bake spends: a preview is there at once, a draft shows the layout's faults.
@@ -27,8 +30,11 @@ struct BakeSettings {
   double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, and of gathered light
   int maxLayers = 8;            ///< samples kept per pixel for one region at most, 1..64
   bool pruning = true;          ///< keep only what a served region sees from one of its test eyes
-  int testEyes = 8;             ///< per served region, 1..64
-  double eyeRange = 0.15;       ///< metres: how far above and below eye height the eye may stand, 0..1e6
+  int testEyes = 8;             ///< placed evenly in each served region, 1..64
+  /// Of what eyes in a region see, the share that pruning may lose: until no more is lost, eyes are added to
+  /// the region, up to 64. kLeastPruningLoss..1; 0 = ask those placed evenly alone, whatever is lost.
+  double pruningLoss = 0.0005;
+  double eyeRange = 0.15;  ///< metres: how far above and below eye height the eye may stand, 0..1e6
   /// Of a sample's spacing: by how much the picture may shift because inverse distances are rounded, 0..16.
   /// 0 = only to the 16 significant bits that captures keep.
   double distanceShift = kUsualDistanceShift;

@@ -68,6 +68,8 @@ CameraBaker::CameraBaker(const RayScene& scene, const BakeSettings& settings, Me
       budget_(budget == nullptr ? *ownBudget_ : *budget) {}
 CameraBaker::~CameraBaker() = default;
 
+TestEyeSummary CameraBaker::testEyes() const { return testEyes_ ? testEyes_->summary() : TestEyeSummary(); }
+
 Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera& columns, TaskRunner& runner,
                                   CaptureCounts& counts, std::stop_token stop, const Traced& traced) {
   if (auto sound = settings_.check(); !sound) return tl::unexpected(sound.error());
@@ -88,11 +90,12 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     std::optional<RegionSight> sight;
     if (settings_.pruning) {
       const ElevationRange elevations{columns.bottomElevation, columns.topElevation};
+      if (!testEyes_) testEyes_ = std::make_unique<TestEyes>(scene_, settings_);
       if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
       if (!skies_) skies_ = std::make_unique<RegionSkies>(scene_, settings_, budget_);
       const Stopwatch watch;
       const int before = views_->traced();
-      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, settings_, *views_, *skies_,
+      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, *testEyes_, *views_, *skies_,
                                 runner, counts.rays, stop);
       if (!sight) return stopped();
       counts.eyeViews += views_->traced() - before;
@@ -102,8 +105,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     std::optional<RegionSight> intoMirrors;
     std::optional<MirrorSight> beyond;
     if (sight && mirrors != nullptr) {
-      intoMirrors = sight->withEyes(std::max(kEyesBeforeMirrors, settings_.testEyes), camera,
-                                    columns.centreOfProjection.z, settings_);
+      intoMirrors = sight->withEyes(kEyesBeforeMirrors, camera, columns.centreOfProjection.z, settings_);
       beyond.emplace(scene_, *mirrors, *intoMirrors);
     }
     const RowAngles rows(columns);

@@ -10,7 +10,7 @@ namespace acentric {
 namespace {
 
 /// Raised whenever the same input bakes to other pixels.
-constexpr std::string_view kBakeVersion = "acentric capture 12";
+constexpr std::string_view kBakeVersion = "acentric capture 13";
 
 /// Rows are never wasted on the poles, which local geometry covers.
 constexpr double kSteepest = radians(85);
@@ -32,7 +32,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   // Not all settings: what an absent effect would use changes no capture, and must not bake them all again.
   Hasher settings;
   settings.value(bake.samplesPerDegree).value(bake.maxLayers).value(int(bake.pruning));
-  if (bake.pruning) settings.value(bake.testEyes).value(bake.eyeRange);
+  if (bake.pruning) settings.value(bake.testEyes).value(bake.pruningLoss).value(bake.eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
   if (gathersLight(plan, bake))

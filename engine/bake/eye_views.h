@@ -1,10 +1,10 @@
 #pragma once
-/// What is seen from where an eye may stand: the test eyes of a region, and around each of them a cube map of
-/// the nearest opaque surfaces, traced once and shared by all cameras that serve the region, and by regions
-/// that meet at a corner.
+/// What the test eyes of regions see: around each of them a cube map of the nearest opaque surfaces, traced
+/// once and shared by all cameras that serve the region, and by regions that meet at a corner.
 ///
 /// A bake asks millions of times whether an eye sees a point. The map answers nearly all of it by a look at
-/// four neighbouring rays; where they disagree, along edges, the point itself is traced.
+/// four neighbouring rays; where they disagree, along edges, the point itself is traced. The map itself is
+/// traced coarsely first, and finer where neighbours do not show one plane.
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -18,7 +18,6 @@
 #include "engine/bake/ray_scene.h"
 #include "engine/base/memory_budget.h"
 #include "engine/base/task_runner.h"
-#include "engine/geometry/convex_polygon.h"
 
 namespace acentric {
 
@@ -31,16 +30,16 @@ struct ElevationRange {
   double bottom = 0, top = 0;
 };
 
-/// Places in a region that stand for all the others, `settings.testEyes` of them: the corners first, where
-/// surfaces shift most against each other, then the centre, the middles of the edges, and places spread
-/// evenly inside. Heights lie within `settings.eyeRange` of `eyeZ`, and follow from the place alone, so that
-/// regions share the eyes at their corners.
-std::vector<glm::dvec3> testEyes(const ConvexPolygon& polygon, double eyeZ, const BakeSettings& settings);
-
 class EyeView {
  public:
-  /// Traces the map, `texelsPerEdge` to a face's edge. Directions outside the elevations are not looked at.
-  /// Null when stopped. `held`: what counts its bytes, as long as it lives.
+  /// Corners apart that are traced whatever is around them.
+  static constexpr int kCoarsest = 4;
+
+  /// Traces the map, `texelsPerEdge` to a face's edge: every kCoarsest-th corner both ways (or second, or
+  /// each, as the edge divides), then halfway between them where those around show no plane; where they do,
+  /// corners are taken to lie on it. What is narrower than the first spacing may be missed in the midst of a
+  /// plane, and nowhere else. Directions outside the elevations are not looked at. Null when stopped. `held`:
+  /// what counts its bytes, as long as it lives.
   static std::shared_ptr<const EyeView> trace(const RayScene& scene, const glm::dvec3& eye, int texelsPerEdge,
                                               const ElevationRange& elevations, TaskRunner& runner,
                                               RayCounts& rays, const std::stop_token& stop,
@@ -75,8 +74,10 @@ class EyeView {
   MemoryBudget::Share held_;
 };
 
-/// Does an eye see a point? The map's answer, or else a ray's: nothing opaque on the way but the last
-/// `tolerance` metres.
+/// By a ray: is nothing opaque on the way from an eye to a point but in the last `tolerance` metres?
+bool nothingBefore(const RayScene& scene, const glm::dvec3& eye, const glm::dvec3& point, double tolerance,
+                   RayCounts& rays);
+/// Does an eye see a point? The map's answer, or else a ray's.
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays);
 /// The same, with no more tolerance than rounding takes: what the map shows is asked of a ray too.

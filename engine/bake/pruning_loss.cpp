@@ -5,13 +5,15 @@
 #include <random>
 
 #include "engine/bake/eye_views.h"
+#include "engine/bake/flush_denormals.h"
 #include "engine/bake/region_sight.h"
-#include "engine/bake/surface_side.h"
+#include "engine/base/hash.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric {
 namespace {
 
+constexpr std::size_t kBatch = 500;            // looks of one piece of work
 constexpr double kMissedLimits = 0.05;         // of limits are below the share they are of
 const double kHighestSine = std::sqrt(0.5);    // of a look's elevation
 constexpr double kWhole = 9007199254740992.0;  // 2^53
@@ -26,17 +28,6 @@ class Uniform {
  private:
   std::mt19937_64 engine_;
 };
-
-glm::dvec2 placeIn(const ConvexPolygon& polygon, Uniform& random) {
-  glm::dvec2 low = polygon.corners.front(), high = low;
-  for (const glm::dvec2& corner : polygon.corners) low = glm::min(low, corner), high = glm::max(high, corner);
-  constexpr int kMostTries = 1000;  // a sliver gets its centroid
-  for (int n = 0; n < kMostTries; ++n) {
-    const double x = random.in(low.x, high.x), y = random.in(low.y, high.y);
-    if (polygon.contains({x, y})) return {x, y};
-  }
-  return polygon.centroid();
-}
 
 /// Chance of no more than `lost` losses in so many looks, if each loses with probability p.
 double chanceOfSoFew(const PruningLoss& loss, double p) {
@@ -68,40 +59,82 @@ PruningLoss& PruningLoss::operator+=(const PruningLoss& other) {
   return *this;
 }
 
-PruningLoss pruningLoss(const RayScene& scene, const Region& region, double eyeZ,
-                        const BakeSettings& settings, int looks, std::uint64_t seed) {
+struct RandomLooks::Batch {
   PruningLoss loss;
-  std::vector<std::shared_ptr<const EyeView>> views;
-  for (const glm::dvec3& eye : testEyes(region.polygon, eyeZ, settings))
-    views.push_back(EyeView::untraced(eye));
-  const double nearer = std::max(kSameDepth * radians(1 / settings.samplesPerDegree), kSameSurface);
-  Uniform random(seed);
+  std::vector<Lost> lost;
   RayCounts rays;
-  std::size_t hint = 0;  // which answered last
-  for (int n = 0; n < looks; ++n) {
-    const glm::dvec3 eye(placeIn(region.polygon, random),
-                         random.in(eyeZ - settings.eyeRange, eyeZ + settings.eyeRange));
+};
+
+RandomLooks::RandomLooks(const RayScene& scene, const ConvexPolygon& polygon, const ConvexPolygon& grown,
+                         double eyeZ, const BakeSettings& settings)
+    : scene_(scene),
+      polygon_(polygon),
+      grown_(grown),
+      eyeZ_(eyeZ),
+      eyeRange_(settings.eyeRange),
+      nearer_(std::max(kSameDepth * radians(1 / settings.samplesPerDegree), kSameSurface)) {
+  low_ = high_ = polygon.corners.front();
+  for (const glm::dvec2& corner : polygon.corners)
+    low_ = glm::min(low_, corner), high_ = glm::max(high_, corner);
+}
+
+PruningLoss RandomLooks::loss(std::span<const glm::dvec3> testEyes, std::size_t looks, std::uint64_t seed,
+                              TaskRunner& runner, RayCounts& rays, std::vector<Lost>* lost,
+                              const std::stop_token& stop) const {
+  std::vector<Batch> batches((looks + kBatch - 1) / kBatch);
+  runner.parallelFor(batches.size(), [&](std::size_t n) {
+    if (stop.stop_requested()) return;
+    const FlushDenormals flush;
+    look(testEyes, std::min(kBatch, looks - n * kBatch), Hasher().value(seed).value(n).finish().low,
+         batches[n]);
+  });
+  PruningLoss sum;
+  for (Batch& batch : batches) {
+    sum += batch.loss;
+    rays += batch.rays;
+    if (lost != nullptr) lost->insert(lost->end(), batch.lost.begin(), batch.lost.end());
+  }
+  return sum;
+}
+
+void RandomLooks::look(std::span<const glm::dvec3> testEyes, std::size_t looks, std::uint64_t seed,
+                       Batch& batch) const {
+  constexpr int kMostTries = 1000;  // a sliver gets its centroid
+  Uniform random(seed);
+  std::size_t hint = 0;  // which saw the last
+  batch.loss.looks = looks;
+  for (std::size_t n = 0; n < looks; ++n) {
+    glm::dvec2 place = polygon_.centroid();
+    for (int t = 0; t < kMostTries; ++t) {
+      const double x = random.in(low_.x, high_.x), y = random.in(low_.y, high_.y);
+      if (!polygon_.contains({x, y})) continue;
+      place = {x, y};
+      break;
+    }
+    const glm::dvec3 eye(place, random.in(eyeZ_ - eyeRange_, eyeZ_ + eyeRange_));
     const double up = random.in(-kHighestSine, kHighestSine);
     const glm::dvec3 direction(std::sqrt(1 - up * up) * directionOf(random.in(0, kTwoPi)), up);
-    ++loss.looks;
-    const Hit hit = scene.traceSolid({glm::vec3(eye), glm::vec3(direction)});
+    ++batch.rays.visibility;
+    const Hit hit = scene_.traceSolid({glm::vec3(eye), glm::vec3(direction)});
     if (!hit.found()) continue;
     const glm::dvec3 point = eye + double(hit.distance) * direction;
-    if (region.grown.containsClosed(glm::dvec2(point))) continue;
-    const MetSurface surface(hit, point, glm::vec3(direction));
-    const auto sees = [&](std::size_t e) {
-      return surface.sideOf(views[e]->eye()) == Side::met &&
-             seesPoint(scene, *views[e], point, nearer * double(hit.distance), rays);
-    };
-    if (hint < views.size() && sees(hint)) continue;
+    if (grown_.containsClosed(glm::dvec2(point))) continue;
+    const Lost what{eye, MetSurface(hit, point, glm::vec3(direction)), nearer_ * double(hit.distance)};
+    if (hint < testEyes.size() && sees(testEyes[hint], what, batch.rays)) continue;
     std::size_t e = 0;
-    while (e < views.size() && (e == hint || !sees(e))) ++e;
-    if (e < views.size())
+    while (e < testEyes.size() && (e == hint || !sees(testEyes[e], what, batch.rays))) ++e;
+    if (e < testEyes.size()) {
       hint = e;
-    else
-      ++loss.lost;
+      continue;
+    }
+    ++batch.loss.lost;
+    batch.lost.push_back(what);
   }
-  return loss;
+}
+
+bool RandomLooks::sees(const glm::dvec3& eye, const Lost& what, RayCounts& rays) const {
+  return what.surface.sideOf(eye) == Side::met &&
+         nothingBefore(scene_, eye, what.surface.point(), what.tolerance, rays);
 }
 
 }  // namespace acentric

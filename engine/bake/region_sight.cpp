@@ -3,16 +3,18 @@
 namespace acentric {
 
 std::optional<RegionSight> RegionSight::look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                                             const BakeSettings& settings, EyeViews& views,
-                                             RegionSkies& skies, TaskRunner& runner, RayCounts& rays,
+                                             TestEyes& testEyes, EyeViews& views, RegionSkies& skies,
+                                             TaskRunner& runner, RayCounts& rays,
                                              const std::stop_token& stop) {
   RegionSight sight;
   sight.scene_ = &scene;
   const Role* former = nullptr;
   for (const Role& role : camera.roles) {
     if (former == nullptr || former->region != role.region) {
+      const auto region = testEyes.of(role.polygon, role.grown, eyeZ, runner, rays, stop);
+      if (!region) return std::nullopt;
       sight.eyes_.emplace_back();
-      for (const glm::dvec3& eye : testEyes(role.polygon, eyeZ, settings)) {
+      for (const glm::dvec3& eye : region->eyes) {
         auto view = views.at(eye, runner, rays, stop);
         if (!view) return std::nullopt;
         sight.eyes_.back().push_back(std::move(view));
@@ -31,14 +33,16 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
 }
 
 RegionSight RegionSight::untraced(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                                  const BakeSettings& settings) {
+                                  TestEyes& testEyes) {
   RegionSight sight;
   sight.scene_ = &scene;
+  TaskRunner inline_;
+  RayCounts rays;
   const Role* former = nullptr;
   for (const Role& role : camera.roles) {
     if (former == nullptr || former->region != role.region) {
       sight.eyes_.emplace_back();
-      for (const glm::dvec3& eye : testEyes(role.polygon, eyeZ, settings))
+      for (const glm::dvec3& eye : testEyes.of(role.polygon, role.grown, eyeZ, inline_, rays)->eyes)
         sight.eyes_.back().push_back(EyeView::untraced(eye));
       sight.skies_.emplace_back();
     }
@@ -51,11 +55,15 @@ RegionSight RegionSight::untraced(const RayScene& scene, const LayoutCamera& cam
 RegionSight RegionSight::withEyes(int count, const LayoutCamera& camera, double eyeZ,
                                   BakeSettings settings) const {
   RegionSight more = *this;
-  settings.testEyes = count;
+  const int placed = settings.testEyes;
+  settings.testEyes = std::max(count, placed);
+  const Role* former = nullptr;
   for (std::size_t role = 0; role < camera.roles.size(); ++role) {
-    auto& views = more.eyes_[region_[role]];
-    const std::vector<glm::dvec3> eyes = testEyes(camera.roles[role].polygon, eyeZ, settings);
-    for (std::size_t i = views.size(); i < eyes.size(); ++i) views.push_back(EyeView::untraced(eyes[i]));
+    if (former != nullptr && former->region == camera.roles[role].region) continue;
+    former = &camera.roles[role];
+    const std::vector<glm::dvec3> eyes = placedEyes(former->polygon, eyeZ, settings);
+    for (std::size_t i = std::size_t(placed); i < eyes.size(); ++i)
+      more.eyes_[region_[role]].push_back(EyeView::untraced(eyes[i]));
   }
   return more;
 }

@@ -9,6 +9,7 @@
 #include "engine/bake/eye_views.h"
 #include "engine/bake/region_sky.h"
 #include "engine/bake/surface_side.h"
+#include "engine/bake/test_eyes.h"
 #include "engine/layout/layout.h"
 
 namespace acentric {
@@ -20,14 +21,14 @@ class RegionSight {
  public:
   /// Nothing when stopped.
   static std::optional<RegionSight> look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                                         const BakeSettings& settings, EyeViews& views, RegionSkies& skies,
+                                         TestEyes& testEyes, EyeViews& views, RegionSkies& skies,
                                          TaskRunner& runner, RayCounts& rays, const std::stop_token& stop);
 
-  /// The same answers without maps, by rays alone; the sky is seen nowhere. At once.
+  /// The same answers without maps, by rays alone; the sky is seen nowhere.
   static RegionSight untraced(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
-                              const BakeSettings& settings);
+                              TestEyes& testEyes);
 
-  /// With more eyes, without maps: `count` a region. `camera` and `eyeZ` as before.
+  /// With more eyes, without maps: `count` placed evenly in each region. `camera` and `eyeZ` as before.
   RegionSight withEyes(int count, const LayoutCamera& camera, double eyeZ, BakeSettings settings) const;
 
   /// Of one thread: which eye answered last, tried first the next time.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/test_eyes.h"
 
 namespace acentric {
 namespace {
@@ -92,7 +93,7 @@ std::shared_ptr<const RegionSky> RegionSkies::at(const ConvexPolygon& region, do
                                                  const std::stop_token& stop) {
   BakeSettings search = settings_;
   search.testEyes = kSkyEyes;
-  std::vector<glm::dvec3> eyes = testEyes(region, eyeZ, search);
+  std::vector<glm::dvec3> eyes = placedEyes(region, eyeZ, search);
   if (const auto known = std::ranges::find(kept_, eyes, &Kept::eyes); known != kept_.end()) {
     std::rotate(known, known + 1, kept_.end());
     return kept_.back().sky;

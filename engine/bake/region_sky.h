@@ -13,11 +13,12 @@
 
 #include "engine/bake/cube_lattice.h"
 #include "engine/bake/eye_views.h"
+#include "engine/geometry/convex_polygon.h"
 
 namespace acentric {
 
 /// Of a region, that are asked for the sky.
-inline constexpr int kSkyEyes = 64;
+inline constexpr int kSkyEyes = kMostTestEyes;
 
 class RegionSky {
  public:

@@ -25,6 +25,20 @@ std::string cameraText(int camera, const std::optional<SampleCounts>& samples, s
       bytesText(bytes));
 }
 
+Json eyesJson(const TestEyeSummary& eyes) {
+  return {{"regions", eyes.regions},  {"eyes", eyes.eyes},      {"mostInARegion", eyes.most},
+          {"looks", eyes.loss.looks}, {"lost", eyes.loss.lost}, {"worstRegionAtMost", eyes.worstLimit}};
+}
+
+std::string pruningText(const TestEyeSummary& eyes) {
+  if (eyes.loss.looks == 0) return {};
+  return fmt::format(
+      "pruning: {:.1f} test eyes a region, {} at most; with 95 % confidence no region loses more than {:.2g} "
+      "% "
+      "of what is seen from it\n",
+      double(eyes.eyes) / double(eyes.regions), eyes.most, 100 * eyes.worstLimit);
+}
+
 void addRefused(const ProjectBakeReport& baked, Report& report) {
   report.success = baked.refused.empty();
   for (const std::string& refused : baked.refused) report.text += fmt::format("not written: {}\n", refused);
@@ -60,6 +74,7 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       {"reflections", captures.counts.reflections},
       {"rays", toJson(captures.counts.rays)},
       {"eyeViews", {{"traced", captures.counts.eyeViews}, {"seconds", captures.counts.eyeViewSeconds}}},
+      {"testEyes", eyesJson(captures.testEyes)},
       {"surfaceLight",
        {{"asked", request.surfaceLight},
         {"baked", baked.surfaceLightBaked},
@@ -82,6 +97,7 @@ Report bakeReport(const ProjectBakeReport& baked, const BakeRequest& request, co
       : baked.surfaceLightBaked ? fmt::format("{:.1f} s", baked.surfaceLightSeconds)
                                 : std::string("was there already"),
       bytesText(baked.bytes), captureFolderFor(plan.file).string());
+  report.text += pruningText(captures.testEyes);
   report.text += list;
   return report;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/bake/pruning_loss.h"
+#include "engine/bake/test_eyes.h"
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/path_frames.h"
@@ -292,8 +292,38 @@ Json toJson(const Correlation& correlation) {
 
 // ---------------------------------------------------------------- pruning
 
-constexpr int kLooks = 400'000;  // of all regions, with each number of test eyes
-constexpr int kMostTestEyes = 64;
+constexpr std::size_t kLooks = 1'000'000;  // of all regions, to judge each row by
+constexpr double kLosses[] = {0, 0.005, 0.002, 0.001, 0.0005, 0.0002, 0.0001};
+constexpr std::uint64_t kJudge = 0x6a75646765;  // a seed that the search for eyes has no use for
+
+/// What the test eyes lose that are asked when pruning may lose so much.
+struct EyesOfRegions {
+  std::size_t eyes = 0, most = 0, worst = 0;
+  PruningLoss loss, worstLoss;
+
+  void add(std::size_t region, std::size_t count, const PruningLoss& of) {
+    eyes += count;
+    most = std::max(most, count);
+    loss += of;
+    if (region == 0 || of.share() > worstLoss.share()) worst = region, worstLoss = of;
+  }
+};
+
+EyesOfRegions eyesOfRegions(const OpenProject& open, const BakeSettings& settings, TaskRunner& runner,
+                            std::stop_token stop) {
+  const auto& regions = open.layout->regions;
+  const std::size_t looks = std::max<std::size_t>(1000, kLooks / regions.size());
+  EyesOfRegions out;
+  RayCounts rays;
+  for (std::size_t r = 0; r < regions.size() && !stop.stop_requested(); ++r) {
+    const Region& region = regions[r];
+    const auto found = findTestEyes(*open.rays, region.polygon, region.grown, open.layout->eyeZ(), settings,
+                                    runner, rays, stop);
+    const RandomLooks judge(*open.rays, region.polygon, region.grown, open.layout->eyeZ(), settings);
+    out.add(r, found.eyes.size(), judge.loss(found.eyes, looks, kJudge, runner, rays, nullptr, stop));
+  }
+  return out;
+}
 
 Result<Report> lossesOfPruning(const CoverageOptions& options, const Common& common) {
   const auto open = openChosen(options.project, common);
@@ -302,44 +332,47 @@ Result<Report> lossesOfPruning(const CoverageOptions& options, const Common& com
   if (!settings.pruning)
     return fail(ErrorKind::invalidArgument, "the project's bakes do not prune: nothing is lost",
                 options.project.string());
-  const auto& regions = open->layout->regions;
-  const int looks = std::max(1, kLooks / int(regions.size()));
   const auto runner = common.runner();
+  std::vector<double> losses(std::begin(kLosses), std::end(kLosses));
+  const double own = settings.pruningLoss;
+  if (std::ranges::find(losses, own) == losses.end()) losses.push_back(own);
+  std::ranges::sort(losses, [](double a, double b) { return a == 0 || (b != 0 && a > b); });
+  const auto regions = open->layout->regions.size();
   Report report;
   Json rows = Json::array();
   report.text = fmt::format(
-      "{} regions, {} looks of random eyes in each: of what they see, pruning loses\n"
-      "  test eyes     lost   95 % sure   worst region\n",
-      regions.size(), looks);
-  const int own = settings.testEyes;
-  for (int count = own; count <= kMostTestEyes; count *= 2) {
-    settings.testEyes = count;
-    std::vector<PruningLoss> byRegion(regions.size());
-    runner->parallelFor(regions.size(), [&](std::size_t r) {
-      if (common.stop.stop_requested()) return;
-      byRegion[r] = pruningLoss(*open->rays, regions[r], open->layout->eyeZ(), settings, looks, r);
-    });
+      "{} regions; what pruning loses of what random eyes see, 95 % sure in brackets\n"
+      "     may lose   eyes a region  most                  lost   worst region\n",
+      regions);
+  for (const double loss : losses) {
+    if (common.progress)
+      common.progress({double(rows.size()), double(losses.size()), "looking from test eyes"});
+    settings.pruningLoss = loss;
+    const EyesOfRegions found = eyesOfRegions(*open, settings, *runner, common.stop);
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
-    PruningLoss all;
-    for (const PruningLoss& loss : byRegion) all += loss;
-    const auto worst =
-        std::size_t(std::ranges::max_element(byRegion, {}, &PruningLoss::share) - byRegion.begin());
-    rows.push_back({{"testEyes", count},
-                    {"looks", all.looks},
-                    {"lost", all.lost},
-                    {"share", all.share()},
-                    {"atMost", all.atMost()},
-                    {"worstRegion", worst},
-                    {"worstShare", byRegion[worst].share()},
-                    {"worstAtMost", byRegion[worst].atMost()}});
-    report.text += fmt::format("  {:>9}  {:6.3f} %   < {:6.3f} %   {}: {:.2f} % (< {:.2f} %){}\n", count,
-                               100 * all.share(), 100 * all.atMost(), worst, 100 * byRegion[worst].share(),
-                               100 * byRegion[worst].atMost(), count == own ? "   as the project bakes" : "");
+    const double eyes = double(found.eyes) / double(regions);
+    rows.push_back({{"mayLose", loss},
+                    {"eyesPerRegion", eyes},
+                    {"mostEyes", found.most},
+                    {"looks", found.loss.looks},
+                    {"lost", found.loss.lost},
+                    {"share", found.loss.share()},
+                    {"atMost", found.loss.atMost()},
+                    {"worstRegion", found.worst},
+                    {"worstShare", found.worstLoss.share()},
+                    {"worstAtMost", found.worstLoss.atMost()}});
+    const auto percent = [](const PruningLoss& of) {
+      return fmt::format("{:.4f} % (< {:.4f} %)", 100 * of.share(), 100 * of.atMost());
+    };
+    report.text += fmt::format("  {:>11}   {:13.1f}  {:4}  {:>20}   {} in {}{}\n",
+                               loss == 0 ? "any" : fmt::format("{:.4g} %", 100 * loss), eyes, found.most,
+                               percent(found.loss), percent(found.worstLoss), found.worst,
+                               loss == own ? "   <- the project" : "");
   }
   report.json = {{"project", options.project.string()},
-                 {"regions", regions.size()},
-                 {"looksPerRegion", looks},
-                 {"byTestEyes", std::move(rows)}};
+                 {"regions", regions},
+                 {"placedEyes", settings.testEyes},
+                 {"byLoss", std::move(rows)}};
   return report;
 }
 

@@ -76,7 +76,7 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
   c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
   c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
   c->add_flag("--pruning", o.pruning,
-              "Tell what pruning loses of what random eyes see, with the project's test eyes and with more");
+              "Tell what pruning loses of what random eyes see, and how many test eyes that takes");
   c->add_flag("--correlate", o.correlate,
               "Compare predicted holes with those of rendered frames, eye by eye (needs a bake)");
   c->add_option("--points", o.points, "Points on the surfaces")

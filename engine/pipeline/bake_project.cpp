@@ -192,6 +192,7 @@ class StoreyBake {
     captures_.reused += captures->reused;
     captures_.seconds += captures->seconds;
     captures_.counts += captures->counts;
+    captures_.testEyes += captures->testEyes;
     captures_.peakBytes = std::max(captures_.peakBytes, captures->peakBytes);
     return {};
   }
@@ -389,6 +390,7 @@ void ProjectBakeReport::add(const ProjectBakeReport& other) {
   captures.reused += other.captures.reused;
   captures.seconds += other.captures.seconds;
   captures.counts += other.captures.counts;
+  captures.testEyes += other.captures.testEyes;
   captures.peakBytes = std::max(captures.peakBytes, other.captures.peakBytes);
   surfaceLightBaked = surfaceLightBaked || other.surfaceLightBaked;
   surfaceLightReused = surfaceLightReused || other.surfaceLightReused;

@@ -67,6 +67,8 @@ class BakeSight final : public CaptureSight {
       : rays_(open.rays),
         layout_(open.layout),
         settings_(open.project.bake),
+        testEyes_(*rays_, settings_),
+        skyEyes_(*rays_, forSky(settings_)),
         rowPitch_(radians(1.0) / settings_.samplesPerDegree),
         sights_(std::make_unique<Lazy[]>(layout_->cameras.size())) {}
 
@@ -101,18 +103,23 @@ class BakeSight final : public CaptureSight {
     Lazy& lazy = sights_[std::size_t(camera)];
     std::call_once(lazy.once, [&] {
       const LayoutCamera& served = layout_->cameras[std::size_t(camera)];
-      BakeSettings ofSky = settings_;
-      ofSky.testEyes = kSkyEyes;
       lazy.sights = std::make_unique<const Sights>(
-          Sights{RegionSight::untraced(*rays_, served, layout_->eyeZ(), settings_),
-                 RegionSight::untraced(*rays_, served, layout_->eyeZ(), ofSky)});
+          Sights{RegionSight::untraced(*rays_, served, layout_->eyeZ(), testEyes_),
+                 RegionSight::untraced(*rays_, served, layout_->eyeZ(), skyEyes_)});
     });
     return *lazy.sights;
+  }
+
+  static BakeSettings forSky(BakeSettings settings) {
+    settings.testEyes = kSkyEyes;
+    settings.pruningLoss = 0;
+    return settings;
   }
 
   RayScenePtr rays_;
   std::shared_ptr<const Layout> layout_;
   BakeSettings settings_;
+  mutable TestEyes testEyes_, skyEyes_;
   double rowPitch_;
   std::unique_ptr<Lazy[]> sights_;
 };

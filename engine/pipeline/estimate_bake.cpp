@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <new>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "engine/bake/eye_views.h"
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/surface_light_bake.h"
+#include "engine/bake/test_eyes.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/gather_forecast.h"
@@ -32,8 +34,9 @@ constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
 constexpr int kSliceColumns = 32;
 constexpr double kSlicePixels = 2e5;
-constexpr std::size_t kTimedViews = 8;  ///< what eyes see, as finely as a bake looks
-constexpr double kBriefly = 10;         ///< so many times fewer of all these, where it is to be brief
+constexpr std::size_t kTimedRegions = 8;  ///< whose test eyes are found
+constexpr std::size_t kTimedViews = 8;    ///< what eyes see, as finely as a bake looks
+constexpr double kBriefly = 10;           ///< so many times fewer of all these, where it is to be brief
 
 /// With which cameras are probed: maps of what eyes see that do for few pixels (more is traced along edges),
 /// and little gathering, since a part would gather nearly all for itself alone. Colours are then rougher by
@@ -44,6 +47,7 @@ BakeSettings probingSettings(BakeSettings settings) {
   settings.samplesPerDegree = std::min(settings.samplesPerDegree, kSamplesPerDegree);
   settings.ambientRays = std::min(settings.ambientRays, kAmbientRays);
   settings.bounces = 1;
+  settings.pruningLoss = 0;
   return settings;
 }
 
@@ -257,11 +261,16 @@ class ProjectProber final : public BakeProber {
 
   double sightSeconds() override {
     if (!open_.project.bake.pruning) return 0;
+    const double eyeZ = open_.layout->eyeZ();
     std::set<std::array<double, 3>> eyes;
+    std::map<CellId, const Role*> regions;
     for (int camera = 0; camera < int(cameras_.size()); ++camera)
       for (const Role& role : layoutCamera(camera).roles)
-        for (const glm::dvec3& eye : testEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake))
-          eyes.insert({eye.x, eye.y, eye.z});
+        if (regions.emplace(role.region, &role).second)
+          for (const glm::dvec3& eye : placedEyes(role.polygon, eyeZ, open_.project.bake))
+            eyes.insert({eye.x, eye.y, eye.z});
+    std::size_t count = eyes.size();
+    const double findingSeconds = findEyes(regions, eyeZ, count);
     const ColumnCamera columns = columnsOf(0);
     EyeViews views(*open_.rays, {columns.bottomElevation, columns.topElevation}, open_.project.bake, budget_);
     const std::size_t step =
@@ -271,7 +280,7 @@ class ProjectProber final : public BakeProber {
     std::size_t n = 0;
     for (const auto& eye : eyes)
       if (n++ % step == 0 && !views.at({eye[0], eye[1], eye[2]}, runner_, rays, stop_)) return 0;
-    return views.traced() == 0 ? 0 : watch.seconds() / views.traced() * double(eyes.size());
+    return views.traced() == 0 ? 0 : findingSeconds + watch.seconds() / views.traced() * double(count);
   }
 
   Result<LightOverhead> lightOverhead() override {
@@ -303,6 +312,25 @@ class ProjectProber final : public BakeProber {
   }
 
  private:
+  /// Adds the eyes that a bake will find in regions, as a few of these tell. Seconds that finding takes.
+  double findEyes(const std::map<CellId, const Role*>& regions, double eyeZ, std::size_t& count) {
+    const std::size_t step =
+        std::max<std::size_t>(1, std::size_t(double(regions.size()) * fewer_ / kTimedRegions));
+    RayCounts rays;
+    const Stopwatch watch;
+    std::size_t n = 0, asked = 0, found = 0;
+    for (const auto& [id, role] : regions) {
+      if (n++ % step != 0) continue;
+      const RegionEyes eyes = findTestEyes(*open_.rays, role->polygon, role->grown, eyeZ, open_.project.bake,
+                                           runner_, rays, stop_);
+      ++asked;
+      found += eyes.eyes.size() - eyes.placed;
+    }
+    const double share = asked == 0 ? 0 : double(regions.size()) / double(asked);
+    count += std::size_t(share * double(found));
+    return share * watch.seconds();
+  }
+
   const LayoutCamera& layoutCamera(int camera) const {
     return open_.layout->cameras[std::size_t(cameras_[std::size_t(camera)])];
   }

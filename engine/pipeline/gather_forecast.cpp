@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
-#include "engine/bake/eye_views.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/position_samples.h"
+#include "engine/bake/test_eyes.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/coverage.h"
 
@@ -80,7 +80,7 @@ class Readers {
   std::vector<std::size_t> eyesOf(const Role& role) {
     std::vector<std::size_t> numbers;
     if (!open_.project.bake.pruning) return numbers;
-    for (const glm::dvec3& eye : testEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake)) {
+    for (const glm::dvec3& eye : placedEyes(role.polygon, open_.layout->eyeZ(), open_.project.bake)) {
       const auto [known, added] = numbers_.try_emplace(std::array{eye.x, eye.y, eye.z}, eyes_.size());
       if (added) eyes_.push_back(eye);
       numbers.push_back(known->second);

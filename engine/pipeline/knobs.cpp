@@ -168,8 +168,11 @@ void bakeKnobs(std::vector<Knob>& table) {
   table.push_back(switchKnob(
       "pruning", "only what a test eye sees is kept", true,
       [](Project & p) -> auto& { return p.bake.pruning; }));
-  table.push_back(numberKnob("test-eyes", "per region that pruning asks", true,
+  table.push_back(numberKnob("test-eyes", "placed evenly in each region, that pruning asks", true,
                              [](Project & p) -> auto& { return p.bake.testEyes; }, {"2", "4", "8", "16"}));
+  table.push_back(numberKnob("pruning-loss", "of what is seen, that pruning may lose; 0 = adds no eyes", true,
+                             [](Project & p) -> auto& { return p.bake.pruningLoss; },
+                             {"0", "0.0001", "0.002"}));
   table.push_back(numberKnob(
       "distance-shift", "samples that pictures may shift by as inverse distances are rounded; 0 = 16 bits",
       true, [](Project & p) -> auto& { return p.bake.distanceShift; }, {"0", "0.025", "0.4", "1.6"}));

@@ -219,6 +219,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "maxLayers", project.bake.maxLayers);
     read(json["bake"], "pruning", project.bake.pruning);
     read(json["bake"], "testEyes", project.bake.testEyes);
+    read(json["bake"], "pruningLoss", project.bake.pruningLoss);
     read(json["bake"], "eyeRange", project.bake.eyeRange);
     read(json["bake"], "distanceShift", project.bake.distanceShift);
   }
@@ -352,6 +353,7 @@ std::string formatProject(const Project& project) {
         {"maxLayers", project.bake.maxLayers},
         {"pruning", project.bake.pruning},
         {"testEyes", project.bake.testEyes},
+        {"pruningLoss", project.bake.pruningLoss},
         {"eyeRange", project.bake.eyeRange},
         {"distanceShift", project.bake.distanceShift}}},
       {"budget",

@@ -289,11 +289,12 @@ TEST_F(CaptureKeyTest, ChangesWithEverythingThatChangesPixelsAndWithNothingElse)
   changes("ambient radius", keyWith(with(&BakeSettings::ambientRadius, 3.0)));
   changes("layers", keyWith(with(&BakeSettings::maxLayers, 5)));
   changes("test eyes", keyWith(with(&BakeSettings::testEyes, 5)));
+  changes("what pruning may lose", keyWith(with(&BakeSettings::pruningLoss, 0.01)));
   changes("places of gathered light", keyWith(with(&BakeSettings::surfaceTexel, 0.5)));
   BakeSettings settings = with(&BakeSettings::pruning, false);
   const ContentKey unpruned = keyWith(settings);
   changes("pruning", unpruned);
-  settings.testEyes = 6;
+  settings.testEyes = 6, settings.pruningLoss = 0;
   EXPECT_EQ(keyWith(settings), unpruned) << "no eye is asked without pruning";
   changes("an effect", keyFor(*scene, planEffects(*scene, {{Effect::hardShadows, false}}), {}, camera));
   LayoutCamera other = camera;
@@ -368,6 +369,9 @@ TEST(BakeSettings, RefusesEveryValueOutOfItsRange) {
   EXPECT_TRUE(refused([](auto& s) { s.ambientRadius = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.surfaceTexel = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.maxLayers = 65; }));
+  EXPECT_TRUE(refused([](auto& s) { s.pruningLoss = 1e-6; }));
+  EXPECT_TRUE(refused([](auto& s) { s.pruningLoss = 1.1; }));
+  EXPECT_FALSE(refused([](auto& s) { s.pruningLoss = 0; }));
 }
 
 TEST(BakeSettings, OfLowerQualityAreSoundAndNeverCostMore) {

@@ -15,36 +15,8 @@ namespace {
 
 using test::matte;
 using test::SceneBuilder;
-using test::square;
 
 constexpr ElevationRange kAll{-kPi / 2, kPi / 2};
-
-TEST(TestEyes, BeginWithTheCornersAndStayInTheRegion) {
-  const ConvexPolygon triangle{{{0, 0}, {2, 0}, {0.5, 1.5}}};
-  for (const int count : {1, 2, 3, 4, 7, 20}) {
-    BakeSettings settings;
-    settings.testEyes = count;
-    settings.eyeRange = 0.2;
-    const auto eyes = testEyes(triangle, 1.6, settings);
-    ASSERT_EQ(eyes.size(), std::size_t(count));
-    for (std::size_t i = 0; i < eyes.size(); ++i) {
-      EXPECT_LT(glm::distance(triangle.nearestPoint(glm::dvec2(eyes[i])), glm::dvec2(eyes[i])), 1e-5);
-      EXPECT_NEAR(eyes[i].z, 1.6, 0.2 + 1e-12);
-      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(glm::distance(eyes[i], eyes[j]), 0.05) << i << " " << j;
-      if (count >= 3 && i < 3) {
-        EXPECT_LT(glm::distance(glm::dvec2(eyes[i]), triangle.corners[i]), 1e-5);
-      }
-    }
-  }
-}
-
-TEST(TestEyes, AreSharedByRegionsThatMeetInACorner) {
-  const auto left = testEyes(square(0.5, {-0.5 + 1e-13, 0.3}), 1.6, {});
-  const auto right = testEyes(square(0.5, {0.5, 0.3}), 1.6, {});
-  int shared = 0;
-  for (const glm::dvec3& eye : left) shared += int(std::ranges::count(right, eye));
-  EXPECT_EQ(shared, 2);
-}
 
 TEST(EyeView, SaysWhatARayWouldWhereItIsSure) {
   SceneBuilder builder;
@@ -63,7 +35,10 @@ TEST(EyeView, SaysWhatARayWouldWhereItIsSure) {
   const glm::dvec3 eye(0.2, 0.1, 1.6);
   const auto view = EyeView::trace(*scene, eye, 180, kAll, runner, rays, {});
   ASSERT_NE(view, nullptr);
-  EXPECT_EQ(rays.visibility, 6u * 181 * 181);
+  EXPECT_LT(rays.visibility, 6u * 181 * 181 * 2 / 5) << "the planes of the walls need no more";
+  RayCounts all;
+  ASSERT_NE(EyeView::trace(*scene, eye, 181, kAll, runner, all, {}), nullptr);
+  EXPECT_EQ(all.visibility, 6u * 182 * 182) << "an edge that has no half";
   int sure = 0, wrong = 0, seen = 0;
   constexpr int kPoints = 20000;
   std::uniform_real_distribution<double> x(-5.9, 5.9), y(-4.9, 4.9), z(0.1, 2.9);

@@ -221,7 +221,7 @@ TEST(BakeHiddenSurfaces, PrunesAsIfEverySurfaceWereTracedFromEveryTestEye) {
         const glm::dvec3 point = all.columns.centreOfProjection + direction / surface.w;
         int roles = 0, perhaps = 0;  // surely, and with what is behind another surface by a hair
         for (std::size_t role = 0; role < camera.roles.size(); ++role)
-          for (const glm::dvec3& eye : testEyes(camera.roles[role].polygon, kEyeZ, settings)) {
+          for (const glm::dvec3& eye : placedEyes(camera.roles[role].polygon, kEyeZ, settings)) {
             const glm::dvec3 way = point - eye;
             const double distance = glm::length(way);
             const double open =

@@ -213,7 +213,7 @@ bool seenInMirrorFrom(const RayScene& scene, const ConvexPolygon& region, const 
   BakeSettings dense;
   dense.testEyes = 64;
   const double x = double(MirrorRoom::kMirrorX);
-  for (const glm::dvec3& eye : testEyes(region, kEyeZ, dense)) {
+  for (const glm::dvec3& eye : placedEyes(region, kEyeZ, dense)) {
     const glm::dvec3 at = eye + (x - eye.x) / (place.x - eye.x) * (place - eye);
     if (std::abs(at.y) > 2 + slack || std::abs(at.z - 1.5) > 1 + slack) continue;
     const glm::dvec3 from = at - glm::dvec3(1e-3, 0, 0),
@@ -291,7 +291,7 @@ TEST(BakeMirrors, KeepWhatOnlyOtherEyesOfTheRegionSeeInThem) {
     }
   EXPECT_GT(beside, 1000u);
   EXPECT_GT(shown.sampleCount(), few.reflections.sampleCount() + beside / 2);
-  const Seen seen = seenInMirror(*scene, camera, baked.capture, testEyes(region, kEyeZ, {}));
+  const Seen seen = seenInMirror(*scene, camera, baked.capture, placedEyes(region, kEyeZ, {}));
   EXPECT_GT(seen.all, 300);
   EXPECT_EQ(seen.missing, 0);
 }
@@ -308,7 +308,7 @@ TEST(BakeMirrors, KeepWhatEyesBetweenTheTestEyesSeeInThem) {
   BakeSettings dense;
   dense.testEyes = 64;
   const Seen seen =
-      seenInMirror(*scene, camera, bakeFrom(scene, camera, true).capture, testEyes(region, kEyeZ, dense));
+      seenInMirror(*scene, camera, bakeFrom(scene, camera, true).capture, placedEyes(region, kEyeZ, dense));
   EXPECT_GT(seen.all, 300);
   EXPECT_LT(seen.missing, seen.all / 25);
 }

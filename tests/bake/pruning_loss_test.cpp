@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bake/test_eyes.h"
 #include "tests/bake/layout_builder.h"
 #include "tests/bake/scene_builder.h"
 
@@ -12,19 +13,17 @@ using test::matte;
 using test::SceneBuilder;
 using test::square;
 
-constexpr int kLooks = 4000;
-
-Region regionOf(double side) {
-  Region region;
-  region.polygon = region.grown = square(side);
-  return region;
-}
-
-BakeSettings eyes(int count) {
+/// Of test eyes placed evenly.
+PruningLoss lossOf(const RayScene& scene, int testEyes, std::uint64_t seed,
+                   const ConvexPolygon& grown = square(1), int workers = 0) {
   BakeSettings settings;
-  settings.testEyes = count;
+  settings.testEyes = testEyes;
   settings.eyeRange = 0;
-  return settings;
+  const ConvexPolygon region = square(1);
+  TaskRunner runner(workers);
+  RayCounts rays;
+  return RandomLooks(scene, region, grown, 1.6, settings)
+      .loss(placedEyes(region, 1.6, settings), 4000, seed, runner, rays);
 }
 
 TEST(PruningLoss, LimitsAreThoseOfTheTables) {
@@ -39,8 +38,8 @@ TEST(PruningLoss, LimitsAreThoseOfTheTables) {
 TEST(PruningLoss, IsNoneInARoomThatHidesNothing) {
   SceneBuilder builder;
   builder.box(builder.material(matte()), {-6, -5, 0}, {6, 5, 3}, true);
-  const auto loss = pruningLoss(*builder.rays(), regionOf(1), 1.6, eyes(1), kLooks, 1);
-  EXPECT_EQ(loss.looks, std::uint64_t(kLooks));
+  const auto loss = lossOf(*builder.rays(), 1, 1);
+  EXPECT_EQ(loss.looks, 4000u);
   EXPECT_EQ(loss.lost, 0u);
 }
 
@@ -54,7 +53,8 @@ TEST(PruningLoss, FallsWithTheNumberOfTestEyes) {
   const auto rays = builder.rays();
   double before = 1;
   for (const int count : {1, 4, 16, 64}) {
-    const auto loss = pruningLoss(*rays, regionOf(1), 1.6, eyes(count), kLooks, 7);
+    const auto loss = lossOf(*rays, count, 7);
+    EXPECT_EQ(lossOf(*rays, count, 7, square(1), 2), loss) << "on more threads";
     EXPECT_LT(loss.share(), before) << count;
     EXPECT_GT(loss.atMost(), loss.share());
     before = loss.share();
@@ -70,10 +70,8 @@ TEST(PruningLoss, IsNotOfWhatLiesInTheNearBand) {
   for (int n = -8; n < 8; ++n)
     builder.box(material, {0.15f * float(n), 1, 0}, {0.15f * float(n) + 0.12f, 1.1f, 3}, false);
   const auto rays = builder.rays();
-  Region region = regionOf(1);
-  EXPECT_GT(pruningLoss(*rays, region, 1.6, eyes(1), kLooks, 3).lost, 0u);
-  region.grown = square(4);
-  EXPECT_EQ(pruningLoss(*rays, region, 1.6, eyes(1), kLooks, 3).lost, 0u);
+  EXPECT_GT(lossOf(*rays, 1, 3).lost, 0u);
+  EXPECT_EQ(lossOf(*rays, 1, 3, square(4)).lost, 0u);
 }
 
 }  // namespace

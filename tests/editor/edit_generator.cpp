@@ -56,7 +56,7 @@ Outline outline(Random& random) {
 
 BakeSettings bakeSettings(const Project& project, Random& random) {
   BakeSettings bake = project.bake;
-  switch (whole(random, 0, 9)) {
+  switch (whole(random, 0, 11)) {
     case 0:
       bake.samplesPerDegree = between(random, 0.4, 30);
       break;
@@ -86,6 +86,9 @@ BakeSettings bakeSettings(const Project& project, Random& random) {
       break;
     case 9:
       bake.distanceShift = between(random, 0, 4);
+      break;
+    case 10:
+      bake.pruningLoss = between(random, -0.001, 0.01);
       break;
     default:
       bake.eyeRange = between(random, 0, 2);

@@ -1,5 +1,6 @@
 /// The coverage command, as a user types it.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -90,6 +91,30 @@ TEST_F(CoverageTest, ForetellsTheHolesThatPruningLeavesAtTheUsualLayers) {
   const Json report = Json::parse(run.output);
   EXPECT_GT(report["pixels"]["holes"].get<int>(), 200) << "else there is nothing to foretell";
   EXPECT_GE(report["open"]["pearson"].get<double>(), 0.9) << report["open"] << report["expected"];
+}
+
+TEST_F(CoverageTest, TellsWhatPruningLosesAndHowManyEyesMorePrecisionTakes) {
+  const auto run = acentric({"coverage", project->file(), "--pruning", "--json"});
+  ASSERT_EQ(run.exitCode, 0) << run.errors;
+  const Json report = Json::parse(run.output);
+  const Json& rows = report["byLoss"];
+  ASSERT_GT(rows.size(), 4u);
+  EXPECT_EQ(rows[0]["mayLose"].get<double>(), 0) << "those placed evenly alone";
+  EXPECT_EQ(rows[0]["eyesPerRegion"].get<double>(), report["placedEyes"].get<double>());
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    EXPECT_GE(rows[n]["eyesPerRegion"].get<double>(), rows[n - 1]["eyesPerRegion"].get<double>());
+    EXPECT_LE(rows[n]["share"].get<double>(), rows[n]["mayLose"].get<double>());
+    EXPECT_GT(rows[n]["atMost"].get<double>(), rows[n]["share"].get<double>());
+  }
+  EXPECT_LT(rows.back()["lost"].get<int>(), rows[0]["lost"].get<int>());
+  Json unpruned = Json::parse(std::ifstream(project->file()));
+  unpruned["bake"]["pruning"] = false;
+  const auto file =
+      std::filesystem::path(project->file()).replace_filename("unpruned.acentric.json").string();
+  std::ofstream(file) << unpruned;
+  const auto none = acentric({"coverage", file, "--pruning"});
+  EXPECT_EQ(none.exitCode, 1);
+  EXPECT_THAT(none.errors, testing::HasSubstr("nothing is lost"));
 }
 
 TEST_F(CoverageTest, SaysWhatIsWrong) {
