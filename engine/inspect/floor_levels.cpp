@@ -83,8 +83,12 @@ std::optional<double> dominantHeight(std::vector<WeightedHeight> heights, double
   // On to the fullest window that still overlaps this one.
   for (std::size_t k = chosen, end = ends[chosen]; k < end; ++k)
     if (within[k] > within[chosen]) chosen = k;
+  double pull = 0;
+  for (std::size_t k = chosen; k < ends[chosen]; ++k) pull += heights[k].pull;
   std::size_t middle = chosen;
-  while (middle + 1 < ends[chosen] && before[middle + 1] - before[chosen] < 0.5 * within[chosen]) ++middle;
+  for (double passed = heights[chosen].pull; middle + 1 < ends[chosen] && passed < 0.5 * pull;
+       passed += heights[middle].pull)
+    ++middle;
   return double(heights[middle].height);
 }
 

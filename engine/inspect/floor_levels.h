@@ -39,11 +39,13 @@ FloorLevels findFloorLevels(const Bounds& bounds, const ProbeGrid& grid, double 
 
 struct WeightedHeight {
   float height = 0;   ///< z, metres
-  double weight = 1;  ///< > 0
+  double weight = 1;  ///< > 0: for the choice among heights
+  double pull = 1;    ///< > 0: for the middle of those that are chosen
 };
 
 /// The height with most weight, but a lower one is preferred that has at least 60 % as much: a house's roof
-/// is larger than its floor. Nothing if there are no heights.
+/// is larger than its floor. Of the heights within the tolerance, the middle one by pull. Nothing if there
+/// are no heights.
 std::optional<double> dominantHeight(std::vector<WeightedHeight> heights, double tolerance);
 
 }  // namespace acentric

@@ -28,14 +28,20 @@ using FreeWay = std::array<float, 4>;
 struct Body {
   bool fits = false;
   bool seemsInside = false;
-  float enclosure = 0;
+  float enclosure = 0, wideEnclosure = 0;
   FreeWay freeWay{};
 };
+
+/// How much a surface at a distance encloses, 0..1.
+double wallAt(double distance, const StandingRules& rules) {
+  return std::clamp((rules.farthestWall - distance) / (rules.farthestWall - rules.wallReach), 0.0, 1.0);
+}
 
 Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRules& rules,
                 const std::array<double, 3>& heights, const SurfaceProbe& probe) {
   Body body;
-  int found = 0, backs = 0, walls = 0;
+  int found = 0, backs = 0, near = 0;
+  double walls = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < kSides; ++d) {
     const glm::dvec3 direction(directionOf(kTwoPi * d / kSides), 0);
@@ -46,12 +52,15 @@ Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRul
       least = std::min(least, hit.distance);
       ++found;
       if (hit.showsBack(direction)) ++backs;
-      if (above == rules.eyeHeight && hit.distance <= rules.wallReach) ++walls;
+      if (above != rules.eyeHeight) continue;
+      near += hit.distance <= rules.wallReach ? 1 : 0;
+      walls += wallAt(hit.distance, rules);
     }
     nearest = std::min(nearest, least);
     if (d % 2 == 0) body.freeWay[std::size_t(d / 2)] = static_cast<float>(least);
   }
-  body.enclosure = static_cast<float>(walls) / kSides;
+  body.enclosure = static_cast<float>(near) / kSides;
+  body.wideEnclosure = static_cast<float>(walls / kSides);
   body.fits = nearest >= rules.wallClearance;
   const bool open = found <= kSides;  // hardly anything around tells anything
   body.seemsInside = level.maybeInside && (open ? level.faceDown : backs >= kInside * found);
@@ -168,7 +177,8 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
       for (const FloorLevel& level : levels[cell]) {
         const Body body = surveyor.feel(grid.centreOf(x, y), level);
         if (!body.fits) continue;
-        standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside, body.enclosure});
+        standing.spots.push_back(
+            {x, y, level.height, level.covered, body.seemsInside, body.enclosure, body.wideEnclosure});
         freeWays.push_back(body.freeWay);
       }
       firstOfCell[cell + 1] = static_cast<int>(standing.spots.size());

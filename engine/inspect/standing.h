@@ -19,6 +19,9 @@ struct StandingRules {
   /// often wound the other way in places, and one does not walk out of a solid.)
   bool refuseInside = true;
   double wallReach = 20;  ///< metres: surfaces at eye height up to here enclose who stands there
+  /// Metres: halls and squares have walls up to here, which count less and less beyond wallReach. The sky box
+  /// around a land is none.
+  double farthestWall = 100;
 };
 
 struct StandingSpot {
@@ -27,6 +30,7 @@ struct StandingSpot {
   bool covered = false;
   bool seemsInside = false;  ///< of a solid
   float enclosure = 0;       ///< share of the directions at eye height that meet a surface within wallReach
+  float wideEnclosure = 0;   ///< likewise, walls up to farthestWall included: 0..1, at least enclosure
   /// Spots a step away towards +x, +y, -x, -y; -1 = none. If a leads to b, b leads back to a.
   std::array<int, 4> next{-1, -1, -1, -1};
 };

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+
+#include "engine/inspect/floor_choice.h"
 
 namespace acentric {
 namespace {
@@ -60,10 +63,23 @@ std::vector<WalkPlane> collectPlanes(const Standing& standing, const StoreyOptio
     }
   }
   std::erase_if(planes, [&](const WalkPlane& plane) { return double(plane.spots.size()) < least(); });
+  return planes;
+}
+
+void sortByHeight(std::vector<WalkPlane>& planes) {
   std::ranges::sort(planes, [](const WalkPlane& a, const WalkPlane& b) {
     return a.height != b.height ? a.height < b.height : a.spots.size() > b.spots.size();
   });
-  return planes;
+}
+
+/// The floor that a project stands on belongs to the list however small it is beside the others.
+void addChosen(std::vector<WalkPlane>& planes, const FloorChoice& floor) {
+  std::vector<std::uint8_t> chosen(floor.standing.spots.size(), 0);
+  for (const int spot : floor.plane.spots) chosen[std::size_t(spot)] = 1;
+  const bool listed = std::ranges::any_of(planes, [&](const WalkPlane& plane) {
+    return std::ranges::any_of(plane.spots, [&](int spot) { return chosen[std::size_t(spot)] != 0; });
+  });
+  if (!listed) planes.push_back(floor.plane);
 }
 
 /// Tables and podiums: less than head room above a larger plane, and no way up.
@@ -161,16 +177,24 @@ class LinkFinder {
   std::vector<int> planeOf_;  ///< per spot; -1 = none
 };
 
-Storeys storeysOn(const Bounds& bounds, const ProbeGrid& grid, const StoreyOptions& options,
-                  const SurfaceProbe& probe) {
-  const FloorLevels levels = findFloorLevels(bounds, grid, options.walkable.headRoom(), probe);
-  const Standing standing = surveyStanding(grid, levels, options.walkable.standingRules(), probe);
+Storeys storeysOf(const FloorChoice& floor, const StoreyOptions& options) {
+  const Standing& standing = floor.standing;
   Storeys storeys;
   storeys.planes = collectPlanes(standing, options);
+  sortByHeight(storeys.planes);
   dropFurniture(storeys.planes, standing, options.walkable.headRoom());
+  addChosen(storeys.planes, floor);
+  sortByHeight(storeys.planes);
   storeys.links = LinkFinder(storeys.planes, standing).find();
-  storeys.ignoredSides = options.walkable.ignoreSides;
+  storeys.ignoredSides = floor.area.ignoredSides;
   return storeys;
+}
+
+Result<Storeys> storeysOn(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& walkable,
+                          const StoreyOptions& options, const SurfaceProbe& probe) {
+  const auto floor = chooseFloor(bounds, grid, walkable, probe);
+  if (!floor) return tl::unexpected(floor.error());
+  return storeysOf(*floor, options);
 }
 
 }  // namespace
@@ -188,19 +212,21 @@ Result<Storeys> findStoreys(const Bounds& bounds, const StoreyOptions& options, 
   if (Status status = options.check(); !status) return tl::unexpected(status.error());
   const Result<ProbeGrid> grid = layProbeGrid(bounds, options.walkable);
   if (!grid) return tl::unexpected(grid.error());
-  Storeys storeys = storeysOn(bounds, *grid, options, probe);
-  if (storeys.planes.empty() && !options.walkable.ignoreSides) {
-    StoreyOptions anySide = options;
-    anySide.walkable.ignoreSides = true;
-    storeys = storeysOn(bounds, *grid, anySide, probe);
+  WalkableOptions walkable = options.walkable;
+  walkable.floorHeight = std::numeric_limits<double>::quiet_NaN();
+  auto found = storeysOn(bounds, *grid, walkable, options, probe);
+  if (found && found->planes.empty() && !found->ignoredSides) {
+    walkable.ignoreSides = true;
+    found = storeysOn(bounds, *grid, walkable, options, probe);
   }
-  if (storeys.planes.empty())
+  if (!found && found.error().kind != ErrorKind::notFound) return found;
+  if (!found || found->planes.empty())
     return fail(ErrorKind::notFound,
                 fmt::format("no floor of {:g} m2 has {:.2f} m of room above it; lower the eye height or the "
                             "least area",
                             options.leastArea, options.walkable.headRoom()),
                 "storeys");
-  return storeys;
+  return found;
 }
 
 }  // namespace acentric

@@ -11,7 +11,8 @@ namespace acentric {
 
 struct StoreyOptions {
   WalkableOptions walkable;  ///< its floorHeight is not used
-  double leastShare = 0.05;  ///< of the largest plane's area: smaller planes are left out
+  double leastShare = 0.05;  ///< of the largest plane's area: smaller planes are left out,
+                             ///< but for the floor that a project stands on
   double leastArea = 2;      ///< square metres: likewise
 
   Status check() const;
@@ -32,7 +33,8 @@ struct Storeys {
   bool ignoredSides = false;      ///< see walkable_outline.h
 };
 
-/// notFound where there is no floor at all.
+/// Sides are ignored where they are for the floor that a project stands on: see walkable_outline.h. notFound
+/// where there is no floor at all.
 Result<Storeys> findStoreys(const Bounds& bounds, const StoreyOptions& options, const SurfaceProbe& probe);
 
 }  // namespace acentric

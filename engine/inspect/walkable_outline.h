@@ -6,10 +6,10 @@
 /// shell made to be seen from outside) is then a solid, and nothing is floor in it: only if there is no other
 /// floor at all, or only the outside of such a shell with floor in it, sides are ignored.
 ///
-/// Of several heights and parts, the floor is chosen on which most is enclosed: surfaces at eye height within
-/// 20 m in more than half of the directions. So rooms and streets win over the ground around a building. Open
-/// ground counts a hundredth, and wins where it is vast or where nothing is enclosed. A hut does not win
-/// over the ground at its own height.
+/// Of several heights and parts, the floor is chosen on which most is enclosed: surfaces at eye height in
+/// more than half of the directions, those farther than 20 m counting less, up to 100 m. So rooms, halls,
+/// streets and squares win over the ground around a building. Open ground counts a hundredth, and wins where
+/// it is vast or where nothing is enclosed. A hut does not win over the ground at its own height.
 
 #include <limits>
 

@@ -34,6 +34,29 @@ struct BoxWorld {
     sheets.push_back({a, b, c}), sheets.push_back({a, c, d});
   }
 
+  /// A box of sheets, as a closed sky box is: its fronts outwards.
+  void addShell(const glm::dvec3& low, const glm::dvec3& high) {
+    const auto at = [&](int x, int y, int z) {
+      return glm::dvec3(x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z);
+    };
+    addQuad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
+    addQuad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
+    addQuad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
+    addQuad(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
+    addQuad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
+    addQuad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
+  }
+
+  /// A room open to the sky, its corner at `low`: a floor that faces up and four walls that face inwards.
+  void addCourt(const glm::dvec3& low, double width, double height) {
+    const glm::dvec3 x(width, 0, 0), y(0, width, 0), z(0, 0, height);
+    addQuad(low, low + x, low + x + y, low + y);
+    addQuad(low, low + z, low + z + x, low + x);
+    addQuad(low + y, low + y + x, low + y + x + z, low + y + z);
+    addQuad(low, low + y, low + y + z, low + z);
+    addQuad(low + x, low + x + z, low + x + y + z, low + x + y);
+  }
+
   /// Nearest side of any box, from outside or inside, or sheet.
   SurfaceProbe probe() const {
     return [this](const glm::dvec3& origin, const glm::dvec3& direction) {

@@ -186,6 +186,33 @@ TEST(Storeys, OfAShellSeenFromWithinAreFoundByIgnoringSides) {
   EXPECT_THAT(heightsOf(*found), testing::ElementsAre(testing::DoubleNear(0, 0.01)));
 }
 
+TEST(Storeys, InAClosedSkyBoxIncludeTheFloorThatANewProjectStandsOn) {
+  BoxWorld world;
+  world.addShell({-100, -100, -50}, {100, 100, 50});
+  world.addShell({-40, -40, 2}, {40, 40, 10});  // a hall whose walls show their backs to who is in it
+  const auto area = findWalkableArea(world.bounds(), {}, world.probe());
+  ASSERT_TRUE(area) << area.error().describe();
+  StoreyOptions small;
+  small.leastShare = 0;
+  const Storeys storeys = storeysOf(world, small);
+  EXPECT_EQ(storeys.ignoredSides, area->ignoredSides);
+  EXPECT_THAT(heightsOf(storeys), testing::Contains(testing::DoubleNear(area->floorHeight, 1e-4)));
+  EXPECT_NEAR(area->floorHeight, 2, 1e-4);
+  EXPECT_TRUE(area->ignoredSides);
+}
+
+TEST(Storeys, IncludeTheFloorThatAProjectStandsOnHoweverSmallBesideASkyBox) {
+  BoxWorld world;
+  world.addShell({-200, -200, -50}, {200, 200, 50});
+  world.addCourt({0, 0, 2}, 45, 4);
+  const auto area = findWalkableArea(world.bounds(), {}, world.probe());
+  ASSERT_TRUE(area) << area.error().describe();
+  ASSERT_NEAR(area->floorHeight, 2, 1e-4);
+  const Storeys storeys = storeysOf(world, {});
+  EXPECT_EQ(storeys.ignoredSides, area->ignoredSides);
+  EXPECT_THAT(heightsOf(storeys), testing::Contains(testing::DoubleNear(2, 1e-4)));
+}
+
 TEST(Storeys, OfASlopeAreBandsOfTheToleranceJoinedInOrder) {
   // 30 m long and 6 m wide, rising 1 in 10: each band of +-0.25 m is 5 m long.
   BoxWorld slope;
@@ -219,8 +246,8 @@ TEST(Storeys, AreOnePerPartWhereTheFloorIsParted) {
   large.leastArea = 12;
   EXPECT_EQ(storeysOf(room, large).planes.size(), 2u);
   StoreyOptions share = fine();
-  share.leastShare = 0.5;  // of the roof's 41 m2
-  EXPECT_EQ(storeysOf(room, share).planes.size(), 1u);
+  share.leastShare = 0.5;  // of the roof's 41 m2: none but the floor that a project stands on comes with it
+  EXPECT_EQ(storeysOf(room, share).planes.size(), 2u);
 }
 
 TEST(Storeys, AgreeWithTheWalkableAreaAtTheirHeight) {

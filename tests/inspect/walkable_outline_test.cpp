@@ -162,36 +162,13 @@ TEST(WalkableArea, RefusesWhatHasNoFloorWithTheWayOut) {
   EXPECT_EQ(nothing.error().kind, ErrorKind::notFound);
 }
 
-/// A box of sheets, as a closed sky box is: its fronts outwards.
-void addShell(BoxWorld& world, const glm::dvec3& low, const glm::dvec3& high) {
-  const auto at = [&](int x, int y, int z) {
-    return glm::dvec3(x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z);
-  };
-  world.addQuad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
-  world.addQuad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
-  world.addQuad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
-  world.addQuad(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
-  world.addQuad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
-  world.addQuad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
-}
-
-/// A room open to the sky, its corner at `low`: a floor that faces up and four walls that face inwards.
-void addCourt(BoxWorld& world, const glm::dvec3& low, double width, double height) {
-  const glm::dvec3 x(width, 0, 0), y(0, width, 0), z(0, 0, height);
-  world.addQuad(low, low + x, low + x + y, low + y);
-  world.addQuad(low, low + z, low + z + x, low + x);
-  world.addQuad(low + y, low + y + x, low + y + x + z, low + y + z);
-  world.addQuad(low, low + y, low + y + z, low + z);
-  world.addQuad(low + x, low + x + z, low + x + y + z, low + x + y);
-}
-
 TEST(WalkableOutline, IsTheRoomInAClosedSkyBoxAndNotItsOutside) {
   BoxWorld world;
-  addShell(world, {-100, -100, -50}, {100, 100, 50});
-  addCourt(world, {-40, -40, 2}, 20, 4);
-  addCourt(world, {5, -40, 2}, 20, 4);
-  addCourt(world, {-25, 5, 2}, 20, 4);
-  addCourt(world, {0, 0, 2}, 28, 4);
+  world.addShell({-100, -100, -50}, {100, 100, 50});
+  world.addCourt({-40, -40, 2}, 20, 4);
+  world.addCourt({5, -40, 2}, 20, 4);
+  world.addCourt({-25, 5, 2}, 20, 4);
+  world.addCourt({0, 0, 2}, 28, 4);
   const auto area = findWalkableArea(world.bounds(), {}, world.probe());
   ASSERT_TRUE(area) << area.error().describe();
   EXPECT_NEAR(area->floorHeight, 2, 1e-4);
@@ -214,7 +191,7 @@ TEST(WalkableOutline, IsTheHouseOnAGroundThatIsLargerThanIt) {
   for (const double rise : {0.1, 1.1}) {  // the ground at the floor's height, and a plinth above it
     BoxWorld world;
     world.boxes = {{{-20, -20, -2}, {20, 20, -rise}}, {{-9.5, -9.5, -rise}, {9.5, 9.5, 0}}};
-    addCourt(world, {-9, -9, 0.01}, 18, 5);
+    world.addCourt({-9, -9, 0.01}, 18, 5);
     const auto area = findWalkableArea(world.bounds(), {}, world.probe());
     ASSERT_TRUE(area) << area.error().describe();
     EXPECT_NEAR(area->floorHeight, 0.01, 1e-4) << rise;
@@ -223,10 +200,37 @@ TEST(WalkableOutline, IsTheHouseOnAGroundThatIsLargerThanIt) {
   }
 }
 
+TEST(WalkableOutline, IsAHallOf60MetresAndNotTheCellarBelowIt) {
+  BoxWorld world;
+  world.addCourt({0, 0, 0}, 60, 12);
+  world.boxes.push_back({{0, 0, 12}, {60, 60, 12.5}});  // the roof
+  world.boxes.push_back({{20, 20, -0.5}, {36, 36, -0.2}});
+  world.addCourt({20, 20, -4}, 16, 3.5);
+  const auto area = findWalkableArea(world.bounds(), {}, world.probe());
+  ASSERT_TRUE(area) << area.error().describe();
+  EXPECT_NEAR(area->floorHeight, 0, 1e-4);
+  EXPECT_GT(area->outline.area(), 0.95 * 60 * 60);
+}
+
+TEST(WalkableOutline, IsTheOpenSquareBetweenHousesAndNotTheLandAroundThem) {
+  BoxWorld world;
+  world.boxes = {{{-150, -150, -2}, {150, 150, 0}},
+                 {{-55, -55, 0}, {55, -45, 12}},
+                 {{-55, 45, 0}, {55, 55, 12}},
+                 {{-55, -45, 0}, {-45, 45, 12}},
+                 {{45, -45, 0}, {55, 45, 12}}};
+  const auto area = findWalkableArea(world.bounds(), {}, world.probe());
+  ASSERT_TRUE(area) << area.error().describe();
+  EXPECT_NEAR(area->floorHeight, 0, 1e-4);
+  EXPECT_TRUE(area->outline.contains({0, 0}));
+  EXPECT_FALSE(area->outline.contains({100, 100}));
+  EXPECT_NEAR(area->outline.area(), 90 * 90, 300);
+}
+
 TEST(WalkableOutline, StaysOnAVastPlainWithOneHutOnIt) {
   BoxWorld world;
   world.boxes = {{{-500, -500, -2}, {500, 500, 0}}, {{-10, -10, 0}, {10, 10, 3}}};
-  addCourt(world, {-9, -9, 3.01}, 18, 5);
+  world.addCourt({-9, -9, 3.01}, 18, 5);
   const auto area = findWalkableArea(world.bounds(), {}, world.probe());
   ASSERT_TRUE(area) << area.error().describe();
   EXPECT_NEAR(area->floorHeight, 0, 1e-4);
