@@ -221,6 +221,15 @@ struct ModelOptions {
 };
 Result<Report> runModel(const ModelOptions& options, const Common& common);
 
+/// Where the walk begins: the twin of the editor's "Start here".
+struct StartOptions {
+  std::filesystem::path project;
+  std::string at;                    ///< "x,y" in metres; empty = as it is
+  std::optional<double> yawDegrees;  ///< nothing = as it is
+  bool find = false;                 ///< as for a new project
+};
+Result<Report> runStart(const StartOptions& options, const Common& common);
+
 struct ValidateOptions {
   std::filesystem::path project;
 };

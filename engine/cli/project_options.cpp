@@ -75,6 +75,22 @@ void addModel(CLI::App& app, Chosen& chosen) {
   addLight(*c, o.light);
 }
 
+void addStart(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "start", "Show or set where the walk begins, and where it looks",
+                    "  acentric start kitchen.acentric.json\n"
+                    "  acentric start kitchen.acentric.json --at 2.5,1 --yaw 90\n"
+                    "  acentric start kitchen.acentric.json --find",
+                    runStart);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  auto* const at = c->add_option("--at", o.at, "Place on the plan: x,y in metres");
+  auto* const yaw = c->add_option("--yaw", o.yawDegrees, "Degrees, 0 along +x, 90 along +y")
+                        ->check(CLI::Range(-360.0, 360.0));
+  c->add_flag("--find", o.find, "Where a new project would begin: a place with room and the richest view")
+      ->excludes(at)
+      ->excludes(yaw);
+}
+
 void addInfo(CLI::App& app, Chosen& chosen) {
   auto [c, o] =
       add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
@@ -226,6 +242,7 @@ void addProjectCommands(CLI::App& app, Chosen& chosen) {
   addNew(app, chosen);
   addCollect(app, chosen);
   addModel(app, chosen);
+  addStart(app, chosen);
   addInfo(app, chosen);
   addStoreys(app, chosen);
   addLayout(app, chosen);

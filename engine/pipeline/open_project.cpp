@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/start_view.h"
 #include "engine/scene/local_geometry.h"
 
 namespace acentric {
@@ -45,6 +46,23 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
   }
   open.keys = captureKeys(*open.scene, open.plan, project.bake, *open.layout);
   open.surfaceLightKey = keyOf(surfaceLightKeyParts(open));
+  return open;
+}
+
+/// Storeys that keep no start begin where those of a new project would.
+Result<OpenProject> withStarts(Result<OpenProject> open) {
+  if (!open) return open;
+  for (std::size_t s = 0; s < open->project.storeys.size(); ++s) {
+    Storey& storey = open->project.storeys[s];
+    if (storey.spawn.stored) continue;
+    const bool current = int(s) == open->project.storey;
+    const auto other = current ? Result<Layout>(Layout{}) : buildLayout(storey.layout);
+    if (!other) continue;  // said when that storey is opened
+    const Layout& layout = current ? *open->layout : *other;
+    if (layout.regions.empty()) continue;
+    storey.spawn = chooseStart(layout, *open->rays);
+    storey.spawn.stored = false;
+  }
   return open;
 }
 
@@ -97,12 +115,12 @@ Result<OpenProject> openProject(const std::filesystem::path& file, const ImportH
                                 const Progress& progress, std::stop_token stop) {
   const auto project = loadProject(file);
   if (!project) return tl::unexpected(project.error());
-  return openWith(nullptr, file, *project, host, progress, stop);
+  return withStarts(openWith(nullptr, file, *project, host, progress, stop));
 }
 
 Result<OpenProject> openUnsaved(const std::filesystem::path& file, const Project& project,
                                 const ImportHost& host, const Progress& progress, std::stop_token stop) {
-  return openWith(nullptr, file, project, host, progress, stop);
+  return withStarts(openWith(nullptr, file, project, host, progress, stop));
 }
 
 Result<OpenProject> reopenProject(const OpenProject& former, const Project& project, const ImportHost& host,

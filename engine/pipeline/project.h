@@ -19,6 +19,7 @@ namespace acentric {
 struct Spawn {
   glm::dvec2 position{0};  ///< plan, metres
   double yawRadians = 0;
+  bool stored = true;  ///< false: the file keeps none; opening it finds one, and saving it keeps none
   bool operator==(const Spawn&) const = default;
 };
 

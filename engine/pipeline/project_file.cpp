@@ -147,17 +147,17 @@ LayoutSpec layoutFrom(const Json& json) {
 }
 
 Json toJson(const Storey& storey) {
-  return {
-      {"name", storey.name},
-      {"layout", toJson(storey.layout)},
-      {"spawn",
-       {{"position", toJson(storey.spawn.position)}, {"yawDegrees", tidyDegrees(storey.spawn.yawRadians)}}}};
+  Json json{{"name", storey.name}, {"layout", toJson(storey.layout)}};
+  if (storey.spawn.stored)
+    json["spawn"] = {{"position", toJson(storey.spawn.position)},
+                     {"yawDegrees", tidyDegrees(storey.spawn.yawRadians)}};
+  return json;
 }
 
 Storey storeyFrom(const Json& json, std::string name) {
-  Storey storey{std::move(name), layoutFrom(json.at("layout")), {}};
+  Storey storey{std::move(name), layoutFrom(json.at("layout")), {{}, 0, false}};
   if (const auto spawn = json.find("spawn"); spawn != json.end())
-    storey.spawn = {pointFrom(spawn->at("position")), radians(spawn->value("yawDegrees", 0.0))};
+    storey.spawn = {pointFrom(spawn->at("position")), radians(spawn->value("yawDegrees", 0.0)), true};
   return storey;
 }
 

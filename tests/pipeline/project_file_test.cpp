@@ -112,6 +112,7 @@ TEST(ProjectFile, FillsInDefaultsForWhatIsNotNamed) {
   expected.scene = "a.glb";
   expected.layout().configuration = Configuration::b;
   expected.layout().cellSize = 2;
+  expected.spawn().stored = false;
   EXPECT_EQ(*project, expected);
 }
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/base/file.h"
 #include "engine/geometry/conventions.h"
 #include "tests/pipeline/small_project.h"
+#include "tests/store/temporary_folder.h"
 
 namespace acentric {
 namespace {
@@ -49,6 +51,47 @@ TEST(StartView, PrefersWhatIsThereToAnEmptySky) {
   const auto towards = [&](double yaw) { return worthOf(*rays, {start.position, layout.eyeZ()}, yaw); };
   EXPECT_LT(towards(start.yawRadians).sky, towards(kPi).sky);
   EXPECT_GT(towards(start.yawRadians).variety, towards(kPi).variety);
+}
+
+TEST(StartView, IsAmongTheRoomiestPlacesWhereNoneHasRoom) {
+  // A corridor 0.7 m wide that widens to 1.3 m for its last fifth: nowhere are 0.8 m free around a person.
+  // The narrow part has the longer view.
+  test::SceneBuilder builder;
+  const int white = builder.material(test::matte());
+  builder.box(white, {-10, -0.65f, 0}, {10, 0.65f, 3}, true);
+  builder.box(white, {-10, -0.65f, 0}, {6, -0.35f, 3});
+  builder.box(white, {-10, 0.35f, 0}, {6, 0.65f, 3});
+  const RayScenePtr rays = builder.rays();
+  const Layout layout = layoutOver("-9.5,-0.3;9.4,-0.3;9.4,0.3;-9.5,0.3", 0.5);
+  const Spawn start = chooseStart(layout, *rays);
+  EXPECT_GT(start.position.x, 6);
+  const double room = 0.35;  // half the narrow part's width
+  for (const glm::dvec2 way : {glm::dvec2(0, 1), glm::dvec2(0, -1)})
+    EXPECT_GT(rays->trace({glm::vec3(start.position, layout.eyeZ()), glm::vec3(way, 0)}).distance, room);
+}
+
+using StartViewOfAFile = FolderTest;
+
+TEST_F(StartViewOfAFile, ThatKeepsNoneIsWhereANewProjectWouldBegin) {
+  const std::filesystem::path file = folder_ / "garage.acentric.json";
+  ASSERT_TRUE(writeTextAtomically(folder_ / "garage.obj",
+                                  "# File units = meters\nv -12 0 3\nv 12 0 3\nv 12 0 -3\nv -12 0 -3\n"
+                                  "v -12 3 3\nv 12 3 3\nv 12 3 -3\nv -12 3 -3\nf 1 2 3 4\nf 8 7 6 5\n"
+                                  "f 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"));
+  ASSERT_TRUE(writeTextAtomically(file, R"({"format": "acentric-project", "version": 1, "scene": "garage.obj",
+    "import": {"up": "y"},
+    "layout": {"configuration": "e", "cellSize": 1.5, "outline":
+               [[[-11.5, -2.5], [11.5, -2.5], [11.5, 2.5], [-11.5, 2.5]]]}})"));
+  const auto kept = loadProject(file);
+  ASSERT_TRUE(kept) << kept.error().describe();
+  EXPECT_FALSE(kept->spawn().stored);
+  const auto open = openProject(file, {});
+  ASSERT_TRUE(open) << open.error().describe();
+  const Spawn found = chooseStart(*open->layout, *open->rays);
+  EXPECT_NE(found.position, glm::dvec2(0));
+  EXPECT_EQ(open->project.spawn().position, found.position);
+  EXPECT_EQ(open->project.spawn().yawRadians, found.yawRadians);
+  EXPECT_EQ(formatProject(open->project), formatProject(*kept)) << "it is not kept until it is chosen";
 }
 
 TEST(StartView, IsTheSameEachTime) {
