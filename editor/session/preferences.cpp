@@ -8,6 +8,7 @@
 #include <span>
 
 #include "editor/session/project_files.h"
+#include "editor/session/settings_file.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
 
@@ -166,13 +167,7 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"settingsWidth", preferences.settingsWidth},
                      {"walkWidth", preferences.walkWidth},
                      {"bottomHeight", preferences.bottomHeight}};
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error)
-    return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(),
-                file.parent_path().string());
-  // Names that are not UTF-8 are replaced rather than refused: losing a recent entry is no reason to fail.
-  return writeTextAtomically(file, jsonText(json, 2) + "\n");
+  return saveSettings(json, file);
 }
 
 }  // namespace acentric::editor

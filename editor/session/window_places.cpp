@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "editor/session/settings_file.h"
 #include "editor/session/unsaved_work.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
@@ -73,12 +74,7 @@ Status keepWindowPlace(const ui::WindowPlace& place, const fs::path& file) {
   ui::remember(places, place);
   Json json = Json::array();
   for (const ui::WindowPlace& known : places) json.push_back(toJson(known));
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error)
-    return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(),
-                file.parent_path().string());
-  return writeTextAtomically(file, jsonText(json, 2) + "\n");
+  return saveSettings(json, file);
 }
 
 }  // namespace acentric::editor
