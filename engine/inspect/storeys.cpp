@@ -73,7 +73,8 @@ void sortByHeight(std::vector<WalkPlane>& planes) {
 }
 
 /// The floor that a project stands on belongs to the list however small it is beside the others.
-void addChosen(std::vector<WalkPlane>& planes, const FloorChoice& floor) {
+void addChosen(std::vector<WalkPlane>& planes, const FloorChoice& floor, double leastArea) {
+  if (floor.plane.outline.area() < leastArea) return;
   std::vector<std::uint8_t> chosen(floor.standing.spots.size(), 0);
   for (const int spot : floor.plane.spots) chosen[std::size_t(spot)] = 1;
   const bool listed = std::ranges::any_of(planes, [&](const WalkPlane& plane) {
@@ -183,7 +184,7 @@ Storeys storeysOf(const FloorChoice& floor, const StoreyOptions& options) {
   storeys.planes = collectPlanes(standing, options);
   sortByHeight(storeys.planes);
   dropFurniture(storeys.planes, standing, options.walkable.headRoom());
-  addChosen(storeys.planes, floor);
+  addChosen(storeys.planes, floor, options.leastArea);
   sortByHeight(storeys.planes);
   storeys.links = LinkFinder(storeys.planes, standing).find();
   storeys.ignoredSides = floor.area.ignoredSides;
