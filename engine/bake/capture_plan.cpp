@@ -10,7 +10,7 @@ namespace acentric {
 namespace {
 
 /// Raised whenever the same input bakes to other pixels.
-constexpr std::string_view kBakeVersion = "acentric capture 13";
+constexpr std::string_view kBakeVersion = "acentric capture 14";
 
 /// Rows are never wasted on the poles, which local geometry covers.
 constexpr double kSteepest = radians(85);

@@ -1,6 +1,7 @@
 #include "engine/bake/column_march.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace acentric {
@@ -17,6 +18,7 @@ ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
 }
 
 bool ColumnMarch::run(int column, const std::stop_token& stop) {
+  column_ = column;
   direction_ = setting_.columns.directionAt(column + 0.5);
   roles_ = rolesAlong(setting_.camera, direction_);
   having_.clear();
@@ -37,7 +39,7 @@ bool ColumnMarch::run(int column, const std::stop_token& stop) {
 
 void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
   const RayPacket packet =
-      firstRays(setting_.columns, setting_.rows, direction_, first, last, roles_.front().exit);
+      firstRays(setting_.columns, setting_.rows, direction_, first, last, roles_.front().begin());
   setting_.shader.scene().trace(packet, hits_);
   out_.counts.rays.primary += std::uint64_t(packet.count);
   for (int row = first; row < last; ++row) {
@@ -72,6 +74,7 @@ bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) 
     return true;
   }
   const double horizontal = double(hit.distance) * setting_.rows.cosine[std::size_t(row)];
+  if (roles_.front().exit > horizontal * (1 + kBorderSlack)) return false;
   const float stored = storedInverseDistance(1 / horizontal, setting_.distanceStep);
   if (const auto& even = setting_.shader.evenColours(); !even.empty()) {
     out_.add(row, stored, even[hit.mesh], mask);
@@ -99,7 +102,7 @@ void ColumnMarch::runPixel(const glm::vec3& direction, float distance, const Col
                            const std::stop_token& stop) {
   Ray ray{glm::vec3(setting_.columns.centreOfProjection), direction};
   for (int step = 1; step < kMaxMarch && next != nullptr && !stop.stop_requested(); ++step) {
-    ray.nearest = std::max(justBehind(distance), float(next->exit / flat_));
+    ray.nearest = std::max(justBehind(distance), float(next->begin() / flat_));
     ++out_.counts.rays.primary;
     const Hit hit = setting_.shader.scene().trace(ray);
     next = addHit(direction, hit);
@@ -119,6 +122,26 @@ const ColumnRole* ColumnMarch::addHit(const glm::vec3& direction, const Hit& hit
   return next == having_.end() ? nullptr : next->role;
 }
 
+/// Does the surface, which is met within the role's grown polygon, lie beyond it where a neighbouring ray
+/// meets its plane?
+bool ColumnMarch::goesOnBeyond(const ColumnRole& role, const Hit& hit, const glm::dvec3& point) const {
+  const glm::dvec3 normal(hit.geometricNormal());
+  const double height = glm::dot(normal, point - setting_.columns.centreOfProjection);
+  const Role& served = setting_.camera.roles[role.index];
+  const auto liesBeyond = [&](const glm::dvec2& across, double cosine, double sine, double exit) {
+    const double perMetre = glm::dot(normal, glm::dvec3(across * cosine, sine)) / height;
+    return !(perMetre * exit > cosine);  // as far as the border, or on without end
+  };
+  const double sine = setting_.rows.sine[std::size_t(row_)];
+  for (const int step : {-1, 1}) {
+    const glm::dvec2 beside = setting_.columns.directionAt(column_ + 0.5 + step);
+    if (liesBeyond(beside, flat_, sine, exitDistance(setting_.camera, served, beside))) return true;
+    const double elevation = setting_.columns.elevationAt(row_ + 0.5 + step);
+    if (liesBeyond(direction_, std::cos(elevation), std::sin(elevation), role.exit)) return true;
+  }
+  return false;
+}
+
 void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
   const double horizontal = double(hit.distance) * flat_;
   const glm::dvec3 point = setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
@@ -128,12 +151,14 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
       setting_.mirrors == nullptr ? 0 : setting_.mirrors->at(hit.mesh, hit.triangle, -direction);
   sides_.clear();
   facing_.clear();
-  bool limited = false;
+  bool limited = false, wanted = false;
   for (RoleOnRay& having : having_) {
     const ColumnRole& role = *having.role;
-    if (role.exit > horizontal * (1 + kBorderSlack)) break;
+    if (role.begin() > horizontal) break;
+    if (role.exit > horizontal * (1 + kBorderSlack) && !goesOnBeyond(role, hit, point)) continue;
     const bool inPart = role.clip == nullptr || role.clip->holds(glm::dvec2(point));
     if (!inPart && mirror == 0) continue;
+    wanted = true;
     if (isFull(having)) {
       limited = limited || inPart;
       continue;
@@ -151,7 +176,7 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     const auto area = areaOf(hit, direction);
     return setting_.shader.shade(hit, surface.toViewer(side), area ? &*area : nullptr, out_.counts.rays);
   };
-  if (sides_.empty()) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+  if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (!sides_.met.empty() || !facing_.empty())
     addSide(sides_.met, Side::met,
             mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror) : shaded(Side::met), horizontal,

@@ -46,6 +46,7 @@ class ColumnMarch {
   void runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,
                 const std::stop_token& stop);
   const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit);
+  bool goesOnBeyond(const ColumnRole& role, const Hit& hit, const glm::dvec3& point) const;
   void addSurface(const glm::vec3& direction, const Hit& hit);
   void addSide(std::vector<RoleOnRay*>& needed, Side side, const Shaded& shaded, double horizontal,
                std::uint8_t mirror);
@@ -61,6 +62,7 @@ class ColumnMarch {
   double rightBehind_;  ///< the same: what the test eyes do not tell from what lies before it
   std::array<Hit, RayPacket::kSize> hits_;
   RegionSight::Hints hints_;
+  int column_ = 0;
   glm::dvec2 direction_{0};                ///< of the column
   std::vector<ColumnRole> roles_;          ///< of the column
   bool alone_ = false;                     ///< of the column: see addAlone

@@ -18,6 +18,8 @@ inline constexpr double kBorderSlack = 1e-6;
 /// A role as one column of the camera meets it.
 struct ColumnRole {
   double exit = 0;  ///< horizontal metres: where the column's rays leave the grown polygon
+  /// From where on samples are asked for that may be the last before the border.
+  double begin() const { return (1 - kBorderOverlap) * exit; }
   std::size_t index = 0;
   std::uint8_t bit = 0;
   const Clip* clip = nullptr;

@@ -89,6 +89,11 @@ double nearestSample(const LayoutCamera& camera);
 /// grown polygon.
 double exitDistance(const LayoutCamera& camera, const Role& role, const glm::dvec2& direction);
 
+/// A surface that crosses the border of a grown polygon is captured up to one sample within it: else what
+/// lies between the border and the first sample beyond it would be neither's. So much of the border's
+/// distance is as far as such samples may lie within.
+inline constexpr double kBorderOverlap = 0.05;
+
 /// One piece of a cover: what of the camera's sector lies outside the region, within `clip`.
 struct Piece {
   int camera = 0;        ///< into Layout::cameras

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A sample on the border itself is still drawn, however the bake rounded it.
+/// A sample on a piece's border itself is still drawn, however the bake rounded it.
 constexpr double kBorderSlack = 1e-4;
 
 std::vector<float> largestInverseDistances(const DisplayCapture& capture, const ConvexPolygon& grown) {
@@ -19,7 +19,8 @@ std::vector<float> largestInverseDistances(const DisplayCapture& capture, const 
   const glm::dvec2 centre(capture.camera.centreOfProjection);
   for (std::size_t k = 0; k < limits.size(); ++k) {
     const auto span = grown.raySpan(centre, glm::dvec2(capture.columnDirection[k]));
-    if (span && span->second > 0) limits[k] = static_cast<float>((1 + kBorderSlack) / span->second);
+    if (span && span->second > 0)
+      limits[k] = static_cast<float>((1 + kBorderSlack) / ((1 - kBorderOverlap) * span->second));
   }
   return limits;
 }

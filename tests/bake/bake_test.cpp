@@ -72,6 +72,53 @@ TEST(Bake, PutsEveryCameraUnderItsKeyAndNeverBakesItAgain) {
   EXPECT_EQ(again->counts.rays.primary, 0u);
 }
 
+/// A surface that crosses the border of the near band: local polygons end there, and the first sample beyond
+/// may lie nearly a sample's spacing away.
+TEST(Bake, KeepsOneSampleWithinTheNearBandOfSurfacesThatGoOnBeyond) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  constexpr float kWall = 1.5f, kFloor = 0;
+  builder.quad(white, {-20, kWall, 0}, {20, kWall, 0}, {20, kWall, 3}, {-20, kWall, 3});
+  builder.floor(white, 20, kFloor);
+  const auto scene = builder.rays();
+  constexpr double kBorder = 2;
+  Role role;
+  role.polygon = square(0.5);
+  role.grown = square(kBorder);
+  LayoutCamera camera;
+  camera.roles = {role};
+  camera.lowAzimuth = radians(10);
+  camera.fovRadians = radians(60);
+  for (const bool pruning : {true, false}) {
+    BakeSettings settings = coarse();
+    settings.pruning = pruning;
+    settings.maxLayers = pruning ? 8 : 1;
+    const ColumnCamera columns = columnCameraFor(camera, 1.6, 1, scene->scene().bounds, settings);
+    TaskRunner runner;
+    CaptureCounts counts;
+    const auto capture = CameraBaker(*scene, settings).bake(camera, columns, runner, counts);
+    ASSERT_TRUE(capture) << capture.error().describe();
+    int within = 0, wallWithin = 0;
+    for (int column = 0; column < columns.columns; ++column) {
+      const glm::dvec2 direction = columns.directionAt(column + 0.5);
+      const double exit = exitDistance(camera, role, direction);
+      int floorWithin = 0;
+      for (std::size_t n = capture->columnStart[std::size_t(column)];
+           n < capture->columnStart[std::size_t(column) + 1]; ++n) {
+        const double distance = 1 / double(capture->inverseDistance[n]);
+        if (distance > exit * (1 - 1e-4)) continue;
+        ++within;
+        EXPECT_GT(distance, exit * (1 - kBorderOverlap));
+        const bool onWall = std::abs(distance * direction.y - double(kWall)) < 0.02;
+        (onWall ? wallWithin : floorWithin) += 1;
+      }
+      EXPECT_LE(floorWithin, 1) << column;
+    }
+    EXPECT_GT(wallWithin, 10) << "one column of the wall";
+    EXPECT_GT(within, wallWithin + columns.columns / 4) << "and the floor's last row in many columns";
+  }
+}
+
 TEST(Bake, AMovedCameraIsTheOnlyOneBakedAgain) {
   const auto scene = smallRoom().rays();
   Layout layout = fiveCameras();

@@ -11,6 +11,8 @@ import { cross, directionOf, subtract2, subtract3, transform, type Mat3, type Ve
 
 /** A sample on the border itself is still drawn, however the bake rounded it. */
 const kBorderSlack = 1e-4;
+/** Samples that lie so much of its distance within a region's border may be the last of a surface that crosses it. */
+const kBorderOverlap = 0.05;
 /** Fewer samples than these between two ranges are drawn with them. */
 const kGap = 96;
 
@@ -37,7 +39,7 @@ export function columnLimits(camera: ColumnCamera, region: Region, piece: Piece)
     limits.directions[2 * k] = direction[0];
     limits.directions[2 * k + 1] = direction[1];
     const exit = exitOf(region.grown, centre, direction);
-    if (exit !== undefined) limits.most[k] = (1 + kBorderSlack) / exit;
+    if (exit !== undefined) limits.most[k] = (1 + kBorderSlack) / ((1 - kBorderOverlap) * exit);
     if (!line) continue;
     const rate = cross(along, direction);
     if (line.left ? rate < 0 : rate > 0) {
