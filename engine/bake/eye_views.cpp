@@ -33,11 +33,11 @@ EyeView::Sees EyeView::looksAt(const glm::dvec3& point) const {
   if (least < 0) return Sees::unsure;
   if (inverse >= most * (1 - kSameSurface)) return Sees::yes;
   if (inverse < least * (1 - kBehind)) return Sees::no;
+  // Never "no": a straight edge before something farther away looks as flat as a slanted plane.
   if (least > 0.5 * most && std::abs(a + d - b - c) <= kFlat * most) {
     const double u = place.within.x, v = place.within.y;
     const double surface = (a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v;
     if (inverse >= surface * (1 - kSameSurface)) return Sees::yes;
-    if (inverse < surface * (1 - kBehind)) return Sees::no;
   }
   return Sees::unsure;
 }

@@ -394,9 +394,8 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
   if (!maker) return tl::unexpected(maker.error());
   const ProjectReach reach(walk->storeys.front());
   const auto result = correlateHoles(
-      reach, views, viewHoleOptionsFor((*maker)->settings),
-      [&](const PerspectiveView& view) { return (*maker)->render(view); }, *runner, common.progress,
-      common.stop);
+      reach, views, (*maker)->settings, [&](const PerspectiveView& view) { return (*maker)->render(view); },
+      *runner, common.progress, common.stop);
   if (!result) return tl::unexpected(result.error());
 
   Json frames = Json::array();

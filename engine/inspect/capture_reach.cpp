@@ -80,40 +80,62 @@ bool CaptureReach::endsBefore(const Way& way, double distance) const {
   }
 }
 
+/// All that lies along a way, behind each other, metres.
+std::vector<OpaqueHit> CaptureReach::surfacesAlong(const Way& way, double from, double farthest) const {
+  std::vector<OpaqueHit> met;
+  while (true) {
+    const OpaqueHit hit = tracer_.trace(way.origin, way.direction, from, farthest);
+    if (!hit.found()) return met;
+    met.push_back(hit);
+    from = hit.distance * (1 + kSameSurface) + roundingAt(way.at(hit.distance));
+  }
+}
+
+/// Which of the surfaces that the march for a role meets it keeps, from `nearest` metres on.
+std::vector<OpaqueHit> CaptureReach::keptAmong(int camera, std::size_t role, const Way& way,
+                                               const std::vector<OpaqueHit>& met, double nearest) const {
+  const Role& served = layout_.cameras[std::size_t(camera)].roles[role];
+  const double rightBehind = sight_ == nullptr ? 0 : sight_->rightBehind(camera);
+  // What lies before counts only where layers may be used up.
+  const double first = int(met.size()) > maxLayers_ ? 0 : nearest * (1 - rightBehind);
+  std::vector<OpaqueHit> kept;
+  double last = -1;
+  for (int layers = 0; const OpaqueHit& hit : met) {
+    if (hit.distance < first || hit.distance * (1 - rightBehind) <= last) continue;
+    const glm::dvec3 point = way.at(hit.distance);
+    if (served.clip && !served.clip->holds(glm::dvec2(point))) continue;
+    if (sight_ != nullptr && !sight_->keeps(camera, role, point, hit, way.direction)) continue;
+    last = hit.distance;
+    if (hit.distance >= nearest) kept.push_back(hit);
+    if (++layers >= maxLayers_) break;
+  }
+  return kept;
+}
+
 /// Does the march for a role, from where its grown region ends, keep the surface at `distance`, or one so
 /// little before it that it passes for it?
 bool CaptureReach::keptFor(int camera, std::size_t role, const Way& way, double from, double distance) const {
-  const Role& served = layout_.cameras[std::size_t(camera)].roles[role];
   const double rounding = roundingAt(way.at(distance));
-  const double nearest = distance * (1 - kSameSurface) - rounding;
-  const double farthest = distance * (1 + kSameSurface) + rounding;
-  std::vector<OpaqueHit> before;
-  OpaqueHit own{distance, -way.direction};
-  for (double at = from;;) {
-    const OpaqueHit hit = tracer_.trace(way.origin, way.direction, at, farthest);
-    if (!hit.found()) break;
-    if (hit.distance >= nearest) {
-      own = hit;
-      break;
-    }
-    before.push_back(hit);
-    at = hit.distance * (1 + kSameSurface) + roundingAt(way.at(hit.distance));
+  std::vector<OpaqueHit> met = surfacesAlong(way, from, distance * (1 + kSameSurface) + rounding);
+  if (met.empty() || met.back().distance < distance * (1 - kSameSurface) - rounding)
+    met.push_back({distance, -way.direction});  // the point's own
+  return !keptAmong(camera, role, way, met, distance * (1 - sight_->rightBehind(camera)) - rounding).empty();
+}
+
+std::vector<OpaqueHit> CaptureReach::samplesAlong(int camera, const glm::dvec3& direction, double nearest,
+                                                  double farthest, int role) const {
+  const double flat = glm::length(glm::dvec2(direction));
+  Way way;
+  if (!wayTo(camera, direction, farthest * flat / (1 - kBorderOverlap), role, way)) return {};
+  std::vector<OpaqueHit> samples;
+  for (const Way::Exit& exit : way.exits) {
+    const double from = (1 - kBorderOverlap) * exit.horizontal / way.flat;
+    const std::vector<OpaqueHit> kept =
+        keptAmong(camera, exit.role, way, surfacesAlong(way, from, farthest), nearest);
+    samples.insert(samples.end(), kept.begin(), kept.end());
   }
-  const auto kept = [&](const OpaqueHit& hit) {
-    const glm::dvec3 point = way.at(hit.distance);
-    return (!served.clip || served.clip->holds(glm::dvec2(point))) &&
-           sight_->keeps(camera, role, point, hit, way.direction);
-  };
-  const double near = distance * (1 - sight_->rightBehind(camera));
-  const bool mayBeFull = int(before.size()) >= maxLayers_;
-  if (!mayBeFull && kept(own)) return true;
-  int layers = 0;
-  for (const OpaqueHit& hit : before) {
-    if ((!mayBeFull && hit.distance < near) || !kept(hit)) continue;
-    if (hit.distance >= near) return true;
-    if (++layers >= maxLayers_) return false;
-  }
-  return mayBeFull && kept(own);
+  std::ranges::sort(samples, {}, &OpaqueHit::distance);
+  return samples;
 }
 
 bool CaptureReach::holds(int camera, const glm::dvec3& point, int role) const {

@@ -4,8 +4,7 @@
 /// the settings allow.
 ///
 /// With pruning, of these surfaces only those that a test eye of the region sees, as CaptureSight answers;
-/// the others use up no layers. Not modelled: that samples lie at pixel centres (sampling_rate.h judges how
-/// dense they are), and that glass uses up layers.
+/// the others use up no layers. Not modelled: that glass uses up layers.
 
 #include <span>
 #include <vector>
@@ -30,6 +29,10 @@ class CaptureReach {
   /// Does the camera's capture hold this point of a surface, for what is drawn by one of its roles (-1: by
   /// any)? Whether the point lies in the camera's sector is the cover's business (Piece::holds).
   bool holds(int camera, const glm::dvec3& point, int role = -1) const;
+  /// The opaque samples that it has along a direction (unit) from `nearest` to `farthest` metres, nearest
+  /// first.
+  std::vector<OpaqueHit> samplesAlong(int camera, const glm::dvec3& direction, double nearest,
+                                      double farthest, int role = -1) const;
   /// Does it hold the sky in this direction (unit)? Above and below its rows there is nothing else.
   bool holdsSky(int camera, const glm::dvec3& direction, int role = -1) const;
 
@@ -37,7 +40,10 @@ class CaptureReach {
   struct Way;
   bool wayTo(int camera, const glm::dvec3& direction, double horizontal, int role, Way& way) const;
   bool endsBefore(const Way& way, double distance) const;
+  std::vector<OpaqueHit> surfacesAlong(const Way& way, double from, double farthest) const;
   bool keptFor(int camera, std::size_t role, const Way& way, double from, double distance) const;
+  std::vector<OpaqueHit> keptAmong(int camera, std::size_t role, const Way& way,
+                                   const std::vector<OpaqueHit>& met, double nearest) const;
 
   const Layout& layout_;
   std::vector<ColumnCamera> columns_;

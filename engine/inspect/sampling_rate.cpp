@@ -55,32 +55,4 @@ RateAndNeed compareRates(const glm::dmat2& samples, const glm::dmat2& pixels) {
   return {glm::length(samples * along), glm::length(pixels * along)};
 }
 
-double openBetweenSplats(const glm::dmat2& pixelsPerSample, double side) {
-  constexpr int kPhases = 6, kMostSteps = 6;
-  const glm::dvec2 a = pixelsPerSample[0], b = pixelsPerSample[1];
-  if (!std::isfinite(a.x + a.y + b.x + b.y)) return 1;
-  // Every place is within half a step of some sample, along both.
-  if (std::abs(a.x) + std::abs(b.x) <= side && std::abs(a.y) + std::abs(b.y) <= side) return 0;
-  const double area = std::abs(glm::determinant(pixelsPerSample));
-  if (!(area > 0)) return 1;
-  // Samples whose splats may cover a place: so many steps away at most.
-  const int stepsA =
-      int(std::min<double>(kMostSteps, std::ceil(0.5 + side * (std::abs(b.x) + std::abs(b.y)) / area)));
-  const int stepsB =
-      int(std::min<double>(kMostSteps, std::ceil(0.5 + side * (std::abs(a.x) + std::abs(a.y)) / area)));
-  int open = 0;
-  for (int i = 0; i < kPhases; ++i)
-    for (int j = 0; j < kPhases; ++j) {
-      const glm::dvec2 place = pixelsPerSample * glm::dvec2((i + 0.5) / kPhases, (j + 0.5) / kPhases);
-      bool covered = false;
-      for (int m = -stepsA; m <= stepsA && !covered; ++m)
-        for (int n = -stepsB; n <= stepsB && !covered; ++n) {
-          const glm::dvec2 off = place - double(m) * a - double(n) * b + 0.5 * side;
-          covered = off.x >= 0 && off.y >= 0 && off.x < side && off.y < side;
-        }
-      open += covered ? 0 : 1;
-    }
-  return double(open) / (kPhases * kPhases);
-}
-
 }  // namespace acentric

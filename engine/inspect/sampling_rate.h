@@ -30,8 +30,4 @@ struct RateAndNeed {
 };
 RateAndNeed compareRates(const glm::dmat2& samples, const glm::dmat2& pixels);
 
-/// Share of the picture that splats of `side` pixels leave open, where a step of one column and of one row
-/// are the columns of `pixelsPerSample` (pixels).
-double openBetweenSplats(const glm::dmat2& pixelsPerSample, double side);
-
 }  // namespace acentric

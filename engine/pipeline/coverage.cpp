@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 
@@ -13,7 +15,6 @@
 #include "engine/measure/compare.h"
 #include "engine/measure/correlation.h"
 #include "engine/scene/surface_alpha.h"
-#include "engine/view/warp.h"
 
 namespace acentric {
 namespace {
@@ -140,7 +141,7 @@ void countPixels(const Frame& frame, const ViewHoles& holes, HoleSample& sample)
     const PixelSource source = frame.source.pixels[i];
     const bool hole =
         (source == kSourceHole || source == kSourceInvented) && std::isfinite(holes.rayDistance.pixels[i]);
-    const bool predicted = holes.openness.pixels[i] > 0.5f;
+    const bool predicted = holes.bare.pixels[i] != 0;
     sample.holes += hole ? 1 : 0;
     sample.predicted += predicted ? 1 : 0;
     sample.both += hole && predicted ? 1 : 0;
@@ -182,17 +183,6 @@ ProjectReach::ProjectReach(const OpenProject& open)
       sight_(sightFor(open)),
       reach_(*layout_, columnsOf(open), open.project.bake.maxLayers, *tracer_, sight_.get()) {}
 
-ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings) {
-  ViewHoleOptions options;
-  options.everyCover = settings.secondaryCover;
-  options.localGeometry = settings.localGeometry;
-  options.splatFactor = settings.reconstruction == Reconstruction::point ? 0
-                        : followsSlant(settings.reconstruction)          ? kOverlap
-                                                                         : kSlantAllowance;
-  options.maxSplatPixels = settings.maxSplatPixels;
-  return options;
-}
-
 SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int displayWidth) {
   SurfaceCoverageOptions options;
   options.everyCover = project.view.secondaryCover;
@@ -224,14 +214,14 @@ Result<std::vector<PerspectiveView>> randomLooks(const OpenProject& open, int co
 }
 
 Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vector<PerspectiveView>& views,
-                                       const ViewHoleOptions& options,
+                                       const ViewSettings& settings,
                                        const std::function<Result<Frame>(const PerspectiveView&)>& render,
                                        TaskRunner& runner, const Progress& progress, std::stop_token stop) {
   HoleCorrelation out;
   for (const PerspectiveView& view : views) {
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the comparison was stopped");
     if (progress) progress({double(out.frames.size()), double(views.size()), "comparing holes"});
-    const auto holes = predictHoles(*reach, view, options, runner);
+    const auto holes = predictHoles(*reach, view, settings, runner);
     if (!holes) return tl::unexpected(holes.error());
     const auto frame = render(view);
     if (!frame) return tl::unexpected(frame.error());
@@ -242,6 +232,20 @@ Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vec
                       holeShareOf(*frame, holes->rayDistance),
                       frame->stats.missingImages};
     countPixels(*frame, *holes, sample);
+    if (const char* folder = std::getenv("DUMP")) {  // XXX
+      std::FILE* f = std::fopen(
+          (std::string(folder) + "/" + std::to_string(1000 + out.frames.size()) + ".ppm").c_str(), "wb");
+      std::fprintf(f, "P6 %d %d 255\n", view.width, view.height);
+      for (std::size_t i = 0; i < frame->source.pixels.size(); ++i) {
+        const PixelSource source = frame->source.pixels[i];
+        const bool hole = (source == kSourceHole || source == kSourceInvented) &&
+                          std::isfinite(holes->rayDistance.pixels[i]);
+        const int grey = int(120 * std::exp(-holes->rayDistance.pixels[i] / 3));
+        std::fputc(hole ? 255 : grey, f), std::fputc(std::max(grey, int(255 * holes->bare.pixels[i])), f),
+            std::fputc(source == PixelSource(1) ? 90 : grey, f);
+      }
+      std::fclose(f);
+    }  // XXX
     out.frames.push_back(sample);
   }
   const std::vector<HoleSample> eyes = byEye(out.frames);

@@ -1,13 +1,13 @@
 #pragma once
-/// Sampling coverage of a project (engine/inspect/surface_coverage.h, view_holes.h), wired to the ray tracer,
+/// Sampling coverage of a project (engine/inspect/surface_coverage.h), wired to the ray tracer,
 /// the bake's cameras and the renderers.
 
 #include <functional>
 #include <memory>
 
 #include "engine/inspect/surface_coverage.h"
-#include "engine/inspect/view_holes.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/view_holes.h"
 
 namespace acentric {
 
@@ -28,8 +28,6 @@ class ProjectReach {
   CaptureReach reach_;
 };
 
-/// As the project's frames are drawn.
-ViewHoleOptions viewHoleOptionsFor(const ViewSettings& settings);
 /// For a display so many pixels wide with the project's field of view.
 SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int displayWidth);
 
@@ -39,7 +37,7 @@ struct HoleSample {
   double missed = 0, open = 0, expected = 0;  ///< ViewHoles
   double measured = 0;                        ///< hole share of the frame
   int missingImages = 0;
-  /// Pixels: open in the frame, more likely open than not by prediction, and both.
+  /// Pixels: open in the frame, open by prediction, and both.
   std::uint64_t holes = 0, predicted = 0, both = 0;
 };
 
@@ -61,7 +59,7 @@ Result<std::vector<PerspectiveView>> randomLooks(const OpenProject& open, int co
 
 /// `render`: the frame of a view, with the project's captures.
 Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vector<PerspectiveView>& views,
-                                       const ViewHoleOptions& options,
+                                       const ViewSettings& settings,
                                        const std::function<Result<Frame>(const PerspectiveView&)>& render,
                                        TaskRunner& runner, const Progress& progress = {},
                                        std::stop_token stop = {});

@@ -142,7 +142,7 @@ TEST(HoleCorrelation, ComparesWhatIsForetoldWithWhatWasRendered) {
     Frame frame;
     frame.source = Image<PixelSource>(view.width, view.height, kSourceLocal);
     for (std::size_t i = 0; i < frame.source.pixels.size(); ++i)
-      if (holes->openness.pixels[i] > 0.5f)
+      if (holes->bare.pixels[i] != 0)
         frame.source.pixels[i] = i % 2 == 0 ? kSourceHole : kSourceInvented;
     return frame;
   };

@@ -1,31 +1,24 @@
-#include "engine/inspect/view_holes.h"
+#include "engine/pipeline/view_holes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
-#include "engine/inspect/sampling_rate.h"
 #include "engine/layout/drawing_order.h"
+#include "engine/pipeline/sample_splats.h"
 
 namespace acentric {
 namespace {
 
 /// Surfaces along one view ray that are asked for; behind so many hardly anything is captured.
 constexpr int kMostSurfaces = 12;
-/// Below this probability that a pixel is still open, what lies behind changes nothing.
-constexpr double kSurelyCovered = 1e-3;
-
 class ViewJudge {
  public:
-  ViewJudge(const CaptureReach& reach, const PerspectiveView& view, const ViewHoleOptions& options,
-            int region)
+  ViewJudge(const CaptureReach& reach, const PerspectiveView& view, const ViewSettings& settings, int region)
       : reach_(reach),
         view_(view),
-        options_(options),
+        settings_(settings),
         region_(reach.layout().regions[std::size_t(region)]),
-        viewFromWorld_(view.viewFromWorld()),
-        focal_(view.focalPixels()) {
-    if (options.everyCover)
+        splats_(reach, view, settings) {
+    if (settings.secondaryCover)
       covers_ = drawnCovers(reach.layout(), region);
     else
       covers_ = {chooseCover(region_, sectorOf(view))};
@@ -34,7 +27,7 @@ class ViewJudge {
   struct Pixel {
     float rayDistance = std::numeric_limits<float>::infinity();
     bool missed = false;
-    double open = 0;       ///< probability, with cracks between splats
+    bool bare = false;     ///< no splat falls there
     bool nothing = false;  ///< no captured surface along the ray at all
   };
 
@@ -44,24 +37,20 @@ class ViewJudge {
     OpaqueHit hit = reach_.tracer().trace(view_.eye, direction, 0, kInfinity);
     if (!hit.found()) return pixel;
     pixel.rayDistance = float(hit.distance);
-    if (options_.localGeometry &&
+    if (settings_.localGeometry &&
         region_.grown.containsClosed(glm::dvec2(view_.eye + hit.distance * direction)))
       return pixel;
-    pixel.open = 1, pixel.nothing = true;
-    for (int n = 0; n < kMostSurfaces && pixel.open > kSurelyCovered; ++n) {
+    pixel.bare = true, pixel.nothing = true;
+    const glm::dvec2 place = glm::dvec2(u, v) - 0.5 * glm::dvec2(view_.width, view_.height);
+    for (int n = 0; n < kMostSurfaces && (pixel.bare || pixel.nothing); ++n) {
       if (!hit.found()) {
-        if (skyHeld(direction)) pixel.open = 0, pixel.nothing = false;
+        if (skyHeld(direction)) pixel.bare = pixel.nothing = false;
         break;
       }
       const glm::dvec3 point = view_.eye + hit.distance * direction;
       // Of what lies in the near band only the local geometry is drawn.
-      if (!region_.grown.containsClosed(glm::dvec2(point))) {
-        const double left = openAt(point, hit.normal, pixel.nothing);
-        pixel.open *= left;
-        if (n == 0) pixel.missed = pixel.nothing;
-      } else if (n == 0) {
-        pixel.missed = true;
-      }
+      if (!region_.grown.containsClosed(glm::dvec2(point))) judgeSurface(point, place, pixel);
+      if (n == 0) pixel.missed = pixel.nothing;
       const double behind = hit.distance * (1 + 1e-6) + 1e-9;
       hit = reach_.tracer().trace(view_.eye, direction, behind, kInfinity);
     }
@@ -71,35 +60,14 @@ class ViewJudge {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  /// Probability that the samples of this surface leave the pixel open; `nothing` becomes false if there are
-  /// any.
-  double openAt(const glm::dvec3& point, const glm::dvec3& normal, bool& nothing) const {
-    double open = 1;
+  /// Of what lies at a point of the view ray beyond the near band.
+  void judgeSurface(const glm::dvec3& point, const glm::dvec2& place, Pixel& pixel) const {
     for (const Cover& cover : covers_) {
       const Piece* piece = pieceAt(cover, glm::dvec2(point));
-      if (piece == nullptr || !reach_.holds(piece->camera, point, piece->role)) continue;
-      nothing = false;
-      open *= openBetween(piece->camera, point, normal);
+      if (piece == nullptr) continue;
+      if (pixel.nothing && reach_.holds(piece->camera, point, piece->role)) pixel.nothing = false;
+      if (pixel.bare && splats_.cover(*piece, point, place)) pixel.bare = false;
     }
-    return open;
-  }
-
-  double openBetween(int camera, const glm::dvec3& point, const glm::dvec3& normal) const {
-    const ColumnCamera& columns = reach_.columns(camera);
-    const SurfaceAxes axes = axesOf(normal);
-    const glm::dmat2 samples = samplesPerMetre(columns, point, axes);
-    if (!(std::abs(glm::determinant(samples)) > 0)) return 1;
-    const glm::dvec3 q = viewFromWorld_ * (point - view_.eye);
-    const auto pixels = [&](const glm::dvec3& axis) {
-      const glm::dvec3 d = viewFromWorld_ * axis;
-      return focal_ / q.z * glm::dvec2(d.x - q.x / q.z * d.z, d.y - q.y / q.z * d.z);
-    };
-    const glm::dmat2 perSample = glm::dmat2(pixels(axes.first), pixels(axes.second)) * glm::inverse(samples);
-    const double pitch = std::max(columns.columnPitch(), columns.rowPitch());
-    const double stretch = glm::dot(q, q) / (q.z * q.z);
-    const double magnified = glm::distance(point, columns.centreOfProjection) / glm::length(q) * stretch;
-    const double wanted = focal_ * pitch * options_.splatFactor * magnified;
-    return openBetweenSplats(perSample, std::ceil(std::clamp(wanted, 1.0, options_.maxSplatPixels)));
   }
 
   bool skyHeld(const glm::dvec3& direction) const {
@@ -116,27 +84,26 @@ class ViewJudge {
 
   const CaptureReach& reach_;
   const PerspectiveView& view_;
-  const ViewHoleOptions& options_;
+  const ViewSettings& settings_;
   const Region& region_;
-  glm::dmat3 viewFromWorld_;
-  double focal_;
+  SampleSplats splats_;
   std::vector<Cover> covers_;
 };
 
 }  // namespace
 
 Result<ViewHoles> predictHoles(const CaptureReach& reach, const PerspectiveView& view,
-                               const ViewHoleOptions& options, TaskRunner& runner) {
+                               const ViewSettings& settings, TaskRunner& runner) {
   if (Status sound = view.check(); !sound) return tl::unexpected(sound.error());
   const auto region = reach.layout().regionAt(glm::dvec2(view.eye));
   if (!region)
     return fail(ErrorKind::invalidArgument, "the eye stands outside every region", "predicted holes");
-  const ViewJudge judge(reach, view, options, *region);
+  const ViewJudge judge(reach, view, settings, *region);
   ViewHoles holes;
-  holes.openness = holes.rayDistance = FloatImage(view.width, view.height);
+  holes.bare = Image<std::uint8_t>(view.width, view.height);
+  holes.rayDistance = FloatImage(view.width, view.height);
   struct Row {
-    std::uint64_t missed = 0, open = 0;
-    double expected = 0;
+    std::uint64_t missed = 0, open = 0, expected = 0;
   };
   std::vector<Row> rows(std::size_t(view.height));
   runner.parallelFor(rows.size(), [&](std::size_t y) {
@@ -144,8 +111,8 @@ Result<ViewHoles> predictHoles(const CaptureReach& reach, const PerspectiveView&
       const ViewJudge::Pixel pixel = judge.judge(x + 0.5, double(y) + 0.5);
       rows[y].missed += pixel.missed ? 1 : 0;
       rows[y].open += pixel.nothing ? 1 : 0;
-      rows[y].expected += pixel.open;
-      holes.openness.at(x, int(y)) = float(pixel.open);
+      rows[y].expected += pixel.bare ? 1 : 0;
+      holes.bare.at(x, int(y)) = pixel.bare ? 1 : 0;
       holes.rayDistance.at(x, int(y)) = pixel.rayDistance;
     }
   });
@@ -153,7 +120,7 @@ Result<ViewHoles> predictHoles(const CaptureReach& reach, const PerspectiveView&
   for (const Row& row : rows) {
     holes.missed += double(row.missed) / pixels;
     holes.open += double(row.open) / pixels;
-    holes.expected += row.expected / pixels;
+    holes.expected += double(row.expected) / pixels;
   }
   return holes;
 }
