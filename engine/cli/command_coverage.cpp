@@ -440,7 +440,7 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
       line("expected", expected, result->expected) +
       fmt::format(
           "  (missed: the surface seen is in no capture; open: nor is anything behind it; expected: "
-          "with the gaps between splats)\n"
+          "no splat falls on the pixel)\n"
           "{} pixels are holes, {} were foretold as open, {} both\n",
           holes, predicted, both);
   if (!options.csv.empty())

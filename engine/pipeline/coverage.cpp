@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <mutex>
 
@@ -232,20 +230,6 @@ Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vec
                       holeShareOf(*frame, holes->rayDistance),
                       frame->stats.missingImages};
     countPixels(*frame, *holes, sample);
-    if (const char* folder = std::getenv("DUMP")) {  // XXX
-      std::FILE* f = std::fopen(
-          (std::string(folder) + "/" + std::to_string(1000 + out.frames.size()) + ".ppm").c_str(), "wb");
-      std::fprintf(f, "P6 %d %d 255\n", view.width, view.height);
-      for (std::size_t i = 0; i < frame->source.pixels.size(); ++i) {
-        const PixelSource source = frame->source.pixels[i];
-        const bool hole = (source == kSourceHole || source == kSourceInvented) &&
-                          std::isfinite(holes->rayDistance.pixels[i]);
-        const int grey = int(120 * std::exp(-holes->rayDistance.pixels[i] / 3));
-        std::fputc(hole ? 255 : grey, f), std::fputc(std::max(grey, int(255 * holes->bare.pixels[i])), f),
-            std::fputc(source == PixelSource(1) ? 90 : grey, f);
-      }
-      std::fclose(f);
-    }  // XXX
     out.frames.push_back(sample);
   }
   const std::vector<HoleSample> eyes = byEye(out.frames);

@@ -14,6 +14,8 @@ constexpr float kBroken = 0.25f;
 /// So do samples that a surface would join at a larger tangent (some 84 degrees), unless it goes on as evenly
 /// on the other side: few surfaces are seen at such a slant, and edges before others are many.
 constexpr float kSteepest = 10, kEven = 1.5f;
+/// So even that it is no accident.
+constexpr float kStraight = 1.02f;
 
 /// Where the two sides of a round body run together they lie farther apart by more than this a pixel further
 /// in.
@@ -60,16 +62,37 @@ std::int8_t codeOf(float tangent) {
   return static_cast<std::int8_t>(tangent < 0 ? -code : code);
 }
 
-std::int8_t leaning(float fromBefore, float toAfter, float inverse, float pitch) {
-  float flatter = fromBefore, steeper = toAfter;
+/// Inverse distances, each less the one before it: towards a sample and on from it, along a row or column.
+struct Steps {
+  float to = 0, from = 0;
+  float steepest() const { return std::max(std::abs(to), std::abs(from)); }
+  bool even(float most) const {
+    return to * from > 0 && std::abs(to) < most * std::abs(from) && std::abs(from) < most * std::abs(to);
+  }
+};
+
+std::int8_t leaning(const Steps& steps, float inverse, float pitch) {
+  float flatter = steps.to, steeper = steps.from;
   if (std::abs(flatter) > std::abs(steeper)) std::swap(flatter, steeper);
-  const bool even = flatter * steeper > 0 && std::abs(steeper) < kEven * std::abs(flatter);
-  const float broken = (even ? kBroken : std::min(kBroken, kSteepest * pitch)) * inverse;
+  const float broken = (steps.even(kEven) ? kBroken : std::min(kBroken, kSteepest * pitch)) * inverse;
   const bool gentle = std::abs(flatter) < kConnected * inverse * pitch;
   // A surface that turns away at its edge.
   if (!(std::abs(steeper) < broken) && !gentle) return 0;
   const float step = std::abs(steeper) < kConnected * inverse * pitch ? steeper : flatter;
   return std::abs(step) < broken ? codeOf(step / (inverse * pitch)) : std::int8_t(0);
+}
+
+/// Where several surfaces lie close behind each other, as glass before a picture, those nearest in depth on
+/// either side may be of different ones: the steps that lie most nearly on one line.
+Steps straightest(std::span<const float> inverseDistance, const Pixel& before, const Pixel& after,
+                  float inverse) {
+  Steps best{std::numeric_limits<float>::infinity(), 0};
+  for (std::uint32_t i = before.first; i < before.last; ++i)
+    for (std::uint32_t j = after.first; j < after.last; ++j)
+      if (const Steps steps{inverse - inverseDistance[i], inverseDistance[j] - inverse};
+          std::abs(steps.to - steps.from) < std::abs(best.to - best.from))
+        best = steps;
+  return best;
 }
 
 /// At the rim of a round body, which rays enter and leave again near by: how much nearer its other side is,
@@ -103,7 +126,11 @@ std::int8_t slantAlong(std::span<const float> inverseDistance, const Pixel& befo
     const float step = forwards != 0 ? forwards : -toOtherSide(inverseDistance, here, after, before, sample);
     if (step != 0) return codeOf(step / (own * pitch));
   }
-  return leaning(stepFrom(inverseDistance, before, own), -stepFrom(inverseDistance, after, own), own, pitch);
+  const Steps nearest{stepFrom(inverseDistance, before, own), -stepFrom(inverseDistance, after, own)};
+  if (nearest.steepest() >= kConnected * own * pitch && !nearest.even(kStraight))
+    if (const Steps steps = straightest(inverseDistance, before, after, own); steps.even(kStraight))
+      return leaning(steps, own, pitch);
+  return leaning(nearest, own, pitch);
 }
 
 }  // namespace

@@ -70,6 +70,29 @@ TEST(EyeView, SaysWhatARayWouldWhereItIsSure) {
   EXPECT_LE(lost, 10);
 }
 
+/// Four rays across a straight edge depart from a plane as little as four on a slanted one.
+TEST(EyeView, LosesNothingBesideAStraightEdge) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  constexpr float kCabinet = 6.6f, kWall = 7, kEdge = 0.017f;
+  builder.quad(white, {kWall, -9, -9}, {kWall, 9, -9}, {kWall, 9, 9}, {kWall, -9, 9});
+  builder.quad(white, {kCabinet, -9, kEdge}, {kCabinet, 9, kEdge}, {kCabinet, 9, 9}, {kCabinet, -9, 9});
+  const auto scene = builder.rays();
+  TaskRunner runner(1);
+  RayCounts rays;
+  const auto view = EyeView::trace(*scene, {0, 0, 0}, 180, kAll, runner, rays, {});
+  ASSERT_NE(view, nullptr);
+  const double shadow = double(kEdge * kWall / kCabinet);  // on the wall
+  int unsure = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const glm::dvec3 point(kWall, 5 * std::sin(n), shadow - 1e-3 - 0.2 * n / 1000);
+    EXPECT_NE(view->looksAt(point), EyeView::Sees::no) << point.z;
+    EXPECT_TRUE(seesPoint(*scene, *view, point, 1e-3, rays)) << point.z;
+    unsure += view->looksAt(point) == EyeView::Sees::unsure ? 1 : 0;
+  }
+  EXPECT_GT(unsure, 30) << "some lie in the cells of the edge";
+}
+
 TEST(EyeView, IsUnsureWhereItDidNotLook) {
   SceneBuilder builder;
   builder.floor(builder.material(matte()), 30);

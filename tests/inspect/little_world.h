@@ -49,4 +49,29 @@ inline std::vector<Box> furnishedRoom() {
   return boxes;
 }
 
+/// What the bake's march along the ray to a point would keep for some role: the first surfaces beyond its
+/// region.
+inline bool heldSlowly(const World& world, int camera, const glm::dvec3& point, int maxLayers,
+                       int role = -1) {
+  const ColumnCamera& columns = world.columns[std::size_t(camera)];
+  const glm::dvec3 offset = point - columns.centreOfProjection, direction = glm::normalize(offset);
+  const double flat = glm::length(glm::dvec2(direction)), distance = glm::length(offset);
+  const double elevation = std::asin(direction.z);
+  if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
+  const LayoutCamera& served = world.layout.cameras[std::size_t(camera)];
+  for (std::size_t r = 0; r < served.roles.size(); ++r) {
+    if ((roleBit(served, int(r)) & roleBit(served, role)) == 0) continue;
+    const auto span =
+        served.roles[r].grown.raySpan(glm::dvec2(columns.centreOfProjection), glm::dvec2(direction) / flat);
+    double from = span ? span->second / flat : 0;
+    for (int layer = 0; layer < maxLayers; ++layer) {
+      const OpaqueHit hit = world.tracer.trace(columns.centreOfProjection, direction, from, 1e9);
+      if (!hit.found()) break;
+      if (std::abs(hit.distance - distance) < 1e-4 * distance) return true;
+      from = hit.distance * (1 + 1e-6);
+    }
+  }
+  return false;
+}
+
 }  // namespace acentric::test

@@ -98,35 +98,5 @@ TEST(SamplingRate, TakesTheDirectionWithFewestSamplesPerPixel) {
   EXPECT_EQ(compareRates(glm::dmat2(2), glm::dmat2(2)).ratio(), 1);
 }
 
-TEST(SplatGaps, AgreeWithThrowingPointsAtThePicture) {
-  Random random(3);
-  for (int n = 0; n < 60; ++n) {
-    const double side = std::floor(random(1, 6));
-    const glm::dmat2 steps(random(-4, 4), random(-4, 4), random(-4, 4), random(-4, 4));
-    if (std::abs(glm::determinant(steps)) < 1) continue;
-    int open = 0;
-    constexpr int kThrows = 2000;
-    for (int k = 0; k < kThrows; ++k) {
-      const glm::dvec2 place = steps * glm::dvec2(random(0, 1), random(0, 1));
-      bool covered = false;
-      for (int i = -12; i <= 12 && !covered; ++i)
-        for (int j = -12; j <= 12 && !covered; ++j) {
-          const glm::dvec2 off = glm::abs(place - steps * glm::dvec2(i, j));
-          covered = std::max(off.x, off.y) <= side / 2;
-        }
-      open += covered ? 0 : 1;
-    }
-    EXPECT_NEAR(openBetweenSplats(steps, side), double(open) / kThrows, 0.08);
-  }
-}
-
-TEST(SplatGaps, AreNoneWhereSplatsTouchAndAllWhereNothingIsSampled) {
-  EXPECT_EQ(openBetweenSplats(glm::dmat2(2, 0, 0, 2), 2), 0);
-  EXPECT_NEAR(openBetweenSplats(glm::dmat2(2, 0, 0, 2), 1), 0.75, 0.09);
-  EXPECT_EQ(openBetweenSplats(glm::dmat2(0), 3), 0);
-  EXPECT_EQ(openBetweenSplats(glm::dmat2(NAN), 3), 1);
-  EXPECT_GT(openBetweenSplats(glm::dmat2(1, 0, 0, 1e6), 2), 0.9);
-}
-
 }  // namespace
 }  // namespace acentric

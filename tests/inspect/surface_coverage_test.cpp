@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "engine/inspect/view_holes.h"
 #include "tests/inspect/little_world.h"
 
 namespace acentric {
@@ -15,31 +14,8 @@ using test::Box;
 using test::BoxTracer;
 using test::emptyRoom;
 using test::furnishedRoom;
+using test::heldSlowly;
 using test::World;
-
-/// What the bake's march along the ray to a point would keep for some role: the first surfaces beyond its
-/// region.
-bool heldSlowly(const World& world, int camera, const glm::dvec3& point, int maxLayers, int role = -1) {
-  const ColumnCamera& columns = world.columns[std::size_t(camera)];
-  const glm::dvec3 offset = point - columns.centreOfProjection, direction = glm::normalize(offset);
-  const double flat = glm::length(glm::dvec2(direction)), distance = glm::length(offset);
-  const double elevation = std::asin(direction.z);
-  if (elevation > columns.topElevation || elevation < columns.bottomElevation) return false;
-  const LayoutCamera& served = world.layout.cameras[std::size_t(camera)];
-  for (std::size_t r = 0; r < served.roles.size(); ++r) {
-    if ((roleBit(served, int(r)) & roleBit(served, role)) == 0) continue;
-    const auto span =
-        served.roles[r].grown.raySpan(glm::dvec2(columns.centreOfProjection), glm::dvec2(direction) / flat);
-    double from = span ? span->second / flat : 0;
-    for (int layer = 0; layer < maxLayers; ++layer) {
-      const OpaqueHit hit = world.tracer.trace(columns.centreOfProjection, direction, from, 1e9);
-      if (!hit.found()) break;
-      if (std::abs(hit.distance - distance) < 1e-4 * distance) return true;
-      from = hit.distance * (1 + 1e-6);
-    }
-  }
-  return false;
-}
 
 TEST(CaptureReach, HoldsWhatTheMarchOfTheBakeWouldKeep) {
   for (const int maxLayers : {2, 1}) {
@@ -327,74 +303,6 @@ TEST(SurfaceCoverage, CountsSamplesPerPixelInHalfOctaves) {
   }
   EXPECT_NEAR(ratioBinStart(1), 0.125, 1e-12);
   EXPECT_NEAR(ratioBinStart(kRatioBins - 1), 5.65685, 1e-5);
-}
-
-PerspectiveView viewFrom(const Layout& layout, const glm::dvec2& place, double yaw) {
-  PerspectiveView view;
-  view.eye = glm::dvec3(place, layout.eyeZ());
-  view.yawRadians = yaw;
-  view.width = 96, view.height = 54;
-  return view;
-}
-
-TEST(ViewHoles, AreNoneInAnEmptyRoomAndFindNothingBehindWalls) {
-  const World world(emptyRoom(), Configuration::b);
-  TaskRunner runner(1);
-  for (int k = 0; k < 8; ++k) {
-    const auto holes =
-        predictHoles(world.reach(), viewFrom(world.layout, {0.2, 0.3}, kTwoPi * k / 8), {}, runner);
-    ASSERT_TRUE(holes);
-    EXPECT_EQ(holes->missed, 0);
-    EXPECT_EQ(holes->open, 0);
-    EXPECT_LT(holes->expected, 0.02) << "splats part at the far ends of floor and ceiling alone";
-    for (const float distance : holes->rayDistance.pixels) EXPECT_TRUE(std::isfinite(distance));
-  }
-}
-
-TEST(ViewHoles, AreTheSharesOfPixelsWhoseSurfaceNoDrawnCoverHolds) {
-  const World world(furnishedRoom(), Configuration::b);
-  const CaptureReach reach = world.reach(1);
-  TaskRunner runner(1);
-  double sum = 0, less = 0;
-  test::Random random(4);
-  for (int k = 0; k < 14; ++k) {
-    const glm::dvec2 place =
-        random.within(world.layout.regions[std::size_t(random.index(world.layout.regions.size()))].polygon);
-    const PerspectiveView view = viewFrom(world.layout, place, random(0, kTwoPi));
-    const Region& region =
-        world.layout.regions[std::size_t(world.layout.regionAt(glm::dvec2(view.eye)).value())];
-    int missed = 0;
-    for (int y = 0; y < view.height; ++y)
-      for (int x = 0; x < view.width; ++x) {
-        const glm::dvec3 direction = view.rayThrough(x + 0.5, y + 0.5);
-        const OpaqueHit hit = world.tracer.trace(view.eye, direction, 0, 1e9);
-        const glm::dvec3 point = view.eye + hit.distance * direction;
-        if (!hit.found() || region.grown.containsClosed(glm::dvec2(point))) continue;
-        bool held = false;
-        for (const Cover& cover : region.covers)
-          for (const Piece& piece : cover.pieces)
-            held = held || (piece.holds(glm::dvec2(point)) && heldSlowly(world, piece.camera, point, 1));
-        missed += held ? 0 : 1;
-      }
-    const auto all = predictHoles(reach, view, {}, runner);
-    ViewHoleOptions chosenOnly;
-    chosenOnly.everyCover = false;
-    const auto chosen = predictHoles(reach, view, chosenOnly, runner);
-    ASSERT_TRUE(all && chosen);
-    EXPECT_NEAR(all->missed, double(missed) / (view.width * view.height), 1e-9);
-    EXPECT_LE(all->open, all->missed + 1e-12);
-    EXPECT_GE(all->expected, all->open - 1e-3);
-    EXPECT_GE(chosen->missed, all->missed);
-    sum += all->missed, less += chosen->missed;
-  }
-  EXPECT_GT(sum, 0) << "the furniture opens a hole in some view";
-  EXPECT_GT(less, sum) << "the other hand closes some";
-}
-
-TEST(ViewHoles, RefuseAnEyeOutsideEveryRegion) {
-  const World world(emptyRoom(), Configuration::b);
-  TaskRunner runner;
-  EXPECT_FALSE(predictHoles(world.reach(), viewFrom(world.layout, {100, 0}, 0), {}, runner));
 }
 
 }  // namespace

@@ -113,6 +113,29 @@ TEST(Slants, DoNotBridgeTheStepToASurfaceRightBehind) {
   EXPECT_GT(steep, 20);
 }
 
+/// Glass before a picture: from one sample to the next it comes nearer by more than the glass is away.
+TEST(Slants, AreThoseOfBothOfTwoSurfacesCloseBehindEachOther) {
+  constexpr int kColumns = 240;
+  const double places[] = {0.3, 0.31};
+  const Grid grid(
+      [&](const glm::dvec2& c, double) {
+        return std::vector{std::max(c.y, 0.0) / places[0], std::max(c.y, 0.0) / places[1]};
+      },
+      kColumns);
+  const std::vector<Slant> slants = grid.slants();
+  int steep = 0;
+  for (int k = 0; k + 1 < kColumns; ++k) {
+    const glm::dvec2 c = grid.camera.directionAt(k + 0.5);
+    if (c.y < 8 * grid.camera.columnPitch()) continue;
+    for (const std::size_t side : {0u, 1u}) {
+      const Slant slant = slants[grid.columnStart[std::size_t(k)] + 2 * 45 + side];
+      EXPECT_NEAR(slantTangent(slant.across), c.x / c.y, 0.1 * c.x / c.y + 0.3) << k << ", side " << side;
+    }
+    steep += c.x / c.y > 12;
+  }
+  EXPECT_GT(steep, 10);
+}
+
 TEST(Slants, AreNoneWhereASurfaceTurnsAwayAtItsEdge) {
   // A round tower before the sky: its outermost samples lie nearly along the camera's rays.
   const glm::dvec2 centre(8, 0);
@@ -214,6 +237,20 @@ int compareWithSlowSearch(const ColumnCamera& camera, const std::vector<std::uin
     const float inner = w(other) + stepTo(other, k + dk, r + dr) - w(i) - stepTo(i, k + dk, r + dr);
     return inner / gap > 1.2f && std::abs(inner) < 0.25f * w(i) ? gap : 0.0f;
   };
+  // Of all pairs on either side the one most nearly on a line with i.
+  const auto straightest = [&](std::size_t i, int dk, int dr) {
+    std::pair<double, double> best{1e9, 0};
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      if (columnOf(j) != columnOf(i) - dk || row[j] != row[i] - dr) continue;
+      for (std::size_t l = 0; l < row.size(); ++l) {
+        if (columnOf(l) != columnOf(i) + dk || row[l] != row[i] + dr) continue;
+        const std::pair<double, double> steps{double(inverseDistance[i]) - double(inverseDistance[j]),
+                                              double(inverseDistance[l]) - double(inverseDistance[i])};
+        if (std::abs(steps.first - steps.second) < std::abs(best.first - best.second)) best = steps;
+      }
+    }
+    return best;
+  };
   const auto expected = [&](std::size_t i, int dk, int dr, double pitch) {
     const float before = stepTo(i, columnOf(i) - dk, row[i] - dr),
                 after = stepTo(i, columnOf(i) + dk, row[i] + dr);
@@ -222,10 +259,17 @@ int compareWithSlowSearch(const ColumnCamera& camera, const std::vector<std::uin
     rims += forwards != 0 || backwards != 0;
     if (forwards != 0) return double(forwards) / (w * pitch);
     if (backwards != 0) return -double(backwards) / (w * pitch);
-    const double a = double(-before), b = double(after);
+    std::pair<double, double> sides{-before, after};
+    const auto even = [](const std::pair<double, double>& s, double most) {
+      const double larger = std::max(std::abs(s.first), std::abs(s.second)),
+                   smaller = std::min(std::abs(s.first), std::abs(s.second));
+      return s.first * s.second > 0 && larger < most * smaller;
+    };
+    if (std::max(std::abs(sides.first), std::abs(sides.second)) >= 3 * w * pitch && !even(sides, 1.02))
+      if (const auto others = straightest(i, dk, dr); even(others, 1.02)) sides = others;
+    const auto [a, b] = sides;
     const double steeper = std::abs(a) > std::abs(b) ? a : b, flatter = std::abs(a) > std::abs(b) ? b : a;
-    const bool even = a * b > 0 && std::abs(steeper) < 1.5 * std::abs(flatter);
-    const double broken = even ? 0.25 * w : std::min(0.25, 10 * pitch) * w;
+    const double broken = even(sides, 1.5) ? 0.25 * w : std::min(0.25, 10 * pitch) * w;
     if (!(std::abs(steeper) < broken) && !(std::abs(flatter) < 3 * w * pitch)) return 0.0;
     const double step = std::abs(steeper) < 3 * w * pitch ? steeper : flatter;
     return std::abs(step) < broken ? step / (w * pitch) : 0;
