@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/base/stopwatch.h"
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/pipeline/trial_folder.h"
 
@@ -91,9 +92,12 @@ Result<Report> benchScene(const fs::path& scene, const BenchFirstViewOptions& op
 
   std::stop_source enough;
   const std::stop_callback stopToo(common.stop, [&] { enough.request_stop(); });
-  FirstView view(cameras, enough);
   BakeRequest request;
   request.coarseFirst = true;
+  const BakeShare all = missingOf(open, request);
+  if (const auto told = foretellBake({&all, 1}, request.memoryBytes, common, runner); !told)
+    return tl::unexpected(told.error());
+  FirstView view(cameras, enough);
   request.watch = [&](const CameraNews& news) { view.tell(news); };
   const auto baked = bakeProject(open, request, runner, common.progress, enough.get_token());
   if (baked) view.end();
