@@ -68,15 +68,16 @@ for _ in $(seq 20); do [ "$(lines '^event action view.holes$')" -ge 2 ] && break
 # W walks; after Tab the arrows belong to widgets, and to the walk again after Esc.
 eyes() { lines '^event eye'; }
 BEFORE=$(eyes)
-press w 0.6; sleep 1
-[ "$(eyes)" -gt "$BEFORE" ] || fail "W does not walk"
+walked() { [ "$(eyes)" -gt "$BEFORE" ]; }
+press w 0.6
+wait_until 10 walked || fail "W does not walk"
 press Tab
-BEFORE=$(eyes)
+BEFORE=$(settled eyes)
 press Down 0.5; sleep 1
 [ "$(eyes)" -eq "$BEFORE" ] || fail "an arrow walked while widgets had the keys"
 press Escape
-press Down 0.6; sleep 1
-[ "$(eyes)" -gt "$BEFORE" ] || fail "arrows do not walk after Esc"
+press Down 0.6
+wait_until 10 walked || fail "arrows do not walk after Esc"
 
 # The guide is left, and not shown again when so asked.
 click guide.never

@@ -38,6 +38,36 @@ start_editor() {
   WINDOW=$(xdotool search --sync --name 'Acentric' | sed -n 1p)
 }
 
+# wait_until SECONDS COMMAND...: it succeeds
+wait_until() {
+  for _ in $(seq $(($1 * 10))); do
+    "${@:2}" && return
+    sleep 0.1
+  done
+  return 1
+}
+# settled COMMAND...: what it prints once that has not changed for a second, waited for half a minute
+settled() {
+  local now last=
+  for _ in $(seq 30); do
+    now=$("$@")
+    [ "$now" = "$last" ] && break
+    last=$now
+    sleep 1
+  done
+  echo "$now"
+}
+# comes_to_rest: within a minute there are three seconds in which the editor takes 0.15 s of a processor at most
+comes_to_rest() {
+  local before
+  for _ in $(seq 20); do
+    before=$(awk '{ print $14 + $15 }' "/proc/$EDITOR_PID/stat")
+    sleep 3
+    [ $(($(awk '{ print $14 + $15 }' "/proc/$EDITOR_PID/stat") - before)) -le 15 ] && return
+  done
+  return 1
+}
+
 # wait_for PATTERN SECONDS: a line of the log matches
 wait_for() {
   for _ in $(seq $(($2 * 10))); do
@@ -64,6 +94,8 @@ field() { state | sed -nE "s/.* $1 ([0-9]+).*/\1/p"; }
 
 # rect NAME: the line of a widget that is shown; fails without a word where it is not
 rect() { grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1 | grep '^rect'; }
+# is_gone NAME: it was shown, and is no more
+is_gone() { grep -E "^(rect|gone) $1( |$)" "$WORK/ui.log" | tail -1 | grep -q '^gone'; }
 # place NAME: centre of a widget that is shown, "x y"
 place() {
   local line

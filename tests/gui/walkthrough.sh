@@ -58,10 +58,10 @@ FILES=$(find "$WORK/room.captures" -name '*.exr' | wc -l)
 [ "$FILES" -ge "$CAPTURES" ] || fail "$FILES captures on disk, $CAPTURES expected"
 
 # Walk with W for a second, then look by dragging to the right.
-EYE_BEFORE=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+eye() { grep '^event eye' "$WORK/ui.log" | tail -1; }
+EYE_BEFORE=$(eye)
 press w 1.0
-sleep 1.5
-EYE_AFTER=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+EYE_AFTER=$(settled eye)
 echo "$EYE_BEFORE $EYE_AFTER" | awk '{ d = sqrt(($9 - $3) ^ 2 + ($10 - $4) ^ 2); exit !(d > 0.3 && d < 4) }' ||
   fail "W did not walk: from $EYE_BEFORE to $EYE_AFTER"
 at=$(place walk)
@@ -69,8 +69,8 @@ at=$(place walk)
 xdotool mousemove --window "$WINDOW" $at; sleep 0.3
 xdotool mousedown 1; sleep 0.3
 for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- 20 0; sleep 0.1; done
-xdotool mouseup 1; sleep 1.5
-EYE_TURNED=$(grep '^event eye' "$WORK/ui.log" | tail -1)
+xdotool mouseup 1
+EYE_TURNED=$(settled eye)
 echo "$EYE_AFTER $EYE_TURNED" | awk '{ d = $6 - $12; if (d < 0) d += 6.2831853; exit !(d > 0.1 && d < 1.5) }' ||
   fail "dragging did not look to the right: from $EYE_AFTER to $EYE_TURNED"
 
