@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/pipeline/coverage.h"
 #include "tests/inspect/little_world.h"
+#include "tests/pipeline/baked_room.h"
 
 namespace acentric {
 namespace {
@@ -80,6 +83,45 @@ TEST(ViewHoles, RefuseAnEyeOutsideEveryRegion) {
   const World world(emptyRoom(), Configuration::b);
   TaskRunner runner;
   EXPECT_FALSE(predictHoles(world.reach(), viewFrom(world.layout, {100, 0}, 0), {}, runner));
+}
+
+/// Pixel by pixel, in every way of drawing samples.
+TEST(ViewHoles, AreThoseOfRenderedFrames) {
+  test::SceneBuilder builder;
+  Material grey = test::matte({0.4f, 0.35f, 0.3f});
+  grey.unlit = true;
+  const int white = builder.material(grey);
+  builder.box(white, {-8, -8, 0}, {8, 8, 3}, true);
+  builder.box(white, {2.1f, -0.4f, 0}, {2.2f, 0.5f, 2.4f});
+  builder.box(white, {-3.1f, 2.2f, 0.8f}, {-2.2f, 2.9f, 0.83f});  // thinner than samples lie apart
+  Project project = test::smallProject(1.2, 3);
+  project.bake.maxLayers = 1;  // so that holes open behind things
+  const test::BakedRoom room(builder.rays(), project);
+  const ProjectReach reach(room.open);
+  TaskRunner runner(1);
+  for (const Reconstruction reconstruction :
+       {Reconstruction::point, Reconstruction::splat, Reconstruction::surface}) {
+    ViewSettings settings;
+    settings.reconstruction = reconstruction;
+    settings.secondaryCover = false;
+    int open = 0, foretold = 0, both = 0;
+    for (int n = 0; n < 12; ++n) {
+      PerspectiveView view;
+      view.eye = {0.9 * std::cos(2.4 * n), 0.9 * std::sin(2.4 * n), room.open.layout->eyeZ()};
+      view.yawRadians = 0.53 * n;
+      view.width = 160, view.height = 90;
+      const auto frame = renderFrame(room.walk, view, settings, runner);
+      const auto holes = predictHoles(*reach, view, settings, runner);
+      ASSERT_TRUE(frame && holes);
+      for (std::size_t i = 0; i < holes->bare.pixels.size(); ++i) {
+        const bool isOpen = test::isOpen(frame->source.pixels[i]), isBare = holes->bare.pixels[i] != 0;
+        open += isOpen ? 1 : 0, foretold += isBare ? 1 : 0, both += isOpen && isBare ? 1 : 0;
+      }
+    }
+    EXPECT_GT(open, 20) << nameOf(reconstruction);
+    EXPECT_GT(both, 0.8 * std::max(open, foretold))
+        << nameOf(reconstruction) << ": " << open << " open, " << foretold << " foretold";
+  }
 }
 
 }  // namespace
