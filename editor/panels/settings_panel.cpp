@@ -262,6 +262,11 @@ void drawBake(PanelContext& context) {
              {"Distance shift", "%.3f samples", 0.005, 0, kLargestDistanceShift,
               "How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16."},
              &BakeSettings::distanceShift, "distance shift");
+  BakeSettings bake = context.session().project().bake;
+  const ui::FieldEdit edit = ui::checkField(
+      "Silhouettes", bake.silhouettes, kLabelWidth,
+      "Samples know the plane of their surface, and to a quarter of a sample where it ends.");
+  applyBakeEdit(context, "silhouettes", edit, bake, "silhouettes");
 }
 
 void drawImport(PanelContext& context) {

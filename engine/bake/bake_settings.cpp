@@ -33,6 +33,7 @@ BakeSettings BakeSettings::at(Quality quality) const {
   out.pruning = !preview && pruning;
   fewer(out.testEyes, 4);
   out.pruningLoss = 0;
+  out.silhouettes = !preview && silhouettes;
   return out;
 }
 
@@ -80,6 +81,7 @@ void BakeSettings::addTo(Hasher& hasher) const {
   hasher.value(int(pruning)).value(testEyes).value(pruningLoss).value(eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
+  if (silhouettes) hasher.text("silhouettes");
 }
 
 }  // namespace acentric

@@ -38,6 +38,8 @@ struct BakeSettings {
   /// Of a sample's spacing: by how much the picture may shift because inverse distances are rounded, 0..16.
   /// 0 = only to the 16 significant bits that captures keep.
   double distanceShift = kUsualDistanceShift;
+  /// Samples tell the plane of their surface, and how much of their pixel it covers (capture.h).
+  bool silhouettes = false;
 
   /// Those that a quality is baked with: a quarter or half of the resolution, fewer rays, layers and eyes.
   BakeSettings at(Quality quality) const;

@@ -10,6 +10,7 @@
 #include "engine/bake/column_rays.h"
 #include "engine/bake/column_roles.h"
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/silhouettes.h"
 #include "engine/base/stopwatch.h"
 
 namespace acentric {
@@ -23,10 +24,7 @@ constexpr int kEyesBeforeMirrors = 16;
 /// The largest step of inverse distances that shifts no picture from a served region by more than `shift`
 /// samples: a sample off by dw is seen off by dw times the eye's distance from the camera. 0: no step.
 double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns, double shift) {
-  double reach = 0;
-  for (const Role& role : camera.roles)
-    for (const glm::dvec2& corner : role.polygon.corners)
-      reach = std::max(reach, glm::distance(corner, camera.position));
+  const double reach = reachOf(camera);
   if (!(reach > 0) || !(shift > 0)) return 0;
   const double largest = shift * std::min(columns.columnPitch(), columns.rowPitch()) / reach;
   return std::ldexp(1.0, std::ilogb(largest));
@@ -163,6 +161,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     capture.camera = columns;
     capture.distanceStep = setting.distanceStep;
     if (capture.background.runCount() > 0) capture.background.sky = shader_->sky();
+    if (settings_.silhouettes) traceSilhouettes(setting, capture, runner, counts, stop);
+    if (stop.stop_requested()) return stopped();
     return capture;
   } catch (const std::bad_alloc&) {
     return noMemory();

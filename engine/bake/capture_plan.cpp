@@ -35,6 +35,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   if (bake.pruning) settings.value(bake.testEyes).value(bake.pruningLoss).value(bake.eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
+  if (bake.silhouettes) settings.text("silhouettes");
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
   else

@@ -30,12 +30,25 @@ void join(const std::vector<ChunkSamples>& chunks, const ListOf& listOf, TaskRun
       for (const std::uint32_t count : listOf(chunk).perColumn)
         out.columnStart.push_back(out.columnStart.back() + count);
   };
-  const std::array<std::function<void()>, 6> parts{
+  const auto onPlanes = [&] {
+    fill(out.plane, &SampleList::plane);
+    std::size_t at = 0;
+    std::uint32_t before = 0;
+    for (const ChunkSamples& chunk : chunks) {
+      const SampleList& list = listOf(chunk);
+      for (std::size_t i = 0; i < list.plane.size() && at < out.plane.size(); ++i) out.plane[at++] += before;
+      before += std::uint32_t(list.planes.size());
+    }
+    out.coverage.assign(out.plane.size(), kWholePixel);
+  };
+  const std::array<std::function<void()>, 8> parts{
       [&] { fill(out.colour, &SampleList::colour); },
       [&] { fill(out.inverseDistance, &SampleList::inverseDistance); },
       [&] { fill(out.row, &SampleList::row); },
       [&] { fill(out.roles, &SampleList::roles); },
       [&] { fill(out.mirror, &SampleList::mirror); },
+      onPlanes,
+      [&] { fill(out.planes, &SampleList::planes); },
       starts};
   runner.parallelFor(parts.size(), [&](std::size_t part) { parts[part](); });
 }
@@ -56,6 +69,8 @@ void SampleList::trim() {
   colour.shrink_to_fit();
   roles.shrink_to_fit();
   mirror.shrink_to_fit();
+  plane.shrink_to_fit();
+  planes.shrink_to_fit();
 }
 
 void ChunkSamples::close() {

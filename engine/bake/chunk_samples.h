@@ -18,6 +18,8 @@ struct SampleList {
   std::vector<HalfColour> colour;
   std::vector<std::uint8_t> roles;
   std::vector<std::uint8_t> mirror;  ///< in a scene with flat mirrors
+  std::vector<std::uint32_t> plane;  ///< where silhouettes are asked for, into `planes`
+  std::vector<SurfacePlane> planes;  ///< most of them once
 
   void reserve(std::size_t samples);
   /// Gives back what was reserved in vain, where it is much: a copy takes time.
@@ -29,6 +31,11 @@ struct SampleList {
     colour.push_back(packed);
     roles.push_back(mask);
   }
+  /// Of the sample added last.
+  void addPlane(const SurfacePlane& itsPlane) {
+    if (planes.empty() || planes.back() != itsPlane) planes.push_back(itsPlane);
+    plane.push_back(std::uint32_t(planes.size() - 1));
+  }
 };
 
 struct ChunkSamples : SampleList {
@@ -39,6 +46,7 @@ struct ChunkSamples : SampleList {
 
   /// Of a sample that belongs to a mirror.
   static constexpr std::size_t kBytes = kCaptureSampleBytes + sizeof(std::uint8_t);
+  static constexpr std::size_t kSilhouetteBytes = sizeof(std::uint16_t) + sizeof(std::uint32_t);
 
   /// No more will come.
   void close();

@@ -4,7 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/bake/surface_planes.h"
+
 namespace acentric {
+
+std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
+                                      const glm::vec3& direction) {
+  if (setting.textures == nullptr) return {};
+  const float flat = glm::length(glm::vec2(direction));
+  const glm::vec2 across = float(setting.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
+  const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
+  return TextureArea(*setting.textures, setting.shader.scene().scene(), hit, direction,
+                     {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up});
+}
 
 ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
     : setting_(setting),
@@ -15,6 +27,9 @@ ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
   if (setting.beyond != nullptr)
     mirrorMarch_.emplace(setting.shader, *setting.beyond, setting.settings.maxLayers, sameDepth_,
                          rightBehind_);
+  if (setting.mirrors != nullptr && setting.settings.silhouettes)
+    for (const FlatMirror& mirror : setting.mirrors->sides())
+      mirrorNormals_[mirror.number] = glm::vec3(mirror.normal);
 }
 
 bool ColumnMarch::run(int column, const std::stop_token& stop) {
@@ -23,7 +38,7 @@ bool ColumnMarch::run(int column, const std::stop_token& stop) {
   roles_ = rolesAlong(setting_.camera, direction_);
   having_.clear();
   for (const ColumnRole& role : roles_) having_.push_back({&role});
-  alone_ = roles_.size() == 1 && roles_.front().clip == nullptr && setting_.sight == nullptr &&
+  alone_ = !setting_.settings.silhouettes && roles_.size() == 1 && roles_.front().clip == nullptr && setting_.sight == nullptr &&
            setting_.mirrors == nullptr && setting_.settings.maxLayers == 1;
   const std::size_t before = out_.row.size(), shownBefore = out_.reflections.row.size();
   for (int row = 0; row < setting_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
@@ -52,17 +67,8 @@ void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
     if (mirrorMarch_)
       mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), flat_, roles_},
                         shown_, out_.counts.rays, stop);
-    if (!shown_.empty()) addShown();
+    if (!shown_.empty()) addShown(packet.direction[n]);
   }
-}
-
-std::optional<TextureArea> ColumnMarch::areaOf(const Hit& hit, const glm::vec3& direction) const {
-  if (setting_.textures == nullptr) return {};
-  const float flat = glm::length(glm::vec2(direction));
-  const glm::vec2 across = float(setting_.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
-  const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
-  return TextureArea(*setting_.textures, setting_.shader.scene().scene(), hit, direction,
-                     {glm::vec3(across, 0), float(setting_.columns.rowPitch()) * up});
 }
 
 /// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
@@ -79,7 +85,7 @@ bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) 
   if (const auto& even = setting_.shader.evenColours(); !even.empty()) {
     out_.add(row, stored, even[hit.mesh], mask);
   } else {
-    const auto area = areaOf(hit, direction);
+    const auto area = sampleArea(setting_, hit, direction);
     const Shaded shaded = setting_.shader.shade(hit, -direction, area ? &*area : nullptr, out_.counts.rays);
     if (shaded.alpha < kOpaqueAlpha) return false;
     out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
@@ -173,10 +179,13 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     if (mirror != 0 && side == Side::met) facing_.push_back(&role);
   }
   const auto shaded = [&](Side side) {
-    const auto area = areaOf(hit, direction);
+    const auto area = sampleArea(setting_, hit, direction);
     return setting_.shader.shade(hit, surface.toViewer(side), area ? &*area : nullptr, out_.counts.rays);
   };
   if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
+  if (setting_.settings.silhouettes && !(sides_.empty() && facing_.empty()))
+    plane_ = planeOf(setting_.shader.scene().scene(), hit, setting_.columns.centreOfProjection, direction,
+                     false);
   if (!sides_.met.empty() || !facing_.empty())
     addSide(sides_.met, Side::met,
             mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror) : shaded(Side::met), horizontal,
@@ -202,6 +211,7 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shad
   out_.add(row_, storedInverseDistance(1 / horizontal, setting_.distanceStep),
            packColour({shaded.radiance(), opaque ? 1 : shaded.alpha}), give(needed));
   if (setting_.mirrors != nullptr) out_.mirror.push_back(mirror);
+  if (setting_.settings.silhouettes) out_.addPlane({plane_.normal, side == Side::other ? 1u : 0u});
   ++out_.counts.samples.kept[std::min(std::size_t(layer_++), SampleCounts::kLayers - 1)];
 }
 
@@ -223,12 +233,16 @@ Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, do
 }
 
 /// What the mirrors of the pixel show, nearest first.
-void ColumnMarch::addShown() {
+void ColumnMarch::addShown(const glm::vec3& direction) {
   std::ranges::stable_sort(shown_, {}, &ShownInMirror::distance);
   for (const ShownInMirror& s : shown_) {
     const float w = s.isSky() ? 0 : storedInverseDistance(1 / (s.distance * flat_), setting_.distanceStep);
     out_.reflections.add(row_, w, s.colour, s.roles);
     out_.reflections.mirror.push_back(s.mirror);
+    if (setting_.settings.silhouettes)
+      out_.reflections.addPlane(s.isSky() ? SurfacePlane{}
+                                          : imagePlaneOf(s.surface, mirrorNormals_[s.mirror],
+                                                         s.distance * glm::dvec3(direction)));
   }
   out_.counts.reflections += shown_.size();
   shown_.clear();

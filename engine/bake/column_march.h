@@ -40,7 +40,6 @@ class ColumnMarch {
 
  private:
   void runRows(int first, int last, const std::stop_token& stop);
-  std::optional<TextureArea> areaOf(const Hit& hit, const glm::vec3& direction) const;
   bool addAlone(int row, const glm::vec3& direction, const Hit& hit);
   void beginPixel(int row);
   void runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,
@@ -51,7 +50,7 @@ class ColumnMarch {
   void addSide(std::vector<RoleOnRay*>& needed, Side side, const Shaded& shaded, double horizontal,
                std::uint8_t mirror);
   Shaded mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal, std::uint8_t mirror);
-  void addShown();
+  void addShown(const glm::vec3& direction);
   void addBackgroundAlong(const glm::vec3& direction);
   void addBackground(int row, std::uint8_t mask);
   bool isFull(const RoleOnRay& role) const { return role.samples >= setting_.settings.maxLayers; }
@@ -72,9 +71,15 @@ class ColumnMarch {
   bool reachedBackground_ = false;         ///< of the pixel: is nothing left along its ray?
   std::vector<RoleOnRay> having_;          ///< of the pixel, as roles_; horizontal metres
   SeenSides sides_;                        ///< of the surface
+  SurfacePlane plane_;                     ///< of the surface, where silhouettes are asked for
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::optional<MirrorMarch> mirrorMarch_;
   std::vector<ShownInMirror> shown_;  ///< by the mirrors of the pixel
+  std::array<glm::vec3, 256> mirrorNormals_{};  ///< by number, where silhouettes are asked for
 };
+
+/// What a sample stands for on the surface that it hits; nothing where no texture is averaged.
+std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
+                                      const glm::vec3& direction);
 
 }  // namespace acentric

@@ -15,6 +15,14 @@ std::uint8_t give(std::span<RoleOnRay* const> roles) {
   return mask;
 }
 
+double reachOf(const LayoutCamera& camera) {
+  double reach = 0;
+  for (const Role& role : camera.roles)
+    for (const glm::dvec2& corner : role.polygon.corners)
+      reach = std::max(reach, glm::distance(corner, camera.position));
+  return reach;
+}
+
 std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction) {
   std::vector<ColumnRole> roles;
   for (std::size_t i = 0; i < camera.roles.size(); ++i) {

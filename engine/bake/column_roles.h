@@ -47,6 +47,9 @@ struct SeenSides {
   std::vector<RoleOnRay*>& of(Side side) { return side == Side::met ? met : other; }
 };
 
+/// How far an eye of a served region is from the camera at most, metres.
+double reachOf(const LayoutCamera& camera);
+
 /// By rising exit.
 std::vector<ColumnRole> rolesAlong(const LayoutCamera& camera, const glm::dvec2& direction);
 

@@ -46,6 +46,13 @@ Status checkArrays(const CaptureSamples& s, std::size_t columns, bool mirrors, c
   if (s.mirror.size() != (mirrors ? s.row.size() : 0))
     return malformed(
         fmt::format("{}s name {} mirrors, {} are needed", noun, s.mirror.size(), mirrors ? s.row.size() : 0));
+  if (s.coverage.size() != s.plane.size() || (s.plane.empty() ? !s.planes.empty() : s.plane.size() != s.row.size()))
+    return malformed(fmt::format("{}s have {} coverages and {} planes of {}: all need them, or none", noun,
+                                 s.coverage.size(), s.plane.size(), s.planes.size()));
+  for (std::size_t i = 0; i < s.planes.size(); ++i)
+    if (const SurfacePlane& plane = s.planes[i];
+        !std::isfinite(plane.normal.x + plane.normal.y + plane.normal.z) || plane.away > 1)
+      return malformed(fmt::format("plane {} of {}s is not one", i, noun));
   if (s.columnStart.front() != 0 || s.columnStart.back() != s.row.size())
     return malformed(fmt::format("column offsets do not span the {}s", noun));
   if (!std::is_sorted(s.columnStart.begin(), s.columnStart.end()))
@@ -71,6 +78,8 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
       if (!s.mirror.empty() && s.mirror[i] != 0 && s.colour[i].a != kHalfOne)
         return bad("mirrors and what they show must be opaque");
       if (reflections && s.mirror[i] == 0) return bad("no mirror shows it");
+      if (s.hasSilhouettes() && s.coverage[i] == 0) return bad("covers nothing of its pixel");
+      if (s.hasSilhouettes() && s.plane[i] >= s.planes.size()) return bad("lies on no plane of the capture");
       if (i == first) continue;
       if (s.row[i] < s.row[i - 1]) return bad("rows are not sorted");
       if (s.row[i] == s.row[i - 1] && s.inverseDistance[i] > s.inverseDistance[i - 1])
@@ -133,7 +142,9 @@ int CaptureSamples::maxLayers() const {
 }
 
 std::size_t CaptureSamples::bytes() const {
-  return columnStart.size() * sizeof columnStart[0] + sampleCount() * kCaptureSampleBytes + mirror.size();
+  return columnStart.size() * sizeof columnStart[0] + sampleCount() * kCaptureSampleBytes + mirror.size() +
+         coverage.size() * sizeof coverage[0] + plane.size() * sizeof plane[0] +
+         planes.size() * sizeof planes[0];
 }
 
 std::size_t CaptureBackground::pixelCount() const {

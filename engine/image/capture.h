@@ -13,6 +13,10 @@
 /// lies at its mirror image, the same one for every eye, and on the camera's own ray as far behind the mirror
 /// as the reflected ray went. It is drawn where the mirror itself is what a pixel shows. A capture without
 /// flat mirrors has no such list and no byte for it.
+///
+/// A capture may know its silhouettes: then each sample tells the plane of its surface, and which of the 4x4
+/// parts of its pixel that surface covers, as multisampling does. Several surfaces of one pixel may cover the
+/// same part: they lie behind one another. A capture that does not know them has no byte for them.
 
 #include <algorithm>
 #include <bit>
@@ -63,6 +67,23 @@ inline float storedInverseDistance(double inverseDistance, double step) {
   return float(std::max(stored, step));
 }
 
+/// The plane of a surface, relative to the camera's centre of projection P: of points P + X with
+/// dot(normal, X) = 1. A ray of column direction c and row tangent t meets it at the inverse distance
+/// dot(normal, (c, t)).
+struct SurfacePlane {
+  glm::vec3 normal{0};     ///< 1/m
+  std::uint32_t away = 0;  ///< 1: regions see the side of it that the camera's ray does not meet
+  double inverseDistance(const glm::dvec2& column, double tangent) const {
+    return normal.x * column.x + normal.y * column.y + normal.z * tangent;
+  }
+  bool operator==(const SurfacePlane&) const = default;
+};
+
+/// Parts of a pixel on either side, and the mask of all of them: bit 4 * y + x is of the part that is y-th
+/// from the top, x-th from the clockwise border.
+inline constexpr int kCoverageParts = 4;
+inline constexpr std::uint16_t kWholePixel = 0xffff;
+
 /// Samples of all pixels, in capture order.
 struct CaptureSamples {
   std::vector<std::uint32_t> columnStart;  ///< columns + 1 offsets into the arrays below
@@ -73,7 +94,12 @@ struct CaptureSamples {
   /// Of a surface: which of the scene's mirrors it belongs to, 0 = none; the array is empty in a capture
   /// without reflections. Of a reflection: the mirror that shows it, never 0.
   std::vector<std::uint8_t> mirror;
+  /// Silhouettes; all three empty in a capture without.
+  std::vector<std::uint16_t> coverage;  ///< never 0
+  std::vector<std::uint32_t> plane;     ///< into `planes`
+  std::vector<SurfacePlane> planes;
 
+  bool hasSilhouettes() const { return !plane.empty(); }
   std::size_t sampleCount() const { return row.size(); }
   /// What the arrays hold, without their slack.
   std::size_t bytes() const;
@@ -82,7 +108,7 @@ struct CaptureSamples {
   bool operator==(const CaptureSamples&) const = default;
 };
 
-/// Of a surface sample without a mirror.
+/// Of a surface sample without a mirror or silhouettes.
 inline constexpr std::size_t kCaptureSampleBytes =
     sizeof(std::uint16_t) + sizeof(float) + sizeof(HalfColour) + sizeof(std::uint8_t);
 

@@ -34,7 +34,7 @@ std::size_t dropShown(Capture& capture, std::span<const Capture* const> earlier,
                       const MergeTolerance& tolerance) {
   const ColumnCamera& camera = capture.camera;
   std::size_t kept = 0;
-  const bool mirrors = !capture.mirror.empty();
+  const bool mirrors = !capture.mirror.empty(), silhouettes = capture.hasSilhouettes();
   const std::size_t all = capture.sampleCount();
   for (std::size_t k = 0; k < std::size_t(camera.columns); ++k) {
     const glm::dvec2 direction = camera.directionAt(double(k) + 0.5);
@@ -51,6 +51,7 @@ std::size_t dropShown(Capture& capture, std::span<const Capture* const> earlier,
       capture.colour[kept] = capture.colour[n];
       capture.roles[kept] = capture.roles[n];
       if (mirrors) capture.mirror[kept] = capture.mirror[n];
+      if (silhouettes) capture.coverage[kept] = capture.coverage[n], capture.plane[kept] = capture.plane[n];
       ++kept;
     }
     // The start of the next column is read before it is written over.
@@ -59,6 +60,8 @@ std::size_t dropShown(Capture& capture, std::span<const Capture* const> earlier,
   capture.row.resize(kept), capture.inverseDistance.resize(kept), capture.colour.resize(kept),
       capture.roles.resize(kept);
   if (mirrors) capture.mirror.resize(kept);
+  if (silhouettes) capture.coverage.resize(kept), capture.plane.resize(kept);
+  if (kept == 0) capture.planes.clear();
   return all - kept;
 }
 

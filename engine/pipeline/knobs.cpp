@@ -176,6 +176,9 @@ void bakeKnobs(std::vector<Knob>& table) {
   table.push_back(numberKnob(
       "distance-shift", "samples that pictures may shift by as inverse distances are rounded; 0 = 16 bits",
       true, [](Project & p) -> auto& { return p.bake.distanceShift; }, {"0", "0.025", "0.4", "1.6"}));
+  table.push_back(switchKnob(
+      "silhouettes", "samples tell their surface's plane and what they cover of their pixel", true,
+      [](Project & p) -> auto& { return p.bake.silhouettes; }));
   table.push_back(numberKnob("shadow-rays", "per sample towards each light with a size", true,
                              [](Project & p) -> auto& { return p.bake.shadowRays; }, {"4", "16", "64"}));
   table.push_back(numberKnob("ambient-rays", "per place that light is gathered for", true,

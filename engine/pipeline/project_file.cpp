@@ -222,6 +222,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "pruningLoss", project.bake.pruningLoss);
     read(json["bake"], "eyeRange", project.bake.eyeRange);
     read(json["bake"], "distanceShift", project.bake.distanceShift);
+    read(json["bake"], "silhouettes", project.bake.silhouettes);
   }
   if (json.contains("budget")) {
     read(json["budget"], "trianglesPerRegion", project.budget.trianglesPerRegion);
@@ -355,7 +356,8 @@ std::string formatProject(const Project& project) {
         {"testEyes", project.bake.testEyes},
         {"pruningLoss", project.bake.pruningLoss},
         {"eyeRange", project.bake.eyeRange},
-        {"distanceShift", project.bake.distanceShift}}},
+        {"distanceShift", project.bake.distanceShift},
+        {"silhouettes", project.bake.silhouettes}}},
       {"budget",
        {{"trianglesPerRegion", project.budget.trianglesPerRegion},
         {"maxErrorMetres", project.budget.maxErrorMetres},

@@ -21,6 +21,13 @@ auto sampleLanes(AnySamples& samples) {
 }
 constexpr std::uint64_t kColumnBytes = 4, kSampleBytes = 15, kMirrorBytes = 1;
 
+template <class AnyPlanes>
+auto planeLanes(AnyPlanes& planes) {
+  static_assert(sizeof(SurfacePlane) == 16);
+  return std::array{laneOf(planes, 0, 4), laneOf(planes, 4, 4), laneOf(planes, 8, 4), laneOf(planes, 12, 1)};
+}
+constexpr std::uint64_t kSilhouetteBytes = 6, kPlaneBytes = 13;
+
 /// First row, one below the last, roles.
 template <class AnyBackground>
 auto runLanes(AnyBackground& background) {
@@ -35,11 +42,18 @@ Status addColumns(BlockFileWriter& file, const std::vector<std::uint32_t>& colum
   return file.addRecords(std::array{laneOf(std::as_const(counts))}, counts.size());
 }
 
-/// Columns, samples, and where there are mirrors their numbers.
+/// Columns, samples, where there are mirrors their numbers, and silhouettes if it knows them.
 Status add(BlockFileWriter& file, const CaptureSamples& samples) {
   if (Status added = addColumns(file, samples.columnStart); !added) return added;
   if (Status added = file.addRecords(sampleLanes(samples), samples.sampleCount()); !added) return added;
-  return file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size());
+  if (Status added = file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size()); !added)
+    return added;
+  if (!samples.hasSilhouettes()) return {};
+  if (Status added = file.addRecords(std::array{laneOf(samples.coverage), laneOf(samples.plane)},
+                                     samples.sampleCount());
+      !added)
+    return added;
+  return file.addRecords(planeLanes(samples.planes), samples.planes.size());
 }
 
 Status add(BlockFileWriter& file, const CaptureBackground& background) {
@@ -63,7 +77,13 @@ Status writePack(const Capture& capture, const ContentKey& key, const std::files
   file.describe(static_cast<std::uint64_t>(background.runCount()));
   for (const glm::vec3& radiance : {background.sky.zenith, background.sky.horizon, background.sky.ground})
     for (int i = 0; i < 3; ++i) file.describe(radiance[i]);
-  if (capture.hasReflections()) file.describe(static_cast<std::uint64_t>(capture.reflections.sampleCount()));
+  const bool silhouettes = capture.hasSilhouettes() || capture.reflections.hasSilhouettes();
+  if (capture.hasReflections() || silhouettes)
+    file.describe(static_cast<std::uint64_t>(capture.reflections.sampleCount()));
+  if (silhouettes) {
+    file.describe(static_cast<std::uint64_t>(capture.planes.size()));
+    file.describe(static_cast<std::uint64_t>(capture.reflections.planes.size()));
+  }
 
   if (Status added = add(file, static_cast<const CaptureSamples&>(capture)); !added) return added;
   if (background.runCount() > 0)
@@ -91,7 +111,7 @@ Status takeColumns(BlockFileReader& file, std::size_t columns, std::uint64_t tot
 
 /// What `add` wrote; the number of samples is known to agree with the file's size.
 Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, bool mirrors,
-            CaptureSamples& out) {
+            std::uint64_t planes, CaptureSamples& out) {
   if (Status read = takeColumns(file, columns, samples, out.columnStart); !read) return read;
   out.row.resize(samples);
   out.inverseDistance.resize(samples);
@@ -99,7 +119,14 @@ Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, b
   out.roles.resize(samples);
   out.mirror.resize(mirrors ? samples : 0);
   if (Status read = file.nextRecords(sampleLanes(out), samples); !read) return read;
-  return file.nextRecords(std::array{laneOf(out.mirror)}, out.mirror.size());
+  if (Status read = file.nextRecords(std::array{laneOf(out.mirror)}, out.mirror.size()); !read) return read;
+  if (planes == 0) return {};
+  out.coverage.resize(samples);
+  out.plane.resize(samples);
+  out.planes.resize(planes);
+  if (Status read = file.nextRecords(std::array{laneOf(out.coverage), laneOf(out.plane)}, samples); !read)
+    return read;
+  return file.nextRecords(planeLanes(out.planes), planes);
 }
 
 Status take(BlockFileReader& file, std::size_t columns, std::uint64_t runs, CaptureBackground& out) {
@@ -126,29 +153,36 @@ Result<Keyed<Capture>> readPack(Result<BlockFileReader> file,
   CaptureBackground& background = capture.background;
   for (glm::vec3* radiance : {&background.sky.zenith, &background.sky.horizon, &background.sky.ground})
     for (int i = 0; i < 3; ++i) (*radiance)[i] = file->described<float>();
-  const bool mirrors = file->describesMore();
-  const auto reflections = mirrors ? file->described<std::uint64_t>() : 0;
-  if (!file->describedAll() || columns > 65535 || rows > 65535 || (mirrors && reflections == 0))
+  const bool more = file->describesMore();
+  const auto reflections = more ? file->described<std::uint64_t>() : 0;
+  const bool silhouettes = file->describesMore(), mirrors = reflections > 0;
+  const auto planes = silhouettes ? file->described<std::uint64_t>() : 0;
+  const auto reflectionPlanes = silhouettes ? file->described<std::uint64_t>() : 0;
+  if (!file->describedAll() || columns > 65535 || rows > 65535 || (more && !silhouettes && !mirrors) ||
+      (silhouettes && planes == 0 && reflectionPlanes == 0))
     return file->malformed("its description makes no sense");
   camera.columns = static_cast<int>(columns);
   camera.rows = static_cast<int>(rows);
-  const auto bytesOf = [&](std::uint64_t count) {
-    return kColumnBytes * columns + (kSampleBytes + (mirrors ? kMirrorBytes : 0)) * count;
+  const auto bytesOf = [&](std::uint64_t count, std::uint64_t planesOfThem) {
+    return kColumnBytes * columns + kPlaneBytes * planesOfThem +
+           (kSampleBytes + (mirrors ? kMirrorBytes : 0) + (planesOfThem > 0 ? kSilhouetteBytes : 0)) * count;
   };
   const std::uint64_t backgroundBytes = runs > 0 ? kColumnBytes * columns + kRunBytes * runs : 0;
   if (samples > kMaxCaptureSamples || runs > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
-      file->rawBytes() != bytesOf(samples) + backgroundBytes + (mirrors ? bytesOf(reflections) : 0))
+      planes > kMaxCaptureSamples || reflectionPlanes > kMaxCaptureSamples ||
+      file->rawBytes() != bytesOf(samples, planes) + backgroundBytes +
+                              (mirrors ? bytesOf(reflections, reflectionPlanes) : 0))
     return file->malformed("its number of samples contradicts its size");
   if (accept)
     if (Status accepted = accept({camera, samples, reflections}); !accepted)
       return tl::unexpected(accepted.error());
 
-  if (Status read = take(*file, columns, samples, mirrors, capture); !read)
+  if (Status read = take(*file, columns, samples, mirrors, planes, capture); !read)
     return tl::unexpected(read.error());
   if (runs > 0)
     if (Status read = take(*file, columns, runs, background); !read) return tl::unexpected(read.error());
   if (mirrors)
-    if (Status read = take(*file, columns, reflections, true, capture.reflections); !read)
+    if (Status read = take(*file, columns, reflections, true, reflectionPlanes, capture.reflections); !read)
       return tl::unexpected(read.error());
   if (!file->atEnd()) return file->malformed("has more blocks than its description needs");
   if (Status sound = capture.check(); !sound) return file->malformed(sound.error().describe());

@@ -1,0 +1,381 @@
+#include "engine/bake/silhouettes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+
+#include "engine/bake/flush_denormals.h"
+
+namespace acentric {
+namespace {
+
+constexpr int kColumnsPerTask = 16;
+constexpr int kParts = kCoverageParts * kCoverageParts;
+/// Of a sample's spacing, as the served eye sees it that the camera is farthest from: what lies no farther
+/// off a plane lies in it.
+constexpr double kOffPlane = 0.25;
+/// So much more may a curved surface leave the plane, as long as it faces the same way.
+constexpr double kCurved = 3;
+constexpr double kSameWay = 0.966;  ///< cosine of 15 degrees
+/// Surfaces right before one another that a ray is asked about.
+constexpr int kMostBeforePlane = 4;
+
+constexpr std::uint16_t bitOf(int x, int y) { return std::uint16_t(1u << (kCoverageParts * y + x)); }
+constexpr std::uint16_t kCorners = bitOf(0, 0) | bitOf(3, 0) | bitOf(0, 3) | bitOf(3, 3);
+constexpr std::uint16_t kMiddle = bitOf(1, 1);
+
+/// The parts of a pixel beside its neighbour in that direction.
+std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
+  std::uint16_t parts = 0;
+  for (int y = 0; y < kCoverageParts; ++y)
+    for (int x = 0; x < kCoverageParts; ++x) {
+      const auto isBeside = [](int step, int at) { return step == 0 || at == (step < 0 ? 0 : 3); };
+      if (isBeside(acrossColumns, x) && isBeside(acrossRows, y)) parts |= bitOf(x, y);
+    }
+  return parts;
+}
+
+/// Directions of the parts of all pixels.
+struct PartAngles {
+  std::vector<glm::dvec2> column;
+  std::vector<double> cosine, sine, tangent;  ///< of rows
+
+  explicit PartAngles(const ColumnCamera& camera) {
+    const auto middle = [](int part) { return (part + 0.5) / kCoverageParts; };
+    for (int part = 0; part < kCoverageParts * camera.columns; ++part)
+      column.push_back(camera.directionAt(middle(part)));
+    for (int part = 0; part < kCoverageParts * camera.rows; ++part) {
+      const double elevation = camera.elevationAt(middle(part));
+      cosine.push_back(std::cos(elevation));
+      sine.push_back(std::sin(elevation));
+      tangent.push_back(sine.back() / cosine.back());
+    }
+  }
+};
+
+/// Of some neighbouring columns.
+struct NewSamples {
+  std::vector<std::uint32_t> perColumn;
+  CaptureSamples list;
+  CaptureCounts counts;
+};
+
+class ColumnSilhouettes {
+ public:
+  ColumnSilhouettes(const ColumnMarch::Setting& setting, const PartAngles& parts, const Capture& capture,
+                    NewSamples& out)
+      : setting_(setting),
+        parts_(parts),
+        all_(capture),
+        out_(out),
+        rows_(setting.columns.rows),
+        tolerance_(kOffPlane * std::min(setting.columns.columnPitch(), setting.columns.rowPitch()) /
+                   std::max(reachOf(setting.camera), 1e-6)) {
+    for (int row = 0; row < rows_; ++row) tangent_.push_back(setting.columns.tangentAt(row + 0.5));
+    if (setting.sight != nullptr) hints_ = setting.sight->hints();
+  }
+
+  void run(int column) {
+    for (int step = -1; step <= 1; ++step) {
+      Beside& beside = beside_[std::size_t(step + 1)];
+      beside.inImage = column + step >= 0 && column + step < setting_.columns.columns;
+      if (beside.inImage) listRows(column + step, beside);
+    }
+    column_ = column;
+    const std::size_t before = out_.list.row.size();
+    for (int row = 0; row < rows_; ++row) addPixel(row);
+    out_.perColumn.push_back(std::uint32_t(out_.list.row.size() - before));
+  }
+
+ private:
+  /// Of this column, or one next to it.
+  struct Beside {
+    bool inImage = false;
+    glm::dvec2 direction{0};
+    std::vector<std::uint32_t> first;  ///< sample of each row, and one after the last
+  };
+  struct Pixel {
+    const Beside* beside = nullptr;
+    int row = 0;
+    std::uint32_t first() const { return beside->first[std::size_t(row)]; }
+    std::uint32_t end() const { return beside->first[std::size_t(row) + 1]; }
+  };
+  /// A sample of the pixel as it will be.
+  struct New {
+    std::uint32_t of = 0;  ///< the sample that it is, or the neighbour's that it goes on
+    std::uint16_t coverage = kWholePixel;
+    float inverseDistance = 0;
+    HalfColour colour{0};
+    std::uint8_t roles = 0, mirror = 0;
+  };
+  /// What rays through parts of the pixel meet of one surface.
+  struct Met {
+    std::uint16_t parts = 0;
+    std::array<Hit, kParts> hits;
+  };
+
+  void listRows(int column, Beside& beside) const {
+    beside.direction = setting_.columns.directionAt(column + 0.5);
+    beside.first.assign(std::size_t(rows_) + 1, 0);
+    std::uint32_t i = all_.columnStart[std::size_t(column)];
+    const std::uint32_t end = all_.columnStart[std::size_t(column) + 1];
+    for (int row = 0; row <= rows_; ++row) {
+      while (i < end && all_.row[i] < row) ++i;
+      beside.first[std::size_t(row)] = i;
+    }
+  }
+
+  const SurfacePlane& planeOf(std::uint32_t sample) const { return all_.planes[all_.plane[sample]]; }
+  bool isOpaque(std::uint32_t sample) const { return unpackColour(all_.colour[sample]).a >= 1; }
+  double at(const SurfacePlane& plane, const Pixel& pixel) const {
+    return plane.inverseDistance(pixel.beside->direction, tangent_[std::size_t(pixel.row)]);
+  }
+
+  /// Do two samples lie in one plane, as far as either of them tells?
+  bool isSame(std::uint32_t a, const Pixel& ofA, std::uint32_t b, const Pixel& ofB) const {
+    const SurfacePlane &planeA = planeOf(a), &planeB = planeOf(b);
+    if (planeA.away != planeB.away || isOpaque(a) != isOpaque(b)) return false;
+    if (planeA == planeB) return true;
+    const double apart = std::min(std::abs(at(planeA, ofA) - at(planeB, ofA)),
+                                  std::abs(at(planeA, ofB) - at(planeB, ofB)));
+    return apart <= tolerance_;
+  }
+  bool hasSame(const Pixel& pixel, std::uint32_t sample, const Pixel& itsPixel) const {
+    for (std::uint32_t i = pixel.first(); i < pixel.end(); ++i)
+      if (isSame(i, pixel, sample, itsPixel)) return true;
+    return false;
+  }
+
+  template <class Visit>
+  void eachNeighbour(int row, const Visit& visit) const {
+    for (int across = -1; across <= 1; ++across)
+      for (int down = -1; down <= 1; ++down) {
+        const Beside& beside = beside_[std::size_t(across + 1)];
+        if ((across == 0 && down == 0) || !beside.inImage || row + down < 0 || row + down >= rows_) continue;
+        visit(Pixel{&beside, row + down}, across, down);
+      }
+  }
+
+  void addPixel(int row) {
+    const Pixel pixel{&beside_[1], row};
+    pixel_.clear();
+    for (std::uint32_t i = pixel.first(); i < pixel.end(); ++i) {
+      bool whole = true;
+      eachNeighbour(row, [&](const Pixel& neighbour, int, int) {
+        whole = whole && hasSame(neighbour, i, pixel);
+      });
+      pixel_.push_back({i, whole ? kWholePixel : ownCoverage(i, row), all_.inverseDistance[i], all_.colour[i],
+                        all_.roles[i], all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
+    }
+    const std::size_t own = pixel_.size();
+    eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
+      for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
+        if (!hasSame(pixel, i, neighbour)) addNeighbours(i, partsTowards(across, down), row, own);
+    });
+    if (pixel_.size() > own)
+      std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
+    for (const New& sample : pixel_) add(row, sample);
+    for (std::size_t layer = own; layer < pixel_.size(); ++layer)
+      ++out_.counts.samples.kept[std::min(layer, SampleCounts::kLayers - 1)];
+  }
+
+  void add(int row, const New& sample) {
+    CaptureSamples& list = out_.list;
+    list.row.push_back(std::uint16_t(row));
+    list.inverseDistance.push_back(sample.inverseDistance);
+    list.colour.push_back(sample.colour);
+    list.roles.push_back(sample.roles);
+    if (!all_.mirror.empty()) list.mirror.push_back(sample.mirror);
+    list.coverage.push_back(sample.coverage);
+    list.plane.push_back(all_.plane[sample.of]);
+  }
+
+  std::uint16_t ownCoverage(std::uint32_t sample, int row) {
+    Met met;
+    meet(sample, row, kCorners | kMiddle, met);
+    if (met.parts == (kCorners | kMiddle)) return kWholePixel;
+    meet(sample, row, kWholePixel & ~(kCorners | kMiddle), met);
+    return met.parts == 0 ? kMiddle : met.parts;  // its ray went between those of the parts
+  }
+
+  /// A sample of a neighbour's surface, if that covers a part here.
+  void addNeighbours(std::uint32_t sample, std::uint16_t beside, int row, std::size_t own) {
+    const Pixel pixel{&beside_[1], row};
+    for (std::size_t k = own; k < pixel_.size(); ++k)
+      if (isSame(pixel_[k].of, pixel, sample, pixel)) {
+        pixel_[k].roles |= all_.roles[sample];
+        return;
+      }
+    Met met;
+    meet(sample, row, beside, met);
+    if (met.parts == 0) return;
+    const std::uint16_t few = kCorners | kMiddle | beside;
+    meet(sample, row, std::uint16_t(few & ~beside), met);
+    std::uint16_t coverage = kWholePixel;
+    if (met.parts != few) {
+      meet(sample, row, std::uint16_t(~few), met);
+      coverage = met.parts;
+    }
+    const int part = middleOf(met.parts);
+    New added{sample, coverage};
+    if (!shade(sample, met.hits[std::size_t(part)], part, row, added)) return;
+    added.roles = all_.roles[sample];
+    pixel_.push_back(added);
+  }
+
+  /// Adds those of `asked` parts where a ray meets the sample's surface, and a role of the sample sees that.
+  void meet(std::uint32_t sample, int row, std::uint16_t asked, Met& met) {
+    for (int part = 0; part < kParts; ++part) {
+      if ((asked >> part & 1) == 0) continue;
+      const Hit hit = meetAt(planeOf(sample), row, part);
+      if (!hit.found() || !isSeen(sample, hit, row, part)) continue;
+      met.parts |= std::uint16_t(1u << part);
+      met.hits[std::size_t(part)] = hit;
+    }
+  }
+
+  glm::vec3 directionOf(int row, int part) const {
+    const glm::dvec2& across = columnOf(part);
+    const std::size_t r = rowOf(row, part);
+    return glm::vec3(across.x * parts_.cosine[r], across.y * parts_.cosine[r], parts_.sine[r]);
+  }
+  const glm::dvec2& columnOf(int part) const {
+    return parts_.column[std::size_t(kCoverageParts * column_ + part % kCoverageParts)];
+  }
+  static std::size_t rowOf(int row, int part) {
+    return std::size_t(kCoverageParts * row + part / kCoverageParts);
+  }
+
+  Hit meetAt(const SurfacePlane& plane, int row, int part) {
+    const std::size_t r = rowOf(row, part);
+    const double flat = parts_.cosine[r], w = plane.inverseDistance(columnOf(part), parts_.tangent[r]);
+    if (!(w > 0)) return {};
+    const double loose = kCurved * tolerance_;
+    Ray ray{glm::vec3(setting_.columns.centreOfProjection), directionOf(row, part)};
+    ray.nearest = float(1 / ((w + loose) * flat));
+    if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
+    const glm::dvec3 facing = glm::normalize(glm::dvec3(plane.normal));
+    for (int before = 0; before < kMostBeforePlane; ++before) {
+      ++out_.counts.rays.primary;
+      const Hit hit = setting_.shader.scene().trace(ray);
+      if (!hit.found()) return {};
+      const double apart = std::abs(1 / (double(hit.distance) * flat) - w);
+      if (apart <= tolerance_) return hit;
+      if (std::abs(glm::dot(facing, glm::dvec3(hit.geometricNormal()))) > kSameWay) return hit;
+      ray.nearest = justBehind(hit.distance);
+    }
+    return {};
+  }
+
+  bool isSeen(std::uint32_t sample, const Hit& hit, int row, int part) {
+    if (setting_.sight == nullptr) return true;
+    const glm::vec3 direction = directionOf(row, part);
+    const glm::dvec3 point =
+        setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
+    const MetSurface surface(hit, point, direction);
+    const double tolerance = kSameDepth * setting_.columns.rowPitch() * double(hit.distance);
+    const Side side = planeOf(sample).away != 0 ? Side::other : Side::met;
+    for (std::size_t role = 0; role < setting_.camera.roles.size(); ++role)
+      if ((all_.roles[sample] >> role & 1) != 0 &&
+          setting_.sight->sees(role, surface, tolerance, hints_, out_.counts.rays) == side)
+        return true;
+    return false;
+  }
+
+  /// The part nearest to the middle of those that a mask has.
+  static int middleOf(std::uint16_t parts) {
+    glm::dvec2 sum(0);
+    const auto placeOf = [](int part) { return glm::dvec2(part % kCoverageParts, part / kCoverageParts); };
+    for (int part = 0; part < kParts; ++part)
+      if ((parts >> part & 1) != 0) sum += placeOf(part);
+    const glm::dvec2 middle = sum / double(std::popcount(parts));
+    int best = -1;
+    for (int part = 0; part < kParts; ++part)
+      if ((parts >> part & 1) != 0 &&
+          (best < 0 || glm::distance(placeOf(part), middle) < glm::distance(placeOf(best), middle)))
+        best = part;
+    return best;
+  }
+
+  /// False where the surface is not what the neighbour's sample is.
+  bool shade(std::uint32_t sample, const Hit& hit, int part, int row, New& out) {
+    const glm::vec3 direction = directionOf(row, part);
+    const bool away = planeOf(sample).away != 0;
+    RayCounts& rays = out_.counts.rays;
+    Shaded shaded;
+    if (setting_.mirrors != nullptr && !away)
+      out.mirror = setting_.mirrors->at(hit.mesh, hit.triangle, -direction);
+    if (out.mirror != 0) {
+      shaded = setting_.shader.shadeFlatMirror(hit, -direction, rays).surface;
+    } else {
+      const MetSurface surface(hit, glm::dvec3(0), direction);
+      const auto area = sampleArea(setting_, hit, direction);
+      shaded = setting_.shader.shade(hit, surface.toViewer(away ? Side::other : Side::met),
+                                     area ? &*area : nullptr, rays);
+    }
+    const bool opaque = shaded.alpha >= kOpaqueAlpha;
+    if (opaque != isOpaque(sample) || shaded.alpha < kInvisibleAlpha) return false;
+    out.colour = packColour({shaded.radiance(), opaque ? 1 : shaded.alpha});
+    out.inverseDistance = storedInverseDistance(1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
+                                                setting_.distanceStep);
+    return true;
+  }
+
+  const ColumnMarch::Setting& setting_;
+  const PartAngles& parts_;
+  const Capture& all_;
+  NewSamples& out_;
+  int rows_;
+  double tolerance_;  ///< 1/m
+  std::vector<double> tangent_;
+  std::array<Beside, 3> beside_;
+  int column_ = 0;
+  std::vector<New> pixel_;
+  RegionSight::Hints hints_;
+};
+
+/// The samples of all tasks, behind one another; planes and reflections stay.
+void replace(Capture& capture, const std::vector<NewSamples>& tasks) {
+  std::vector<std::uint32_t> starts{0};
+  for (const NewSamples& task : tasks)
+    for (const std::uint32_t count : task.perColumn) starts.push_back(starts.back() + count);
+  const auto join = [&](auto CaptureSamples::*part) {
+    auto& all = capture.*part;
+    all.clear();
+    all.reserve(starts.back());
+    for (const NewSamples& task : tasks)
+      all.insert(all.end(), (task.list.*part).begin(), (task.list.*part).end());
+  };
+  join(&CaptureSamples::row), join(&CaptureSamples::inverseDistance), join(&CaptureSamples::colour);
+  join(&CaptureSamples::roles), join(&CaptureSamples::mirror);
+  join(&CaptureSamples::coverage), join(&CaptureSamples::plane);
+  capture.columnStart = std::move(starts);
+}
+
+}  // namespace
+
+void traceSilhouettes(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
+                      CaptureCounts& counts, const std::stop_token& stop) {
+  if (capture.sampleCount() == 0) return;
+  const PartAngles parts(setting.columns);
+  const int columns = setting.columns.columns;
+  std::vector<NewSamples> tasks(std::size_t((columns + kColumnsPerTask - 1) / kColumnsPerTask));
+  runner.parallelFor(tasks.size(), [&](std::size_t task) {
+    const FlushDenormals flush;
+    NewSamples out;  // not in `tasks`, where another thread works on the next
+    ColumnSilhouettes silhouettes(setting, parts, capture, out);
+    const int first = int(task) * kColumnsPerTask;
+    for (int column = first; column < std::min(first + kColumnsPerTask, columns); ++column) {
+      if (stop.stop_requested()) return;
+      silhouettes.run(column);
+    }
+    tasks[task] = std::move(out);
+  });
+  if (stop.stop_requested()) return;
+  for (const NewSamples& task : tasks) counts += task.counts;
+  replace(capture, tasks);
+}
+
+}  // namespace acentric
