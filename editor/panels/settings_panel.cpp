@@ -199,6 +199,13 @@ void bakeNumber(PanelContext& context, const char* logName, const ui::NumberFiel
   applyBakeEdit(context, logName, edit, bake, what);
 }
 
+void bakeCheck(PanelContext& context, const char* name, const char* label, const char* help,
+               bool BakeSettings::*setting) {
+  BakeSettings bake = context.session().project().bake;
+  const ui::FieldEdit edit = ui::checkField(label, bake.*setting, kLabelWidth, help);
+  applyBakeEdit(context, name, edit, bake, name);
+}
+
 void drawPruningLoss(PanelContext& context) {
   constexpr double kPercent = 100;
   BakeSettings bake = context.session().project().bake;
@@ -241,12 +248,10 @@ void drawBake(PanelContext& context) {
              {"Most layers", "%.0f", 0.05, 1, 64,
               "Surfaces kept behind each other in one pixel: what opens up behind edges. 1 to 64."},
              &BakeSettings::maxLayers, "most layers");
-  BakeSettings bake = context.session().project().bake;
-  const ui::FieldEdit edit =
-      ui::checkField("Prune", bake.pruning, kLabelWidth,
-                     "Keep only what can be seen from somewhere in a region that the camera serves.");
-  applyBakeEdit(context, "pruning", edit, bake, "pruning");
-  if (bake.pruning) {
+  bakeCheck(context, "pruning", "Prune",
+            "Keep only what can be seen from somewhere in a region that the camera serves.",
+            &BakeSettings::pruning);
+  if (context.session().project().bake.pruning) {
     drawPruningLoss(context);
     bakeNumber(
         context, "testEyes",
@@ -262,11 +267,9 @@ void drawBake(PanelContext& context) {
              {"Distance shift", "%.3f samples", 0.005, 0, kLargestDistanceShift,
               "How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16."},
              &BakeSettings::distanceShift, "distance shift");
-  BakeSettings bake = context.session().project().bake;
-  const ui::FieldEdit edit = ui::checkField(
-      "Silhouettes", bake.silhouettes, kLabelWidth,
-      "Samples know the plane of their surface, and to a quarter of a sample where it ends.");
-  applyBakeEdit(context, "silhouettes", edit, bake, "silhouettes");
+  bakeCheck(context, "silhouettes", "Silhouettes",
+            "Samples know the plane of their surface, and to a quarter of a sample where it ends.",
+            &BakeSettings::silhouettes);
 }
 
 void drawImport(PanelContext& context) {

@@ -38,8 +38,8 @@ bool ColumnMarch::run(int column, const std::stop_token& stop) {
   roles_ = rolesAlong(setting_.camera, direction_);
   having_.clear();
   for (const ColumnRole& role : roles_) having_.push_back({&role});
-  alone_ = !setting_.settings.silhouettes && roles_.size() == 1 && roles_.front().clip == nullptr && setting_.sight == nullptr &&
-           setting_.mirrors == nullptr && setting_.settings.maxLayers == 1;
+  alone_ = !setting_.settings.silhouettes && roles_.size() == 1 && roles_.front().clip == nullptr &&
+           setting_.sight == nullptr && setting_.mirrors == nullptr && setting_.settings.maxLayers == 1;
   const std::size_t before = out_.row.size(), shownBefore = out_.reflections.row.size();
   for (int row = 0; row < setting_.columns.rows && !roles_.empty(); row += RayPacket::kSize) {
     if (stop.stop_requested()) return false;
@@ -184,8 +184,8 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
   };
   if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (setting_.settings.silhouettes && !(sides_.empty() && facing_.empty()))
-    plane_ = planeOf(setting_.shader.scene().scene(), hit, setting_.columns.centreOfProjection, direction,
-                     false);
+    plane_ =
+        planeOf(setting_.shader.scene().scene(), hit, setting_.columns.centreOfProjection, direction, false);
   if (!sides_.met.empty() || !facing_.empty())
     addSide(sides_.met, Side::met,
             mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror) : shaded(Side::met), horizontal,
@@ -240,9 +240,9 @@ void ColumnMarch::addShown(const glm::vec3& direction) {
     out_.reflections.add(row_, w, s.colour, s.roles);
     out_.reflections.mirror.push_back(s.mirror);
     if (setting_.settings.silhouettes)
-      out_.reflections.addPlane(s.isSky() ? SurfacePlane{}
-                                          : imagePlaneOf(s.surface, mirrorNormals_[s.mirror],
-                                                         s.distance * glm::dvec3(direction)));
+      out_.reflections.addPlane(
+          s.isSky() ? SurfacePlane{}
+                    : imagePlaneOf(s.surface, mirrorNormals_[s.mirror], s.distance * glm::dvec3(direction)));
   }
   out_.counts.reflections += shown_.size();
   shown_.clear();

@@ -74,7 +74,7 @@ class ColumnMarch {
   SurfacePlane plane_;                     ///< of the surface, where silhouettes are asked for
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::optional<MirrorMarch> mirrorMarch_;
-  std::vector<ShownInMirror> shown_;  ///< by the mirrors of the pixel
+  std::vector<ShownInMirror> shown_;            ///< by the mirrors of the pixel
   std::array<glm::vec3, 256> mirrorNormals_{};  ///< by number, where silhouettes are asked for
 };
 

@@ -16,9 +16,9 @@ constexpr int kParts = kCoverageParts * kCoverageParts;
 /// Of a sample's spacing, as the served eye sees it that the camera is farthest from: what lies no farther
 /// off a plane lies in it.
 constexpr double kOffPlane = 0.25;
-/// So much more may a curved surface leave the plane, as long as it faces the same way.
+/// So much more may what a sample covers leave its plane: curved surfaces do, and surfaces that meet at an
+/// edge must overlap a little, or other eyes would see in between them.
 constexpr double kCurved = 3;
-constexpr double kSameWay = 0.966;  ///< cosine of 15 degrees
 /// Surfaces right before one another that a ray is asked about.
 constexpr int kMostBeforePlane = 4;
 
@@ -138,8 +138,8 @@ class ColumnSilhouettes {
     const SurfacePlane &planeA = planeOf(a), &planeB = planeOf(b);
     if (planeA.away != planeB.away || isOpaque(a) != isOpaque(b)) return false;
     if (planeA == planeB) return true;
-    const double apart = std::min(std::abs(at(planeA, ofA) - at(planeB, ofA)),
-                                  std::abs(at(planeA, ofB) - at(planeB, ofB)));
+    const double apart =
+        std::min(std::abs(at(planeA, ofA) - at(planeB, ofA)), std::abs(at(planeA, ofB) - at(planeB, ofB)));
     return apart <= tolerance_;
   }
   bool hasSame(const Pixel& pixel, std::uint32_t sample, const Pixel& itsPixel) const {
@@ -163,9 +163,8 @@ class ColumnSilhouettes {
     pixel_.clear();
     for (std::uint32_t i = pixel.first(); i < pixel.end(); ++i) {
       bool whole = true;
-      eachNeighbour(row, [&](const Pixel& neighbour, int, int) {
-        whole = whole && hasSame(neighbour, i, pixel);
-      });
+      eachNeighbour(row,
+                    [&](const Pixel& neighbour, int, int) { whole = whole && hasSame(neighbour, i, pixel); });
       pixel_.push_back({i, whole ? kWholePixel : ownCoverage(i, row), all_.inverseDistance[i], all_.colour[i],
                         all_.roles[i], all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
     }
@@ -174,8 +173,7 @@ class ColumnSilhouettes {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
         if (!hasSame(pixel, i, neighbour)) addNeighbours(i, partsTowards(across, down), row, own);
     });
-    if (pixel_.size() > own)
-      std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
+    if (pixel_.size() > own) std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
     for (const New& sample : pixel_) add(row, sample);
     for (std::size_t layer = own; layer < pixel_.size(); ++layer)
       ++out_.counts.samples.kept[std::min(layer, SampleCounts::kLayers - 1)];
@@ -256,14 +254,11 @@ class ColumnSilhouettes {
     Ray ray{glm::vec3(setting_.columns.centreOfProjection), directionOf(row, part)};
     ray.nearest = float(1 / ((w + loose) * flat));
     if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
-    const glm::dvec3 facing = glm::normalize(glm::dvec3(plane.normal));
     for (int before = 0; before < kMostBeforePlane; ++before) {
       ++out_.counts.rays.primary;
       const Hit hit = setting_.shader.scene().trace(ray);
       if (!hit.found()) return {};
-      const double apart = std::abs(1 / (double(hit.distance) * flat) - w);
-      if (apart <= tolerance_) return hit;
-      if (std::abs(glm::dot(facing, glm::dvec3(hit.geometricNormal()))) > kSameWay) return hit;
+      if (std::abs(1 / (double(hit.distance) * flat) - w) <= loose) return hit;
       ray.nearest = justBehind(hit.distance);
     }
     return {};

@@ -46,7 +46,8 @@ Status checkArrays(const CaptureSamples& s, std::size_t columns, bool mirrors, c
   if (s.mirror.size() != (mirrors ? s.row.size() : 0))
     return malformed(
         fmt::format("{}s name {} mirrors, {} are needed", noun, s.mirror.size(), mirrors ? s.row.size() : 0));
-  if (s.coverage.size() != s.plane.size() || (s.plane.empty() ? !s.planes.empty() : s.plane.size() != s.row.size()))
+  if (s.coverage.size() != s.plane.size() ||
+      (s.plane.empty() ? !s.planes.empty() : s.plane.size() != s.row.size()))
     return malformed(fmt::format("{}s have {} coverages and {} planes of {}: all need them, or none", noun,
                                  s.coverage.size(), s.plane.size(), s.planes.size()));
   for (std::size_t i = 0; i < s.planes.size(); ++i)

@@ -95,9 +95,9 @@ struct CaptureSamples {
   /// without reflections. Of a reflection: the mirror that shows it, never 0.
   std::vector<std::uint8_t> mirror;
   /// Silhouettes; all three empty in a capture without.
-  std::vector<std::uint16_t> coverage;  ///< never 0
-  std::vector<std::uint32_t> plane;     ///< into `planes`
-  std::vector<SurfacePlane> planes;
+  std::vector<std::uint16_t> coverage{};  ///< never 0
+  std::vector<std::uint32_t> plane{};     ///< into `planes`
+  std::vector<SurfacePlane> planes{};
 
   bool hasSilhouettes() const { return !plane.empty(); }
   std::size_t sampleCount() const { return row.size(); }

@@ -49,8 +49,8 @@ Status add(BlockFileWriter& file, const CaptureSamples& samples) {
   if (Status added = file.addRecords(std::array{laneOf(samples.mirror)}, samples.mirror.size()); !added)
     return added;
   if (!samples.hasSilhouettes()) return {};
-  if (Status added = file.addRecords(std::array{laneOf(samples.coverage), laneOf(samples.plane)},
-                                     samples.sampleCount());
+  if (Status added =
+          file.addRecords(std::array{laneOf(samples.coverage), laneOf(samples.plane)}, samples.sampleCount());
       !added)
     return added;
   return file.addRecords(planeLanes(samples.planes), samples.planes.size());
@@ -170,8 +170,8 @@ Result<Keyed<Capture>> readPack(Result<BlockFileReader> file,
   const std::uint64_t backgroundBytes = runs > 0 ? kColumnBytes * columns + kRunBytes * runs : 0;
   if (samples > kMaxCaptureSamples || runs > kMaxCaptureSamples || reflections > kMaxCaptureSamples ||
       planes > kMaxCaptureSamples || reflectionPlanes > kMaxCaptureSamples ||
-      file->rawBytes() != bytesOf(samples, planes) + backgroundBytes +
-                              (mirrors ? bytesOf(reflections, reflectionPlanes) : 0))
+      file->rawBytes() !=
+          bytesOf(samples, planes) + backgroundBytes + (mirrors ? bytesOf(reflections, reflectionPlanes) : 0))
     return file->malformed("its number of samples contradicts its size");
   if (accept)
     if (Status accepted = accept({camera, samples, reflections}); !accepted)

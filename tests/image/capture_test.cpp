@@ -148,6 +148,27 @@ TEST(Capture, EveryBrokenInvariantIsFound) {
   }
 }
 
+TEST(Capture, EveryBrokenSilhouetteIsFound) {
+  Capture sound = smallCapture();
+  sound.coverage = {1, 0xffff, 0x8000, 0x00ff};
+  sound.plane = {0, 1, 1, 0};
+  sound.planes = {{{0.5f, 0, 0}, 0}, {{0, 0.25f, -1}, 1}};
+  ASSERT_TRUE(sound.check());
+  const auto breaks = [&](const std::function<void(Capture&)>& edit) {
+    Capture broken = sound;
+    edit(broken);
+    return !broken.check();
+  };
+  EXPECT_TRUE(breaks([](Capture& c) { c.coverage[1] = 0; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.plane[3] = 2; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.coverage.pop_back(); }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.plane.pop_back(), c.coverage.pop_back(); }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.plane.clear(), c.coverage.clear(); }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.planes[0].normal.y = kNan; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.planes[1].normal.z = kInfinity; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.planes[1].away = 2; }));
+}
+
 TEST(Capture, EveryBrokenBackgroundIsFound) {
   const std::pair<const char*, std::function<void(Capture&)>> breakages[] = {
       {"a sky that is nowhere seen",

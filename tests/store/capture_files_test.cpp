@@ -276,6 +276,18 @@ void seal(std::vector<std::byte>& pack) {
   std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
 }
 
+TEST_F(FolderTest, PacksKeepSilhouettes) {
+  for (const bool mirrors : {false, true}) {
+    const Capture capture = withSilhouettes(syntheticCapture({48, 40, true, true, 11, mirrors}));
+    ASSERT_TRUE(capture.check()) << capture.check().error().describe();
+    const fs::path path = folder_ / kPack.name;
+    ASSERT_TRUE(writeCapturePack(capture, Hasher().finish(), path));
+    const auto read = readCapturePack(path);
+    ASSERT_TRUE(read) << read.error().describe();
+    EXPECT_EQ(*read, capture);
+  }
+}
+
 TEST_F(FolderTest, PacksForgedWithAMatchingChecksumAreHarmless) {
   const fs::path path = folder_ / kPack.name;
   std::mt19937 random(29);

@@ -44,6 +44,21 @@ inline Capture withMirrors(Capture capture, bool layered) {
   return capture;
 }
 
+/// Planes and coverage of all samples, those of mirrors too.
+inline Capture withSilhouettes(Capture capture) {
+  const auto give = [](CaptureSamples& samples) {
+    for (std::size_t i = 0; i < samples.sampleCount(); ++i) {
+      if (i % 3 == 0)
+        samples.planes.push_back(
+            {{0.25f * float(i), -0.5f, samples.inverseDistance[i]}, std::uint32_t(i % 2)});
+      samples.plane.push_back(std::uint32_t(samples.planes.size() - 1));
+      samples.coverage.push_back(i % 5 == 0 ? std::uint16_t(1 + i % 0xffff) : kWholePixel);
+    }
+  };
+  give(capture), give(capture.reflections);
+  return capture;
+}
+
 inline Capture syntheticCapture(const SyntheticOptions& options) {
   std::mt19937 random(options.seed);
   std::uniform_real_distribution<float> noise(0.8f, 1.2f);

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "baked_camera.h"
+#include "engine/bake/shading.h"
+
+namespace acentric {
+namespace {
+
+using test::Baked;
+using test::bakeFrom;
+using test::cameraAt;
+using test::matte;
+using test::SceneBuilder;
+using test::square;
+
+BakeSettings withSilhouettes() {
+  BakeSettings settings;
+  settings.samplesPerDegree = 2;
+  settings.silhouettes = true;
+  settings.pruning = false;
+  settings.distanceShift = 0;
+  return settings;
+}
+
+/// A block before a wall far away.
+SceneBuilder blockBeforeWall() {
+  SceneBuilder builder;
+  const int grey = builder.material(matte({0.5f, 0.5f, 0.5f}));
+  builder.box(grey, {20, -40, -30}, {60, 40, 30});
+  builder.box(grey, {5, -0.31f, 1.07f}, {8, 0.23f, 2.11f});
+  return builder;
+}
+
+/// And a post that is thinner than a sample.
+SceneBuilder postBeforeWall() {
+  SceneBuilder builder = blockBeforeWall();
+  builder.box(0, {7, 1.03f, 0}, {7.01f, 1.06f, 3});
+  return builder;
+}
+
+/// Of the surfaces that a ray through a part of a pixel meets, one by one.
+struct Surfaces {
+  int all = 0;
+  int apart = 0;  ///< but those that no served eye can tell from the one before
+};
+Surfaces surfacesAlong(const RayScene& scene, const ColumnCamera& camera, const glm::vec3& direction) {
+  constexpr double kReach = 0.75;  // of the camera's region, m
+  const double indistinct = camera.rowPitch() / kReach;
+  Surfaces surfaces;
+  double before = 1e9;
+  Ray ray{glm::vec3(camera.centreOfProjection), direction};
+  for (Hit hit = scene.trace(ray); hit.found(); hit = scene.trace(ray)) {
+    const double inverse = 1 / double(hit.distance);
+    ++surfaces.all;
+    surfaces.apart += before - inverse > indistinct;
+    before = inverse;
+    ray.nearest = justBehind(hit.distance);
+  }
+  return surfaces;
+}
+
+/// Samples of a pixel that cover a part.
+int covering(const Capture& capture, int column, int row, int part) {
+  int count = 0;
+  for (auto i = capture.columnStart[std::size_t(column)]; i < capture.columnStart[std::size_t(column) + 1];
+       ++i)
+    if (capture.row[i] == row) count += capture.coverage[i] >> part & 1;
+  return count;
+}
+
+TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
+  const auto scene = blockBeforeWall().rays();
+  const Baked baked = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const ColumnCamera& camera = baked.columns;
+  ASSERT_TRUE(baked.capture.hasSilhouettes());
+  int edges = 0, missing = 0, over = 0, parts = 0;
+  for (int column = 1; column + 1 < camera.columns; ++column)
+    for (int row = 1; row + 1 < camera.rows; ++row) {
+      bool whole = true;
+      const int first = covering(baked.capture, column, row, 0);
+      for (int part = 0; part < 16; ++part) {
+        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
+        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
+        const Surfaces met = surfacesAlong(*scene, camera, glm::vec3(glm::normalize(way)));
+        const int covered = covering(baked.capture, column, row, part);
+        whole = whole && covered == first;
+        missing += covered < met.apart;
+        over += covered > met.all;  // surfaces overlap a little at the edge where they meet
+        ++parts;
+      }
+      edges += !whole;
+    }
+  EXPECT_GT(edges, 40);
+  EXPECT_LE(missing, edges / 20);
+  EXPECT_LE(over, parts / 500);
+}
+
+TEST(Silhouettes, PlanesTellHowFarTheSamplesAre) {
+  const Baked baked = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const Capture& capture = baked.capture;
+  for (int column = 0; column < baked.columns.columns; ++column)
+    for (auto i = capture.columnStart[std::size_t(column)]; i < capture.columnStart[std::size_t(column) + 1];
+         ++i) {
+      if (capture.coverage[i] != kWholePixel) continue;
+      const double w = capture.planes[capture.plane[i]].inverseDistance(
+          baked.columns.directionAt(column + 0.5), baked.columns.tangentAt(capture.row[i] + 0.5));
+      ASSERT_NEAR(w, capture.inverseDistance[i], 2e-4) << "column " << column << ", row " << capture.row[i];
+    }
+}
+
+TEST(Silhouettes, OfAnEndlessWallTakeNoRays) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), {4, -90, -90}, {4.5f, 90, 90});
+  const auto scene = builder.rays();
+  BakeSettings settings = withSilhouettes();
+  const Baked with = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  settings.silhouettes = false;
+  const Baked without = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  EXPECT_EQ(with.rays.primary, without.rays.primary);
+  EXPECT_EQ(with.capture.sampleCount(), without.capture.sampleCount());
+  EXPECT_FALSE(without.capture.hasSilhouettes());
+  EXPECT_TRUE(without.capture.planes.empty());
+}
+
+TEST(Silhouettes, OfAPostReachIntoPixelsWhoseOwnRayPassesIt) {
+  const Baked with = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  BakeSettings settings = withSilhouettes();
+  settings.silhouettes = false;
+  const Baked without = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), settings);
+  EXPECT_GT(with.capture.sampleCount(), without.capture.sampleCount());
+  EXPECT_EQ(with.counts.keptInAll(), with.capture.sampleCount());
+}
+
+TEST(Silhouettes, EndWhereNoServedRegionSeesTheSurface) {
+  SceneBuilder builder;
+  const int grey = builder.material(matte({0.5f, 0.5f, 0.5f}));
+  builder.box(grey, {6, -40, -30}, {6.5f, 40, 30});
+  builder.box(grey, {2, -40, -30}, {2.1f, 0.013f, 30});  // hides the wall from its edge on, from everywhere
+  const auto scene = builder.rays();
+  BakeSettings settings = withSilhouettes();
+  settings.pruning = true;
+  const Baked baked = bakeFrom(scene, cameraAt({0, 0}, {square(0.3)}), settings);
+  // Far behind the screen nothing of the wall is kept, in no part of a pixel.
+  const int column = int(radians(5.0) / baked.columns.columnPitch());
+  const int row = baked.columns.rows / 2;
+  for (int part = 0; part < 16; ++part) EXPECT_LE(covering(baked.capture, column, row, part), 1);
+  int partly = 0;
+  for (const std::uint16_t mask : baked.capture.coverage) partly += mask != kWholePixel;
+  EXPECT_GT(partly, 0);
+}
+
+TEST(Silhouettes, AreTheSameForAnyNumberOfThreads) {
+  const auto scene = postBeforeWall().rays();
+  const LayoutCamera camera = cameraAt({0, 0}, {square(0.5)});
+  EXPECT_EQ(bakeFrom(scene, camera, withSilhouettes(), 0).capture,
+            bakeFrom(scene, camera, withSilhouettes(), 3).capture);
+}
+
+}  // namespace
+}  // namespace acentric
