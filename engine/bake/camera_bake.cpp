@@ -161,6 +161,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     capture.camera = columns;
     capture.distanceStep = setting.distanceStep;
     if (capture.background.runCount() > 0) capture.background.sky = shader_->sky();
+    if (capture.hasSilhouettes() || capture.reflections.hasSilhouettes())
+      capture.planeTolerance = planeToleranceFor(camera, columns);
     if (settings_.silhouettes) traceSilhouettes(setting, capture, runner, counts, stop);
     if (stop.stop_requested()) return stopped();
     return capture;

@@ -13,9 +13,6 @@ namespace {
 
 constexpr int kColumnsPerTask = 16;
 constexpr int kParts = kCoverageParts * kCoverageParts;
-/// Of a sample's spacing, as the served eye sees it that the camera is farthest from: what lies no farther
-/// off a plane lies in it.
-constexpr double kOffPlane = 0.25;
 /// So much more may what a sample covers leave its plane: curved surfaces do, and surfaces that meet at an
 /// edge must overlap a little, or other eyes would see in between them.
 constexpr double kCurved = 3;
@@ -71,8 +68,7 @@ class ColumnSilhouettes {
         all_(capture),
         out_(out),
         rows_(setting.columns.rows),
-        tolerance_(kOffPlane * std::min(setting.columns.columnPitch(), setting.columns.rowPitch()) /
-                   std::max(reachOf(setting.camera), 1e-6)) {
+        tolerance_(capture.planeTolerance) {
     for (int row = 0; row < rows_; ++row) tangent_.push_back(setting.columns.tangentAt(row + 0.5));
     if (setting.sight != nullptr) hints_ = setting.sight->hints();
   }
@@ -350,6 +346,11 @@ void replace(Capture& capture, const std::vector<NewSamples>& tasks) {
 }
 
 }  // namespace
+
+double planeToleranceFor(const LayoutCamera& camera, const ColumnCamera& columns) {
+  constexpr double kSamples = 0.25;
+  return kSamples * std::min(columns.columnPitch(), columns.rowPitch()) / std::max(reachOf(camera), 1e-6);
+}
 
 void traceSilhouettes(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
                       CaptureCounts& counts, const std::stop_token& stop) {

@@ -10,6 +10,9 @@
 
 namespace acentric {
 
+/// Planes are one where no served eye can tell them apart by a quarter of a sample, 1/m.
+double planeToleranceFor(const LayoutCamera& camera, const ColumnCamera& columns);
+
 /// Of a capture whose samples have planes and cover whole pixels; its background and reflections stay. Rays
 /// and samples are counted. A part only when stopped.
 void traceSilhouettes(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,

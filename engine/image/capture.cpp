@@ -194,6 +194,9 @@ Status Capture::check() const {
   if (auto sound = camera.check(); !sound) return sound;
   if (!(distanceStep >= 0) || !std::isfinite(distanceStep))
     return malformed("the step of its distances is not a finite number >= 0");
+  if (!std::isfinite(planeTolerance) ||
+      (planeTolerance > 0) != (hasSilhouettes() || reflections.hasSilhouettes()))
+    return malformed("the tolerance of its planes is not above 0 with silhouettes, and 0 without");
   const auto columns = static_cast<std::size_t>(camera.columns);
   if (auto sound = checkArrays(*this, columns, hasReflections(), "sample"); !sound) return sound;
   if (auto sound = checkSamples(*this, camera, false, "sample"); !sound) return sound;

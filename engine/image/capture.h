@@ -148,6 +148,7 @@ struct Capture : CaptureSamples {
   double distanceStep = 0;  ///< 1/m, see storedInverseDistance
   CaptureBackground background;
   CaptureSamples reflections;  ///< opaque; all arrays empty where there are none
+  double planeTolerance = 0;   ///< 1/m, of captures with silhouettes: see makePatches
 
   bool hasReflections() const { return !reflections.row.empty(); }
   /// What all arrays hold.

@@ -62,6 +62,7 @@ std::size_t dropShown(Capture& capture, std::span<const Capture* const> earlier,
   if (mirrors) capture.mirror.resize(kept);
   if (silhouettes) capture.coverage.resize(kept), capture.plane.resize(kept);
   if (kept == 0) capture.planes.clear();
+  if (!capture.hasSilhouettes() && !capture.reflections.hasSilhouettes()) capture.planeTolerance = 0;
   return all - kept;
 }
 

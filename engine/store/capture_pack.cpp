@@ -83,6 +83,7 @@ Status writePack(const Capture& capture, const ContentKey& key, const std::files
   if (silhouettes) {
     file.describe(static_cast<std::uint64_t>(capture.planes.size()));
     file.describe(static_cast<std::uint64_t>(capture.reflections.planes.size()));
+    file.describe(capture.planeTolerance);
   }
 
   if (Status added = add(file, static_cast<const CaptureSamples&>(capture)); !added) return added;
@@ -158,6 +159,7 @@ Result<Keyed<Capture>> readPack(Result<BlockFileReader> file,
   const bool silhouettes = file->describesMore(), mirrors = reflections > 0;
   const auto planes = silhouettes ? file->described<std::uint64_t>() : 0;
   const auto reflectionPlanes = silhouettes ? file->described<std::uint64_t>() : 0;
+  if (silhouettes) capture.planeTolerance = file->described<double>();
   if (!file->describedAll() || columns > 65535 || rows > 65535 || (more && !silhouettes && !mirrors) ||
       (silhouettes && planes == 0 && reflectionPlanes == 0))
     return file->malformed("its description makes no sense");

@@ -153,6 +153,7 @@ TEST(Capture, EveryBrokenSilhouetteIsFound) {
   sound.coverage = {1, 0xffff, 0x8000, 0x00ff};
   sound.plane = {0, 1, 1, 0};
   sound.planes = {{{0.5f, 0, 0}, 0}, {{0, 0.25f, -1}, 1}};
+  sound.planeTolerance = 0.001;
   ASSERT_TRUE(sound.check());
   const auto breaks = [&](const std::function<void(Capture&)>& edit) {
     Capture broken = sound;
@@ -167,6 +168,8 @@ TEST(Capture, EveryBrokenSilhouetteIsFound) {
   EXPECT_TRUE(breaks([](Capture& c) { c.planes[0].normal.y = kNan; }));
   EXPECT_TRUE(breaks([](Capture& c) { c.planes[1].normal.z = kInfinity; }));
   EXPECT_TRUE(breaks([](Capture& c) { c.planes[1].away = 2; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.planeTolerance = 0; }));
+  EXPECT_TRUE(breaks([](Capture& c) { c.planeTolerance = kInfinity; }));
 }
 
 TEST(Capture, EveryBrokenBackgroundIsFound) {

@@ -56,6 +56,7 @@ inline Capture withSilhouettes(Capture capture) {
     }
   };
   give(capture), give(capture.reflections);
+  capture.planeTolerance = 1.0 / (1 << 12);
   return capture;
 }
 

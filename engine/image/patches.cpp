@@ -1,0 +1,322 @@
+#include "engine/image/patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <unordered_map>
+
+#include "engine/geometry/conventions.h"
+
+namespace acentric {
+namespace {
+
+/// Wide tiles are drawn in fewer pieces; narrow ones are ordered more often rightly by list order alone.
+/// Angles are limited too: renderers take them for their tangents' polynomials.
+constexpr int kStripColumns = 32, kTileRows = 64;
+constexpr double kWidestStrip = radians(4.0), kHighestTile = radians(8.0);
+
+/// Planes are taken no nearer to their horizon than where they are so much farther away than the patch.
+constexpr float kHorizon = 0.02f;
+
+int atMost(int samples, double angle, double pitch) { return std::clamp(int(angle / pitch), 1, samples); }
+
+/// What ordering wants to know of a patch.
+struct Extent {
+  std::array<glm::vec3, 8> corners{};       ///< of an octagon around it, relative to P
+  float nearest = 0, farthest = HUGE_VALF;  ///< largest and smallest inverse distance
+};
+
+class Strip {
+ public:
+  Strip(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance, int tileRows, int first,
+        int end, Patches& out)
+      : camera_(camera),
+        samples_(samples),
+        tolerance_(tolerance),
+        tileRows_(tileRows),
+        first_(first),
+        end_(end),
+        pixels_(samples, camera.rows, first, end),
+        firstSample_(samples.columnStart[std::size_t(first)]),
+        owner_(samples.columnStart[std::size_t(end)] - firstSample_, kNone),
+        out_(out) {
+    for (int column = first; column < end; ++column) direction_.push_back(camera.directionAt(column + 0.5));
+    for (int row = 0; row < camera.rows; ++row) tangent_.push_back(camera.tangentAt(row + 0.5));
+  }
+
+  void run() {
+    for (int row = 0; row < camera_.rows; row += tileRows_) {
+      const int end = std::min(row + tileRows_, camera_.rows);
+      groupTile(row, end, true);   // patches begin where a surface is sure,
+      groupTile(row, end, false);  // so that what lies at its edges joins it
+    }
+    findExtents();
+    countVotes();
+    const std::vector<std::uint32_t> order = orderPatches();
+    for (const std::uint32_t i : order) {
+      Patch patch = patches_[i];
+      const std::vector<Member>& members = members_[i];
+      patch.firstSample = std::uint32_t(out_.samples.size());
+      for (const Member& member : members) out_.samples.push_back(member.sample);
+      out_.patches.push_back(patch);
+    }
+    out_.stripStart.push_back(std::uint32_t(out_.patches.size()));
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  struct Member {
+    std::uint32_t sample = 0;
+    int column = 0, row = 0;
+  };
+
+  double inverseAt(const SurfacePlane& plane, int column, int row) const {
+    return plane.inverseDistance(direction_[std::size_t(column - first_)], tangent_[std::size_t(row)]);
+  }
+  const SurfacePlane& planeOf(std::uint32_t sample) const { return samples_.planes[samples_.plane[sample]]; }
+  bool isBlended(std::uint32_t sample) const { return samples_.colour[sample].a != kOpaque; }
+  std::uint8_t mirrorOf(std::uint32_t sample) const {
+    return samples_.mirror.empty() ? std::uint8_t(0) : samples_.mirror[sample];
+  }
+  std::uint32_t& owner(std::uint32_t sample) { return owner_[sample - firstSample_]; }
+
+  void groupTile(int firstRow, int endRow, bool whole) {
+    for (int column = first_; column < end_; ++column)
+      for (int row = firstRow; row < endRow; ++row)
+        for (const std::uint32_t sample : pixels_.at(column, row))
+          if (owner(sample) == kNone && (!whole || samples_.coverage[sample] == kWholePixel))
+            grow({sample, column, row}, firstRow, endRow);
+  }
+
+  /// The patch of all samples around this one that lie in its plane.
+  void grow(const Member& seed, int firstRow, int endRow) {
+    const std::uint32_t number = std::uint32_t(patches_.size());
+    Patch patch;
+    patch.plane = planeOf(seed.sample);
+    patch.mirror = mirrorOf(seed.sample);
+    patch.blended = isBlended(seed.sample);
+    std::vector<Member> members{seed};
+    owner(seed.sample) = number;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      const Member at = members[next];
+      patch.roles |= samples_.roles[at.sample];
+      for (int column = std::max(at.column - 1, first_); column <= std::min(at.column + 1, end_ - 1);
+           ++column)
+        for (int row = std::max(at.row - 1, firstRow); row <= std::min(at.row + 1, endRow - 1); ++row)
+          if (const std::uint32_t sample = findMember(patch, number, column, row); sample != kNone) {
+            owner(sample) = number;
+            members.push_back({sample, column, row});
+          }
+    }
+    int endColumn = 0, lastRow = 0;
+    patch.column = std::uint16_t(camera_.columns), patch.row = std::uint16_t(camera_.rows);
+    for (const Member& member : members) {
+      patch.column = std::min(patch.column, std::uint16_t(member.column));
+      patch.row = std::min(patch.row, std::uint16_t(member.row));
+      endColumn = std::max(endColumn, member.column + 1), lastRow = std::max(lastRow, member.row + 1);
+    }
+    patch.columns = std::uint16_t(endColumn - patch.column), patch.rows = std::uint16_t(lastRow - patch.row);
+    patches_.push_back(patch);
+    members_.push_back(std::move(members));
+  }
+
+  /// The pixel's sample that belongs to the patch, if that has none of the pixel yet.
+  std::uint32_t findMember(const Patch& patch, std::uint32_t number, int column, int row) {
+    std::uint32_t found = kNone;
+    double least = tolerance_;
+    const double inverse = inverseAt(patch.plane, column, row);
+    for (const std::uint32_t sample : pixels_.at(column, row)) {
+      if (owner(sample) == number) return kNone;
+      if (owner(sample) != kNone || planeOf(sample).away != patch.plane.away ||
+          isBlended(sample) != patch.blended || mirrorOf(sample) != patch.mirror)
+        continue;
+      const double apart = std::abs(inverseAt(planeOf(sample), column, row) - inverse);
+      if (apart <= least) least = apart, found = sample;
+    }
+    return found;
+  }
+
+  void findExtents() {
+    constexpr std::array<glm::ivec2, 8> kWays{
+        {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      const SurfacePlane& plane = patches_[i].plane;
+      Extent extent;
+      for (const Member& member : members_[i]) {
+        const float inverse = float(inverseAt(plane, member.column, member.row));
+        extent.nearest = std::max(extent.nearest, inverse);
+        extent.farthest = std::min(extent.farthest, std::max(inverse, 0.0f));
+      }
+      for (std::size_t way = 0; way < kWays.size(); ++way) {
+        const auto far = std::ranges::max_element(members_[i], {}, [&](const Member& member) {
+          return kWays[way].x * member.column + kWays[way].y * member.row;
+        });
+        const glm::dvec2 at = glm::dvec2(far->column + 0.5, far->row + 0.5) + 0.5 * glm::dvec2(kWays[way]);
+        const glm::vec3 direction(camera_.directionAt(at.x), camera_.tangentAt(at.y));
+        const float inverse = std::max(glm::dot(plane.normal, direction), kHorizon * extent.nearest);
+        extent.corners[way] = direction / std::max(inverse, 1e-6f);
+      }
+      extents_.push_back(extent);
+    }
+  }
+
+  static std::uint64_t pair(std::uint32_t a, std::uint32_t b) { return std::uint64_t(a) << 32 | b; }
+
+  /// In how many parts of pixels the one of two patches lies before the other, as the camera sees them.
+  void countVotes() {
+    for (int column = first_; column < end_; ++column)
+      for (int row = 0; row < camera_.rows; ++row) {
+        const auto all = pixels_.at(column, row);
+        for (const std::uint32_t a : all)
+          for (std::uint32_t b = a + 1; b < *all.end(); ++b) {
+            const int shared = std::popcount(std::uint16_t(samples_.coverage[a] & samples_.coverage[b]));
+            if (shared == 0 || planeOf(a).away != 0 || planeOf(b).away != 0) continue;
+            const bool aFirst = inverseAt(planeOf(a), column, row) >= inverseAt(planeOf(b), column, row);
+            if (aFirst)
+              votes_[pair(owner(a), owner(b))] += shared;
+            else
+              votes_[pair(owner(b), owner(a))] += shared;
+          }
+      }
+  }
+  int votes(std::uint32_t before, std::uint32_t behind) const {
+    const auto found = votes_.find(pair(before, behind));
+    return found == votes_.end() ? 0 : found->second;
+  }
+
+  /// Does some of `b` lie on the eye's side of a's plane, and some beyond it?
+  struct Sides {
+    bool before = false, beyond = false;
+  };
+  Sides sidesOf(std::uint32_t a, std::uint32_t b) const {
+    const SurfacePlane& plane = patches_[a].plane;
+    const float towardsEye = plane.away != 0 ? 1.0f : -1.0f;
+    Sides sides;
+    for (const glm::vec3& corner : extents_[b].corners) {
+      const float side = towardsEye * (glm::dot(plane.normal, corner) - 1);
+      const float slack = float(tolerance_) * glm::length(glm::vec2(corner)) + 1e-5f;
+      sides.before = sides.before || side > slack;
+      sides.beyond = sides.beyond || side < -slack;
+    }
+    return sides;
+  }
+
+  /// Can no served eye see one before the other? An eye shifts things against each other by no more than
+  /// their inverse distances differ, in quarters of samples per tolerance.
+  bool areApart(std::uint32_t a, std::uint32_t b) const {
+    const Patch &pa = patches_[a], &pb = patches_[b];
+    const auto gap = [](int firstA, int sizeA, int firstB, int sizeB) {
+      return std::max(firstA - (firstB + sizeB), firstB - (firstA + sizeA));
+    };
+    const Extent &ea = extents_[a], &eb = extents_[b];
+    const double differ = std::max(ea.nearest - eb.farthest, eb.nearest - ea.farthest);
+    const double shift = 0.25 * differ / tolerance_ + 2;
+    return gap(pa.column, pa.columns, pb.column, pb.columns) > shift ||
+           gap(pa.row, pa.rows, pb.row, pb.rows) > shift;
+  }
+
+  struct Edge {
+    std::uint32_t to = 0;
+    int weight = 0;
+  };
+  void addOrder(std::uint32_t i, std::uint32_t j) {
+    const Sides ofJ = sidesOf(i, j), ofI = sidesOf(j, i);
+    const bool iHides = ofI.before && ofJ.beyond, jHides = ofJ.before && ofI.beyond;
+    const int ij = votes(i, j), ji = votes(j, i);
+    bool iFirst = iHides;
+    if (iHides == jHides) {
+      if (ij == ji && !iHides) return;
+      iFirst = ij != ji ? ij > ji : extents_[i].nearest > extents_[j].nearest;
+      out_.unordered += iHides;
+    }
+    const std::uint32_t from = iFirst ? i : j, to = iFirst ? j : i;
+    const int weight = 1 + (iFirst ? ij : ji);
+    edges_[from].push_back({to, weight});
+    before_[to] += weight;
+  }
+
+  /// Those that may hide others first. Where they hide each other in a ring, that which is hidden least.
+  std::vector<std::uint32_t> orderPatches() {
+    const std::uint32_t count = std::uint32_t(patches_.size());
+    edges_.assign(count, {});
+    before_.assign(count, 0);
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::uint32_t j = i + 1; j < count; ++j)
+        if (!areApart(i, j)) addOrder(i, j);
+    const auto farther = [&](std::uint32_t a, std::uint32_t b) {
+      return extents_[a].nearest != extents_[b].nearest ? extents_[a].nearest < extents_[b].nearest : a > b;
+    };
+    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, decltype(farther)> free(farther);
+    std::vector<char> done(count, 0);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (before_[i] == 0) free.push(i);
+    std::vector<std::uint32_t> order;
+    while (order.size() < count) {
+      std::uint32_t next = kNone;
+      if (!free.empty()) {
+        next = free.top();
+        free.pop();
+      } else {
+        for (std::uint32_t i = 0; i < count; ++i)
+          if (done[i] == 0 && (next == kNone || before_[i] < before_[next])) next = i;
+        ++out_.unordered;
+      }
+      if (done[next] != 0) continue;
+      done[next] = 1;
+      order.push_back(next);
+      for (const Edge& edge : edges_[next])
+        if ((before_[edge.to] -= edge.weight) == 0 && done[edge.to] == 0) free.push(edge.to);
+    }
+    return order;
+  }
+
+  static constexpr std::uint16_t kOpaque = 0x3c00;  ///< alpha 1
+  const ColumnCamera& camera_;
+  const CaptureSamples& samples_;
+  double tolerance_;
+  int tileRows_, first_, end_;
+  PixelSamples pixels_;
+  std::uint32_t firstSample_;
+  std::vector<std::uint32_t> owner_;  ///< by sample of the strip: the number of its patch
+  std::vector<glm::dvec2> direction_;
+  std::vector<double> tangent_;
+  std::vector<Patch> patches_;
+  std::vector<std::vector<Member>> members_;
+  std::vector<Extent> extents_;
+  std::unordered_map<std::uint64_t, int> votes_;
+  std::vector<std::vector<Edge>> edges_;
+  std::vector<int> before_;  ///< weight of what must come before each patch
+  Patches& out_;
+};
+
+}  // namespace
+
+PixelSamples::PixelSamples(const CaptureSamples& samples, int rows, int firstColumn, int endColumn)
+    : rows_(rows), firstColumn_(firstColumn), endColumn_(endColumn) {
+  first_.reserve(std::size_t(endColumn - firstColumn) * std::size_t(rows) + 1);
+  for (int column = firstColumn; column < endColumn; ++column) {
+    std::uint32_t i = samples.columnStart[std::size_t(column)];
+    const std::uint32_t end = samples.columnStart[std::size_t(column) + 1];
+    for (int row = 0; row < rows; ++row) {
+      first_.push_back(i);
+      while (i < end && samples.row[i] == row) ++i;
+    }
+  }
+  first_.push_back(samples.columnStart[std::size_t(endColumn)]);
+}
+
+Patches makePatches(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance) {
+  Patches patches;
+  patches.stripColumns = atMost(kStripColumns, kWidestStrip, camera.columnPitch());
+  const int tileRows = atMost(kTileRows, kHighestTile, camera.rowPitch());
+  patches.samples.reserve(samples.sampleCount());
+  patches.stripStart.push_back(0);
+  for (int column = 0; column < camera.columns; column += patches.stripColumns)
+    Strip(camera, samples, tolerance, tileRows, column,
+          std::min(column + patches.stripColumns, camera.columns), patches)
+        .run();
+  return patches;
+}
+
+}  // namespace acentric

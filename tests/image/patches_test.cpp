@@ -1,0 +1,171 @@
+#include "engine/image/patches.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "engine/geometry/conventions.h"
+
+namespace acentric {
+namespace {
+
+constexpr double kTolerance = 1e-4;
+
+/// A capture of planes that some predicate tells the extents of, in a camera of one sample per quarter of a
+/// degree.
+class CaptureOfPlanes {
+ public:
+  struct Plane {
+    SurfacePlane plane;
+    std::function<bool(int, int)> holds;  ///< column, row
+    std::uint8_t mirror = 0;
+    bool blended = false;
+  };
+  explicit CaptureOfPlanes(const std::vector<Plane>& planes) {
+    for (const Plane& plane : planes) capture_.planes.push_back(plane.plane);
+    capture_.columnStart.push_back(0);
+    for (int column = 0; column < camera_.columns; ++column) {
+      for (int row = 0; row < camera_.rows; ++row) {
+        std::vector<std::pair<double, std::uint32_t>> met;
+        for (std::uint32_t i = 0; i < planes.size(); ++i)
+          if (planes[i].holds(column, row)) met.emplace_back(inverseAt(planes[i].plane, column, row), i);
+        std::ranges::sort(met, std::greater<>());
+        for (const auto& [inverse, i] : met) {
+          capture_.row.push_back(std::uint16_t(row));
+          capture_.inverseDistance.push_back(float(inverse));
+          capture_.colour.push_back(packColour({1, 1, 1, planes[i].blended ? 0.5 : 1}));
+          capture_.roles.push_back(1);
+          capture_.mirror.push_back(planes[i].mirror);
+          capture_.coverage.push_back(kWholePixel);
+          capture_.plane.push_back(i);
+        }
+      }
+      capture_.columnStart.push_back(std::uint32_t(capture_.row.size()));
+    }
+    patches_ = makePatches(camera_, capture_, kTolerance);
+  }
+
+  double inverseAt(const SurfacePlane& plane, int column, int row) const {
+    return plane.inverseDistance(camera_.directionAt(column + 0.5), camera_.tangentAt(row + 0.5));
+  }
+  const ColumnCamera& camera() const { return camera_; }
+  const CaptureSamples& samples() const { return capture_; }
+  const Patches& patches() const { return patches_; }
+  /// Places of patches of a plane in the order of their strips.
+  std::vector<std::size_t> placesOf(std::uint32_t plane) const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < patches_.patches.size(); ++i)
+      if (capture_.plane[patches_.samples[patches_.patches[i].firstSample]] == plane) places.push_back(i);
+    return places;
+  }
+
+ private:
+  ColumnCamera camera_{{0, 0, 1.5}, radians(-10.0), radians(20.0), radians(15.0), radians(-15.0), 80, 120};
+  CaptureSamples capture_;
+  Patches patches_;
+};
+
+/// A plane in front, `distance` away, turned about the vertical.
+SurfacePlane wall(double distance, double turn = 0) {
+  return {glm::vec3(std::cos(turn), std::sin(turn), 0) / float(distance * std::cos(turn)), 0};
+}
+bool everywhere(int, int) { return true; }
+
+TEST(Patches, HoldEverySampleOnceAndInTheirRectangle) {
+  const CaptureOfPlanes of(
+      {{wall(4), everywhere},
+       {wall(3, 0.3), [](int c, int r) { return (c - 40) * (c - 40) + (r - 50) * (r - 50) < 300; }},
+       {wall(2), [](int c, int r) { return c % 16 == 0 && r > 20; }, 0, true}});
+  const Patches& patches = of.patches();
+  std::set<std::uint32_t> seen(patches.samples.begin(), patches.samples.end());
+  EXPECT_EQ(seen.size(), of.samples().sampleCount());
+  EXPECT_EQ(patches.samples.size(), of.samples().sampleCount());
+  EXPECT_EQ(patches.stripStart.front(), 0u);
+  EXPECT_EQ(patches.stripStart.back(), patches.patches.size());
+  for (std::size_t strip = 0; strip < patches.strips(); ++strip)
+    for (std::size_t i = patches.stripStart[strip]; i < patches.stripStart[strip + 1]; ++i) {
+      const Patch& patch = patches.patches[i];
+      EXPECT_GE(patch.column, int(strip) * patches.stripColumns);
+      EXPECT_LE(patch.column + patch.columns, (int(strip) + 1) * patches.stripColumns);
+      std::set<std::pair<int, int>> pixels;
+      for (std::uint32_t k = patch.firstSample; k < patches.endOf(i); ++k) {
+        const std::uint32_t sample = patches.samples[k];
+        const int row = of.samples().row[sample];
+        const auto& starts = of.samples().columnStart;
+        const int column = int(std::ranges::upper_bound(starts, sample) - starts.begin()) - 1;
+        EXPECT_TRUE(pixels.emplace(column, row).second) << "two samples of one pixel";
+        EXPECT_TRUE(column >= patch.column && column < patch.column + patch.columns);
+        EXPECT_TRUE(row >= patch.row && row < patch.row + patch.rows);
+        EXPECT_LE(std::abs(of.inverseAt(patch.plane, column, row) - of.samples().inverseDistance[sample]),
+                  kTolerance);
+      }
+    }
+}
+
+TEST(Patches, OfOneWallAreTheTilesAlone) {
+  const CaptureOfPlanes of({{wall(4), everywhere}});
+  // 20 x 30 degrees at 4 samples per degree: strips of 4 degrees, tiles of 8.
+  EXPECT_EQ(of.patches().stripColumns, 16);
+  EXPECT_EQ(of.patches().patches.size(), 5u * 4);
+}
+
+TEST(Patches, ThatMayHideOthersComeFirst) {
+  // A board before a wall, beside each other as the camera sees them: other eyes see them overlap.
+  const auto board = [](int c, int) { return c >= 20 && c < 26; };
+  const CaptureOfPlanes of({{wall(8), [&](int c, int r) { return !board(c, r); }}, {wall(2), board}});
+  const auto boards = of.placesOf(1), walls = of.placesOf(0);
+  for (const std::size_t b : boards)
+    for (const std::size_t w : walls)
+      if (of.patches().patches[b].column / 16 == of.patches().patches[w].column / 16) {
+        EXPECT_LT(b, w);
+      }
+  EXPECT_EQ(of.patches().unordered, 0u);
+}
+
+TEST(Patches, ASlantedBoardThatReachesFartherThanTheWallBesideItIsOrderedByItsPlane) {
+  // Its nearest point is farther away than that of the wall, and it still hides the wall.
+  const CaptureOfPlanes of({{wall(5, -1.2), [](int c, int) { return c < 40; }},
+                            {wall(4.6, 0.9), [](int c, int) { return c < 12; }}});
+  for (const std::size_t b : of.placesOf(1))
+    for (const std::size_t w : of.placesOf(0)) {
+      const Patch &board = of.patches().patches[b], &other = of.patches().patches[w];
+      if (board.column / 16 != other.column / 16 || board.row != other.row) continue;
+      const double at = board.column + board.columns / 2;
+      const bool before = of.inverseAt(board.plane, int(at), 60) > of.inverseAt(other.plane, int(at), 60);
+      EXPECT_EQ(b < w, before);
+    }
+}
+
+TEST(Patches, CloserThanTheToleranceAreOrderedAsThePixelsShowThem) {
+  // A picture so close before its wall that planes do not tell.
+  const SurfacePlane back = wall(5), front = {back.normal * float(1 + 0.1 * kTolerance), 0};
+  // Another mirror, so that it is a patch of its own.
+  const CaptureOfPlanes of(
+      {{back, everywhere}, {front, [](int c, int r) { return c > 3 && c < 14 && r < 30; }, 7}});
+  const auto pictures = of.placesOf(1);
+  ASSERT_EQ(pictures.size(), 1u);
+  for (const std::size_t w : of.placesOf(0))
+    if (of.patches().patches[w].column < 16 && of.patches().patches[w].row == 0) {
+      EXPECT_LT(pictures[0], w);
+    }
+}
+
+TEST(Patches, SeenFromTheirOtherSideAreOrderedForEyesThere) {
+  // Two walls that eyes look at from behind: for them the farther one comes first.
+  SurfacePlane near = wall(2), far = wall(4);
+  near.away = far.away = 1;
+  const CaptureOfPlanes of({{near, everywhere}, {far, everywhere}});
+  for (const std::size_t n : of.placesOf(0))
+    for (const std::size_t f : of.placesOf(1)) {
+      const Patch &a = of.patches().patches[n], &b = of.patches().patches[f];
+      if (a.column == b.column && a.row == b.row) {
+        EXPECT_LT(f, n);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace acentric
