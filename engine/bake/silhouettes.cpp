@@ -61,16 +61,20 @@ struct NewSamples {
 
 class ColumnSilhouettes {
  public:
-  ColumnSilhouettes(const ColumnMarch::Setting& setting, const PartAngles& parts, const Capture& capture,
-                    NewSamples& out)
+  /// Of surfaces, or of what mirrors show.
+  ColumnSilhouettes(const ColumnMarch::Setting& setting, const PartAngles& parts, const CaptureSamples& all,
+                    bool reflections, double tolerance, NewSamples& out)
       : setting_(setting),
         parts_(parts),
-        all_(capture),
+        all_(all),
+        reflections_(reflections),
         out_(out),
         rows_(setting.columns.rows),
-        tolerance_(capture.planeTolerance) {
+        tolerance_(tolerance) {
     for (int row = 0; row < rows_; ++row) tangent_.push_back(setting.columns.tangentAt(row + 0.5));
     if (setting.sight != nullptr) hints_ = setting.sight->hints();
+    if (reflections)
+      for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
   }
 
   void run(int column) {
@@ -125,6 +129,8 @@ class ColumnSilhouettes {
 
   const SurfacePlane& planeOf(std::uint32_t sample) const { return all_.planes[all_.plane[sample]]; }
   bool isOpaque(std::uint32_t sample) const { return unpackColour(all_.colour[sample]).a >= 1; }
+  /// Infinitely far: it lies behind all else and ends nowhere.
+  bool isSky(std::uint32_t sample) const { return !(all_.inverseDistance[sample] > 0); }
   double at(const SurfacePlane& plane, const Pixel& pixel) const {
     return plane.inverseDistance(pixel.beside->direction, tangent_[std::size_t(pixel.row)]);
   }
@@ -133,6 +139,7 @@ class ColumnSilhouettes {
   bool isSame(std::uint32_t a, const Pixel& ofA, std::uint32_t b, const Pixel& ofB) const {
     const SurfacePlane &planeA = planeOf(a), &planeB = planeOf(b);
     if (planeA.away != planeB.away || isOpaque(a) != isOpaque(b)) return false;
+    if (reflections_ && all_.mirror[a] != all_.mirror[b]) return false;
     if (planeA == planeB) return true;
     const double apart =
         std::min(std::abs(at(planeA, ofA) - at(planeB, ofA)), std::abs(at(planeA, ofB) - at(planeB, ofB)));
@@ -159,7 +166,7 @@ class ColumnSilhouettes {
     pixel_.clear();
     for (std::uint32_t i = pixel.first(); i < pixel.end(); ++i) {
       bool whole = true;
-      eachNeighbour(row,
+      if (!isSky(i)) eachNeighbour(row,
                     [&](const Pixel& neighbour, int, int) { whole = whole && hasSame(neighbour, i, pixel); });
       pixel_.push_back({i, whole ? kWholePixel : ownCoverage(i, row), all_.inverseDistance[i], all_.colour[i],
                         all_.roles[i], all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
@@ -167,11 +174,11 @@ class ColumnSilhouettes {
     const std::size_t own = pixel_.size();
     eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
-        if (!hasSame(pixel, i, neighbour)) addNeighbours(i, partsTowards(across, down), row, own);
+        if (!isSky(i) && !hasSame(pixel, i, neighbour)) addNeighbours(i, partsTowards(across, down), row, own);
     });
     if (pixel_.size() > own) std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
     for (const New& sample : pixel_) add(row, sample);
-    for (std::size_t layer = own; layer < pixel_.size(); ++layer)
+    for (std::size_t layer = own; layer < pixel_.size() && !reflections_; ++layer)
       ++out_.counts.samples.kept[std::min(layer, SampleCounts::kLayers - 1)];
   }
 
@@ -213,27 +220,28 @@ class ColumnSilhouettes {
       coverage = met.parts;
     }
     const int part = middleOf(met.parts);
+    if (!isSeen(sample, met.hits[std::size_t(part)], row, part)) return;
     New added{sample, coverage};
     if (!shade(sample, met.hits[std::size_t(part)], part, row, added)) return;
     added.roles = all_.roles[sample];
     pixel_.push_back(added);
   }
 
-  /// Adds those of `asked` parts where a ray meets the sample's surface, and a role of the sample sees that.
+  /// Adds those of `asked` parts where a ray meets the sample's surface.
   void meet(std::uint32_t sample, int row, std::uint16_t asked, Met& met) {
     for (int part = 0; part < kParts; ++part) {
       if ((asked >> part & 1) == 0) continue;
-      const Hit hit = meetAt(planeOf(sample), row, part);
-      if (!hit.found() || !isSeen(sample, hit, row, part)) continue;
+      const std::size_t r = rowOf(row, part);
+      const Hit hit = meetAt(sample, columnOf(part), parts_.cosine[r], parts_.sine[r]);
+      if (!hit.found()) continue;
       met.parts |= std::uint16_t(1u << part);
       met.hits[std::size_t(part)] = hit;
     }
   }
 
   glm::vec3 directionOf(int row, int part) const {
-    const glm::dvec2& across = columnOf(part);
     const std::size_t r = rowOf(row, part);
-    return glm::vec3(across.x * parts_.cosine[r], across.y * parts_.cosine[r], parts_.sine[r]);
+    return glm::vec3(glm::vec2(columnOf(part)) * float(parts_.cosine[r]), float(parts_.sine[r]));
   }
   const glm::dvec2& columnOf(int part) const {
     return parts_.column[std::size_t(kCoverageParts * column_ + part % kCoverageParts)];
@@ -242,12 +250,17 @@ class ColumnSilhouettes {
     return std::size_t(kCoverageParts * row + part / kCoverageParts);
   }
 
-  Hit meetAt(const SurfacePlane& plane, int row, int part) {
-    const std::size_t r = rowOf(row, part);
-    const double flat = parts_.cosine[r], w = plane.inverseDistance(columnOf(part), parts_.tangent[r]);
+  /// Where the ray in that direction meets the sample's surface.
+  Hit meetAt(std::uint32_t sample, const glm::dvec2& column, double flat, double sine) {
+    const double w = planeOf(sample).inverseDistance(column, sine / flat);
     if (!(w > 0)) return {};
     const double loose = kCurved * tolerance_;
-    Ray ray{glm::vec3(setting_.columns.centreOfProjection), directionOf(row, part)};
+    glm::dvec3 origin = setting_.columns.centreOfProjection, direction(column * flat, sine);
+    if (reflections_) {
+      const FlatMirror& mirror = mirrors_[all_.mirror[sample]];
+      origin = mirror.imageOf(origin), direction = mirror.reflected(direction);
+    }
+    Ray ray{glm::vec3(origin), glm::vec3(direction)};
     ray.nearest = float(1 / ((w + loose) * flat));
     if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
     for (int before = 0; before < kMostBeforePlane; ++before) {
@@ -260,8 +273,9 @@ class ColumnSilhouettes {
     return {};
   }
 
+  /// By a role of the sample, at that part.
   bool isSeen(std::uint32_t sample, const Hit& hit, int row, int part) {
-    if (setting_.sight == nullptr) return true;
+    if (setting_.sight == nullptr || reflections_) return true;
     const glm::vec3 direction = directionOf(row, part);
     const glm::dvec3 point =
         setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
@@ -292,6 +306,12 @@ class ColumnSilhouettes {
 
   /// False where the surface is not what the neighbour's sample is.
   bool shade(std::uint32_t sample, const Hit& hit, int part, int row, New& out) {
+    out.inverseDistance = storedInverseDistance(1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
+                                                setting_.distanceStep);
+    if (reflections_) {
+      out.colour = all_.colour[sample], out.mirror = all_.mirror[sample];
+      return true;
+    }
     const glm::vec3 direction = directionOf(row, part);
     const bool away = planeOf(sample).away != 0;
     RayCounts& rays = out_.counts.rays;
@@ -309,14 +329,13 @@ class ColumnSilhouettes {
     const bool opaque = shaded.alpha >= kOpaqueAlpha;
     if (opaque != isOpaque(sample) || shaded.alpha < kInvisibleAlpha) return false;
     out.colour = packColour({shaded.radiance(), opaque ? 1 : shaded.alpha});
-    out.inverseDistance = storedInverseDistance(1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
-                                                setting_.distanceStep);
     return true;
   }
 
   const ColumnMarch::Setting& setting_;
   const PartAngles& parts_;
-  const Capture& all_;
+  const CaptureSamples& all_;
+  bool reflections_;
   NewSamples& out_;
   int rows_;
   double tolerance_;  ///< 1/m
@@ -325,15 +344,16 @@ class ColumnSilhouettes {
   int column_ = 0;
   std::vector<New> pixel_;
   RegionSight::Hints hints_;
+  std::array<FlatMirror, 256> mirrors_{};  ///< by number, of reflections
 };
 
 /// The samples of all tasks, behind one another; planes and reflections stay.
-void replace(Capture& capture, const std::vector<NewSamples>& tasks) {
+void replace(CaptureSamples& list, const std::vector<NewSamples>& tasks) {
   std::vector<std::uint32_t> starts{0};
   for (const NewSamples& task : tasks)
     for (const std::uint32_t count : task.perColumn) starts.push_back(starts.back() + count);
   const auto join = [&](auto CaptureSamples::*part) {
-    auto& all = capture.*part;
+    auto& all = list.*part;
     all.clear();
     all.reserve(starts.back());
     for (const NewSamples& task : tasks)
@@ -342,7 +362,7 @@ void replace(Capture& capture, const std::vector<NewSamples>& tasks) {
   join(&CaptureSamples::row), join(&CaptureSamples::inverseDistance), join(&CaptureSamples::colour);
   join(&CaptureSamples::roles), join(&CaptureSamples::mirror);
   join(&CaptureSamples::coverage), join(&CaptureSamples::plane);
-  capture.columnStart = std::move(starts);
+  list.columnStart = std::move(starts);
 }
 
 }  // namespace
@@ -354,24 +374,28 @@ double planeToleranceFor(const LayoutCamera& camera, const ColumnCamera& columns
 
 void traceSilhouettes(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
                       CaptureCounts& counts, const std::stop_token& stop) {
-  if (capture.sampleCount() == 0) return;
   const PartAngles parts(setting.columns);
   const int columns = setting.columns.columns;
-  std::vector<NewSamples> tasks(std::size_t((columns + kColumnsPerTask - 1) / kColumnsPerTask));
-  runner.parallelFor(tasks.size(), [&](std::size_t task) {
-    const FlushDenormals flush;
-    NewSamples out;  // not in `tasks`, where another thread works on the next
-    ColumnSilhouettes silhouettes(setting, parts, capture, out);
-    const int first = int(task) * kColumnsPerTask;
-    for (int column = first; column < std::min(first + kColumnsPerTask, columns); ++column) {
-      if (stop.stop_requested()) return;
-      silhouettes.run(column);
-    }
-    tasks[task] = std::move(out);
-  });
-  if (stop.stop_requested()) return;
-  for (const NewSamples& task : tasks) counts += task.counts;
-  replace(capture, tasks);
+  const auto trace = [&](CaptureSamples& list, bool reflections) {
+    if (list.sampleCount() == 0) return;
+    std::vector<NewSamples> tasks(std::size_t((columns + kColumnsPerTask - 1) / kColumnsPerTask));
+    runner.parallelFor(tasks.size(), [&](std::size_t task) {
+      const FlushDenormals flush;
+      NewSamples out;  // not in `tasks`, where another thread works on the next
+      ColumnSilhouettes silhouettes(setting, parts, list, reflections, capture.planeTolerance, out);
+      const int first = int(task) * kColumnsPerTask;
+      for (int column = first; column < std::min(first + kColumnsPerTask, columns); ++column) {
+        if (stop.stop_requested()) return;
+        silhouettes.run(column);
+      }
+      tasks[task] = std::move(out);
+    });
+    if (stop.stop_requested()) return;
+    for (const NewSamples& task : tasks) counts += task.counts;
+    replace(list, tasks);
+  };
+  trace(capture, false);
+  trace(capture.reflections, true);
 }
 
 }  // namespace acentric

@@ -111,7 +111,7 @@ Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* s
   const auto refuse = [](const char* what) { return fail(ErrorKind::invalidArgument, what, "settings"); };
   if (settings->renderer < ACENTRIC_LIST || settings->renderer > ACENTRIC_ZBUFFER)
     return refuse("there is no such renderer");
-  if (settings->reconstruction < ACENTRIC_POINT || settings->reconstruction > ACENTRIC_FILTERED)
+  if (settings->reconstruction < ACENTRIC_POINT || settings->reconstruction > ACENTRIC_PATCHES)
     return refuse("there is no such reconstruction");
   out.renderer = kOffered[settings->renderer];
   out.reconstruction = Reconstruction(settings->reconstruction);
@@ -123,7 +123,8 @@ Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* s
 }
 static_assert(int(Reconstruction::point) == ACENTRIC_POINT && int(Reconstruction::splat) == ACENTRIC_SPLAT &&
               int(Reconstruction::surface) == ACENTRIC_SURFACE &&
-              int(Reconstruction::filtered) == ACENTRIC_FILTERED);
+              int(Reconstruction::filtered) == ACENTRIC_FILTERED &&
+              int(Reconstruction::patches) == ACENTRIC_PATCHES);
 static_assert(int(Loaded::absent) == ACENTRIC_ABSENT && int(Loaded::coarse) == ACENTRIC_COARSE &&
               int(Loaded::full) == ACENTRIC_FULL);
 

@@ -23,8 +23,8 @@ void addRenderer(CLI::App& command, std::string& renderer, bool truthToo) {
 void addLook(CLI::App& command, Look& look) {
   command
       .add_option("--reconstruction", look.reconstruction,
-                  "point, splat, surface or filtered (default: the project's)")
-      ->check(CLI::IsMember({"point", "splat", "surface", "filtered"}));
+                  "point, splat, surface, filtered or patches (default: the project's)")
+      ->check(CLI::IsMember({"point", "splat", "surface", "filtered", "patches"}));
   command
       .add_option("--mesh-error", look.meshError,
                   "Of gl-mesh: how far surfaces may shift in a picture, in samples; larger takes fewer "

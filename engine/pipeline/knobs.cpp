@@ -84,7 +84,7 @@ Knob nameKnob(std::string name, std::string what, bool bakes, Field field, Parse
 void viewKnobs(std::vector<Knob>& table) {
   table.push_back(nameKnob("reconstruction", "how samples become pixels", false,
                            [](Project & p) -> auto& { return p.view.reconstruction; }, parseReconstruction,
-                           {"point", "splat", "surface", "filtered"}));
+                           {"point", "splat", "surface", "filtered", "patches"}));
   table.push_back(nameKnob(
       "renderer", "list priority, depth buffer or OpenGL", false,
       [](Project & p) -> auto& { return p.view.renderer; }, parseRenderer, rendererNames()));

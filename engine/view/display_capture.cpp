@@ -19,7 +19,8 @@ glm::vec2 rangeOf(std::span<const PackedSample> samples) {
   return range;
 }
 
-DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture, float exposure) {
+DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture, double planeTolerance,
+                       float exposure) {
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
   const std::size_t rows = static_cast<std::size_t>(camera.rows);
   require(capture.columnStart.size() == columns + 1, "a capture needs one offset per column and one more");
@@ -40,6 +41,10 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
     display.colour[i] = encodeForDisplay(glm::vec3(linear), exposure, linear.a);
     display.blended = display.blended || display.colour[i].a < 255;
   }
+
+  if (capture.hasSilhouettes())
+    display.patches = std::make_shared<const DisplayPatches>(
+        displayPatches(camera, capture, planeTolerance, exposure));
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)
@@ -79,7 +84,7 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   const ColumnCamera& camera = capture.camera;
-  DisplayCapture display = prepare(camera, capture, exposure);
+  DisplayCapture display = prepare(camera, capture, capture.planeTolerance, exposure);
   if (capture.background.runCount() > 0) {
     DisplayBackground& background = display.background;
     background.runs = capture.background;
@@ -88,7 +93,7 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   }
   if (capture.hasReflections())
     display.reflections =
-        std::make_shared<const DisplayCapture>(prepare(capture.camera, capture.reflections, exposure));
+        std::make_shared<const DisplayCapture>(prepare(camera, capture.reflections, capture.planeTolerance, exposure));
   return display;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/view/canvas_rows.h"
+#include "engine/view/patch_kernel.h"
 #include "engine/view/pixel_filter.h"
 #include "engine/view/surface_kernel.h"
 #include "engine/view/warp_kernel.h"
@@ -19,6 +20,7 @@ struct Kernels {
   ShadeRun shadeRun;
   CoverRow coverRow;
   BlendRow blendRow;
+  PaintPatchColumn paintPatchColumn;
 };
 
 /// The scalar reference first, the fastest last.

@@ -95,8 +95,11 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
 
   const std::size_t strips =
       static_cast<std::size_t>(std::min(kStripsPerThread * runner.threads(), view.width));
+  const bool patches = drawsPatches(scene, plan, settings);
+  const PatchPlan patchPlan = patches ? planPatches(scene, view, plan, runner) : PatchPlan();
   const int beside = pixelsReadBeside(plan, settings);
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);
+  if (memory.patchCanvases.size() < strips && patches) memory.patchCanvases.resize(strips);
   const std::vector<int> borders = stripBorders(view.width, strips, memory.strips);
   std::vector<WarpCounts> counts(strips);
   std::vector<double> seconds(strips);
@@ -106,9 +109,12 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     Canvas& canvas = memory.canvases[strip];
     clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
                 canvas);
+    canvas.places = canvas.places && !patches;
     if (sky) paintBackground(*sky, view, limits, kBackgroundSlot, canvas);
     background.paint(view, canvas);
-    counts[strip] = warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
+    counts[strip] = patches ? paintPatches(patchPlan, kernels.paintPatchColumn, cover, coverMirrors, x0,
+                                           x1, memory.patchCanvases[strip], canvas)
+                            : warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
     develop(canvas, x0, x1, sources, kernels, frame, memory.inverseZDepth);
     seconds[strip] = time.seconds();
   });

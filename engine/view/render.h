@@ -7,6 +7,7 @@
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
 #include "engine/view/open_tiles.h"
+#include "engine/view/patch_painter.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/view_settings.h"
 #include "engine/view/walk_scene.h"
@@ -22,6 +23,7 @@ struct StripTimes {
 /// What frames are made in, kept from one to the next: fresh memory costs as much as what is drawn on it.
 struct FrameMemory {
   std::vector<Canvas> canvases;  ///< one per strip of the picture
+  std::vector<PatchCanvas> patchCanvases;  ///< the same, where patches are drawn
   StripTimes strips;             ///< of the last frame: the next one is cut so that all take as long
   FloatImage inverseZDepth;
   CoverImage cover;  ///< by local geometry

@@ -54,6 +54,8 @@ const char* nameOf(Reconstruction reconstruction) {
       return "surface";
     case Reconstruction::filtered:
       return "filtered";
+    case Reconstruction::patches:
+      return "patches";
   }
   return "splat";
 }

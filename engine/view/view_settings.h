@@ -46,12 +46,20 @@ enum class Reconstruction : std::uint8_t {
   /// The same rectangles, and each pixel the mean, in linear light, of the samples in it and around it, by
   /// where in their pixels they lie: smooth edges. One more pass over the picture.
   filtered,
+  /// Patches of surfaces, each drawn to its edges: parts of pixels that they cover, colours interpolated
+  /// within them. Of captures that know their silhouettes; others are drawn filtered.
+  patches,
 };
 inline constexpr Reconstruction kReconstructions[] = {Reconstruction::point, Reconstruction::splat,
-                                                      Reconstruction::surface, Reconstruction::filtered};
+                                                      Reconstruction::surface, Reconstruction::filtered,
+                                                      Reconstruction::patches};
 /// Are splats rectangles after the slant of their surface?
 constexpr bool followsSlant(Reconstruction reconstruction) {
-  return reconstruction == Reconstruction::surface || reconstruction == Reconstruction::filtered;
+  return reconstruction != Reconstruction::point && reconstruction != Reconstruction::splat;
+}
+/// Is each pixel the mean of the samples around it? Also of captures without patches.
+constexpr bool isFiltered(Reconstruction reconstruction) {
+  return reconstruction == Reconstruction::filtered || reconstruction == Reconstruction::patches;
 }
 const char* nameOf(Reconstruction reconstruction);
 Result<Reconstruction> parseReconstruction(std::string_view name);

@@ -14,6 +14,7 @@
 #include "engine/scene/flat_mirrors.h"
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
+#include "engine/view/display_patches.h"
 #include "engine/view/packed_sample.h"
 #include "engine/view/warp_kernel.h"
 
@@ -61,6 +62,7 @@ struct DisplayCapture {
   DisplayBackground background;
   bool layered = false;              ///< some pixel has more than one sample
   bool blended = false;              ///< some sample has alpha < 255
+  std::shared_ptr<const DisplayPatches> patches;  ///< of the samples; null where they have no planes
   LargeVector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
   /// What mirrors show, at its virtual place; null = nothing. Its `mirror` says which of them shows a sample.
   std::shared_ptr<const DisplayCapture> reflections;

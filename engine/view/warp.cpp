@@ -309,9 +309,17 @@ class CanvasWarp {
 
 }  // namespace
 
+bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings) {
+  const auto have = [&](const PieceDraw& piece) {
+    return scene.captures[static_cast<std::size_t>(piece.camera)]->patches != nullptr;
+  };
+  return settings.reconstruction == Reconstruction::patches && !depthTested(settings.renderer) &&
+         settings.renderer != Renderer::precise && std::ranges::all_of(plan.pieces, have);
+}
+
 int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings) {
   const bool second = std::ranges::find(plan.pieces, true, &PieceDraw::secondary) != plan.pieces.end();
-  return (settings.reconstruction == Reconstruction::filtered ? 1 : 0) + (second ? Cracks::kReach : 0);
+  return (isFiltered(settings.reconstruction) ? 1 : 0) + (second ? Cracks::kReach : 0);
 }
 
 void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
@@ -322,7 +330,7 @@ void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const View
   canvas.x0 = x0;
   canvas.width = x1 - x0;
   canvas.height = view.height;
-  canvas.places = settings.reconstruction == Reconstruction::filtered;
+  canvas.places = isFiltered(settings.reconstruction);
   const std::size_t size = static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   canvas.pixels.assign(size, kEmptyPixel);
   canvas.stamps.assign(blended ? size : 0, 0);

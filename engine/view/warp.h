@@ -40,6 +40,9 @@ struct WarpCounts {
   }
 };
 
+/// Are frames of this plan made of patches? All of its captures must have them.
+bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
+
 /// So many pixels on either side of a pixel have a say in it.
 int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings);
 

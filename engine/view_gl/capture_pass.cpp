@@ -14,7 +14,7 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
     return sharedOf(piece) && sharedOf(piece)->blended;
   });
   const bool anyMirror = !plan.reflections.empty();
-  const bool filtered = settings.reconstruction == Reconstruction::filtered;
+  const bool filtered = isFiltered(settings.reconstruction);
   if (Status ready = target.beginPieces(anyMirror, filtered); !ready) return ready;
   Cameras cameras;
   for (const PieceDraw& piece : plan.backgrounds) cameras.all.insert(piece.camera);

@@ -161,7 +161,7 @@ Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, c
     if (!marked) return tl::unexpected(marked.error());
     mirrorsMarked = *marked;
   }
-  if (settings.reconstruction == Reconstruction::filtered)
+  if (isFiltered(settings.reconstruction))
     if (Status filtered = filter.draw(target, mirrorsMarked); !filtered) return filtered;
   stats.warpSeconds = secondsOfDrawing(start);
   return drawAfterBackground(scene, plan, view, settings, *local, mirrorsMarked);

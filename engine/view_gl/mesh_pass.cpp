@@ -39,7 +39,7 @@ Result<GlProgram*> MeshPass::program(const CapturePiece& piece, const MeshBuffer
   Defines defines;
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
   if (piece.leastDepths != 0) defines.push_back("IN_CRACKS");
-  if (piece.settings.reconstruction == Reconstruction::filtered) defines.push_back("PLACES");
+  if (isFiltered(piece.settings.reconstruction)) defines.push_back("PLACES");
   if (piece.mirrors == Mirrors::mark) {
     if (!piece.capture->mirror.empty()) defines.push_back("MIRRORS");
     defines.push_back("MARK_MIRRORS");

@@ -1,0 +1,20 @@
+#if defined(__x86_64__)
+#include "engine/view/lanes_avx512.h"
+#include "engine/view/patch_kernel_body.h"
+
+namespace acentric {
+namespace {
+
+struct PatchLanes : SixteenLanes {
+  static I shiftRightBy(I a, I bits) { return {_mm512_srlv_epi32(a.v, bits.v)}; }
+  static I shiftLeftBy(I a, int bits) { return {_mm512_sll_epi32(a.v, _mm_cvtsi32_si128(bits))}; }
+};
+
+}  // namespace
+
+int paintPatchColumnAvx512(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas) {
+  return patch_kernel::Kernel<PatchLanes>{patch}.paint(first, end, canvas);
+}
+
+}  // namespace acentric
+#endif

@@ -1,0 +1,26 @@
+#pragma once
+/// Paints patches front to back: the first that covers a part of a pixel is what the eye sees there, no depth
+/// is compared, and nothing is done where all is covered.
+
+#include "engine/view/open_tiles.h"
+#include "engine/view/patch_plan.h"
+#include "engine/view/warp.h"
+
+namespace acentric {
+
+/// Memory of one strip of the picture, kept from frame to frame (PatchCanvasColumn).
+struct PatchCanvas {
+  std::vector<std::uint32_t> open, source, mirror;
+  std::vector<float> red, green, blue, clear, inverseZDepth;
+  std::vector<std::uint8_t> covered;  ///< by local geometry
+};
+
+/// Pieces of the first cover; those of the second where nothing of the first lies, and before it in its cracks
+/// (cracks.h); then what mirrors show. `canvas` holds the background, and columns [x0, x1) are right if it
+/// holds pixelsReadBeside more on either side. `cover` and `coverMirrors` as WarpOptions'. Counts patches
+/// read and pixels painted.
+WarpCounts paintPatches(const PatchPlan& plan, PaintPatchColumn kernel, const CoverImage* cover,
+                        std::span<const std::uint8_t> coverMirrors, int x0, int x1, PatchCanvas& memory,
+                        Canvas& canvas);
+
+}  // namespace acentric
