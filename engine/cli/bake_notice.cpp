@@ -6,6 +6,7 @@ namespace acentric::cli {
 
 Json toJson(const BakeForecast& forecast) {
   return {{"cameras", forecast.cameras},
+          {"bakes", forecast.bakes},
           {"lights", forecast.lights},
           {"threads", forecast.threads},
           {"seconds", forecast.seconds()},
@@ -22,6 +23,12 @@ void tell(const BakeForecast& forecast, const Common& common) {
   Json event = {{"event", "bakeForecast"}};
   event.update(toJson(forecast));
   common.notice(describe(forecast), event);
+}
+
+BakeTeller tellerTo(const Common& common) {
+  return [&common](const BakeForecast& forecast) {
+    if (!forecast.nothing()) tell(forecast, common);
+  };
 }
 
 Result<BakeForecast> foretellBake(std::span<const BakeShare> shares, std::size_t memoryBytes,

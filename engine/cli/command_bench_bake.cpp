@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 
@@ -26,7 +27,9 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
   const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
-  const auto bench = benchBake(*open, options.bench, *runner, common.progress, common.stop);
+  BakeBenchOptions benching = options.bench;
+  benching.tell = tellerTo(common);
+  const auto bench = benchBake(*open, benching, *runner, common.progress, common.stop);
   if (!bench) return tl::unexpected(bench.error());
   const double scaling =
       bench->oneThreadSeconds > 0 ? bench->oneThreadSeconds / bench->sets.back().seconds : 1;

@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/geometry/conventions.h"
@@ -100,6 +101,7 @@ Result<Report> runBenchHoles(const BenchHolesOptions& options, const Common& com
   bench.width = size->width, bench.height = size->height;
   bench.fovDegrees = options.fovDegrees;
   bench.truthSamples = options.truthSamples;
+  bench.tell = tellerTo(common);
   if (!options.place.empty()) {
     const auto place = parsePoint(options.place);
     if (!place) return tl::unexpected(place.error());

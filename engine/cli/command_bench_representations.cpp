@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
@@ -125,6 +126,7 @@ Result<Report> runBenchRepresentations(const BenchRepresentationsOptions& option
   if (!size) return tl::unexpected(size.error());
   RepresentationBenchOptions bench = options.bench;
   bench.width = size->width, bench.height = size->height;
+  bench.tell = tellerTo(common);
   const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   std::vector<ViewSet> paths;

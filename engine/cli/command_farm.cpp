@@ -94,6 +94,7 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
     return report;
   }
   if (Status sound = farm.check(); !sound) return tl::unexpected(sound.error());
+  tell(*work, common);
   fs::path folder = options.output;
   if (folder.empty()) folder = captureFolderFor(farm.project).replace_extension(".farm");
   folder = fs::absolute(folder, error).lexically_normal();
@@ -102,12 +103,11 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
   report.json["folder"] = folder.string();
   report.text = fmt::format(
       "{} cameras in {} tasks of about {:.0f} s{}, {} at once, then one that verifies; by this machine's "
-      "pace "
-      "with {} threads\n{}\n",
+      "pace with {} threads\n",
       work->cameras, farm.cameraTasks, report.json["taskSeconds"].get<double>(),
       farm.light ? fmt::format(" and the light on local geometry in one of {:.0f} s", work->lightSeconds)
                  : "",
-      options.nodes, common.threadCount(), describe(*work));
+      options.nodes, common.threadCount());
   if (options.print) {
     report.json["scripts"] = {{kFarmBakeScript, scripts.bake},
                               {kFarmMergeScript, scripts.merge},

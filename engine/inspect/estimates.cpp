@@ -132,10 +132,12 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   estimate.gatheredRays = gathered.value;
   estimate.rays = sum(perPixel(&CaptureProbe::rays), gathered);
   estimate.captureBytes = sum(perSample(&CaptureProbe::bytes), {}, cameras * overhead->bytes);
+  estimate.packedBytes = perSample(&CaptureProbe::packedBytes);
   const Figure tracing = sum(perPixel(&CaptureProbe::traceSeconds), {}, cameras * overhead->traceSeconds);
   const Figure writing = sum(perSample(&CaptureProbe::writeSeconds), {}, cameras * overhead->writeSeconds);
   const auto pace = measurePace(pixels, order, *probes, *overhead, options.brief, prober);
   if (!pace) return tl::unexpected(pace.error());
+  estimate.gatherSeconds = gathered.value * gathering.secondsPerRay;
   estimate.traceSeconds = sum(product(tracing, *pace), times(gathered, gathering.secondsPerRay));
   estimate.writeSeconds = product(writing, *pace);
   estimate.sightSeconds = prober.sightSeconds();

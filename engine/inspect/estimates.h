@@ -30,12 +30,12 @@ struct CaptureOverhead {
 
 /// What part of one camera's capture cost, beyond the overhead.
 struct CaptureProbe {
-  double pixels = 0;          ///< traced
-  double samples = 0;         ///< that came of it
-  double rays = 0;            ///< of all purposes but gathering light and the regions' sight
-  double traceSeconds = 0;    ///< where all light is gathered already
-  double writtenSamples = 0;  ///< encoded and written, of which the next two
-  double bytes = 0;
+  double pixels = 0;                  ///< traced
+  double samples = 0;                 ///< that came of it
+  double rays = 0;                    ///< of all purposes but gathering light and the regions' sight
+  double traceSeconds = 0;            ///< where all light is gathered already
+  double writtenSamples = 0;          ///< encoded and written, of which the next two
+  double bytes = 0, packedBytes = 0;  ///< on disk; of these in the pack
   double writeSeconds = 0;
 };
 
@@ -90,7 +90,7 @@ struct EstimateOptions {
   /// Of the rays that cameras and light are probed with. However small, a few are probed; four times as many
   /// halve the error. 0..1000.
   double effort = 1;
-  bool surfaceLight = true;
+  bool captures = true, surfaceLight = true;  ///< what is to be baked
   /// A tenth of the probes, whatever the effort: good to within a factor of two or so, in seconds.
   bool brief = false;
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
@@ -107,10 +107,11 @@ struct BakeEstimate {
   double pixels = 0;
   Figure samples, rays;     ///< rays without those from the regions' eyes and for the surfaces' own light
   double gatheredRays = 0;  ///< of these, to gather light
-  Figure captureBytes;
+  Figure captureBytes, packedBytes;   ///< the second: of the packs alone
   Figure traceSeconds, writeSeconds;  ///< they overlap ...
   Figure captureSeconds;              ///< ... in this, with `sightSeconds`
   double sightSeconds = 0;            ///< looking what the regions see
+  double gatherSeconds = 0;           ///< of tracing: what need not be done again for the same light
   Figure lightSamples, lightBytes, lightSeconds;
   Figure bytes, seconds;  ///< captures and surface light
   int probedCameras = 0;

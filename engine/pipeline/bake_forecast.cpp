@@ -6,10 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/pipeline/bake_to_size.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric {
 namespace {
+
+/// Of a sample that is ready to be drawn.
+constexpr double kShownSampleBytes = sizeof(PackedSample) + sizeof(Rgba8);
 
 double pixelsOf(const OpenProject& open, const std::vector<int>& cameras) {
   double pixels = 0;
@@ -25,9 +29,7 @@ double pixelsOf(const OpenProject& open, const std::vector<int>& cameras) {
 BakeShare shareOf(const OpenProject& open, const BakeRequest& request, const std::vector<bool>& there,
                   bool lightThere, const std::vector<std::optional<ContentKey>>& best) {
   BakeShare share{&open, {}, request.surfaceLight && !lightThere, 0};
-  std::vector<int> wanted(open.keys.size());
-  std::iota(wanted.begin(), wanted.end(), 0);
-  if (request.cameras) wanted = *request.cameras;
+  const std::vector<int> wanted = request.cameras ? *request.cameras : allCamerasOf(*open.layout);
   std::ranges::copy_if(wanted, std::back_inserter(share.cameras),
                        [&](int camera) { return !there[std::size_t(camera)]; });
   if (!request.coarseFirst || share.cameras.empty()) return share;
@@ -40,12 +42,56 @@ BakeShare shareOf(const OpenProject& open, const BakeRequest& request, const std
   return share;
 }
 
+/// By how much more a bake takes whose packs are to have so many bytes: both grow with the square of the
+/// resolution.
+double growthTo(double packedBytes, const BakeShare& share, const BakeEstimate& estimate) {
+  const auto squared = [&](double samplesPerDegree) {
+    return std::pow(samplesPerDegree / share.open->project.bake.samplesPerDegree, 2);
+  };
+  return std::clamp(packedBytes / std::max(estimate.packedBytes.value, 1.0), squared(kLeastSamplesPerDegree),
+                    squared(kMostSamplesPerDegree));
+}
+
+BakeForecast forecastOf(const BakeShare& share, const BakeEstimate& estimate) {
+  const TrialBake trial = share.trial.value_or(TrialBake{});
+  const bool onDisk = trial.kept == TrialBake::Kept::onDisk;
+  const double growth = trial.packedBytes ? growthTo(*trial.packedBytes, share, estimate) : 1;
+  BakeForecast forecast;
+  forecast.probeSeconds = estimate.probeSeconds;
+  double deviation = 0;
+  if (!share.cameras.empty()) {
+    const double whole = estimate.captureSeconds.value, gathering = std::min(whole, estimate.gatherSeconds);
+    forecast.cameras = trial.bakes * int(share.cameras.size());
+    forecast.bakes = share.trial ? trial.bakes : 0;
+    forecast.captureSeconds = growth * trial.times * (1 + share.previews) * (whole - gathering);
+    if (trial.gathers) forecast.captureSeconds += (1 + share.previews) * gathering;
+    forecast.packedBytes = growth * estimate.packedBytes.value;
+    if (onDisk) forecast.captureBytes = growth * (1 + share.previews) * estimate.captureBytes.value;
+    deviation = forecast.captureSeconds * estimate.captureSeconds.relativeError;
+  }
+  if (share.light) {
+    const Figure& seconds = estimate.lightSeconds;
+    forecast.lights = 1;
+    forecast.lightSeconds = seconds.value;
+    if (onDisk) forecast.lightBytes = estimate.lightBytes.value;
+    deviation = std::hypot(deviation, seconds.value * seconds.relativeError);
+  }
+  if (forecast.seconds() > 0) forecast.relativeError = deviation / forecast.seconds();
+  return forecast;
+}
+
 std::string timeText(double seconds) {
   if (seconds < 100) return fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0);
   return seconds < 6000 ? fmt::format("{:.1f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
 }  // namespace
+
+std::vector<int> allCamerasOf(const Layout& layout) {
+  std::vector<int> all(layout.cameras.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 BakeShare missingOf(const OpenProject& open, const BakeRequest& request) {
   std::error_code error;
@@ -62,38 +108,39 @@ BakeShare missingOf(const OpenProject& open, const BakeRequest& request, const C
   return shareOf(open, request, there, store.hasSurfaceLight(open.surfaceLightKey), bestKeys(open, store));
 }
 
+BakeForecast& BakeForecast::operator+=(const BakeForecast& next) {
+  const double deviation = std::hypot(relativeError * seconds(), next.relativeError * next.seconds());
+  cameras += next.cameras, bakes += next.bakes, lights += next.lights;
+  threads = std::max(threads, next.threads);
+  captureSeconds += next.captureSeconds, lightSeconds += next.lightSeconds;
+  captureBytes += next.captureBytes, lightBytes += next.lightBytes, packedBytes += next.packedBytes;
+  relativeError = seconds() > 0 ? deviation / seconds() : 0;
+  memoryBytes = std::max(memoryBytes, next.memoryBytes);
+  probeSeconds += next.probeSeconds;
+  return *this;
+}
+
 Result<BakeForecast> forecastBake(std::span<const BakeShare> shares, const BakeForecastOptions& options,
                                   TaskRunner& runner, const Progress& progress, std::stop_token stop) {
   BakeForecast forecast;
   forecast.threads = runner.threads();
-  double deviation = 0;
+  double inMemory = 0;
   for (const BakeShare& share : shares) {
     if (!share.any()) continue;
     EstimateOptions estimating;
     estimating.brief = options.brief;
     estimating.effort = options.effort / double(shares.size());
+    estimating.captures = !share.cameras.empty();
     estimating.surfaceLight = share.light;
     estimating.memoryBytes = options.memoryBytes;
     const auto estimate = estimateProjectBake(*share.open, share.cameras, estimating, runner, progress, stop);
     if (!estimate) return tl::unexpected(estimate.error());
+    forecast += forecastOf(share, *estimate);
     forecast.memoryBytes = options.memoryBytes;
-    forecast.probeSeconds += estimate->probeSeconds;
-    if (!share.cameras.empty()) {
-      const Figure& seconds = estimate->captureSeconds;
-      forecast.cameras += int(share.cameras.size());
-      forecast.captureSeconds += (1 + share.previews) * seconds.value;
-      forecast.captureBytes += (1 + share.previews) * estimate->captureBytes.value;
-      deviation = std::hypot(deviation, (1 + share.previews) * seconds.value * seconds.relativeError);
-    }
-    if (share.light) {
-      const Figure& seconds = estimate->lightSeconds;
-      ++forecast.lights;
-      forecast.lightSeconds += seconds.value;
-      forecast.lightBytes += estimate->lightBytes.value;
-      deviation = std::hypot(deviation, seconds.value * seconds.relativeError);
-    }
+    if (share.trial && share.trial->kept == TrialBake::Kept::inMemory)
+      inMemory += kShownSampleBytes * estimate->samples.value;
   }
-  if (forecast.seconds() > 0) forecast.relativeError = deviation / forecast.seconds();
+  forecast.memoryBytes += std::size_t(inMemory);
   return forecast;
 }
 
@@ -102,12 +149,15 @@ std::string describe(const BakeForecast& forecast) {
   std::string what;
   if (forecast.cameras > 0)
     what = fmt::format("{} camera{}", forecast.cameras, forecast.cameras == 1 ? "" : "s");
+  if (forecast.bakes > 0 && forecast.cameras > 0)
+    what += fmt::format(" in {} bake{}", forecast.bakes, forecast.bakes == 1 ? "" : "s");
   if (forecast.lights > 0) what += what.empty() ? "light on surfaces" : " and light on surfaces";
+  const std::string bytes =
+      forecast.bytes() > 0 ? fmt::format("{:.1f} MB", forecast.bytes() / 1e6) : "nothing";
   return fmt::format(
-      "{} to bake: about {} with {} thread{}, {:.1f} MB on disk, at most {:.0f} MB of memory besides the "
-      "scene",
-      what, timeText(forecast.seconds()), forecast.threads, forecast.threads == 1 ? "" : "s",
-      forecast.bytes() / 1e6, double(forecast.memoryBytes) / 1e6);
+      "{} to bake: about {} with {} thread{}, {} on disk, at most {:.0f} MB of memory besides the scene",
+      what, timeText(forecast.seconds()), forecast.threads, forecast.threads == 1 ? "" : "s", bytes,
+      double(forecast.memoryBytes) / 1e6);
 }
 
 }  // namespace acentric

@@ -9,8 +9,7 @@ namespace acentric {
 namespace {
 
 constexpr int kWholeTries = 3;
-/// A part this much of the whole tells its size; it is baked twice if the first guess was off by so much.
-constexpr std::size_t kPart = 8;
+/// The part is baked twice if the first guess was off by so much.
 constexpr double kGoodGuess = 1.5;
 
 double better(double samplesPerDegree, double bytes, double target) {
@@ -20,7 +19,7 @@ double better(double samplesPerDegree, double bytes, double target) {
 
 /// Cameras of some of what is baked together, evenly chosen.
 std::vector<int> partOf(std::size_t cameras, std::size_t together) {
-  const std::size_t sets = cameras / together, chosen = (sets + kPart - 1) / kPart;
+  const std::size_t sets = cameras / together, chosen = (sets + kSizingPart - 1) / kSizingPart;
   std::vector<int> part;
   for (std::size_t n = 0; n < chosen; ++n)
     for (std::size_t k = 0; k < together; ++k)
@@ -33,26 +32,36 @@ class Sizing {
   Sizing(const Workplace& at, const std::string& name, const CaptureBake& captures, CaptureStore store)
       : at_(at), name_(name), captures_(captures), store_(std::move(store)) {}
 
-  Result<SizedCaptures> run(std::optional<double> target, double tolerance) {
+  /// What an earlier run of the same left.
+  struct Earlier {
+    BakeNote note;       ///< else a new one, with the project's samples per degree
+    bool known = false;  ///< it left a note
+    bool whole = false;  ///< and all that it baked is still there
+  };
+  Result<Earlier> lookUp(std::optional<double> target, double tolerance) const {
     const double own = at_.open.project.bake.samplesPerDegree;
-    auto first = captures_.at(own);
+    const auto first = captures_.at(own);
     if (!first) return tl::unexpected(first.error());
-    const auto keys = captures_.keys(*first);
     Hasher made;
     made.text("representation").text(name_).value(target.value_or(0)).value(tolerance);
-    for (const ContentKey& key : keys) made.value(key.high).value(key.low);
-    BakeNote note{made.finish(), own, 0};
-    const auto known = readNote(at_, name_, note.key);
-    bool reused = false;
-    if (known) {
-      note = *known;
-      auto open = captures_.at(note.samplesPerDegree);
-      if (!open) return tl::unexpected(open.error());
-      const auto there = captures_.keys(*open);
-      reused = std::ranges::all_of(there, [&](const ContentKey& key) { return store_.has(key); });
-    } else if (target) {
+    for (const ContentKey& key : captures_.keys(*first)) made.value(key.high).value(key.low);
+    Earlier earlier{{made.finish(), own, 0}};
+    const auto note = readNote(at_, name_, earlier.note.key);
+    if (!note) return earlier;
+    const auto open = captures_.at(note->samplesPerDegree);
+    if (!open) return tl::unexpected(open.error());
+    const auto keys = captures_.keys(*open);
+    return Earlier{*note, true,
+                   std::ranges::all_of(keys, [&](const ContentKey& key) { return store_.has(key); })};
+  }
+
+  Result<SizedCaptures> run(std::optional<double> target, double tolerance) {
+    auto earlier = lookUp(target, tolerance);
+    if (!earlier) return tl::unexpected(earlier.error());
+    auto& [note, known, reused] = *earlier;
+    if (!known && target) {
       const auto fitted = fitResolution(
-          own, *target, tolerance, [&](double s) { return bytesOfPart(s); },
+          note.samplesPerDegree, *target, tolerance, [&](double s) { return bytesOfPart(s); },
           [&](double s) { return bytesOfAll(s); });
       if (!fitted) return tl::unexpected(fitted.error());
       note.samplesPerDegree = *fitted;
@@ -152,6 +161,18 @@ Result<double> fitResolution(double first, double target, double tolerance,
     if (std::abs(*bytes / target - 1) <= tolerance || n + 1 == kWholeTries || next == at) return at;
     at = next;
   }
+}
+
+Result<bool> isBakedToSize(const Workplace& at, const std::string& name, const CaptureBake& captures,
+                           std::optional<double> target, double tolerance) {
+  const auto folder = captureFolderFor(at.fileOf(name));
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) return false;  // asking makes none
+  auto store = CaptureStore::open(folder);
+  if (!store) return tl::unexpected(store.error());
+  const auto earlier = Sizing(at, name, captures, std::move(*store)).lookUp(target, tolerance);
+  if (!earlier) return tl::unexpected(earlier.error());
+  return earlier->whole;
 }
 
 Result<SizedCaptures> bakeToSize(const Workplace& at, const std::string& name, const CaptureBake& captures,

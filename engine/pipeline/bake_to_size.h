@@ -23,6 +23,9 @@ struct CaptureBake {
   std::vector<ContentKey> keep;  ///< of others in the same store
 };
 
+/// A part this much of the whole tells its size.
+inline constexpr std::size_t kSizingPart = 8;
+
 /// The usual bake of a project's cameras, without light on surfaces.
 CaptureBake plainBake(const Workplace& at, std::function<Result<OpenProject>(double)> open);
 
@@ -38,6 +41,9 @@ struct SizedCaptures {
   CaptureStore store;
   RepresentationCost cost;  ///< of the captures; samples are not counted yet
 };
+/// Has an earlier run left all of them?
+Result<bool> isBakedToSize(const Workplace& at, const std::string& name, const CaptureBake& captures,
+                           std::optional<double> target, double tolerance);
 /// Without a target, at the project's samples per degree. An earlier run's captures are taken where they are
 /// of the same cameras and target. Captures of other runs in the folder are deleted.
 Result<SizedCaptures> bakeToSize(const Workplace& at, const std::string& name, const CaptureBake& captures,

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <list>
 #include <optional>
 
 #include "engine/bake/capture_writer.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
+#include "engine/pipeline/bake_to_size.h"
 #include "engine/pipeline/trial_folder.h"
 
 namespace acentric {
@@ -93,12 +95,30 @@ class Bench {
         1, int(std::lround(options_.side * settings.samplesPerDegree / open_.project.bake.samplesPerDegree)));
   }
 
+  /// What all of it will take.
+  Result<BakeForecast> foretell(TaskRunner& runner, const Progress& progress) const {
+    BakeForecast all;
+    for (const BenchLight light : {BenchLight::none, BenchLight::hardShadows, BenchLight::all}) {
+      const auto forecast = foretell(light, runner, progress);
+      if (!forecast) return forecast;
+      all += *forecast;
+    }
+    return all;
+  }
+
   BakeSettings settingsOf(const std::optional<Quality>& quality) const {
     if (quality) return open_.project.bake.at(*quality);
     BakeSettings settings = open_.project.bake;
     settings.pruning = false;
     settings.maxLayers = 1;
     return settings;
+  }
+
+  /// A set's settings without pruning: all that its rays meet.
+  BakeSettings everySurface() const {
+    BakeSettings everything = settingsOf(Quality::full);
+    everything.pruning = false;
+    return everything;
   }
 
   Status bakeOnce(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
@@ -158,6 +178,13 @@ class Bench {
     return least;
   }
   Status writeRing(const RayScene& rays, TaskRunner& runner, const std::filesystem::path& folder) const;
+  /// Of the sets with this light: each set of effects has a tracer of its own, and one is enough at a time.
+  Result<BakeForecast> foretell(BenchLight light, TaskRunner& runner, const Progress& progress) const;
+  /// Samples per degree with which a camera usually has as many pixels as it is baked with here.
+  double resolutionOf(const BakeSettings& settings) const {
+    const ColumnCamera usual = columnCameraFor(ring_.cameras.front(), ring_, open_.scene->bounds, settings);
+    return settings.samplesPerDegree * sideOf(settings) / std::sqrt(double(usual.columns) * usual.rows);
+  }
 
   const OpenProject& open_;
   const BakeBenchOptions& options_;
@@ -189,6 +216,46 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
     if (Status put = writer.put({0, ++number}, std::move(*capture)); !put) return put;
   }
   return writer.finish();
+}
+
+Result<BakeForecast> Bench::foretell(BenchLight light, TaskRunner& runner, const Progress& progress) const {
+  OpenProject lit = open_;
+  lit.layout = std::make_shared<const Layout>(ring_);
+  lit.plan = planWith(open_.plan, light);
+  if (light != BenchLight::all) {
+    auto rays = RayScene::build(open_.scene, lit.plan);
+    if (!rays) return tl::unexpected(rays.error());
+    lit.rays = std::move(*rays);
+  }
+  std::list<OpenProject> opened;
+  std::vector<BakeShare> shares;
+  const auto add = [&](BakeSettings settings, TrialBake trial) {
+    const double wanted = resolutionOf(settings);
+    settings.samplesPerDegree = std::clamp(wanted, kLeastSamplesPerDegree, kMostSamplesPerDegree);
+    trial.times *= std::pow(wanted / settings.samplesPerDegree, 2);
+    opened.push_back(lit);
+    opened.back().project.bake = settings;
+    shares.push_back({&opened.back(), allCamerasOf(ring_), false, 0, trial});
+  };
+  for (const Kind& kind : kKinds) {
+    if (kind.light != light) continue;
+    TrialBake trial{options_.repeats, double(options_.repeats)};
+    trial.kept = TrialBake::Kept::letGo;
+    if (light == BenchLight::hardShadows) {  // again, to files
+      trial.bakes *= 2, trial.times *= 2;
+      trial.kept = TrialBake::Kept::onDisk;
+    }
+    if (kind.quality == Quality::full && runner.threads() > 1) {  // again, on one thread
+      trial.bakes *= 2, trial.times *= 1 + runner.threads();
+    }
+    add(settingsOf(kind.quality), trial);
+  }
+  if (light == BenchLight::none) {
+    TrialBake once;
+    once.kept = TrialBake::Kept::letGo;
+    add(everySurface(), once);
+  }
+  return forecastBake(shares, {}, runner, progress, stop_);
 }
 
 struct FileCosts {
@@ -245,6 +312,11 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   out.threads = runner.threads();
   out.firstRays = bench.firstRays(open.project.bake);
 
+  if (options.tell) {
+    const auto forecast = bench.foretell(runner, progress);
+    if (!forecast) return tl::unexpected(forecast.error());
+    options.tell(*forecast);
+  }
   std::vector<Capture> captures;
   for (const Kind& kind : kKinds) {
     if (progress)
@@ -269,10 +341,8 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     set.seconds = *seconds;
     set.primaryShare = double(set.counts.rays.primary) / set.seconds / (out.firstRays / out.tracerSeconds);
     if (kind.light == BenchLight::none) {
-      BakeSettings everything = bench.settingsOf(Quality::full);
-      everything.pruning = false;
       CaptureCounts met;
-      if (Status counted = bench.bakeOnce(**rays, everything, runner, met); !counted)
+      if (Status counted = bench.bakeOnce(**rays, bench.everySurface(), runner, met); !counted)
         return tl::unexpected(counted.error());
       out.bytes.everySurface = bytesWithBackground(met.samples);
     }

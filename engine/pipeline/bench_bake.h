@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/bake_forecast.h"
 
 namespace acentric {
 
@@ -13,6 +13,7 @@ struct BakeBenchOptions {
   int cameras = 8;  ///< of the ring, 6..72, each of 360 degrees / cameras
   int side = 1024;  ///< columns, and rows, of each, 8..16384
   int repeats = 3;  ///< each set is baked so often; the fastest counts
+  BakeTeller tell;  ///< none: nothing is foretold
   Status check() const;
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <numeric>
 
 #include "engine/bake/surface_light_bake.h"
 #include "engine/base/contract.h"
@@ -115,6 +114,8 @@ class Bench {
     oneLayer_ = open_.project.bake;
     oneLayer_.maxLayers = 1;
     oneLayer_.pruning = false;
+    if (options_.tell)
+      if (Status told = foretell(); !told) return tl::unexpected(told.error());
     for (const BakeSettings& settings : {oneLayer_, open_.project.bake})
       if (Status baked = bakeAll(settings); !baked) return tl::unexpected(baked.error());
     if (Status lit = lightLocal(); !lit) return tl::unexpected(lit.error());
@@ -132,10 +133,27 @@ class Bench {
  private:
   enum class Cameras { ring, panorama, both };
 
+  /// One layer, then all layers, for which little light is left to gather, and light on what is near.
+  Status foretell() const {
+    OpenProject layered = open_;
+    layered.layout = withPanorama_;
+    OpenProject oneLayer = layered;
+    oneLayer.project.bake = oneLayer_;
+    TrialBake trial;
+    trial.kept = TrialBake::Kept::inMemory;
+    const std::vector<int> all = allCamerasOf(*withPanorama_);
+    const BakeShare first{&oneLayer, all, false, 0, trial};
+    trial.gathers = false;
+    const BakeShare shares[] = {first, {&layered, all, !surfaceLightBaked(open_), 0, trial}};
+    const auto forecast = forecastBake(shares, {}, runner_, progress_, stop_);
+    if (!forecast) return tl::unexpected(forecast.error());
+    options_.tell(*forecast);
+    return {};
+  }
+
   Status bakeAll(const BakeSettings& settings) {
-    std::vector<int> all(withPanorama_->cameras.size());
-    std::iota(all.begin(), all.end(), 0);
-    auto report = bake(*open_.rays, *withPanorama_, all, settings, kept_, runner_, progress_, stop_);
+    auto report = bake(*open_.rays, *withPanorama_, allCamerasOf(*withPanorama_), settings, kept_, runner_,
+                       progress_, stop_);
     if (!report) return tl::unexpected(report.error());
     return {};
   }

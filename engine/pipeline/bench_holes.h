@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/measure/compare.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/bake_forecast.h"
 
 namespace acentric {
 
@@ -20,6 +20,7 @@ struct HoleBenchOptions {
   std::optional<glm::dvec2> place;   ///< in the ring, or in a gap near it; none = where the walk begins
   std::optional<double> yawRadians;  ///< none = as the walk begins
   int truthSamples = 1;
+  BakeTeller tell;  ///< none: nothing is foretold
   Status check() const;
 };
 

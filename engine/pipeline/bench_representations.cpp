@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/geometry/conventions.h"
 #include "engine/inspect/random_poses.h"
@@ -23,6 +24,7 @@ constexpr RingWay kRings[] = {{"rings-45", Configuration::a},
                               {"rings-120", Configuration::g}};
 constexpr const char *kMesh = "mesh", *kRooms = "rooms", *kGrid = "grid", *kGreedy = "greedy",
                      *kBoxes = "boxes";
+constexpr const char* kPanoramas[] = {kRooms, kGrid, kGreedy, kBoxes};
 
 /// Ray-traced, of one view.
 struct Truth {
@@ -37,9 +39,13 @@ class Bench {
 
   Result<RepresentationBench> run(std::vector<ViewSet> sets) {
     bench_.sets = std::move(sets);
+    for (const std::string& name : representationNames())
+      if (isWanted(name)) names_.push_back(name);
+    if (Status placed = placePanoramas(); !placed) return tl::unexpected(placed.error());
+    if (options_.tell)
+      if (Status told = foretell(); !told) return tl::unexpected(told.error());
     if (Status traced = traceTruth(); !traced) return tl::unexpected(traced.error());
-    for (const std::string& name : representationNames()) {
-      if (!isWanted(name)) continue;
+    for (const std::string& name : names_) {
       const auto made = make(name);
       if (!made) return fail(made.error().kind, made.error().message, name + ": " + made.error().where);
       if (name == kOwn) own_ = made->cost;
@@ -67,10 +73,62 @@ class Bench {
     const SizeTarget target{double(own_.bytes()), options_.tolerance};
     for (const RingWay& way : kRings)
       if (name == way.name) return makeRings(at_, name, relaid(spec, way.configuration), target);
-    auto panoramas = panoramasOf(name);
-    if (!panoramas) return tl::unexpected(panoramas.error());
-    std::string description = descriptionOf(name, *panoramas);
-    return makePanoramas(at_, name, std::move(description), std::move(*panoramas), name == kBoxes, target);
+    const PanoramaSet& panoramas = panoramas_.at(name);
+    return makePanoramas(at_, name, descriptionOf(name, panoramas), panoramas, name == kBoxes, target);
+  }
+
+  /// What make() will bake, of all but the project's own.
+  Result<RepresentationBake> bakeOf(const std::string& name, double bytes, std::size_t triangles) const {
+    if (name == kMesh) return bakeOfMesh(at_, name, triangles);
+    const SizeTarget target{bytes, options_.tolerance};
+    for (const RingWay& way : kRings)
+      if (name == way.name)
+        return bakeOfRings(at_, name, relaid(open_.project.layout(), way.configuration), target);
+    return bakeOfPanoramas(at_, name, panoramas_.at(name), name == kBoxes, target);
+  }
+
+  /// The others are as large as the project's own, which tells how large they will be.
+  Status foretell() const {
+    const auto own = bakeOfRings(at_, kOwn, open_.project.layout(), {});
+    if (!own) return tl::unexpected(own.error());
+    auto forecast = forecastOf(*own, true);
+    if (!forecast) return tl::unexpected(forecast.error());
+    const double lightBytes = forecast->lightBytes,
+                 bytes = forecast->packedBytes + lightBytes + double(own->bytesThere);
+    std::size_t triangles = 0;
+    if (forecast->nothing() && std::ranges::count(names_, kMesh) > 0) {
+      const auto made = make(kOwn);
+      if (!made) return tl::unexpected(made.error());
+      triangles = made->cost.triangles;
+    }
+    for (const std::string& name : names_) {
+      if (name == kOwn) continue;
+      auto bake = bakeOf(name, bytes, triangles);
+      if (!bake) return tl::unexpected(bake.error());
+      if (bake->light && bake->packedBytes) *bake->packedBytes -= lightBytes;
+      const auto next = forecastOf(*bake, forecast->cameras == 0);
+      if (!next) return tl::unexpected(next.error());
+      *forecast += *next;
+    }
+    options_.tell(*forecast);
+    return {};
+  }
+  Result<BakeForecast> forecastOf(const RepresentationBake& bake, bool gathers) const {
+    BakeShare share = bake.share();
+    share.trial->gathers = gathers;
+    return forecastBake(std::span(&share, 1), {}, at_.runner, at_.progress, at_.stop);
+  }
+
+  Status placePanoramas() {
+    for (const std::string& name : names_) {
+      if (std::ranges::count(kPanoramas, name) == 0) continue;
+      if (at_.progress) at_.progress({0, 0, "placing " + name});
+      auto panoramas = panoramasOf(name);
+      if (!panoramas)
+        return fail(panoramas.error().kind, panoramas.error().message, name + ": " + panoramas.error().where);
+      panoramas_.emplace(name, std::move(*panoramas));
+    }
+    return {};
   }
 
   Result<PanoramaSet> panoramasOf(const std::string& name) const {
@@ -128,6 +186,8 @@ class Bench {
   const RepresentationBenchOptions& options_;
   Workplace at_;
   RepresentationBench bench_;
+  std::vector<std::string> names_;  ///< that are wanted
+  std::map<std::string, PanoramaSet> panoramas_;
   std::vector<Truth> truth_;  ///< of all sets' views, one after the other
   RepresentationCost own_;
 };
@@ -150,7 +210,8 @@ Status RepresentationBenchOptions::check() const {
 std::vector<std::string> representationNames() {
   std::vector<std::string> names{kOwn};
   for (const RingWay& way : kRings) names.emplace_back(way.name);
-  names.insert(names.end(), {kMesh, kRooms, kGrid, kGreedy, kBoxes});
+  names.emplace_back(kMesh);
+  names.insert(names.end(), std::begin(kPanoramas), std::end(kPanoramas));
   return names;
 }
 

@@ -3,6 +3,7 @@
 /// as many bytes, the same eyes, ray tracing as the truth. Each is made, measured and let go.
 
 #include "engine/measure/compare.h"
+#include "engine/pipeline/bake_forecast.h"
 #include "engine/pipeline/make_representation.h"
 
 namespace acentric {
@@ -18,6 +19,7 @@ struct RepresentationBenchOptions {
   /// project's cameras add up to.
   std::size_t panoramas = 0;
   std::vector<std::string> only;  ///< of representationNames(); empty = all
+  BakeTeller tell;                ///< none: nothing is foretold
   Status check() const;
 };
 

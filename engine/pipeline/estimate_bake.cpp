@@ -218,19 +218,22 @@ class ProjectProber final : public BakeProber {
   Result<std::vector<CaptureProbe>> finishCaptures() override {
     if (writer_)
       if (Status done = writer_->finish(); !done) return tl::unexpected(done.error());
-    std::vector<double> bytesPerSample(probes_.size(), 0);
+    std::vector<double> bytesPerSample(probes_.size(), 0), packedPerSample = bytesPerSample;
     for (const Written& written : sink_.written()) {
       CaptureProbe& probe = probes_[written.trial];
       probe.writtenSamples += written.samples;
       probe.writeSeconds += std::max(0.0, written.seconds - overhead_.writeSeconds);
       if (!(written.samples > 0)) continue;
-      double bytes = 0;
-      if (written.thinned != Thinned::columns) bytes += written.exrBytes - smallest_.exrBytes;
-      if (written.thinned != Thinned::rows) bytes += written.packBytes - smallest_.packBytes;
-      bytesPerSample[written.trial] += std::max(0.0, bytes) / written.samples;
+      double exr = 0, pack = 0;
+      if (written.thinned != Thinned::columns) exr = written.exrBytes - smallest_.exrBytes;
+      if (written.thinned != Thinned::rows) pack = written.packBytes - smallest_.packBytes;
+      bytesPerSample[written.trial] += std::max(0.0, exr + pack) / written.samples;
+      packedPerSample[written.trial] += std::max(0.0, pack) / written.samples;
     }
-    for (std::size_t trial = 0; trial < probes_.size(); ++trial)
+    for (std::size_t trial = 0; trial < probes_.size(); ++trial) {
       probes_[trial].bytes = bytesPerSample[trial] * probes_[trial].writtenSamples;
+      probes_[trial].packedBytes = packedPerSample[trial] * probes_[trial].writtenSamples;
+    }
     return probes_;
   }
 
@@ -452,13 +455,18 @@ Result<BakeEstimate> estimateProjectBake(const OpenProject& open, const std::vec
                                          const EstimateOptions& options, TaskRunner& runner,
                                          const Progress& progress, std::stop_token stop) {
   std::vector<int> which = cameras;
-  if (which.empty())
+  if (!options.captures)
+    which.clear();
+  else if (which.empty())
     for (std::size_t c = 0; c < open.layout->cameras.size(); ++c) which.push_back(int(c));
   for (const int camera : which)
     if (camera < 0 || camera >= int(open.layout->cameras.size()))
       return fail(ErrorKind::invalidArgument, fmt::format("there is no camera {}; the layout has {}", camera,
                                                           open.layout->cameras.size()));
-  const auto folder = TrialFolder::make(fs::absolute(open.file).parent_path());
+  std::error_code unknown;  // a project that is in no file lies nowhere
+  const fs::path beside =
+      open.file.empty() ? fs::temp_directory_path(unknown) : fs::absolute(open.file, unknown).parent_path();
+  const auto folder = TrialFolder::make(beside);
   if (!folder) return tl::unexpected(folder.error());
   try {
     ProjectProber prober(open, which, runner, stop, *folder, options);

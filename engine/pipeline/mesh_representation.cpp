@@ -65,17 +65,48 @@ ConvexPolygon roundThe(const Scene& scene) {
   return {{low, {high.x, low.y}, high, {low.x, high.y}}};
 }
 
+ContentKey keyOf(const OpenProject& open, std::size_t mostTriangles) {
+  Hasher hasher;
+  hasher.text("whole mesh, to its budget").value(open.surfaceLightKey.high).value(open.surfaceLightKey.low);
+  hasher.value(std::uint64_t(mostTriangles)).value(open.project.bake.surfaceTexel);
+  return hasher.finish();
+}
+
+/// Without cameras; its only region draws all of the scene.
+Layout everywhere(const OpenProject& open) {
+  Layout layout;
+  layout.spec = open.layout->spec;
+  Region region;
+  region.polygon = region.grown = roundThe(*open.scene);
+  layout.regions = {std::move(region)};
+  return layout;
+}
+
 }  // namespace
+
+Result<RepresentationBake> bakeOfMesh(const Workplace& at, const std::string& name,
+                                      std::size_t mostTriangles) {
+  RepresentationBake bake{at.open};
+  bake.open.file = at.fileOf(name);
+  bake.open.layout = std::make_shared<const Layout>(everywhere(at.open));
+  bake.open.keys.clear();
+  bake.light = true;
+  const ContentKey key = keyOf(at.open, mostTriangles);
+  const auto folder = captureFolderFor(bake.open.file);
+  std::error_code error;
+  if (!readNote(at, name, key) || !std::filesystem::is_directory(folder, error)) return bake;
+  const auto store = CaptureStore::open(folder);
+  if (!store) return tl::unexpected(store.error());
+  bake.light = !store->hasSimplified(key) || !store->hasSurfaceLight(at.open.surfaceLightKey);
+  return bake;
+}
 
 Result<Representation> makeMesh(const Workplace& at, const std::string& name, std::size_t mostTriangles) {
   const OpenProject& open = at.open;
   const auto store = openCaptures(at.fileOf(name));
   if (!store) return tl::unexpected(store.error());
   const BakeSettings& bake = open.project.bake;
-  Hasher hasher;
-  hasher.text("whole mesh, to its budget").value(open.surfaceLightKey.high).value(open.surfaceLightKey.low);
-  hasher.value(std::uint64_t(mostTriangles)).value(bake.surfaceTexel);
-  BakeNote note{hasher.finish(), 0, 0};
+  BakeNote note{keyOf(open, mostTriangles), 0, 0};
   const ContentKey lightKey = open.surfaceLightKey;
   const auto known = readNote(at, name, note.key);
   const bool reused = known && store->hasSimplified(note.key) && store->hasSurfaceLight(lightKey);

@@ -42,12 +42,10 @@ Result<std::vector<std::shared_ptr<const DisplayCapture>>> loadCaptures(const Wo
   return captures;
 }
 
-}  // namespace
-
-Result<Representation> makePanoramas(const Workplace& at, const std::string& name, std::string description,
-                                     PanoramaSet panoramas, bool merged, const SizeTarget& target) {
-  const auto set = std::make_shared<const PanoramaSet>(std::move(panoramas));
-  const auto openAt = [&](double samplesPerDegree) -> Result<OpenProject> {
+/// How they are baked, within `set`.
+CaptureBake bakeOf(const Workplace& at, const std::string& name,
+                   const std::shared_ptr<const PanoramaSet>& set, bool merged) {
+  const auto openAt = [&at, name, set](double samplesPerDegree) -> Result<OpenProject> {
     OpenProject open = at.open;
     open.file = at.fileOf(name);
     open.project.bake.samplesPerDegree = samplesPerDegree;
@@ -58,8 +56,29 @@ Result<Representation> makePanoramas(const Workplace& at, const std::string& nam
     return open;
   };
   const std::size_t together = std::size_t(set->groups.front().cameras);
-  auto sized = bakeToSize(at, name, merged ? mergedBake(at, openAt, together) : plainBake(at, openAt),
-                          target.bytes, target.tolerance);
+  return merged ? mergedBake(at, openAt, together) : plainBake(at, openAt);
+}
+
+}  // namespace
+
+Result<RepresentationBake> bakeOfPanoramas(const Workplace& at, const std::string& name,
+                                           const PanoramaSet& panoramas, bool merged,
+                                           const SizeTarget& target) {
+  const CaptureBake captures = bakeOf(at, name, std::make_shared<const PanoramaSet>(panoramas), merged);
+  const auto there = isBakedToSize(at, name, captures, target.bytes, target.tolerance);
+  if (!there) return tl::unexpected(there.error());
+  auto open = captures.at(at.open.project.bake.samplesPerDegree);
+  if (!open) return tl::unexpected(open.error());
+  RepresentationBake bake{std::move(*open)};
+  if (!*there) bake.cameras = allCamerasOf(*bake.open.layout);
+  bake.packedBytes = target.bytes;
+  return bake;
+}
+
+Result<Representation> makePanoramas(const Workplace& at, const std::string& name, std::string description,
+                                     PanoramaSet panoramas, bool merged, const SizeTarget& target) {
+  const auto set = std::make_shared<const PanoramaSet>(std::move(panoramas));
+  auto sized = bakeToSize(at, name, bakeOf(at, name, set, merged), target.bytes, target.tolerance);
   if (!sized) return tl::unexpected(sized.error());
   auto captures = loadCaptures(at, *sized);
   if (!captures) return tl::unexpected(captures.error());

@@ -4,6 +4,8 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/pipeline/bake_to_size.h"
+#include "engine/pipeline/make_representation.h"
 
 namespace acentric {
 namespace {
@@ -23,6 +25,13 @@ Result<std::uint64_t> packedBytes(const CaptureStore& store, std::span<const Con
       if (file.extension == ".pack") bytes += file.bytes;
   }
   return bytes;
+}
+
+BakeShare RepresentationBake::share() const {
+  TrialBake trial;
+  trial.packedBytes = packedBytes;
+  if (packedBytes) trial.times += 1.0 / kSizingPart;
+  return {&open, cameras, light, 0, trial};
 }
 
 std::optional<BakeNote> readNote(const Workplace& at, const std::string& name, const ContentKey& key) {

@@ -50,10 +50,33 @@ class RingView final : public RepresentationView {
   ViewSettings settings_;
 };
 
+std::string lightNoteOf(const std::string& name) { return name + ".light"; }
+
+/// The project with a layout of its own, in a folder of its own.
+std::function<Result<OpenProject>(double samplesPerDegree)> openingOf(const Workplace& at,
+                                                                      const std::string& name,
+                                                                      const LayoutSpec& spec) {
+  Project project = at.open.project;
+  project.layout() = spec;
+  return [&at, name, project = std::move(project)](double samplesPerDegree) mutable -> Result<OpenProject> {
+    project.bake.samplesPerDegree = samplesPerDegree;
+    auto open = reopenProject(at.open, project, {}, at.progress, at.stop);
+    if (open) open->file = at.fileOf(name);
+    return open;
+  };
+}
+
+CaptureBake bakeBeside(const ContentKey& light, const Workplace& at,
+                       std::function<Result<OpenProject>(double)> openAt) {
+  CaptureBake bake = plainBake(at, std::move(openAt));
+  bake.keep = {light};
+  return bake;
+}
+
 /// Light on the surfaces that some region draws; how long it took, now or in an earlier run.
 Result<double> bakeLight(const Workplace& at, const std::string& name, const OpenProject& open,
                          const CaptureStore& store) {
-  const std::string noteName = name + ".light";
+  const std::string noteName = lightNoteOf(name);
   if (store.hasSurfaceLight(open.surfaceLightKey))
     if (const auto note = readNote(at, noteName, open.surfaceLightKey)) return note->seconds;
   BakeRequest request;
@@ -75,16 +98,42 @@ LayoutSpec relaid(const LayoutSpec& spec, Configuration configuration) {
   return other;
 }
 
+Result<RepresentationBake> bakeOfRings(const Workplace& at, const std::string& name, const LayoutSpec& spec,
+                                       const SizeTarget& target) {
+  const auto openAt = openingOf(at, name, spec);
+  auto own = openAt(at.open.project.bake.samplesPerDegree);
+  if (!own) return tl::unexpected(own.error());
+  RepresentationBake bake{std::move(*own)};
+  const OpenProject& open = bake.open;
+  bake.cameras = allCamerasOf(*open.layout), bake.light = true;
+  bake.bytesThere = localMeshBytes(*open.scene, localTrianglesOf(*open.scene, *open.layout, at.stop));
+  if (target.bytes) bake.packedBytes = *target.bytes - double(bake.bytesThere);
+  std::error_code error;
+  const auto folder = captureFolderFor(open.file);
+  if (!std::filesystem::is_directory(folder, error)) return bake;  // asking makes none
+  const auto store = CaptureStore::open(folder);
+  if (!store) return tl::unexpected(store.error());
+  bake.light =
+      !store->hasSurfaceLight(open.surfaceLightKey) || !readNote(at, lightNoteOf(name), open.surfaceLightKey);
+  if (bake.light) return bake;
+  const std::uint64_t lightBytes = store->bytesOf(open.surfaceLightKey);
+  bake.bytesThere += lightBytes;
+  if (bake.packedBytes) *bake.packedBytes -= double(lightBytes);
+  const auto there = isBakedToSize(at, name, bakeBeside(open.surfaceLightKey, at, openAt), bake.packedBytes,
+                                   target.tolerance);
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return bake;
+  bake.cameras.clear();
+  if (target.bytes) return bake;
+  const auto packed = packedBytes(*store, open.keys);
+  if (!packed) return tl::unexpected(packed.error());
+  bake.bytesThere += *packed;
+  return bake;
+}
+
 Result<Representation> makeRings(const Workplace& at, const std::string& name, const LayoutSpec& spec,
                                  const SizeTarget& target) {
-  Project project = at.open.project;
-  project.layout() = spec;
-  const auto openAt = [&](double samplesPerDegree) -> Result<OpenProject> {
-    project.bake.samplesPerDegree = samplesPerDegree;
-    auto open = reopenProject(at.open, project, {}, at.progress, at.stop);
-    if (open) open->file = at.fileOf(name);
-    return open;
-  };
+  const auto openAt = openingOf(at, name, spec);
   const auto own = openAt(at.open.project.bake.samplesPerDegree);
   if (!own) return tl::unexpected(own.error());
   const auto store = openCaptures(own->file);
@@ -95,8 +144,7 @@ Result<Representation> makeRings(const Workplace& at, const std::string& name, c
                       polygonBytes =
                           localMeshBytes(*own->scene, localTrianglesOf(*own->scene, *own->layout, at.stop));
 
-  CaptureBake bake = plainBake(at, openAt);
-  bake.keep = {own->surfaceLightKey};
+  const CaptureBake bake = bakeBeside(own->surfaceLightKey, at, openAt);
   std::optional<double> captureBytes;
   if (target.bytes) captureBytes = *target.bytes - double(lightBytes + polygonBytes);
   auto sized = bakeToSize(at, name, bake, captureBytes, target.tolerance);

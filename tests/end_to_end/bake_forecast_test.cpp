@@ -49,11 +49,77 @@ TEST(BakeForecastTold, AsAnEventAndInTheReportOfJson) {
   EXPECT_EQ(Json::parse(idle.output)["forecast"]["cameras"], 0);
 }
 
+TEST(BakeForecastTold, ByBenchBakeForAllItsSetsAndRepeats) {
+  const SampleProject project("forecast-bench-bake");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto ran = acentric({"bench", "bake", project.file(), "--side", "48", "--cameras", "6", "--repeats",
+                             "1", "--threads", "2"});
+  ASSERT_EQ(ran.exitCode, 0) << ran.errors;
+  EXPECT_THAT(ran.errors, ContainsRegex("acentric: 54 cameras in 9 bakes to bake: about [0-9.]+ (s|min) with "
+                                        "2 threads, [0-9.]+ MB on disk, at most [0-9]+ MB of memory"));
+  const auto wrong = acentric({"bench", "bake", project.file(), "--side", "1"});
+  EXPECT_THAT(wrong.errors, Not(HasSubstr("to bake")));
+}
+
+TEST(BakeForecastTold, ByBenchHolesWhoseCapturesStayInMemory) {
+  const SampleProject project("forecast-bench-holes", "-3,-3;3,-3;3,3;-3,3");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const std::vector<std::string> bench = {"bench",    "holes", project.file(), "--size", "96x54",
+                                          "--frames", "1",     "--json"};
+  const auto first = acentric(bench);
+  ASSERT_EQ(first.exitCode, 0) << first.errors;
+  const Json told = Json::parse(first.errors);
+  EXPECT_EQ(told["event"], "bakeForecast");
+  EXPECT_EQ(told["bakes"], 2);
+  EXPECT_EQ(told["cameras"].get<int>() % 2, 0);
+  EXPECT_GT(told["cameras"].get<int>(), 2 * 6) << "a ring and a panorama";
+  EXPECT_EQ(told["lights"], 1);
+  EXPECT_EQ(told["bytes"], 0);
+  EXPECT_GT(told["seconds"].get<double>(), 0);
+  ASSERT_EQ(acentric({"bake", project.file(), "--light", "only"}).exitCode, 0);
+  EXPECT_EQ(Json::parse(acentric(bench).errors)["lights"], 0) << "the project's is taken";
+}
+
+TEST(BakeForecastTold, ByBenchRepresentationsForWhatNoEarlierRunBaked) {
+  const SampleProject project("forecast-bench-representations", "-3,-3;3,-3;3,3;-3,3");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto bench = [&](const std::string& only) {
+    return acentric({"bench", "representations", project.file(), "-o", (project.folder() / "ways").string(),
+                     "--poses", "2", "--size", "96x54", "--json", "--only", only});
+  };
+  const auto first = bench("rooms");
+  ASSERT_EQ(first.exitCode, 0) << first.errors;
+  const Json told = Json::parse(first.errors);
+  EXPECT_EQ(told["event"], "bakeForecast");
+  EXPECT_EQ(told["bakes"], 2);
+  int cameras = 0;
+  const Json report = Json::parse(first.output);
+  for (const Json& way : report["representations"]) cameras += way["cameras"].get<int>();
+  EXPECT_EQ(told["cameras"], cameras);
+  EXPECT_GT(told["bytes"].get<double>(), 0);
+  EXPECT_EQ(bench("rooms").errors, "") << "all of it is there";
+  const auto more = bench("rooms,mesh");
+  ASSERT_EQ(more.exitCode, 0) << more.errors;
+  EXPECT_EQ(Json::parse(more.errors)["cameras"], 0);
+  EXPECT_EQ(Json::parse(more.errors)["lights"], 1) << "the mesh's";
+}
+
+TEST(BakeForecastTold, ByFarmBeforeJobsAreMade) {
+  const SampleProject project("forecast-farm", "-3,-3;3,-3;3,3;-3,3");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const auto farm = acentric({"farm", "slurm", project.file()});
+  ASSERT_EQ(farm.exitCode, 0) << farm.errors;
+  EXPECT_THAT(farm.errors, ContainsRegex("acentric: [0-9]+ cameras and light on surfaces to bake: about"));
+}
+
 TEST(FirstViewBench, TellsWhenItIsCoarseFullAndLit) {
   const auto bench = acentric({"bench", "first-view", ACENTRIC_SAMPLE_SCENE, "--cell-size", "2.5",
                                "--samples-per-degree", "1", "--json"});
   ASSERT_EQ(bench.exitCode, 0) << bench.errors;
   const Json scene = Json::parse(bench.output)["scenes"][0];
+  const Json told = Json::parse(bench.errors);
+  EXPECT_EQ(told["event"], "bakeForecast");
+  EXPECT_EQ(told["cameras"], scene["cameras"]);
   EXPECT_EQ(scene["cellSize"], 2.5);
   EXPECT_GT(scene["firstCameras"].get<int>(), 0);
   EXPECT_LT(scene["firstCameras"].get<int>(), scene["cameras"].get<int>());

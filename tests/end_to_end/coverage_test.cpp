@@ -138,6 +138,11 @@ TEST_F(CoverageTest, TellsWhatPruningLosesAndHowManyEyesMorePrecisionTakes) {
     EXPECT_GT(rows[n]["atMost"].get<double>(), rows[n]["share"].get<double>());
   }
   EXPECT_LT(rows.back()["lost"].get<int>(), rows[0]["lost"].get<int>());
+  const Json& byEyes = report["byEyes"];
+  ASSERT_EQ(byEyes.size(), 4u);
+  EXPECT_EQ(byEyes[3]["seenByFewerThan"].get<double>(), 1);
+  EXPECT_GT(byEyes[0]["share"].get<double>(), byEyes[3]["share"].get<double>()) << "what hardly any eye sees";
+  EXPECT_GT(byEyes[3]["looks"].get<int>(), byEyes[0]["looks"].get<int>());
   Json unpruned = Json::parse(std::ifstream(project->file()));
   unpruned["bake"]["pruning"] = false;
   const auto file =

@@ -64,6 +64,7 @@ TEST(SweepTest, MeasuresWhatAccuracyCostsGoesOnWhereItStoppedAndAppliesWhatItFou
   const auto brief = acentric(sweep(
       project, {"--knobs", "reconstruction=point/splat,samples-per-degree=2", "--budget-minutes", "0.01"}));
   ASSERT_EQ(brief.exitCode, 0) << brief.errors;
+  EXPECT_NE(brief.errors.find("bakeForecast"), std::string::npos) << brief.errors;
   const Json first = Json::parse(brief.output);
   ASSERT_EQ(first["points"].size(), 4u);
   EXPECT_FALSE(first["points"][0].contains("skipped"));

@@ -105,6 +105,35 @@ TEST_F(BakeForecastTest, ForetellsBrieflyWhatTheBakeDoesWithinAFactorOfTwo) {
               estimate->seconds.value / (captures.seconds + report->surfaceLightSeconds));
 }
 
+TEST_F(BakeForecastTest, OfABenchCountsEachBakeAndGathersLightOnce) {
+  const OpenProject open = openRoom(2);
+  TaskRunner runner(1);
+  const auto forecastOf = [&](const std::optional<TrialBake>& trial) {
+    const BakeShare share{&open, {0, 1, 2}, false, 0, trial};
+    const auto forecast = forecastBake(std::span(&share, 1), {}, runner);
+    EXPECT_TRUE(forecast) << (forecast ? "" : forecast.error().describe());
+    return forecast.value_or(BakeForecast{});
+  };
+  const BakeForecast once = forecastOf({});
+  EXPECT_EQ(once.bakes, 0);
+  TrialBake trial{10, 10.0};
+  trial.kept = TrialBake::Kept::letGo;
+  const BakeForecast often = forecastOf(trial);
+  EXPECT_EQ(often.bakes, 10);
+  EXPECT_EQ(often.cameras, 30);
+  EXPECT_EQ(often.bytes(), 0);
+  EXPECT_GT(often.seconds(), once.seconds());
+  TrialBake larger;
+  larger.packedBytes = 4 * once.packedBytes;
+  const BakeForecast grown = forecastOf(larger);
+  EXPECT_NEAR(grown.packedBytes, *larger.packedBytes, 1);
+  EXPECT_NEAR(grown.captureBytes / once.captureBytes, 4, 0.01);
+  BakeForecast sum = once;
+  sum += often;
+  EXPECT_EQ(sum.cameras, 33);
+  EXPECT_EQ(sum.seconds(), once.seconds() + often.seconds());
+}
+
 TEST(BakeForecast, IsOneLineForAPerson) {
   BakeForecast forecast;
   EXPECT_EQ(describe(forecast), "nothing to bake: all of it is there");
@@ -122,6 +151,10 @@ TEST(BakeForecast, IsOneLineForAPerson) {
             "1200 cameras and light on surfaces to bake: about 3.4 min with 2 threads, 2.0 MB on disk, at "
             "most 1500 "
             "MB of memory besides the scene");
+  forecast.bakes = 6, forecast.lights = 0, forecast.captureBytes = forecast.lightBytes = 0;
+  EXPECT_EQ(describe(forecast),
+            "1200 cameras in 6 bakes to bake: about 3.4 min with 2 threads, nothing on disk, at most 1500 MB "
+            "of memory besides the scene");
 }
 
 }  // namespace

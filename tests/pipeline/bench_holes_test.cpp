@@ -46,8 +46,15 @@ TEST(BenchHoles, FindsWhatThePaperFindsAndThatLayersCloseWhatTheRingLeavesOpen) 
   options.frames = 3;
   options.width = 192, options.height = 108;
   TaskRunner runner(0);
+  std::vector<BakeForecast> told;
+  options.tell = [&](const BakeForecast& forecast) { told.push_back(forecast); };
   const auto bench = benchHoles(open, options, runner);
   ASSERT_TRUE(bench) << bench.error().describe();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].bakes, 2);
+  EXPECT_EQ(told[0].lights, 1);
+  EXPECT_EQ(told[0].bytes(), 0) << "nothing is written";
+  EXPECT_GT(told[0].memoryBytes, MemoryBudget::kUsual) << "all of it is kept";
   ASSERT_EQ(bench->views.size(), 3u);
   ASSERT_EQ(bench->methods.size(), 6u);
   int filled = 0;

@@ -91,6 +91,11 @@ TEST(BenchRepresentations, AllAreMeasuredAtAsManyBytes) {
   const auto views = randomViews(open, options);
   ASSERT_TRUE(views);
   const ViewSet path{"path", {views->views[0], views->views[1]}};
+  std::vector<BakeForecast> told;
+  options.tell = [&](const BakeForecast& forecast) {
+    EXPECT_TRUE(std::filesystem::is_empty(folder->path()) || !told.empty()) << "before the first bake";
+    told.push_back(forecast);
+  };
   const auto bench = benchRepresentations(open, {path}, folder->path(), options, runner);
   ASSERT_TRUE(bench) << bench.error().describe();
   ASSERT_EQ(bench->sets.size(), 2u);
@@ -115,9 +120,24 @@ TEST(BenchRepresentations, AllAreMeasuredAtAsManyBytes) {
     }
   }
   EXPECT_LT(medianHoles(bench->results.front()), 0.01);
+  int cameras = 0;
+  double packed = 0, baked = 0;
+  for (const RepresentationResult& result : bench->results) {
+    cameras += result.cost.cameras, packed += double(result.cost.captureBytes);
+    baked += result.cost.bakeSeconds;
+  }
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].bakes, 6) << "the mesh has no captures";
+  EXPECT_EQ(told[0].cameras, cameras);
+  EXPECT_GT(told[0].packedBytes, packed / 2);
+  EXPECT_LT(told[0].packedBytes, packed * 2);
+  std::printf("[ bench    ] foretold: %.2f of the seconds that it took\n", told[0].seconds() / baked);
 
   const auto again = benchRepresentations(open, {}, folder->path(), options, runner);
   ASSERT_TRUE(again) << again.error().describe();
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_TRUE(told[1].nothing()) << describe(told[1]);
+  EXPECT_EQ(told[1].probeSeconds, 0);
   for (std::size_t n = 0; n < again->results.size(); ++n) {
     SCOPED_TRACE(again->results[n].name);
     EXPECT_TRUE(again->results[n].cost.reused);
