@@ -166,15 +166,17 @@ class ColumnSilhouettes {
     pixel_.clear();
     for (std::uint32_t i = pixel.first(); i < pixel.end(); ++i) {
       bool whole = true;
-      if (!isSky(i)) eachNeighbour(row,
-                    [&](const Pixel& neighbour, int, int) { whole = whole && hasSame(neighbour, i, pixel); });
+      if (!isSky(i))
+        eachNeighbour(
+            row, [&](const Pixel& neighbour, int, int) { whole = whole && hasSame(neighbour, i, pixel); });
       pixel_.push_back({i, whole ? kWholePixel : ownCoverage(i, row), all_.inverseDistance[i], all_.colour[i],
                         all_.roles[i], all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
     }
     const std::size_t own = pixel_.size();
     eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
-        if (!isSky(i) && !hasSame(pixel, i, neighbour)) addNeighbours(i, partsTowards(across, down), row, own);
+        if (!isSky(i) && !hasSame(pixel, i, neighbour))
+          addNeighbours(i, partsTowards(across, down), row, own);
     });
     if (pixel_.size() > own) std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
     for (const New& sample : pixel_) add(row, sample);

@@ -168,7 +168,13 @@ typedef struct acentric_view {
 ACENTRIC_API acentric_status acentric_start_view(acentric_bundle* bundle, acentric_view* view);
 
 enum { ACENTRIC_LIST = 0, ACENTRIC_SCALAR = 1, ACENTRIC_ZBUFFER = 2 };
-enum { ACENTRIC_POINT = 0, ACENTRIC_SPLAT = 1, ACENTRIC_SURFACE = 2, ACENTRIC_FILTERED = 3, ACENTRIC_PATCHES = 4 };
+enum {
+  ACENTRIC_POINT = 0,
+  ACENTRIC_SPLAT = 1,
+  ACENTRIC_SURFACE = 2,
+  ACENTRIC_FILTERED = 3,
+  ACENTRIC_PATCHES = 4
+};
 typedef struct acentric_settings {
   int32_t renderer;         /* list priority, its plain reference, or a depth buffer */
   int32_t reconstruction;   /* how samples become pixels */

@@ -43,8 +43,8 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   }
 
   if (capture.hasSilhouettes())
-    display.patches = std::make_shared<const DisplayPatches>(
-        displayPatches(camera, capture, planeTolerance, exposure));
+    display.patches =
+        std::make_shared<const DisplayPatches>(displayPatches(camera, capture, planeTolerance, exposure));
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)
@@ -92,8 +92,8 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
     for (int y = 0; y <= camera.rows; ++y) background.rowBorder.push_back(camera.tangentAt(y));
   }
   if (capture.hasReflections())
-    display.reflections =
-        std::make_shared<const DisplayCapture>(prepare(camera, capture.reflections, capture.planeTolerance, exposure));
+    display.reflections = std::make_shared<const DisplayCapture>(
+        prepare(camera, capture.reflections, capture.planeTolerance, exposure));
   return display;
 }
 

@@ -62,12 +62,15 @@ class TexelWriter {
   }
 
  private:
-  std::size_t texel(int i, int j) const { return std::size_t(i + 1) * std::size_t(height_) + std::size_t(j + 1); }
+  std::size_t texel(int i, int j) const {
+    return std::size_t(i + 1) * std::size_t(height_) + std::size_t(j + 1);
+  }
   double inverseAt(const SurfacePlane& plane, int column, int row) const {
     return plane.inverseDistance(direction_[std::size_t(column)], tangent_[std::size_t(row)]);
   }
 
-  /// Texels where the surface goes on in other patches: of the pixel's samples the one whose plane is nearest.
+  /// Texels where the surface goes on in other patches: of the pixel's samples the one whose plane is
+  /// nearest.
   void goOn(const Patch& patch) {
     constexpr double kBent = 8;  // curved surfaces go on too
     for (int i = -1; i <= patch.columns; ++i)
@@ -91,8 +94,8 @@ class TexelWriter {
       }
   }
 
-  /// Where another surface touches this one, as at a bend, this one reaches one part of a pixel under it: eyes
-  /// that look from the side would see in between them, since both are known to a part only.
+  /// Where another surface touches this one, as at a bend, this one reaches one part of a pixel under it:
+  /// eyes that look from the side would see in between them, since both are known to a part only.
   void reachUnder(const Patch& patch, std::span<const std::uint32_t> members) {
     constexpr double kTouching = 1;  // tolerances
     own_.assign(known_.size(), kNoSample);
@@ -184,13 +187,13 @@ class TexelWriter {
   std::vector<double> tangent_;
   std::vector<std::uint16_t> columnOf_;
   std::optional<PixelSamples> pixels_;
-  int width_ = 0, height_ = 0;        ///< of the patch, with its border
-  std::uint32_t* cover_ = nullptr;    ///< of the patch
-  Rgba8* colour_ = nullptr;           ///< of the patch
+  int width_ = 0, height_ = 0;      ///< of the patch, with its border
+  std::uint32_t* cover_ = nullptr;  ///< of the patch
+  Rgba8* colour_ = nullptr;         ///< of the patch
   static constexpr std::uint32_t kNoSample = 0xffffffff;
-  std::vector<std::uint8_t> known_;    ///< of the patch's texels: do they have a colour?
-  std::vector<std::uint32_t> own_;     ///< their samples
-  std::vector<std::uint16_t> parts_;   ///< that those cover
+  std::vector<std::uint8_t> known_;   ///< of the patch's texels: do they have a colour?
+  std::vector<std::uint32_t> own_;    ///< their samples
+  std::vector<std::uint16_t> parts_;  ///< that those cover
 };
 
 }  // namespace

@@ -2,9 +2,9 @@
 /// The inner loop of drawing patches: some pixels of one column of the picture, from one patch.
 ///
 /// Each pixel's ray is put through the patch's plane to where the capture saw that place. What covers the
-/// pixel is told by eight rays, each by the part of the texel that it meets (the texels' coverage); its colour
-/// is interpolated at the pixel's centre. Pixels are painted front to back: `open` says which of the eight
-/// parts nothing has covered yet.
+/// pixel is told by eight rays, each by the part of the texel that it meets (the texels' coverage); its
+/// colour is interpolated at the pixel's centre. Pixels are painted front to back: `open` says which of the
+/// eight parts nothing has covered yet.
 ///
 /// One template (patch_kernel_body.h) is compiled for one lane, AVX2 and AVX-512. All do the same operations
 /// in the same order without fused multiply-adds, so their results are the same bits. kernels.h chooses. Free
@@ -24,10 +24,12 @@ struct PatchCanvasColumn {
   float* red = nullptr;           ///< sums over covered parts of squared codes, as seen through what is clear
   float* green = nullptr;
   float* blue = nullptr;
-  float* clear = nullptr;         ///< what comes through the clear surfaces before the next
-  float* inverseZDepth = nullptr; ///< of the surface that covers most parts, 1/m
-  std::uint32_t* source = nullptr;  ///< slot of the same surface, from bit 8 on; below how many parts it covers
-  std::uint32_t* mirror = nullptr;  ///< null: none is wanted. Parts that show a mirror, and its number from bit 16
+  float* clear = nullptr;          ///< what comes through the clear surfaces before the next
+  float* inverseZDepth = nullptr;  ///< of the surface that covers most parts, 1/m
+  std::uint32_t* source =
+      nullptr;  ///< slot of the same surface, from bit 8 on; below how many parts it covers
+  std::uint32_t* mirror =
+      nullptr;  ///< null: none is wanted. Parts that show a mirror, and its number from bit 16
 };
 inline constexpr int kPatchRoom = 16;
 
@@ -38,25 +40,27 @@ struct PatchColumn {
   /// strip, left of that, and up; up to a positive factor.
   float start[3], step[3];
   float across[3];  ///< its change from one column of the picture to the next
-  float depthStart, depthStep, depthAcross;  ///< of the inverse depth along the view axis, 1/m; >= 0 before the eye
+  float depthStart, depthStep,
+      depthAcross;  ///< of the inverse depth along the view axis, 1/m; >= 0 before the eye
   float columnOffset, columnsPerRadian;  ///< from the patch's first, of the strip's middle
   float middleTangent;                   ///< of a row near the patch
   float rowOffset, rowsPerRadian;        ///< from the patch's first, of that row
   std::int32_t columns, rows;            ///< of the patch, without its border
-  const std::uint32_t* colour;  ///< texels of the patch
+  const std::uint32_t* colour;           ///< texels of the patch
   const std::uint32_t* cover;
-  std::uint32_t wantedRoles;    ///< bits of texels
-  std::uint32_t slot;           ///< of the canvas
-  std::uint32_t mirror;         ///< the patch's, 0 = none
+  std::uint32_t wantedRoles;  ///< bits of texels
+  std::uint32_t slot;         ///< of the canvas
+  std::uint32_t mirror;       ///< the patch's, 0 = none
   bool blended;
-  bool reflects;                ///< painted where the canvas shows that mirror, and nowhere else
+  bool reflects;  ///< painted where the canvas shows that mirror, and nowhere else
   /// Parts of views: a pixel is painted where low >= 0 and high > 0, or with `eitherSide` one of both.
   bool limited, eitherSide;
   float lowStart, lowStep, highStart, highStep;
 };
 
 /// Rows [first, end) of the picture. Returns how many pixels were painted.
-using PaintPatchColumn = int (*)(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
+using PaintPatchColumn = int (*)(const PatchColumn& patch, int first, int end,
+                                 const PatchCanvasColumn& canvas);
 
 int paintPatchColumnScalar(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
 int paintPatchColumnAvx2(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);

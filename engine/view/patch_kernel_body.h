@@ -8,9 +8,9 @@ namespace acentric::patch_kernel {
 inline constexpr std::uint32_t kInner = 1u << 24;  ///< kTexelInner
 
 /// Rays of a pixel, from its centre: no two in one eighth of it across or down.
-inline constexpr float kPartX[kPixelParts] = {0.0625f, -0.0625f, 0.3125f,  -0.1875f,
+inline constexpr float kPartX[kPixelParts] = {0.0625f,  -0.0625f, 0.3125f, -0.1875f,
                                               -0.3125f, -0.4375f, 0.1875f, 0.4375f};
-inline constexpr float kPartY[kPixelParts] = {-0.1875f, 0.1875f, 0.0625f, -0.3125f,
+inline constexpr float kPartY[kPixelParts] = {-0.1875f, 0.1875f,  0.0625f, -0.3125f,
                                               0.3125f,  -0.0625f, 0.4375f, -0.4375f};
 
 /// Where pixels' rays meet the patch, in texels from its first one's corner, and how that changes.
@@ -78,10 +78,12 @@ struct Kernel {
       const F dx = B::set(kPartX[part]), dy = B::set(kPartY[part]);
       const F column = places.column + (dx * places.columnAcross + dy * places.columnDown);
       const F row = places.row + (dx * places.rowAcross + dy * places.rowDown);
-      const I fourColumns = B::floor(limited(column * B::set(4))), fourRows = B::floor(limited(row * B::set(4)));
-      const I cover = B::gather(c.cover, texelAt(B::template shiftSigned<2>(fourColumns),
-                                                 B::template shiftSigned<2>(fourRows)));
-      const I bit = B::template shiftLeft<2>(B::both(fourRows, B::seti(3))) + B::both(fourColumns, B::seti(3));
+      const I fourColumns = B::floor(limited(column * B::set(4))),
+              fourRows = B::floor(limited(row * B::set(4)));
+      const I cover = B::gather(
+          c.cover, texelAt(B::template shiftSigned<2>(fourColumns), B::template shiftSigned<2>(fourRows)));
+      const I bit =
+          B::template shiftLeft<2>(B::both(fourRows, B::seti(3))) + B::both(fourColumns, B::seti(3));
       const I covered = B::when(isWanted(cover), B::both(B::shiftRightBy(cover, bit), B::seti(1)));
       parts = parts + B::shiftLeftBy(covered, part);
     }
@@ -110,7 +112,8 @@ struct Kernel {
     const F top = B::min(B::max(B::floorOf(row), B::set(-1)), B::set(float(c.rows) - 1));
     const F right = B::min(B::max(column - left, B::set(0)), B::set(1));
     const F down = B::min(B::max(row - top, B::set(0)), B::set(1));
-    const I first = B::times(B::truncate(left) + B::seti(1), B::seti(c.rows + 2)) + B::truncate(top) + B::seti(1);
+    const I first =
+        B::times(B::truncate(left) + B::seti(1), B::seti(c.rows + 2)) + B::truncate(top) + B::seti(1);
     const I second = first + B::seti(c.rows + 2);
     const I a = B::gather(c.colour, first), b = B::gather(c.colour, first + B::seti(1));
     const I d = B::gather(c.colour, second), e = B::gather(c.colour, second + B::seti(1));
@@ -151,7 +154,8 @@ struct Kernel {
     }
     open = B::when(wanted, open);
     if (!B::any(B::greater(open, B::seti(0)))) return 0;
-    const I cover = B::gather(c.cover, texelAt(B::floor(limited(places.column)), B::floor(limited(places.row))));
+    const I cover =
+        B::gather(c.cover, texelAt(B::floor(limited(places.column)), B::floor(limited(places.row))));
     const M inner = isWanted(cover) & B::greater(B::both(cover, B::seti(std::int32_t(kInner))), B::seti(0));
     I parts = B::when(inner, open);
     if (B::any(B::greater(B::different(parts, open), B::seti(0)))) {

@@ -128,14 +128,10 @@ class PatchPainter {
 
   PatchCanvasColumn canvasColumn(int x) {
     const std::size_t at = canvas_.indexOf(x);
-    return {memory_.open.data() + at,
-            memory_.red.data() + at,
-            memory_.green.data() + at,
-            memory_.blue.data() + at,
-            memory_.clear.data() + at,
-            memory_.inverseZDepth.data() + at,
-            memory_.source.data() + at,
-            mirrors_ ? memory_.mirror.data() + at : nullptr};
+    return {memory_.open.data() + at,   memory_.red.data() + at,
+            memory_.green.data() + at,  memory_.blue.data() + at,
+            memory_.clear.data() + at,  memory_.inverseZDepth.data() + at,
+            memory_.source.data() + at, mirrors_ ? memory_.mirror.data() + at : nullptr};
   }
 
   const PatchPlan& plan_;

@@ -81,7 +81,9 @@ class StripPlanner {
         low = std::min(low, sight.tangents.low), high = std::max(high, sight.tangents.high);
     }
     if (low > high) return {0, 0};
-    const auto rowAt = [&](double tangent) { return (camera.topElevation - std::atan(tangent)) / camera.rowPitch(); };
+    const auto rowAt = [&](double tangent) {
+      return (camera.topElevation - std::atan(tangent)) / camera.rowPitch();
+    };
     constexpr int kBeside = 2;
     return {std::max(int(rowAt(high)) - kBeside, 0), std::min(int(rowAt(low)) + 1 + kBeside, camera.rows)};
   }
@@ -127,7 +129,8 @@ class StripPlanner {
     column.middleTangent = float(capture_.camera.tangentAt(middleRow));
     column.rowOffset = float(0.5 * patch.rows);
     column.columns = patch.columns, column.rows = patch.rows;
-    column.colour = reinterpret_cast<const std::uint32_t*>(capture_.patches->colour.data() + patch.firstTexel);
+    column.colour =
+        reinterpret_cast<const std::uint32_t*>(capture_.patches->colour.data() + patch.firstTexel);
     column.cover = capture_.patches->cover.data() + patch.firstTexel;
     column.mirror = patch.mirror;
     column.blended = patch.blended;
@@ -174,7 +177,8 @@ std::vector<std::size_t> stripsOf(const PieceDraw& piece, const DisplayCapture& 
   const DisplayPatches& patches = *capture.patches;
   std::vector<char> wanted(patches.stripStart.size() - 1, 0);
   for (const ColumnRun& run : piece.runs)
-    for (int strip = run.first / patches.stripColumns; strip <= (run.last - 1) / patches.stripColumns; ++strip)
+    for (int strip = run.first / patches.stripColumns; strip <= (run.last - 1) / patches.stripColumns;
+         ++strip)
       wanted[std::size_t(strip)] = 1;
   const double epipole = std::atan2(-double(piece.baseline.y), -double(piece.baseline.x));
   std::vector<std::pair<double, std::size_t>> away;

@@ -40,7 +40,7 @@ struct PatchDraw {
 /// What the patches of one piece and strip have in common.
 struct StripDraw {
   std::vector<PatchDraw> patches;  ///< front to back
-  bool limited = false;            ///< PatchColumn::limited: then the borders' values at column 0, and per column
+  bool limited = false;  ///< PatchColumn::limited: then the borders' values at column 0, and per column
   float lowStart = 0, lowAcross = 0, highStart = 0, highAcross = 0;
 };
 

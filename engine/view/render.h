@@ -22,9 +22,9 @@ struct StripTimes {
 
 /// What frames are made in, kept from one to the next: fresh memory costs as much as what is drawn on it.
 struct FrameMemory {
-  std::vector<Canvas> canvases;  ///< one per strip of the picture
+  std::vector<Canvas> canvases;            ///< one per strip of the picture
   std::vector<PatchCanvas> patchCanvases;  ///< the same, where patches are drawn
-  StripTimes strips;             ///< of the last frame: the next one is cut so that all take as long
+  StripTimes strips;  ///< of the last frame: the next one is cut so that all take as long
   FloatImage inverseZDepth;
   CoverImage cover;  ///< by local geometry
   Frame frame;       ///< a frame that is no longer needed, or an empty one

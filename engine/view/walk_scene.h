@@ -60,8 +60,8 @@ struct DisplayCapture {
   SampleBlocks blocks;
   std::vector<std::uint32_t> columnBlock;  ///< columns + 1: where each column's blocks start
   DisplayBackground background;
-  bool layered = false;              ///< some pixel has more than one sample
-  bool blended = false;              ///< some sample has alpha < 255
+  bool layered = false;                           ///< some pixel has more than one sample
+  bool blended = false;                           ///< some sample has alpha < 255
   std::shared_ptr<const DisplayPatches> patches;  ///< of the samples; null where they have no planes
   LargeVector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
   /// What mirrors show, at its virtual place; null = nothing. Its `mirror` says which of them shows a sample.

@@ -1,0 +1,135 @@
+/// Captures with silhouettes from the scene to the frame.
+
+#include "engine/bake/truth.h"
+#include "engine/measure/compare.h"
+#include "tests/pipeline/baked_room.h"
+
+namespace acentric {
+namespace {
+
+/// A hall of one colour with blocks, slanted ones among them, and a pane of glass. Nothing is lit: colours
+/// are exact.
+RayScenePtr hall() {
+  test::SceneBuilder builder;
+  const auto unlit = [&](glm::vec3 colour) {
+    Material m = test::matte(colour);
+    m.unlit = true;
+    return m;
+  };
+  builder.box(builder.material(unlit({0.4f, 0.35f, 0.3f})), {-7, -7, 0}, {7, 7, 3.5f}, true);
+  for (int i = 0; i < 9; ++i) {
+    const float angle = 0.7f * float(i), far = 3.2f + 0.3f * float(i % 4);
+    const float x = far * std::cos(angle), y = far * std::sin(angle);
+    builder.box(builder.material(unlit({0.1f * float(i), 0.3f, 0.9f - 0.1f * float(i)})),
+                {x - 0.3f, y - 0.2f, 0}, {x + 0.3f, y + 0.25f, 0.6f + 0.25f * float(i)});
+  }
+  builder.quad(builder.material(unlit({0.8f, 0.7f, 0.1f})), {5, -3, 0.2f}, {5.5f, 3, 0.9f}, {5.5f, 3, 2.4f},
+               {5, -3, 3.1f});
+  Material glass = unlit({0.2f, 0.5f, 0.3f});
+  glass.baseColour.a = 0.4f;
+  glass.alphaMode = AlphaMode::blend;
+  builder.quad(builder.material(glass), {-4.5f, -1, 0.5f}, {-4.5f, 1.5f, 0.5f}, {-4.5f, 1.5f, 2.2f},
+               {-4.5f, -1, 2.2f});
+  return builder.rays();
+}
+
+class PatchWalk : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    Project project = test::smallProject(1.2, 4);
+    project.bake.silhouettes = true;
+    room_ = new test::BakedRoom(hall(), project);
+  }
+  static void TearDownTestSuite() { delete room_; }
+
+  static std::vector<PerspectiveView> views() {
+    std::vector<PerspectiveView> views;
+    for (int i = 0; i < 5; ++i) {
+      PerspectiveView view;
+      view.eye = {0.5 * std::cos(2.1 * i), 0.5 * std::sin(2.1 * i), room_->open.layout->eyeZ()};
+      view.yawRadians = 1.3 * i + 0.2, view.pitchRadians = 0.1 * (i - 2);
+      view.width = 400, view.height = 225;
+      views.push_back(view);
+    }
+    return views;
+  }
+  static Frame frameOf(const PerspectiveView& view, Reconstruction reconstruction,
+                       Renderer renderer = Renderer::list, int workers = 1) {
+    ViewSettings settings;
+    settings.reconstruction = reconstruction;
+    settings.renderer = renderer;
+    TaskRunner runner(workers);
+    auto frame = renderFrame(room_->walk, view, settings, runner);
+    EXPECT_TRUE(frame) << frame.error().describe();
+    return frame ? std::move(*frame) : Frame();
+  }
+  static TruthFrame truthOf(const PerspectiveView& view) {
+    TaskRunner runner(1);
+    return renderTruth(*room_->open.rays, view, room_->open.project.bake, 1, 16, runner);
+  }
+
+  static test::BakedRoom* room_;
+};
+test::BakedRoom* PatchWalk::room_ = nullptr;
+
+TEST_F(PatchWalk, CapturesHavePatches) {
+  for (const auto& capture : room_->walk.captures) {
+    ASSERT_NE(capture->patches, nullptr);
+    EXPECT_LT(capture->patches->patches.size(), capture->samples.size() / 20);
+  }
+}
+
+TEST_F(PatchWalk, EdgesLieWhereTheyAreInTheTruth) {
+  for (const PerspectiveView& view : views()) {
+    const TruthFrame truth = truthOf(view);
+    const auto patches = compare(frameOf(view, Reconstruction::patches), truth.colour, truth.rayDistance);
+    const auto filtered = compare(frameOf(view, Reconstruction::filtered), truth.colour, truth.rayDistance);
+    ASSERT_TRUE(patches && filtered);
+    EXPECT_GT(patches->psnr, filtered->psnr + 1) << view.yawRadians;
+    EXPECT_GT(patches->psnr, 29) << view.yawRadians;
+    EXPECT_LE(patches->holeShare, 0.001) << view.yawRadians;
+  }
+}
+
+TEST_F(PatchWalk, FramesAreTheSameForAnyNumberOfThreadsAndEveryKernel) {
+  for (const PerspectiveView& view : views()) {
+    const Frame one = frameOf(view, Reconstruction::patches, Renderer::list, 0);
+    for (const Frame& other : {frameOf(view, Reconstruction::patches, Renderer::list, 2),
+                               frameOf(view, Reconstruction::patches, Renderer::scalar, 0)}) {
+      EXPECT_EQ(one.colour.pixels, other.colour.pixels);
+      EXPECT_EQ(one.source.pixels, other.source.pixels);
+      EXPECT_EQ(one.stats.samplesDrawn, other.stats.samplesDrawn);
+    }
+  }
+}
+
+TEST_F(PatchWalk, ReachTheNearestSurfacesFromEveryRegion) {
+  // What is drawn first hides the rest: were the order wrong, walls would show through blocks.
+  TaskRunner runner(1);
+  int wrong = 0, all = 0;
+  for (const PerspectiveView& view : views()) {
+    ViewSettings settings;
+    settings.reconstruction = Reconstruction::patches;
+    FrameMemory memory;
+    ASSERT_TRUE(renderFrame(room_->walk, view, settings, runner, memory));
+    const TruthFrame truth = truthOf(view);
+    for (int y = 1; y + 1 < view.height; ++y)
+      for (int x = 1; x + 1 < view.width; ++x) {
+        const glm::dvec3 ray = view.viewFromWorld() * view.rayThrough(x + 0.5, y + 0.5);
+        const auto expected = [&](int dx, int dy) {
+          return float(1 / (double(truth.rayDistance.at(x + dx, y + dy)) * ray.z));
+        };
+        float least = expected(0, 0), most = least;
+        for (const int dx : {-1, 0, 1})
+          for (const int dy : {-1, 0, 1})
+            least = std::min(least, expected(dx, dy)), most = std::max(most, expected(dx, dy));
+        const float inverse = memory.inverseZDepth.at(x, y);
+        wrong += inverse < 0.95f * least || inverse > 1.05f * most;
+        ++all;
+      }
+  }
+  EXPECT_LT(wrong, all / 200);
+}
+
+}  // namespace
+}  // namespace acentric
