@@ -192,7 +192,7 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
 }
 
 struct FileCosts {
-  double encodingSeconds = 0, writingSeconds = 0, packBytes = 0, exrBytes = 0;
+  double encodingSeconds = 0, writingSeconds = 0, packBytes = 0;
 };
 
 Result<FileCosts> fileCosts(const std::vector<Capture>& captures, const std::filesystem::path& folder) {
@@ -206,13 +206,11 @@ Result<FileCosts> fileCosts(const std::vector<Capture>& captures, const std::fil
     costs.writingSeconds += watch.seconds();
     return {};
   };
-  const auto pack = folder / "trial.pack", exr = folder / "trial.exr";
+  const auto pack = folder / "trial.pack";
   for (const Capture& capture : captures) {
     const Stopwatch watch;
-    if (Status done = writeCaptureExr(capture, {}, exr); !done) return tl::unexpected(done.error());
     if (Status done = writeCapturePack(capture, {}, pack); !done) return tl::unexpected(done.error());
     costs.encodingSeconds += watch.seconds();
-    if (Status done = again(exr, costs.exrBytes); !done) return tl::unexpected(done.error());
     if (Status done = again(pack, costs.packBytes); !done) return tl::unexpected(done.error());
   }
   costs.encodingSeconds = std::max(0.0, costs.encodingSeconds - costs.writingSeconds);
@@ -304,7 +302,6 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   out.encodingSeconds = costs->encodingSeconds;
   out.writingSeconds = costs->writingSeconds;
   out.bytes.pack = costs->packBytes;
-  out.bytes.exr = costs->exrBytes;
   return out;
 }
 

@@ -28,7 +28,7 @@ namespace {
 
 /// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
 /// files pack into one block: smaller blocks pack better.
-constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
+constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 60000;
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
@@ -77,14 +77,9 @@ std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, double pixels) {
   return slices;
 }
 
-/// Which of a trial capture's two files has the size that the whole capture's would have in proportion: with
-/// rows left out the rows of the EXR stay as they are, with columns left out the columns of the pack.
-enum class Thinned : std::uint64_t { not_at_all, columns, rows };
-
 struct Written {
   std::size_t trial = 0;
-  Thinned thinned = Thinned::not_at_all;
-  double samples = 0, seconds = 0, exrBytes = 0, packBytes = 0;
+  double samples = 0, seconds = 0, bytes = 0;
 };
 
 /// Encodes and writes as the store does, measures, and removes.
@@ -94,14 +89,11 @@ class TrialSink final : public CaptureSink {
 
   bool has(const ContentKey&) const override { return false; }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
-    const fs::path exr = folder_ / "trial.exr", pack = folder_ / "trial.pack";
+    const fs::path pack = folder_ / "trial.pack";
     const Stopwatch watch;
-    if (Status done = writeCaptureExr(capture, key, exr, stop); !done) return done;
     if (Status done = writeCapturePack(capture, key, pack, stop); !done) return done;
     const double seconds = watch.seconds();
-    written_.push_back({key.low, Thinned(key.high), double(capture.sampleCount()), seconds,
-                        double(fs::file_size(exr)), double(fs::file_size(pack))});
-    fs::remove(exr);
+    written_.push_back({key.low, double(capture.sampleCount()), seconds, double(fs::file_size(pack))});
     fs::remove(pack);
     return {};
   }
@@ -192,7 +184,7 @@ class ProjectProber final : public BakeProber {
       smallest_ = sink.written().front();
     }
     overhead_.writeSeconds = smallest_.seconds;
-    overhead_.bytes = smallest_.exrBytes + smallest_.packBytes;
+    overhead_.bytes = smallest_.bytes;
     return overhead_;
   }
 
@@ -202,35 +194,24 @@ class ProjectProber final : public BakeProber {
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
     const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
-    if (thinning < 2) return traceTrial(camera, whole, Thinned::not_at_all);
-    ColumnCamera fewColumns = whole, fewRows = whole;
+    if (thinning < 2) return traceTrial(camera, whole);
+    // Columns stay as they are: so they pack as all of them do.
+    ColumnCamera fewColumns = whole;
     const int evenly = kColumnsPerThread * runner_.threads();
     fewColumns.columns =
         std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
-    fewRows.rows = std::clamp(int(std::lround(whole.rows / thinning)), 1, whole.rows);
-    const auto columns = traceTrial(camera, fewColumns, Thinned::columns);
-    if (!columns) return columns;
-    const auto rows = traceTrial(camera, fewRows, Thinned::rows);
-    if (!rows) return rows;
-    return *columns + *rows;
+    return traceTrial(camera, fewColumns);
   }
 
   Result<std::vector<CaptureProbe>> finishCaptures() override {
     if (writer_)
       if (Status done = writer_->finish(); !done) return tl::unexpected(done.error());
-    std::vector<double> bytesPerSample(probes_.size(), 0);
     for (const Written& written : sink_.written()) {
       CaptureProbe& probe = probes_[written.trial];
       probe.writtenSamples += written.samples;
       probe.writeSeconds += std::max(0.0, written.seconds - overhead_.writeSeconds);
-      if (!(written.samples > 0)) continue;
-      double bytes = 0;
-      if (written.thinned != Thinned::columns) bytes += written.exrBytes - smallest_.exrBytes;
-      if (written.thinned != Thinned::rows) bytes += written.packBytes - smallest_.packBytes;
-      bytesPerSample[written.trial] += std::max(0.0, bytes) / written.samples;
+      probe.bytes += std::max(0.0, written.bytes - smallest_.bytes);
     }
-    for (std::size_t trial = 0; trial < probes_.size(); ++trial)
-      probes_[trial].bytes = bytesPerSample[trial] * probes_[trial].writtenSamples;
     return probes_;
   }
 
@@ -351,7 +332,7 @@ class ProjectProber final : public BakeProber {
   }
 
   /// Rays of all purposes.
-  Result<double> traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
+  Result<double> traceTrial(int camera, const ColumnCamera& columns) {
     auto first = bake(camera, columns);
     if (!first) return tl::unexpected(first.error());
     const RayCounts& rays = first->counts.rays;
@@ -368,8 +349,7 @@ class ProjectProber final : public BakeProber {
     // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
     probe.rays += double(rays.total() - rays.visibility - rays.gathered);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
-    if (Status put = writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(first->capture));
-        !put)
+    if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
       return tl::unexpected(put.error());
     return traced;
   }

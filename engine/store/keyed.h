@@ -18,9 +18,7 @@ struct Keyed {
   Value value;
 };
 
-/// Stopped, it gives `cancelled`.
-Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path,
-                                           const std::stop_token& stop = {});
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path);
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
 /// What a pack says of itself before its samples.
 struct PackHead {
