@@ -85,13 +85,13 @@ struct Written {
 /// Encodes and writes as the store does, measures, and removes.
 class TrialSink final : public CaptureSink {
  public:
-  explicit TrialSink(fs::path folder) : folder_(std::move(folder)) {}
+  TrialSink(fs::path folder, int colourQuality) : folder_(std::move(folder)), colourQuality_(colourQuality) {}
 
   bool has(const ContentKey&) const override { return false; }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     const fs::path pack = folder_ / "trial.pack";
     const Stopwatch watch;
-    if (Status done = writeCapturePack(capture, key, pack, stop); !done) return done;
+    if (Status done = writeCodedPack(capture, key, pack, colourQuality_, stop); !done) return done;
     const double seconds = watch.seconds();
     written_.push_back({key.low, double(capture.sampleCount()), seconds, double(fs::file_size(pack))});
     fs::remove(pack);
@@ -101,6 +101,7 @@ class TrialSink final : public CaptureSink {
 
  private:
   fs::path folder_;
+  int colourQuality_;
   std::vector<Written> written_;
 };
 
@@ -156,7 +157,7 @@ class ProjectProber final : public BakeProber {
         budget_(options.memoryBytes),
         baker_(*open.rays, probingSettings(open.project.bake), &budget_),
         lightFile_(folder.path() / "trial.light"),
-        sink_(folder.path()) {}
+        sink_(folder.path(), open.project.bake.colourQuality) {}
 
   ColumnCamera columnsOf(int camera) const {
     return columnCameraFor(layoutCamera(camera), *open_.layout, open_.scene->bounds, open_.project.bake);
@@ -179,7 +180,7 @@ class ProjectProber final : public BakeProber {
       const auto capture = bake(0, one);
       if (!capture) return tl::unexpected(capture.error());
       overhead_.traceSeconds = capture->seconds;
-      TrialSink sink(lightFile_.parent_path());
+      TrialSink sink(lightFile_.parent_path(), open_.project.bake.colourQuality);
       if (Status done = sink.put({}, capture->capture, stop_); !done) return tl::unexpected(done.error());
       smallest_ = sink.written().front();
     }
@@ -216,7 +217,7 @@ class ProjectProber final : public BakeProber {
   }
 
   Result<std::vector<SliceProbe>> bakeSlices(const std::vector<int>& cameras) override {
-    TrialSink sink(lightFile_.parent_path());
+    TrialSink sink(lightFile_.parent_path(), open_.project.bake.colourQuality);
     CaptureWriter writer(sink, budget_, stop_);
     std::vector<SliceProbe> probes;
     for (const int camera : cameras) {

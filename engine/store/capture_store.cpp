@@ -76,8 +76,9 @@ Result<CaptureStore> CaptureStore::open(const fs::path& folder) {
 
 bool CaptureStore::has(const ContentKey& key) const { return isFile(packOf(folder_, key)); }
 
-Status CaptureStore::put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) const {
-  return writeCapturePack(capture, key, packOf(folder_, key), stop);
+Status CaptureStore::put(const ContentKey& key, const Capture& capture, const std::stop_token& stop,
+                         int colourQuality) const {
+  return writeCodedPack(capture, key, packOf(folder_, key), colourQuality, stop);
 }
 
 std::filesystem::path CaptureStore::packFile(const ContentKey& key) const { return packOf(folder_, key); }

@@ -17,6 +17,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
 #include "engine/image/capture.h"
+#include "engine/image/colour_quality.h"
 #include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
 #include "engine/scene/surface_light_part.h"
@@ -31,8 +32,13 @@ Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std:
                        const std::stop_token& stop = {});
 Result<Capture> readCaptureExr(const std::filesystem::path& path);
 
+/// All as it is, in arrays of records: what runtimes of bundles read.
 Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
+/// As stores keep captures: several times smaller. Colours by a quality (colour_quality.h), the rest exactly.
+Status writeCodedPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                      int colourQuality, const std::stop_token& stop = {});
+/// Either.
 Result<Capture> readCapturePack(const std::filesystem::path& path);
 
 Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
@@ -52,8 +58,9 @@ class CaptureStore {
   const std::filesystem::path& folder() const { return folder_; }
   /// Is it on disk? (Its content is checked on get.)
   bool has(const ContentKey& key) const;
-  /// The whole file or, stopped before that, none.
-  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop = {}) const;
+  /// The whole file or, stopped before that, none. Colours by a quality (colour_quality.h).
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop = {},
+             int colourQuality = kLosslessColours) const;
   /// What is damaged is `malformed` and set aside (renamed *.damaged), so that the next bake replaces it.
   Result<Capture> get(const ContentKey& key) const;
   /// Where its pack is, or would be.
