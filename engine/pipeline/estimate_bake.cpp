@@ -29,6 +29,7 @@ namespace {
 /// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
 /// files pack into one block: smaller blocks pack better.
 constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 60000;
+constexpr int kProbeColumns = 16;  ///< side by side, at least: pictures of fewer pack worse
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
@@ -67,13 +68,12 @@ ColumnCamera sliceOf(const ColumnCamera& whole, int first, int columns) {
 }
 
 /// Slices spread over a camera; all of it where they would be half.
-std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, double pixels) {
-  const int count = std::max(1, int(pixels / (double(kSliceColumns) * whole.rows)));
-  if (2 * count * kSliceColumns > whole.columns) return {whole};
+std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, int columns, double pixels) {
+  const int count = std::max(1, int(pixels / (double(columns) * whole.rows)));
+  if (2 * count * columns > whole.columns) return {whole};
   std::vector<ColumnCamera> slices;
   for (int n = 0; n < count; ++n)
-    slices.push_back(
-        sliceOf(whole, int((n + 0.5) / count * whole.columns) - kSliceColumns / 2, kSliceColumns));
+    slices.push_back(sliceOf(whole, int((n + 0.5) / count * whole.columns) - columns / 2, columns));
   return slices;
 }
 
@@ -193,15 +193,15 @@ class ProjectProber final : public BakeProber {
     if (!writer_) writer_.emplace(sink_, budget_, stop_);
     const ColumnCamera whole = columnsOf(camera);
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
-    const double thinning = double(whole.columns) * whole.rows / wanted;
+    const int together = std::max(kProbeColumns, kColumnsPerThread * runner_.threads());
     probes_.push_back({});
-    if (thinning < 2) return traceTrial(camera, whole);
-    // Columns stay as they are: so they pack as all of them do.
-    ColumnCamera fewColumns = whole;
-    const int evenly = kColumnsPerThread * runner_.threads();
-    fewColumns.columns =
-        std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
-    return traceTrial(camera, fewColumns);
+    double traced = 0;
+    for (const ColumnCamera& slice : slicesOf(whole, together, wanted)) {
+      const auto rays = traceTrial(camera, slice);
+      if (!rays) return rays;
+      traced += *rays;
+    }
+    return traced;
   }
 
   Result<std::vector<CaptureProbe>> finishCaptures() override {
@@ -222,7 +222,8 @@ class ProjectProber final : public BakeProber {
     std::vector<SliceProbe> probes;
     for (const int camera : cameras) {
       SliceProbe& probe = probes.emplace_back();
-      const std::vector<ColumnCamera> slices = slicesOf(columnsOf(camera), kSlicePixels / fewer_);
+      const std::vector<ColumnCamera> slices =
+          slicesOf(columnsOf(camera), kSliceColumns, kSlicePixels / fewer_);
       const Stopwatch watch;
       double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
       for (const ColumnCamera& slice : slices) {

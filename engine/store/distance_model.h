@@ -117,7 +117,7 @@ class DistanceModel {
  private:
   static constexpr int kFraction = 8;
   static constexpr std::int64_t kHalf = std::int64_t(1) << (kFraction - 1);
-  static constexpr std::int64_t kSmoothing = 3, kDrifting = 8;
+  static constexpr std::int64_t kSmoothing = 2, kDrifting = 4;
   static constexpr std::uint32_t kSmooth = 4u << kFraction, kFar = 64u << kFraction;
 
   /// What is kept of a sample for those beside and below it; in parts of 1/256 where not said otherwise.
