@@ -155,7 +155,6 @@ Status takePictures(BlockFileReader& file, const SampleShape& shape, bool whole,
   if (!file.mayHold(pictureBytes(tiles)))
     return file.malformed("its pictures are larger than its size allows");
   const std::size_t width = std::size_t(tiles.width);
-  StillPicture strip;
   std::vector<StillPicture> strips;
   std::vector<std::byte> bytes;
   const int rows = tiles.height > 0 ? stripRows(tiles.width) : 1;

@@ -41,6 +41,7 @@ bool fillLine(std::vector<std::uint16_t>& plane, const std::vector<std::uint8_t>
 }  // namespace
 
 ColourTiles layOutColours(const CaptureSamples& samples, int rows, bool whole) {
+  if (samples.sampleCount() == 0) return {};
   constexpr std::size_t kMostAcross = kMostPictureSide / kColourTile;
   const std::size_t across = (samples.columnStart.size() - 1 + kColourTile - 1) / kColourTile,
                     inRow = std::min(across, kMostAcross),
