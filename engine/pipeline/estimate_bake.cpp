@@ -28,8 +28,8 @@ namespace {
 
 /// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
 /// files pack into one block: smaller blocks pack better.
-constexpr double kProbePixelsPerThread = 20000, kFewestProbePixels = 60000;
-constexpr int kProbeColumns = 16;  ///< side by side, at least: pictures of fewer pack worse
+constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
+constexpr int kProbeColumns = 64;  ///< side by side, of which bytes are told: pictures of fewer pack worse
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
@@ -193,11 +193,19 @@ class ProjectProber final : public BakeProber {
     if (!writer_) writer_.emplace(sink_, budget_, stop_);
     const ColumnCamera whole = columnsOf(camera);
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
-    const int together = std::max(kProbeColumns, kColumnsPerThread * runner_.threads());
+    const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
-    double traced = 0;
-    for (const ColumnCamera& slice : slicesOf(whole, together, wanted)) {
-      const auto rays = traceTrial(camera, slice);
+    if (thinning < 2) return traceTrial(camera, whole, true);
+    // Columns spread over all of it tell of samples and time, some side by side of the file.
+    ColumnCamera fewColumns = whole;
+    const int evenly = kColumnsPerThread * runner_.threads();
+    fewColumns.columns =
+        std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
+    const auto spread = traceTrial(camera, fewColumns, false);
+    if (!spread) return spread;
+    double traced = *spread;
+    for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted)) {
+      const auto rays = traceTrial(camera, slice, true);
       if (!rays) return rays;
       traced += *rays;
     }
@@ -333,8 +341,8 @@ class ProjectProber final : public BakeProber {
     return traced;
   }
 
-  /// Rays of all purposes.
-  Result<double> traceTrial(int camera, const ColumnCamera& columns) {
+  /// Rays of all purposes. What is `written` tells of bytes.
+  Result<double> traceTrial(int camera, const ColumnCamera& columns, bool written) {
     auto first = bake(camera, columns);
     if (!first) return tl::unexpected(first.error());
     const RayCounts& rays = first->counts.rays;
@@ -351,8 +359,9 @@ class ProjectProber final : public BakeProber {
     // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
     probe.rays += double(rays.total() - rays.visibility - rays.gathered);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
-    if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
-      return tl::unexpected(put.error());
+    if (written)
+      if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
+        return tl::unexpected(put.error());
     return traced;
   }
 

@@ -129,7 +129,8 @@ TEST_F(CodedPack, KeepsEveryDistanceOfAStep) {
 }
 
 TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
-  const Capture capture = smoothly(syntheticCapture({300, 260, true, false, 6, true}));
+  Capture capture = smoothly(syntheticCapture({300, 260, true, false, 6}));
+  std::ranges::fill(capture.roles, std::uint8_t(3));  // as in a bake, where they change at borders of regions
   double before = 0;
   std::uintmax_t bytes = 0;
   for (const int quality : {0, 50, 90, 99}) {
