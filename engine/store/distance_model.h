@@ -70,20 +70,22 @@ class DistanceModel {
     const Trace* n = above == kNone ? nullptr : &now_[above - nowFirst_];
     const Trace* b = before == kNone ? nullptr : &before_[before - beforeFirst_];
     Trace own;
-    std::int64_t byBefore = 0, byAbove = 0;
-    std::int64_t drift = 0;
-    if (b) {
-      drift = n && n->follows ? n->drift : b->drift;
-      byBefore = b->smooth + drift;
+    // Three ways to foretell it: by the one before and what that one, or the one above, was apart from its
+    // own one before; and by the one above.
+    const std::array<std::int64_t, kWays> ways = {b ? b->smooth + b->drift : 0,
+                                                  b ? b->smooth + (n ? n->drift : b->drift) : 0,
+                                                  n ? (n->number << kFraction) + n->slope : 0};
+    std::size_t way = b ? 0 : 2;
+    if (b && n) {
+      const auto offOf = [&](std::size_t k) { return n->offWay[k] + b->offWay[k]; };
+      for (const std::size_t other : {1u, 2u})
+        if (offOf(other) < offOf(way)) way = other;
     }
-    if (n) byAbove = (n->number << kFraction) + n->slope;
-    const bool useBefore = b && (!n || n->offBefore + b->offBefore <= n->offAbove + b->offAbove);
-    std::int64_t foretold = useBefore ? byBefore : byAbove;
-    if (!n && !b)
-      foretold = inFront == kNone ? last_ << kFraction : now_[inFront - nowFirst_].number << kFraction;
+    std::int64_t foretold = ways[way];
+    if (!n && !b) foretold = (inFront == kNone ? last_ : now_[inFront - nowFirst_].number) << kFraction;
 
     const std::int64_t nearest = (foretold + kHalf) >> kFraction;
-    const auto rest = std::size_t((foretold + kHalf - (nearest << kFraction)) >> (kFraction - 2));  // 0..3
+    const auto rest = std::size_t((foretold + kHalf - (nearest << kFraction)) >> (kFraction - 4));  // 0..15
     const std::uint32_t unrest = (n ? n->off : b ? b->off : 8u) + (b ? b->off : n ? n->off : 8u);
     const std::int64_t off = codeDifference(numbers_.numberOf(w) - nearest, rest, classOf(unrest));
     own.number = nearest + off;
@@ -92,22 +94,19 @@ class DistanceModel {
 
     const std::int64_t exact = own.number << kFraction;
     own.off = std::uint32_t(std::min<std::int64_t>(std::abs(off), 255));
-    own.offBefore = b ? apart(exact, byBefore) : kFar;
-    own.offAbove = n ? apart(exact, byAbove) : kFar;
+    for (std::size_t k = 0; k < kWays; ++k)
+      own.offWay[k] = (k < 2 ? b != nullptr : n != nullptr) ? apart(exact, ways[k]) : kFar;
     own.smooth = exact;
-    if (b && own.offBefore < kSmooth) {
-      const std::int64_t error = exact - byBefore;
-      own.smooth = byBefore + error / kSmoothing;
-      own.drift = drift + error / kDrifting;
-      own.follows = true;
-    } else if (b) {
-      own.drift = b->drift;
+    if (b) {
+      const std::size_t nearer = own.offWay[1] < own.offWay[0] ? 1 : 0;
+      const std::int64_t error = exact - ways[nearer];
+      const bool smooth = own.offWay[nearer] < kSmooth;
+      if (smooth) own.smooth = ways[nearer] + error / kSmoothing;
+      own.drift = smooth ? ways[nearer] - b->smooth + error / kDrifting : exact - b->smooth;
     }
     if (n) {
       const std::int64_t step = exact - (n->number << kFraction);
-      own.slope = own.offAbove < kSmooth    ? n->slope + (step - n->slope) / 4
-                  : own.offBefore < kSmooth ? step
-                                            : 0;
+      own.slope = own.offWay[2] < kSmooth ? n->slope + (step - n->slope) / kSloping : step;
     }
     last_ = own.number;
     now_[i - nowFirst_] = own;
@@ -117,7 +116,8 @@ class DistanceModel {
  private:
   static constexpr int kFraction = 8;
   static constexpr std::int64_t kHalf = std::int64_t(1) << (kFraction - 1);
-  static constexpr std::int64_t kSmoothing = 2, kDrifting = 4;
+  static constexpr std::size_t kWays = 3;
+  static constexpr std::int64_t kSmoothing = 2, kDrifting = 4, kSloping = 4;
   static constexpr std::uint32_t kSmooth = 4u << kFraction, kFar = 64u << kFraction;
 
   /// What is kept of a sample for those beside and below it; in parts of 1/256 where not said otherwise.
@@ -126,9 +126,8 @@ class DistanceModel {
     std::int64_t smooth = 0;  ///< the same, less rounded
     std::int64_t drift = 0;   ///< from the column before
     std::int64_t slope = 0;   ///< from the row above
-    std::uint32_t offBefore = kFar, offAbove = kFar;
+    std::array<std::uint32_t, kWays> offWay = {kFar, kFar, kFar};
     std::uint32_t off = 8;  ///< whole
-    bool follows = false;
   };
 
   static std::uint32_t apart(std::int64_t a, std::int64_t b) {
@@ -160,7 +159,7 @@ class DistanceModel {
   static constexpr int kMostDigits = 26;
   Coder& coder_;
   DistanceNumbers numbers_;
-  std::array<std::array<BitChance, 4>, 10> differs_, less_;
+  std::array<std::array<BitChance, 16>, 10> differs_, less_;
   std::array<std::array<BitChance, kMostDigits + 1>, 10> longer_;
   std::array<BitChance, kMostDigits + 1> second_;
   std::vector<Trace> now_, before_;
