@@ -267,6 +267,12 @@ void drawBake(PanelContext& context) {
              {"Distance shift", "%.3f samples", 0.005, 0, kLargestDistanceShift,
               "How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16."},
              &BakeSettings::distanceShift, "distance shift");
+  bakeNumber(
+      context, "colourQuality",
+      {"Colour quality", "%.0f", 0.1, 0, kLosslessColours,
+       "How true captures are to the colours that were baked: less gives smaller files. 100 keeps every "
+       "bit, in files many times as large."},
+      &BakeSettings::colourQuality, "colour quality");
   bakeCheck(context, "silhouettes", "Silhouettes",
             "Samples know the plane of their surface, and to a quarter of a sample where it ends.",
             &BakeSettings::silhouettes);

@@ -66,6 +66,8 @@ Status BakeSettings::check() const {
   if (!inRange(distanceShift, 0, kLargestDistanceShift))
     return bad(fmt::format("distances that shift pictures by {} samples: must lie in 0..{}", distanceShift,
                            kLargestDistanceShift));
+  if (colourQuality < 0 || colourQuality > kLosslessColours)
+    return bad(fmt::format("colours of quality {}: must lie in 0..{}", colourQuality, kLosslessColours));
   if (maxLayers < 1 || maxLayers > 64) return bad(fmt::format("{} layers: must lie in 1..64", maxLayers));
   return {};
 }
@@ -81,6 +83,8 @@ void BakeSettings::addTo(Hasher& hasher) const {
   hasher.value(int(pruning)).value(testEyes).value(pruningLoss).value(eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
+  // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
+  if (colourQuality != kUsualColourQuality) hasher.text("colours").value(colourQuality);
   if (silhouettes) hasher.text("silhouettes");
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
+#include "engine/image/colour_quality.h"
 
 namespace acentric {
 
@@ -38,6 +39,8 @@ struct BakeSettings {
   /// Of a sample's spacing: by how much the picture may shift because inverse distances are rounded, 0..16.
   /// 0 = only to the 16 significant bits that captures keep.
   double distanceShift = kUsualDistanceShift;
+  /// How true colours are to what was baked (colour_quality.h): 0..99 as pictures, 100 = every bit.
+  int colourQuality = kUsualColourQuality;
   /// Samples tell the plane of their surface, and how much of their pixel it covers (capture.h).
   bool silhouettes = false;
 

@@ -35,6 +35,8 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   if (bake.pruning) settings.value(bake.testEyes).value(bake.pruningLoss).value(bake.eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
+  // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
+  if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
   if (bake.silhouettes) settings.text("silhouettes");
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);

@@ -18,7 +18,7 @@ Status putSafely(CaptureSink& sink, const ContentKey& key, const Capture& captur
   }
 }
 
-/// While it is encoded a capture is there twice more: as planes, and as the files' bytes.
+/// While it is encoded a capture is there twice more: as planes, and as the file's bytes.
 constexpr std::size_t kCopies = 3;
 
 /// After a stop, for what waits.
@@ -38,8 +38,7 @@ Status CaptureWriter::status() const {
 
 Status CaptureWriter::put(const ContentKey& key, Capture capture) {
   Job job{key, std::move(capture), MemoryBudget::Share(budget_)};
-  // In OpenEXR the background takes samples like others.
-  const std::size_t bytes = job.capture.bytes() + kCaptureSampleBytes * job.capture.background.pixelCount();
+  const std::size_t bytes = job.capture.bytes();
   job.held.set(bytes);
   const bool room = job.held.setWhenRoom(kCopies * bytes, stop_);
   const std::lock_guard lock(mutex_);

@@ -62,6 +62,7 @@ void addSingleFile(const fs::path& file, std::uint64_t size, Report& report) {
 
 Result<Report> runExport(const ExportOptions& options, const Common& common) {
   if (options.to == "gltf") return runExportGltf(options, common);
+  if (options.to == "exr") return runExportExr(options, common);
   if (options.to != "bundle" && options.to != "web") return runExportImages(options, common);
   const bool web = options.to == "web";
   if (options.singleFile && !web)

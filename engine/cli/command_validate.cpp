@@ -33,8 +33,8 @@ Result<Report> validateStorey(const OpenProject& open, const Common& common) {
     report.text += "  the light on local geometry is not baked\n";
   if (check->withoutRecord > 0)
     report.text += fmt::format(
-        "  {} have no record of their files: what of them are OpenEXR files was checked by the samples they "
-        "hold (acentric bake notes them)\n",
+        "  {} have no record of their files, which were checked by their own checksums alone (acentric bake "
+        "notes them)\n",
         check->withoutRecord);
   if (open.project.budget.simplifies())
     report.text += fmt::format(

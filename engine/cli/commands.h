@@ -127,7 +127,7 @@ Result<Report> runBenchPack(const BenchPackOptions& options, const Common& commo
 
 struct ExportOptions {
   std::filesystem::path project, output;
-  std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; or pictures
+  std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; "exr"; or pictures
   bool allowMissing = false;
   bool singleFile = false;   ///< of "web": `output` is one HTML file with everything in it
   double meshError = 0.5;    ///< of "gltf"
@@ -138,6 +138,7 @@ struct ExportOptions {
 Result<Report> runExport(const ExportOptions& options, const Common& common);
 Result<Report> runExportImages(const ExportOptions& options, const Common& common);
 Result<Report> runExportGltf(const ExportOptions& options, const Common& common);
+Result<Report> runExportExr(const ExportOptions& options, const Common& common);
 
 struct RenderOptions {
   std::filesystem::path project, output, holes;

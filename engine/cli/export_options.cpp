@@ -19,10 +19,10 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
   c->add_option(
        "--to", o.to,
        "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
-       "that walks through it (docs/web.md); gltf, a GLB for each region; colmap, nerfstudio, seurat, "
-       "ray-traced "
-       "pictures with distances and their cameras; panoramas, OpenEXR with distances")
-      ->check(CLI::IsMember({"bundle", "web", "gltf", "colmap", "nerfstudio", "seurat", "panoramas"}))
+       "that walks through it (docs/web.md); gltf, a GLB for each region; exr, what each camera saw as "
+       "OpenEXR (engine/store/FORMAT.md); colmap, nerfstudio, seurat, ray-traced pictures with distances "
+       "and their cameras; panoramas, OpenEXR with distances")
+      ->check(CLI::IsMember({"bundle", "web", "gltf", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
       ->capture_default_str();
   c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
       ->check(CLI::Range(0.01, 64.0))

@@ -122,10 +122,9 @@ class BundleWriter {
     features.background |= capture.background.runCount() > 0;
   }
 
-  Status copyPack(const ContentKey& key, const std::string& path) const {
-    const auto bytes = readFile(input_.store->packFile(key));
-    if (!bytes) return tl::unexpected(bytes.error());
-    return writeFileAtomically(folder_ / path, *bytes, stop_);
+  /// Plain, whatever the store's is: runtimes read no other.
+  Status writePack(const Capture& capture, const ContentKey& key, const std::string& path) const {
+    return writeCapturePack(capture, key, folder_ / path, stop_);
   }
 
   Status writeCamera(const CameraPlace& place) {
@@ -141,15 +140,14 @@ class BundleWriter {
     camera.bottomElevation = capture->camera.bottomElevation;
     const std::string coarsePath = fmt::format("coarse/{}.pack", key->toHex());
     if (!full) {
-      if (Status copied = copyPack(*key, coarsePath); !copied) return copied;
+      if (Status written = writePack(*capture, *key, coarsePath); !written) return written;
       return describeInto(*capture, coarsePath, camera.coarse);
     }
     const std::string path = fmt::format("captures/{}.pack", key->toHex());
-    if (Status copied = copyPack(*key, path); !copied) return copied;
+    if (Status written = writePack(*capture, *key, path); !written) return written;
     if (Status described = describeInto(*capture, path, camera.full); !described) return described;
     const Capture coarse = coarsened(*capture, kCoarseFactor);
-    if (Status written = writeCapturePack(coarse, *key, folder_ / coarsePath, stop_); !written)
-      return written;
+    if (Status written = writePack(coarse, *key, coarsePath); !written) return written;
     return describeInto(coarse, coarsePath, camera.coarse);
   }
 

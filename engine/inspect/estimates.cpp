@@ -132,7 +132,6 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   estimate.gatheredRays = gathered.value;
   estimate.rays = sum(perPixel(&CaptureProbe::rays), gathered);
   estimate.captureBytes = sum(perSample(&CaptureProbe::bytes), {}, cameras * overhead->bytes);
-  estimate.packedBytes = perSample(&CaptureProbe::packedBytes);
   const Figure tracing = sum(perPixel(&CaptureProbe::traceSeconds), {}, cameras * overhead->traceSeconds);
   const Figure writing = sum(perSample(&CaptureProbe::writeSeconds), {}, cameras * overhead->writeSeconds);
   const auto pace = measurePace(pixels, order, *probes, *overhead, options.brief, prober);

@@ -30,12 +30,12 @@ struct CaptureOverhead {
 
 /// What part of one camera's capture cost, beyond the overhead.
 struct CaptureProbe {
-  double pixels = 0;                  ///< traced
-  double samples = 0;                 ///< that came of it
-  double rays = 0;                    ///< of all purposes but gathering light and the regions' sight
-  double traceSeconds = 0;            ///< where all light is gathered already
-  double writtenSamples = 0;          ///< encoded and written, of which the next two
-  double bytes = 0, packedBytes = 0;  ///< on disk; of these in the pack
+  double pixels = 0;          ///< traced
+  double samples = 0;         ///< that came of it
+  double rays = 0;            ///< of all purposes but gathering light and the regions' sight
+  double traceSeconds = 0;    ///< where all light is gathered already
+  double writtenSamples = 0;  ///< encoded and written, which the next two are of
+  double bytes = 0;           ///< on disk
   double writeSeconds = 0;
 };
 
@@ -107,7 +107,7 @@ struct BakeEstimate {
   double pixels = 0;
   Figure samples, rays;     ///< rays without those from the regions' eyes and for the surfaces' own light
   double gatheredRays = 0;  ///< of these, to gather light
-  Figure captureBytes, packedBytes;   ///< the second: of the packs alone
+  Figure captureBytes;      ///< on disk
   Figure traceSeconds, writeSeconds;  ///< they overlap ...
   Figure captureSeconds;              ///< ... in this, with `sightSeconds`
   double sightSeconds = 0;            ///< looking what the regions see

@@ -48,7 +48,7 @@ double growthTo(double packedBytes, const BakeShare& share, const BakeEstimate& 
   const auto squared = [&](double samplesPerDegree) {
     return std::pow(samplesPerDegree / share.open->project.bake.samplesPerDegree, 2);
   };
-  return std::clamp(packedBytes / std::max(estimate.packedBytes.value, 1.0), squared(kLeastSamplesPerDegree),
+  return std::clamp(packedBytes / std::max(estimate.captureBytes.value, 1.0), squared(kLeastSamplesPerDegree),
                     squared(kMostSamplesPerDegree));
 }
 
@@ -65,7 +65,7 @@ BakeForecast forecastOf(const BakeShare& share, const BakeEstimate& estimate) {
     forecast.bakes = share.trial ? trial.bakes : 0;
     forecast.captureSeconds = growth * trial.times * (1 + share.previews) * (whole - gathering);
     if (trial.gathers) forecast.captureSeconds += (1 + share.previews) * gathering;
-    forecast.packedBytes = growth * estimate.packedBytes.value;
+    forecast.packedBytes = growth * estimate.captureBytes.value;
     if (onDisk) forecast.captureBytes = growth * (1 + share.previews) * estimate.captureBytes.value;
     deviation = forecast.captureSeconds * estimate.captureSeconds.relativeError;
   }

@@ -55,7 +55,7 @@ struct BakeForecast {
   int threads = 1;
   double captureSeconds = 0, lightSeconds = 0;  ///< with these threads, nothing else being done
   double captureBytes = 0, lightBytes = 0;      ///< on disk
-  double packedBytes = 0;                       ///< of the captures' in packs
+  double packedBytes = 0;                       ///< of the captures, without previews
   double relativeError = 0;     ///< one standard deviation of the seconds, as far as the probes tell
   std::size_t memoryBytes = 0;  ///< at most, of captures until they are written; the scene comes on top
   double probeSeconds = 0;      ///< that the forecast itself took

@@ -22,8 +22,9 @@ namespace {
 /// Puts captures into the store with their records; takes none for there that is damaged.
 class StoreSink final : public CaptureSink {
  public:
-  StoreSink(const CaptureStore& store, const StoreyPlan& plan, const std::function<Status()>& mayGoOn)
-      : store_(store), mayGoOn_(mayGoOn) {
+  StoreSink(const CaptureStore& store, const StoreyPlan& plan, int colourQuality,
+            const std::function<Status()>& mayGoOn)
+      : store_(store), colourQuality_(colourQuality), mayGoOn_(mayGoOn) {
     for (const PlannedCapture& camera : plan.cameras) planned_[camera.key] = &camera;
     planned_[plan.light.key] = &plan.light;
   }
@@ -36,7 +37,7 @@ class StoreSink final : public CaptureSink {
   }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     if (Status sound = mayGoOn(); !sound) return sound;
-    if (Status done = store_.put(key, capture, stop); !done) return done;
+    if (Status done = store_.put(key, capture, stop, colourQuality_); !done) return done;
     return note(key);
   }
   Status mayGoOn() const { return mayGoOn_ ? mayGoOn_() : Status(); }
@@ -110,6 +111,7 @@ class StoreSink final : public CaptureSink {
   }
 
   const CaptureStore& store_;
+  int colourQuality_;
   const std::function<Status()>& mayGoOn_;
   std::map<ContentKey, const PlannedCapture*> planned_;
   mutable std::map<ContentKey, bool> known_;  ///< used by the thread that bakes
@@ -166,7 +168,7 @@ class StoreyBake {
         progress_(progress),
         stop_(stop),
         plan_(planStorey(open)),
-        sink_(store, plan_, request.mayGoOn) {}
+        sink_(store, plan_, open.project.bake.colourQuality, request.mayGoOn) {}
 
   Status verify(const std::vector<int>& cameras) {
     std::vector<ContentKey> keys;

@@ -197,13 +197,14 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
   if (!store) return tl::unexpected(store.error());
   class Sink final : public CaptureSink {
    public:
-    explicit Sink(const CaptureStore& s) : store(s) {}
+    Sink(const CaptureStore& s, int quality) : store(s), colourQuality(quality) {}
     bool has(const ContentKey&) const override { return false; }
     Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
-      return store.put(key, capture, stop);
+      return store.put(key, capture, stop, colourQuality);
     }
     const CaptureStore& store;
-  } sink(*store);
+    int colourQuality;
+  } sink(*store, open_.project.bake.colourQuality);
   MemoryBudget budget;
   CaptureWriter writer(sink, budget, stop_);
   const BakeSettings settings = settingsOf({});
@@ -259,10 +260,11 @@ Result<BakeForecast> Bench::foretell(BenchLight light, TaskRunner& runner, const
 }
 
 struct FileCosts {
-  double encodingSeconds = 0, writingSeconds = 0, packBytes = 0, exrBytes = 0;
+  double encodingSeconds = 0, writingSeconds = 0, packBytes = 0;
 };
 
-Result<FileCosts> fileCosts(const std::vector<Capture>& captures, const std::filesystem::path& folder) {
+Result<FileCosts> fileCosts(const std::vector<Capture>& captures, int colourQuality,
+                            const std::filesystem::path& folder) {
   FileCosts costs;
   const auto again = [&](const std::filesystem::path& path, double& bytes) -> Status {
     const auto content = readFile(path);
@@ -273,13 +275,12 @@ Result<FileCosts> fileCosts(const std::vector<Capture>& captures, const std::fil
     costs.writingSeconds += watch.seconds();
     return {};
   };
-  const auto pack = folder / "trial.pack", exr = folder / "trial.exr";
+  const auto pack = folder / "trial.pack";
   for (const Capture& capture : captures) {
     const Stopwatch watch;
-    if (Status done = writeCaptureExr(capture, {}, exr); !done) return tl::unexpected(done.error());
-    if (Status done = writeCapturePack(capture, {}, pack); !done) return tl::unexpected(done.error());
+    if (Status done = writeCodedPack(capture, {}, pack, colourQuality); !done)
+      return tl::unexpected(done.error());
     costs.encodingSeconds += watch.seconds();
-    if (Status done = again(exr, costs.exrBytes); !done) return tl::unexpected(done.error());
     if (Status done = again(pack, costs.packBytes); !done) return tl::unexpected(done.error());
   }
   costs.encodingSeconds = std::max(0.0, costs.encodingSeconds - costs.writingSeconds);
@@ -369,12 +370,11 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   out.bytes.pruned = bytesWithBackground(final.counts.samples);
   out.bytes.surfaces = double(kCaptureSampleBytes) * kept + runs;
   out.bytes.quantised = kQuantisedBytes * kept + runs;
-  const auto costs = fileCosts(captures, folder->path());
+  const auto costs = fileCosts(captures, open.project.bake.colourQuality, folder->path());
   if (!costs) return tl::unexpected(costs.error());
   out.encodingSeconds = costs->encodingSeconds;
   out.writingSeconds = costs->writingSeconds;
   out.bytes.pack = costs->packBytes;
-  out.bytes.exr = costs->exrBytes;
   return out;
 }
 

@@ -33,7 +33,7 @@ struct BakeBenchBytes {
   double pruned = 0;        ///< in memory, what some region sees
   double surfaces = 0;      ///< the same with the background as runs of rows
   double quantised = 0;     ///< the same with distances of 16 significant bits
-  double pack = 0, exr = 0;
+  double pack = 0;
 };
 
 struct BakeBench {

@@ -14,8 +14,7 @@ namespace acentric {
 struct StoreCheck {
   std::size_t captures = 0, capturesMissing = 0;
   std::size_t coarse = 0;  ///< of the missing ones: those of which a preview or a draft was checked
-  /// Of captures and light: without a record nothing tells what the bytes of an OpenEXR file were, and it is
-  /// checked by the samples it holds.
+  /// Of captures and light: their files are checked by their own checksums alone.
   std::size_t withoutRecord = 0;
   bool surfaceLightMissing = false;
   /// Of regions above the budget, where the project simplifies them.

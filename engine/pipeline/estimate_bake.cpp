@@ -29,6 +29,7 @@ namespace {
 /// Enough pixels of a camera to keep every thread busy through most of the probe, and more samples than the
 /// files pack into one block: smaller blocks pack better.
 constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
+constexpr int kProbeColumns = 64;  ///< side by side, of which bytes are told: pictures of fewer pack worse
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
 constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
@@ -67,41 +68,32 @@ ColumnCamera sliceOf(const ColumnCamera& whole, int first, int columns) {
 }
 
 /// Slices spread over a camera; all of it where they would be half.
-std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, double pixels) {
-  const int count = std::max(1, int(pixels / (double(kSliceColumns) * whole.rows)));
-  if (2 * count * kSliceColumns > whole.columns) return {whole};
+std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, int columns, double pixels) {
+  const int count = std::max(1, int(pixels / (double(columns) * whole.rows)));
+  if (2 * count * columns > whole.columns) return {whole};
   std::vector<ColumnCamera> slices;
   for (int n = 0; n < count; ++n)
-    slices.push_back(
-        sliceOf(whole, int((n + 0.5) / count * whole.columns) - kSliceColumns / 2, kSliceColumns));
+    slices.push_back(sliceOf(whole, int((n + 0.5) / count * whole.columns) - columns / 2, columns));
   return slices;
 }
 
-/// Which of a trial capture's two files has the size that the whole capture's would have in proportion: with
-/// rows left out the rows of the EXR stay as they are, with columns left out the columns of the pack.
-enum class Thinned : std::uint64_t { not_at_all, columns, rows };
-
 struct Written {
   std::size_t trial = 0;
-  Thinned thinned = Thinned::not_at_all;
-  double samples = 0, seconds = 0, exrBytes = 0, packBytes = 0;
+  double samples = 0, seconds = 0, bytes = 0;
 };
 
 /// Encodes and writes as the store does, measures, and removes.
 class TrialSink final : public CaptureSink {
  public:
-  explicit TrialSink(fs::path folder) : folder_(std::move(folder)) {}
+  TrialSink(fs::path folder, int colourQuality) : folder_(std::move(folder)), colourQuality_(colourQuality) {}
 
   bool has(const ContentKey&) const override { return false; }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
-    const fs::path exr = folder_ / "trial.exr", pack = folder_ / "trial.pack";
+    const fs::path pack = folder_ / "trial.pack";
     const Stopwatch watch;
-    if (Status done = writeCaptureExr(capture, key, exr, stop); !done) return done;
-    if (Status done = writeCapturePack(capture, key, pack, stop); !done) return done;
+    if (Status done = writeCodedPack(capture, key, pack, colourQuality_, stop); !done) return done;
     const double seconds = watch.seconds();
-    written_.push_back({key.low, Thinned(key.high), double(capture.sampleCount()), seconds,
-                        double(fs::file_size(exr)), double(fs::file_size(pack))});
-    fs::remove(exr);
+    written_.push_back({key.low, double(capture.sampleCount()), seconds, double(fs::file_size(pack))});
     fs::remove(pack);
     return {};
   }
@@ -109,6 +101,7 @@ class TrialSink final : public CaptureSink {
 
  private:
   fs::path folder_;
+  int colourQuality_;
   std::vector<Written> written_;
 };
 
@@ -164,7 +157,7 @@ class ProjectProber final : public BakeProber {
         budget_(options.memoryBytes),
         baker_(*open.rays, probingSettings(open.project.bake), &budget_),
         lightFile_(folder.path() / "trial.light"),
-        sink_(folder.path()) {}
+        sink_(folder.path(), open.project.bake.colourQuality) {}
 
   ColumnCamera columnsOf(int camera) const {
     return columnCameraFor(layoutCamera(camera), *open_.layout, open_.scene->bounds, open_.project.bake);
@@ -187,12 +180,12 @@ class ProjectProber final : public BakeProber {
       const auto capture = bake(0, one);
       if (!capture) return tl::unexpected(capture.error());
       overhead_.traceSeconds = capture->seconds;
-      TrialSink sink(lightFile_.parent_path());
+      TrialSink sink(lightFile_.parent_path(), open_.project.bake.colourQuality);
       if (Status done = sink.put({}, capture->capture, stop_); !done) return tl::unexpected(done.error());
       smallest_ = sink.written().front();
     }
     overhead_.writeSeconds = smallest_.seconds;
-    overhead_.bytes = smallest_.exrBytes + smallest_.packBytes;
+    overhead_.bytes = smallest_.bytes;
     return overhead_;
   }
 
@@ -202,48 +195,43 @@ class ProjectProber final : public BakeProber {
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
     const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
-    if (thinning < 2) return traceTrial(camera, whole, Thinned::not_at_all);
-    ColumnCamera fewColumns = whole, fewRows = whole;
+    if (thinning < 2) return traceTrial(camera, whole, true);
+    // Columns spread over all of it tell of samples and time, some side by side of the file.
+    ColumnCamera fewColumns = whole;
     const int evenly = kColumnsPerThread * runner_.threads();
     fewColumns.columns =
         std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
-    fewRows.rows = std::clamp(int(std::lround(whole.rows / thinning)), 1, whole.rows);
-    const auto columns = traceTrial(camera, fewColumns, Thinned::columns);
-    if (!columns) return columns;
-    const auto rows = traceTrial(camera, fewRows, Thinned::rows);
-    if (!rows) return rows;
-    return *columns + *rows;
+    const auto spread = traceTrial(camera, fewColumns, false);
+    if (!spread) return spread;
+    double traced = *spread;
+    for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted)) {
+      const auto rays = traceTrial(camera, slice, true);
+      if (!rays) return rays;
+      traced += *rays;
+    }
+    return traced;
   }
 
   Result<std::vector<CaptureProbe>> finishCaptures() override {
     if (writer_)
       if (Status done = writer_->finish(); !done) return tl::unexpected(done.error());
-    std::vector<double> bytesPerSample(probes_.size(), 0), packedPerSample = bytesPerSample;
     for (const Written& written : sink_.written()) {
       CaptureProbe& probe = probes_[written.trial];
       probe.writtenSamples += written.samples;
       probe.writeSeconds += std::max(0.0, written.seconds - overhead_.writeSeconds);
-      if (!(written.samples > 0)) continue;
-      double exr = 0, pack = 0;
-      if (written.thinned != Thinned::columns) exr = written.exrBytes - smallest_.exrBytes;
-      if (written.thinned != Thinned::rows) pack = written.packBytes - smallest_.packBytes;
-      bytesPerSample[written.trial] += std::max(0.0, exr + pack) / written.samples;
-      packedPerSample[written.trial] += std::max(0.0, pack) / written.samples;
-    }
-    for (std::size_t trial = 0; trial < probes_.size(); ++trial) {
-      probes_[trial].bytes = bytesPerSample[trial] * probes_[trial].writtenSamples;
-      probes_[trial].packedBytes = packedPerSample[trial] * probes_[trial].writtenSamples;
+      probe.bytes += std::max(0.0, written.bytes - smallest_.bytes);
     }
     return probes_;
   }
 
   Result<std::vector<SliceProbe>> bakeSlices(const std::vector<int>& cameras) override {
-    TrialSink sink(lightFile_.parent_path());
+    TrialSink sink(lightFile_.parent_path(), open_.project.bake.colourQuality);
     CaptureWriter writer(sink, budget_, stop_);
     std::vector<SliceProbe> probes;
     for (const int camera : cameras) {
       SliceProbe& probe = probes.emplace_back();
-      const std::vector<ColumnCamera> slices = slicesOf(columnsOf(camera), kSlicePixels / fewer_);
+      const std::vector<ColumnCamera> slices =
+          slicesOf(columnsOf(camera), kSliceColumns, kSlicePixels / fewer_);
       const Stopwatch watch;
       double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
       for (const ColumnCamera& slice : slices) {
@@ -353,8 +341,8 @@ class ProjectProber final : public BakeProber {
     return traced;
   }
 
-  /// Rays of all purposes.
-  Result<double> traceTrial(int camera, const ColumnCamera& columns, Thinned thinned) {
+  /// Rays of all purposes. What is `written` tells of bytes.
+  Result<double> traceTrial(int camera, const ColumnCamera& columns, bool written) {
     auto first = bake(camera, columns);
     if (!first) return tl::unexpected(first.error());
     const RayCounts& rays = first->counts.rays;
@@ -371,9 +359,9 @@ class ProjectProber final : public BakeProber {
     // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
     probe.rays += double(rays.total() - rays.visibility - rays.gathered);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
-    if (Status put = writer_->put({std::uint64_t(thinned), probes_.size() - 1}, std::move(first->capture));
-        !put)
-      return tl::unexpected(put.error());
+    if (written)
+      if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
+        return tl::unexpected(put.error());
     return traced;
   }
 

@@ -176,6 +176,9 @@ void bakeKnobs(std::vector<Knob>& table) {
   table.push_back(numberKnob(
       "distance-shift", "samples that pictures may shift by as inverse distances are rounded; 0 = 16 bits",
       true, [](Project & p) -> auto& { return p.bake.distanceShift; }, {"0", "0.025", "0.4", "1.6"}));
+  table.push_back(numberKnob("colour-quality", "how true captures' colours are; 100 = every bit", true,
+                             [](Project & p) -> auto& { return p.bake.colourQuality; },
+                             {"80", "90", "97", "100"}));
   table.push_back(switchKnob(
       "silhouettes", "samples tell their surface's plane and what they cover of their pixel", true,
       [](Project & p) -> auto& { return p.bake.silhouettes; }));

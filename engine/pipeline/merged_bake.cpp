@@ -29,7 +29,11 @@ std::vector<ContentKey> mergedKeys(const std::vector<ContentKey>& plain, std::si
 class MergingSink final : public CaptureSink {
  public:
   MergingSink(const CaptureStore& store, const OpenProject& open, std::size_t together)
-      : store_(store), plain_(open.keys), merged_(mergedKeys(open.keys, together)), together_(together) {
+      : store_(store),
+        colourQuality_(open.project.bake.colourQuality),
+        plain_(open.keys),
+        merged_(mergedKeys(open.keys, together)),
+        together_(together) {
     plan_ = planStorey(open);
   }
 
@@ -46,7 +50,7 @@ class MergingSink final : public CaptureSink {
     for (const Capture& other : earlier_) earlier.push_back(&other);
     Capture own = capture;
     dropShown(own, earlier, kTolerance);
-    if (Status put = store_.put(merged_[n], own, stop); !put) return put;
+    if (Status put = store_.put(merged_[n], own, stop, colourQuality_); !put) return put;
     earlier_.push_back(std::move(own));
     return store_.putRecord(merged_[n], plan_.cameras[n].subject, plan_.cameras[n].parts);
   }
@@ -57,6 +61,7 @@ class MergingSink final : public CaptureSink {
   }
 
   const CaptureStore& store_;
+  int colourQuality_;
   StoreyPlan plan_;
   std::vector<ContentKey> plain_, merged_;
   std::size_t together_;

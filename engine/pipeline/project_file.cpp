@@ -222,6 +222,7 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "pruningLoss", project.bake.pruningLoss);
     read(json["bake"], "eyeRange", project.bake.eyeRange);
     read(json["bake"], "distanceShift", project.bake.distanceShift);
+    read(json["bake"], "colourQuality", project.bake.colourQuality);
     read(json["bake"], "silhouettes", project.bake.silhouettes);
   }
   if (json.contains("budget")) {
@@ -357,6 +358,7 @@ std::string formatProject(const Project& project) {
         {"pruningLoss", project.bake.pruningLoss},
         {"eyeRange", project.bake.eyeRange},
         {"distanceShift", project.bake.distanceShift},
+        {"colourQuality", project.bake.colourQuality},
         {"silhouettes", project.bake.silhouettes}}},
       {"budget",
        {{"trianglesPerRegion", project.budget.trianglesPerRegion},

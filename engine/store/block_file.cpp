@@ -15,8 +15,16 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
 /// Of each kind of file its own: one that changes leaves the others readable.
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
-  if (kind == BlockFileKind::capture) return 4;
+  if (kind == BlockFileKind::capture) return kPlainCapture;
   return kind == BlockFileKind::localGeometry || kind == BlockFileKind::surfaceLightPart ? 1 : 2;
+}
+/// What a reader of the kind takes: captures in either version.
+bool isRead(BlockFileKind kind, std::uint32_t version) {
+  return version == versionOf(kind) || (kind == BlockFileKind::capture && version == kCodedCapture);
+}
+std::string versionsOf(BlockFileKind kind) {
+  return kind == BlockFileKind::capture ? fmt::format("{} and {}", kPlainCapture, kCodedCapture)
+                                        : fmt::format("{}", versionOf(kind));
 }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;
@@ -72,10 +80,11 @@ Status BlockFileWriter::addRecords(std::span<const ConstLane> lanes, std::size_t
 Status BlockFileWriter::write(const std::filesystem::path& path) const {
   const std::uint64_t contentBytes =
       kPreambleBytes + description_.size() + sizes_.size() * kTableEntryBytes + storedBytes_ + kChecksumBytes;
-  const std::uint64_t fileBytes = std::max(contentBytes, (rawBytes_ + kMaxExpansion - 1) / kMaxExpansion);
+  const std::uint64_t fileBytes =
+      std::max(contentBytes, (rawBytes_ + claimedBytes_ + kMaxExpansion - 1) / kMaxExpansion);
   std::vector<std::byte> out;
   for (char letter : kMagic) put(out, letter);
-  put(out, versionOf(kind_));
+  put(out, version_ == 0 ? versionOf(kind_) : version_);
   put(out, static_cast<std::uint32_t>(kind_));
   put(out, key_.high);
   put(out, key_.low);
@@ -129,10 +138,11 @@ Status BlockFileReader::parse(BlockFileKind kind) {
     return malformed("is damaged: its checksum differs");
   if (take<std::uint32_t>(bytes_, 12) != static_cast<std::uint32_t>(kind))
     return malformed("holds another kind of data than its name says");
-  if (const auto version = take<std::uint32_t>(bytes_, 8); version != versionOf(kind))
+  version_ = take<std::uint32_t>(bytes_, 8);
+  if (!isRead(kind, version_))
     return fail(
         ErrorKind::unsupported,
-        fmt::format("has format version {}, this program reads {}; bake it anew", version, versionOf(kind)),
+        fmt::format("has format version {}, this program reads {}; bake it anew", version_, versionsOf(kind)),
         name_);
   key_ = {take<std::uint64_t>(bytes_, 16), take<std::uint64_t>(bytes_, 24)};
   rawBytes_ = take<std::uint64_t>(bytes_, 40);
@@ -157,6 +167,15 @@ Status BlockFileReader::parse(BlockFileKind kind) {
   }
   if (raw != rawBytes_ || end > checked) return malformed("its table of blocks contradicts its size");
   return {};
+}
+
+bool BlockFileReader::mayHold(std::uint64_t bytes) const {
+  const std::uint64_t most = kMaxExpansion * bytes_.size();
+  return bytes <= most && rawBytes_ <= most - bytes;
+}
+
+std::size_t BlockFileReader::nextSize() const {
+  return atEnd() ? 0 : take<std::uint32_t>(bytes_, table_ + block_ * kTableEntryBytes);
 }
 
 void BlockFileReader::takeDescription(void* out, std::size_t size) {

@@ -5,7 +5,8 @@
 ///
 /// Reading verifies the checksum before anything is believed, and every size against the size of the file
 /// before anything is allocated: a file of n bytes never makes a reader allocate more than 256 n for its
-/// contents.
+/// contents, nor for what readers make of blocks that are coded once more (writers claim it, readers ask
+/// mayHold).
 
 #include <cstddef>
 #include <cstdint>
@@ -29,14 +30,18 @@ enum class BlockFileKind : std::uint32_t {
   surfaceLightPart = 5,
 };
 
+/// Of captures: colours as they are and arrays of records, or all of it coded (FORMAT.md).
+inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 5;
+
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;
 
 class BlockFileWriter {
  public:
-  /// Told to stop, it adds and writes nothing more, but gives `cancelled`.
-  BlockFileWriter(BlockFileKind kind, const ContentKey& key, std::stop_token stop = {})
-      : kind_(kind), key_(key), stop_(std::move(stop)) {}
+  /// Told to stop, it adds and writes nothing more, but gives `cancelled`. Version 0: the kind's usual one.
+  BlockFileWriter(BlockFileKind kind, const ContentKey& key, std::stop_token stop = {},
+                  std::uint32_t version = 0)
+      : kind_(kind), version_(version), key_(key), stop_(std::move(stop)) {}
 
   template <class T>
   void describe(T value) {
@@ -47,6 +52,8 @@ class BlockFileWriter {
   Status addBlock(std::span<const std::byte> raw);
   /// `count` records in blocks of kRecordsPerBlock.
   Status addRecords(std::span<const ConstLane> lanes, std::size_t count);
+  /// What a reader will need besides the blocks as they are unpacked: the file is made long enough for it.
+  void claim(std::uint64_t bytes) { claimedBytes_ += bytes; }
   Status write(const std::filesystem::path& path) const;
 
  private:
@@ -55,6 +62,7 @@ class BlockFileWriter {
     std::uint32_t stored = 0;
   };
   BlockFileKind kind_;
+  std::uint32_t version_;
   ContentKey key_;
   std::stop_token stop_;
   std::vector<std::byte> description_;
@@ -62,6 +70,7 @@ class BlockFileWriter {
   std::vector<std::vector<std::byte>> stored_;  ///< by block
   std::uint64_t storedBytes_ = 0;
   std::uint64_t rawBytes_ = 0;
+  std::uint64_t claimedBytes_ = 0;
 };
 
 class BlockFileReader {
@@ -72,8 +81,11 @@ class BlockFileReader {
   static Result<BlockFileReader> of(std::vector<std::byte> bytes, std::string name, BlockFileKind kind);
 
   const ContentKey& key() const { return key_; }
+  std::uint32_t version() const { return version_; }
   const std::string& name() const { return name_; }
   std::uint64_t rawBytes() const { return rawBytes_; }
+  /// May what is read of the file take so many bytes, besides the blocks as they are unpacked?
+  bool mayHold(std::uint64_t bytes) const;
 
   /// Takes the next value of the description. A description that is too short gives zeros and fails
   /// `describedAll`.
@@ -88,6 +100,8 @@ class BlockFileReader {
   bool describesMore() const { return descriptionSound_ && descriptionAt_ < descriptionEnd_; }
   bool describedAll() const { return descriptionSound_ && descriptionAt_ == descriptionEnd_; }
 
+  /// Bytes of the next block, unpacked; 0 if there is none.
+  std::size_t nextSize() const;
   /// Unpacks the next block into `raw`, whose size must be the block's.
   Status nextBlock(std::span<std::byte> raw);
   Status nextRecords(std::span<const Lane> lanes, std::size_t count);
@@ -104,6 +118,7 @@ class BlockFileReader {
   std::vector<std::byte> bytes_;
   std::string name_;
   ContentKey key_;
+  std::uint32_t version_ = 0;
   std::uint64_t rawBytes_ = 0;
   std::size_t descriptionAt_ = 0;
   std::size_t descriptionEnd_ = 0;

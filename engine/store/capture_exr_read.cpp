@@ -113,11 +113,7 @@ struct Part {
   const ColumnCamera& camera;
   bool mirrors;  ///< has a channel of them
   CaptureSamples& samples;
-  const std::stop_token& stop;
 
-  void obey() const {
-    if (stop.stop_requested()) refuse("reading was stopped", ErrorKind::cancelled);
-  }
   std::size_t columns() const { return static_cast<std::size_t>(camera.columns); }
   std::size_t rows() const { return static_cast<std::size_t>(camera.rows); }
 };
@@ -148,7 +144,6 @@ void readFlat(const Part& from) {
   Imf::InputPart part(from.file, from.number);
   part.setFrameBuffer(buffer);
   for (int row = 0; row < from.camera.rows; ++row) {
-    from.obey();
     part.readPixels(row, row);
   }
 
@@ -227,7 +222,6 @@ void readDeep(const Part& from) {
   std::uint32_t nobody = 0;
   const bool empty = out.row.empty();
   for (std::size_t row = 0; row < rows; ++row) {
-    from.obey();
     for (std::size_t x = 0; x < columns; ++x) {
       // A pixel without samples gets a pointer too: to the next sample, or past the end, where nothing is
       // written.
@@ -269,8 +263,7 @@ void readPart(const Part& from) {
     refuse("is tiled; captures are stored by scanlines");
 }
 
-Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes,
-                       const std::stop_token& stop) {
+Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes) {
   ExrMemoryInput memory(name, bytes);
   Imf::MultiPartInputFile file(memory, 0, false);
   if (file.parts() > 2) refuse("has more parts than a capture: surfaces and reflections");
@@ -286,11 +279,11 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
   capture.camera = cameraOf(header, bytes.size());
   capture.distanceStep = attribute<Imf::DoubleAttribute>(header, kAttributeStep);
   const bool mirrors = file.parts() == 2;
-  readPart({file, 0, bytes.size(), capture.camera, mirrors, capture, stop});
+  readPart({file, 0, bytes.size(), capture.camera, mirrors, capture});
   if (mirrors) {
     if (file.header(1).name() != kReflectionsPart || file.header(1).dataWindow() != header.dataWindow())
       refuse("its second part does not hold the reflections of the first");
-    readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections, stop});
+    readPart({file, 1, bytes.size(), capture.camera, true, capture.reflections});
   }
 
   if (const Status taken = takeBackground(capture, skyOf(header), capture.background); !taken)
@@ -304,12 +297,12 @@ Keyed<Capture> readExr(const std::string& name, std::span<const std::byte> bytes
 
 }  // namespace
 
-Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path, const std::stop_token& stop) {
+Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path) {
   return withinMemory(path, [&]() -> Result<Keyed<Capture>> {
     const auto bytes = readFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
     try {
-      return readExr(path.string(), *bytes, stop);
+      return readExr(path.string(), *bytes);
     } catch (const Refusal& refusal) {
       return fail(refusal.kind, refusal.message, path.string());
     } catch (const std::bad_alloc&) {

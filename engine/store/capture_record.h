@@ -16,7 +16,7 @@
 namespace acentric {
 
 struct FileRecord {
-  std::string extension;  ///< of the file under the record's key: ".exr"
+  std::string extension;  ///< of the file under the record's key: ".pack"
   std::uint64_t bytes = 0;
   ContentKey content;
   bool operator==(const FileRecord&) const = default;

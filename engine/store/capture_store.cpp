@@ -55,7 +55,7 @@ std::optional<ContentKey> keyInName(const fs::path& path) {
     stem = stem.substr(kLightPrefix.size(), stem.find('.') - kLightPrefix.size());
   else if (name.extension() == kSimplifiedExtension && stem.starts_with(kSimplifiedPrefix))
     stem.erase(0, kSimplifiedPrefix.size());
-  else if (name.extension() != kExrExtension && name.extension() != kPackExtension &&
+  else if (name.extension() != kTwinExtension && name.extension() != kPackExtension &&
            name.extension() != kRecordExtension)
     return std::nullopt;
   const auto key = ContentKey::fromHex(stem);
@@ -74,16 +74,11 @@ Result<CaptureStore> CaptureStore::open(const fs::path& folder) {
   return CaptureStore(folder);
 }
 
-bool CaptureStore::has(const ContentKey& key) const {
-  return isFile(exrOf(folder_, key)) && isFile(packOf(folder_, key));
-}
+bool CaptureStore::has(const ContentKey& key) const { return isFile(packOf(folder_, key)); }
 
-Status CaptureStore::put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) const {
-  if (Status written = writeCaptureExr(capture, key, exrOf(folder_, key), stop); !written) return written;
-  Status packed = writeCapturePack(capture, key, packOf(folder_, key), stop);
-  std::error_code ignored;  // half a capture is of no use, and takes room where there may be none
-  if (!packed && !isFile(packOf(folder_, key))) fs::remove(exrOf(folder_, key), ignored);
-  return packed;
+Status CaptureStore::put(const ContentKey& key, const Capture& capture, const std::stop_token& stop,
+                         int colourQuality) const {
+  return writeCodedPack(capture, key, packOf(folder_, key), colourQuality, stop);
 }
 
 std::filesystem::path CaptureStore::packFile(const ContentKey& key) const { return packOf(folder_, key); }
@@ -95,29 +90,12 @@ std::filesystem::path CaptureStore::fileOf(const ContentKey& key, const std::str
 }
 
 Result<Capture> CaptureStore::get(const ContentKey& key) const {
-  const fs::path exr = exrOf(folder_, key), pack = packOf(folder_, key);
-  if (!has(key)) return fail(ErrorKind::notFound, "is not baked", pack.string());
-  auto packed = expectKey(readKeyedCapturePack(pack), key, pack);
-  if (packed) return withoutKey(std::move(packed));
-  if (!isDamage(packed.error())) return tl::unexpected(packed.error());
-  auto original = expectKey(readKeyedCaptureExr(exr), key, exr);
-  if (original) {
-    // Should the pack not be writable now, the capture is still sound; the next get tries again.
-    (void)writeCapturePack(original->value, key, pack);
-    return withoutKey(std::move(original));
-  }
-  if (!isDamage(original.error())) return tl::unexpected(original.error());
-  setAside(exr);
-  setAside(pack);
-  return fail(ErrorKind::malformed,
-              "both files of this capture are damaged and were set aside as *.damaged; bake again (" +
-                  packed.error().message + "; " + original.error().message + ")",
-              pack.string());
+  return getWhole(key, packOf(folder_, key), readKeyedCapturePack);
 }
 
 Status CaptureStore::adopt(const ContentKey& key, const CaptureStore& from) const {
   // The record last: what has one was taken over to the end.
-  for (const auto fileOf : {exrOf, packOf, lightOf, recordOf}) {
+  for (const auto fileOf : {packOf, lightOf, recordOf}) {
     const fs::path source = fileOf(from.folder_, key), target = fileOf(folder_, key);
     if (!isFile(source) || isFile(target)) continue;
     if (Status there = linkOrCopyFile(source, target); !there) return there;
@@ -150,18 +128,20 @@ std::vector<Error> CaptureStore::check(const ContentKey& key, const std::stop_to
   std::vector<Error> problems;
   const auto look = [&](const fs::path& path, const auto& readKeyed) {
     if (!isFile(path)) return;
+    if (stop.stop_requested()) {
+      problems.push_back({ErrorKind::cancelled, "reading was stopped", path.string()});
+      return;
+    }
     if (auto read = expectKey(readKeyed(path), key, path); !read) problems.push_back(std::move(read.error()));
   };
   look(packOf(folder_, key), readKeyedCapturePack);
-  look(exrOf(folder_, key), [&](const fs::path& path) { return readKeyedCaptureExr(path, stop); });
   look(lightOf(folder_, key), readKeyedSurfaceLight);
   look(simplifiedOf(folder_, key), readKeyedSimplified);
   return problems;
 }
 
 std::uint64_t CaptureStore::bytesOf(const ContentKey& key) const {
-  return sizeOf(exrOf(folder_, key)) + sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key)) +
-         sizeOf(simplifiedOf(folder_, key));
+  return sizeOf(packOf(folder_, key)) + sizeOf(lightOf(folder_, key)) + sizeOf(simplifiedOf(folder_, key));
 }
 
 std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {
@@ -171,8 +151,10 @@ std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     const auto key = keyInName(entry->path());
     const bool setAsideBefore = entry->path().extension() == kDamagedExtension;
+    const bool twin = entry->path().extension() == kTwinExtension;
     const bool doneWith = key && entry->path().extension() == kLightPartExtension && hasSurfaceLight(*key);
-    if (key && (setAsideBefore || doneWith || std::find(keep.begin(), keep.end(), *key) == keep.end()))
+    if (key &&
+        (setAsideBefore || twin || doneWith || std::find(keep.begin(), keep.end(), *key) == keep.end()))
       doomed.push_back(entry->path());
   }
   for (const fs::path& path : doomed) {

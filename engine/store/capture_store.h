@@ -1,8 +1,10 @@
 #pragma once
-/// Captures on disk under content keys, format: FORMAT.md. Each capture is an OpenEXR file `<key>.exr` that
-/// any OpenEXR tool reads (flat when no pixel has more than one sample, else deep), with a packed twin
-/// `<key>.pack` that loads fast. All writes are atomic; a file that fails its checks is treated as missing
-/// and reported, never used.
+/// Captures on disk under content keys, format: FORMAT.md. Each capture is one file, `<key>.pack`. As
+/// OpenEXR, which other tools read, captures are exported. All writes are atomic; a file that fails its
+/// checks is treated as missing and reported, never used.
+///
+/// Earlier versions kept an OpenEXR twin `<key>.exr` beside each pack. Such stores are read as they are: the
+/// pack is the capture, the twin is not looked at, whether it is there or not, and prune() deletes it.
 
 #include <filesystem>
 #include <map>
@@ -15,6 +17,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/result.h"
 #include "engine/image/capture.h"
+#include "engine/image/colour_quality.h"
 #include "engine/scene/simplify.h"
 #include "engine/scene/surface_light.h"
 #include "engine/scene/surface_light_part.h"
@@ -23,12 +26,19 @@
 namespace acentric {
 
 // What is told to stop while it writes gives `cancelled` soon, and leaves no file of its own.
+
+/// Flat where no pixel has more than one sample, else deep. Silhouettes are not in it.
 Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                        const std::stop_token& stop = {});
 Result<Capture> readCaptureExr(const std::filesystem::path& path);
 
+/// All as it is, in arrays of records: what runtimes of bundles read.
 Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
+/// As stores keep captures: several times smaller. Colours by a quality (colour_quality.h), the rest exactly.
+Status writeCodedPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                      int colourQuality, const std::stop_token& stop = {});
+/// Either.
 Result<Capture> readCapturePack(const std::filesystem::path& path);
 
 Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
@@ -46,12 +56,12 @@ class CaptureStore {
   static Result<CaptureStore> open(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// Complete on disk (both files present; content is checked on get).
+  /// Is it on disk? (Its content is checked on get.)
   bool has(const ContentKey& key) const;
-  /// Both files or, stopped before the second is whole, none.
-  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop = {}) const;
-  /// The pack if sound, else the EXR (and the pack is written anew). A damaged pair is `malformed` and both
-  /// are set aside (renamed *.damaged), so that the next bake replaces them.
+  /// The whole file or, stopped before that, none. Colours by a quality (colour_quality.h).
+  Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop = {},
+             int colourQuality = kLosslessColours) const;
+  /// What is damaged is `malformed` and set aside (renamed *.damaged), so that the next bake replaces it.
   Result<Capture> get(const ContentKey& key) const;
   /// Where its pack is, or would be.
   std::filesystem::path packFile(const ContentKey& key) const;
@@ -78,7 +88,7 @@ class CaptureStore {
   Status putSimplified(const ContentKey& key, const SimplifiedLocal& simplified) const;
   Result<SimplifiedLocal> getSimplified(const ContentKey& key) const;
 
-  /// Reads every file that is there under the key (both of a capture, surface light, simplified geometry)
+  /// Reads every file that is there under the key (capture, surface light, simplified geometry)
   /// to its end; what is wrong with each, that it was made for another key too. Sets nothing aside.
   std::vector<Error> check(const ContentKey& key, const std::stop_token& stop = {}) const;
 
@@ -106,7 +116,7 @@ class CaptureStore {
 
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, what was set aside,
-  /// and parts of light that is whole; returns bytes freed.
+  /// parts of light that is whole, and OpenEXR twins of earlier versions; returns bytes freed.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:

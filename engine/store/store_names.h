@@ -10,8 +10,9 @@
 
 namespace acentric {
 
-inline constexpr const char* kExrExtension = ".exr";
 inline constexpr const char* kPackExtension = ".pack";
+/// Of the OpenEXR file that earlier versions kept beside each pack: no part of a capture any more.
+inline constexpr const char* kTwinExtension = ".exr";
 inline constexpr const char* kDamagedExtension = ".damaged";
 inline constexpr const char* kRecordExtension = ".record";
 inline constexpr const char* kLightExtension = ".light";
@@ -20,9 +21,6 @@ inline constexpr const char* kLightPartExtension = ".part";
 inline constexpr const char* kSimplifiedExtension = ".local";
 inline constexpr std::string_view kSimplifiedPrefix = "simplified-";
 
-inline std::filesystem::path exrOf(const std::filesystem::path& folder, const ContentKey& key) {
-  return folder / (key.toHex() + kExrExtension);
-}
 inline std::filesystem::path packOf(const std::filesystem::path& folder, const ContentKey& key) {
   return folder / (key.toHex() + kPackExtension);
 }

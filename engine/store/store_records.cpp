@@ -12,16 +12,12 @@ namespace {
 
 constexpr std::size_t kMostRecordBytes = 64 << 10;
 
-/// What makes a capture or a surface light whole. Nothing under the key: none.
+/// What a capture or a surface light is in: one file. Nothing under the key: none.
 std::vector<fs::path> filesUnder(const fs::path& folder, const ContentKey& key) {
   std::vector<fs::path> files;
-  for (const fs::path& path : {exrOf(folder, key), packOf(folder, key), lightOf(folder, key)})
+  for (const fs::path& path : {packOf(folder, key), lightOf(folder, key)})
     if (isFile(path)) files.push_back(path);
   return files;
-}
-
-bool isWhole(const std::vector<fs::path>& files) {
-  return files.size() == 2 || (files.size() == 1 && files.front().extension() == kLightExtension);
 }
 
 fs::file_time_type writtenAt(const fs::path& path) {
@@ -47,7 +43,12 @@ Result<CaptureRecord> CaptureStore::record(const ContentKey& key) const {
   const fs::path path = recordOf(folder_, key);
   const auto text = readText(path, kMostRecordBytes);
   if (!text) return tl::unexpected(text.error());
-  return parseRecord(*text, path.string());
+  auto record = parseRecord(*text, path.string());
+  // Records of earlier versions name the capture's OpenEXR twin too. It may be there, changed or gone: the
+  // capture is its pack.
+  if (record)
+    std::erase_if(record->files, [](const FileRecord& file) { return file.extension == kTwinExtension; });
+  return record;
 }
 
 void CaptureStore::forgetRecord(const ContentKey& key) const {
@@ -85,8 +86,8 @@ Result<CaptureStore::Inspected> CaptureStore::inspect(const ContentKey& key, boo
                                                       const std::stop_token& stop) const {
   const std::vector<fs::path> files = filesUnder(folder_, key);
   Inspected found;
-  if (!isWhole(files)) {
-    for (const fs::path& path : {exrOf(folder_, key), packOf(folder_, key), lightOf(folder_, key)})
+  if (files.empty()) {
+    for (const fs::path& path : {packOf(folder_, key), lightOf(folder_, key)})
       if (isFile(path.string() + kDamagedExtension))
         found.damage.push_back({ErrorKind::malformed, "was damaged and is set aside", path.string()});
     if (!found.damage.empty()) found.condition = Condition::damaged;

@@ -193,9 +193,7 @@ Needs largestNeeds(const RayScene& scene, const Layout& layout, const BakeSettin
         columnCameraFor(camera, layout.eyeZ(), layout.spec.nearBand, scene.scene().bounds, settings);
     const auto capture = CameraBaker(scene, settings).bake(camera, columns, runner, counts);
     EXPECT_TRUE(capture);
-    // In OpenEXR the background takes samples.
-    needs.samples =
-        std::max(needs.samples, capture->bytes() + kCaptureSampleBytes * capture->background.pixelCount());
+    needs.samples = std::max(needs.samples, capture->bytes());
     const std::size_t texels = 90;  // to an edge of a map
     needs.views = std::max(needs.views, std::size_t(counts.eyeViews) * 6 * (texels + 1) * (texels + 1) * 4);
   }
@@ -337,6 +335,7 @@ TEST_F(CaptureKeyTest, ChangesWithEverythingThatChangesPixelsAndWithNothingElse)
   changes("layers", keyWith(with(&BakeSettings::maxLayers, 5)));
   changes("test eyes", keyWith(with(&BakeSettings::testEyes, 5)));
   changes("what pruning may lose", keyWith(with(&BakeSettings::pruningLoss, 0.01)));
+  changes("how true colours are", keyWith(with(&BakeSettings::colourQuality, 50)));
   changes("places of gathered light", keyWith(with(&BakeSettings::surfaceTexel, 0.5)));
   BakeSettings settings = with(&BakeSettings::pruning, false);
   const ContentKey unpruned = keyWith(settings);
@@ -419,6 +418,9 @@ TEST(BakeSettings, RefusesEveryValueOutOfItsRange) {
   EXPECT_TRUE(refused([](auto& s) { s.pruningLoss = 1e-6; }));
   EXPECT_TRUE(refused([](auto& s) { s.pruningLoss = 1.1; }));
   EXPECT_FALSE(refused([](auto& s) { s.pruningLoss = 0; }));
+  EXPECT_TRUE(refused([](auto& s) { s.colourQuality = -1; }));
+  EXPECT_TRUE(refused([](auto& s) { s.colourQuality = 101; }));
+  EXPECT_FALSE(refused([](auto& s) { s.colourQuality = 100; }));
 }
 
 TEST(BakeSettings, OfLowerQualityAreSoundAndNeverCostMore) {

@@ -86,6 +86,7 @@ BakeSettings bakeSettings(const Project& project, Random& random) {
       break;
     case 9:
       bake.distanceShift = between(random, 0, 4);
+      bake.colourQuality = whole(random, 0, 100);
       break;
     case 10:
       bake.pruningLoss = between(random, -0.001, 0.01);

@@ -210,12 +210,12 @@ TEST_F(FilesTest, CapturesGoAlongAndTemporariesStay) {
   const fs::path from = folder_ / "a" / "x.acentric.json";
   const fs::path to = folder_ / "b" / "y.acentric.json";
   fs::create_directories(captureFolderFor(from));
-  std::ofstream(captureFolderFor(from) / "k1.exr") << "one";
+  std::ofstream(captureFolderFor(from) / "k1.pack") << "one";
   std::ofstream(captureFolderFor(from) / "k1.pack") << "two";
-  std::ofstream(captureFolderFor(from) / ".acentric-tmp-1-k2.exr") << "half";
+  std::ofstream(captureFolderFor(from) / ".acentric-tmp-1-k2.pack") << "half";
   EXPECT_EQ(shareCaptures(from, to).value(), 2);
-  EXPECT_TRUE(fs::exists(captureFolderFor(to) / "k1.exr"));
-  EXPECT_FALSE(fs::exists(captureFolderFor(to) / ".acentric-tmp-1-k2.exr"));
+  EXPECT_TRUE(fs::exists(captureFolderFor(to) / "k1.pack"));
+  EXPECT_FALSE(fs::exists(captureFolderFor(to) / ".acentric-tmp-1-k2.pack"));
   EXPECT_EQ(shareCaptures(from, to).value(), 0);
 }
 

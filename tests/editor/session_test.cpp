@@ -65,7 +65,7 @@ TEST_F(SessionTest, CapturesThatTurnOutToBeDamagedAreToldOfAndNoLongerCountAsBak
     waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(captureFolderFor(file))) {
-    if (entry.path().extension() != ".pack" && entry.path().extension() != ".exr") continue;
+    if (entry.path().extension() != ".pack") continue;
     const auto before = fs::last_write_time(entry.path());
     std::fstream bytes(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
     bytes.seekp(std::streamoff(entry.file_size() / 2));

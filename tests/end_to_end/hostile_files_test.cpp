@@ -77,7 +77,7 @@ TEST(HostileFiles, AFolderInTheWayOfOneCaptureLeavesTheOthersBaked) {
   const Json dry =
       Json::parse(acentric({"bake", project.file(), "--dry-run", "--json"}).output, nullptr, false);
   const std::string key = dry["missing"][1]["key"];
-  const fs::path way = project.captures() / (key + ".exr");
+  const fs::path way = project.captures() / (key + ".pack");
   fs::create_directories(way);
   const auto ran = acentric({"bake", project.file(), "--json"});
   EXPECT_EQ(ran.exitCode, 1);
@@ -86,7 +86,7 @@ TEST(HostileFiles, AFolderInTheWayOfOneCaptureLeavesTheOthersBaked) {
   EXPECT_TRUE(report["surfaceLight"]["baked"].get<bool>());
   ASSERT_EQ(report["refused"].size(), 1u);
   EXPECT_THAT(report["refused"][0].get<std::string>(),
-              HasSubstr(key + ".exr: cannot be put in place: a folder"));
+              HasSubstr(key + ".pack: cannot be put in place: a folder"));
 
   fs::remove(way);
   const auto again = acentric({"bake", project.file(), "--json"});

@@ -74,7 +74,6 @@ TEST(ReportTest, BenchTellsRaysAndBytesOfEachSetAndLeavesNothing) {
   EXPECT_GE(bytes["everySurface"].get<double>(), bytes["pruned"].get<double>());
   EXPECT_GT(bytes["pruned"].get<double>(), bytes["quantised"].get<double>());
   EXPECT_GT(bytes["quantised"].get<double>(), bytes["pack"].get<double>());
-  EXPECT_GT(bytes["exr"].get<double>(), 0);
   for (const auto& entry : std::filesystem::directory_iterator(project.folder()))
     EXPECT_TRUE(entry.is_regular_file()) << entry.path();
 }

@@ -110,11 +110,12 @@ TEST_F(BakeReasonsTest, NameWhatChanged) {
 }
 
 TEST_F(BakeReasonsTest, DamageIsNamedAndBakedAgain) {
-  const fs::path pack = fileOf(1, ".pack"), exr = fileOf(2, ".exr"), cut = fileOf(3, ".pack");
-  const fs::path gone = fileOf(4, ".exr");
-  const std::string packBefore = contentOf(pack), exrBefore = contentOf(exr), cutBefore = contentOf(cut);
+  const fs::path pack = fileOf(1, ".pack"), middle = fileOf(2, ".pack"), cut = fileOf(3, ".pack");
+  const fs::path gone = fileOf(4, ".pack");
+  const std::string packBefore = contentOf(pack), middleBefore = contentOf(middle),
+                    cutBefore = contentOf(cut);
   flipBytes(pack, 300);
-  flipBytes(exr, std::streamoff(fs::file_size(exr)) / 2);
+  flipBytes(middle, std::streamoff(fs::file_size(middle)) / 2);
   fs::resize_file(cut, fs::file_size(cut) - 5);
   fs::remove(gone);
 
@@ -126,8 +127,9 @@ TEST_F(BakeReasonsTest, DamageIsNamedAndBakedAgain) {
   const Json again = bake(file);
   EXPECT_EQ(again["baked"], 4);
   const std::string named = again["damaged"].dump();
-  for (const fs::path& path : {pack, exr, cut}) EXPECT_THAT(named, HasSubstr(path.filename().string()));
-  EXPECT_TRUE(contentOf(pack) == packBefore && contentOf(exr) == exrBefore && contentOf(cut) == cutBefore);
+  for (const fs::path& path : {pack, middle, cut}) EXPECT_THAT(named, HasSubstr(path.filename().string()));
+  EXPECT_TRUE(contentOf(pack) == packBefore && contentOf(middle) == middleBefore &&
+              contentOf(cut) == cutBefore);
   EXPECT_EQ(bake(file)["baked"], 0);
   EXPECT_EQ(acentric({"validate", file}).exitCode, 0);
 }

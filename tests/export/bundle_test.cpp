@@ -161,7 +161,7 @@ TEST_F(BundleTest, SaysWhatItsProjectUses) {
   EXPECT_EQ(formatBundle(*bundle), *readText(room / "bundle" / kBundleIndex)) << "read and written again";
 }
 
-TEST_F(BundleTest, HoldsTheStoresPacksAndCoarseOnesOfThem) {
+TEST_F(BundleTest, HoldsTheStoresCapturesAndCoarseOnesOfThem) {
   const auto store = openCaptures(plain->file);
   ASSERT_TRUE(store);
   const auto bundle = readBundle(room / "bundle");
@@ -169,8 +169,9 @@ TEST_F(BundleTest, HoldsTheStoresPacksAndCoarseOnesOfThem) {
   for (std::size_t c = 0; c < plain->keys.size(); ++c) {
     const BundleCamera& camera = bundle->storeys.front().cameras[c];
     ASSERT_TRUE(camera.full && camera.coarse);
-    EXPECT_EQ(*readText(room / "bundle" / camera.full->file.path),
-              *readText(store->packFile(plain->keys[c])));
+    const auto full = readCapturePack(room / "bundle" / camera.full->file.path);
+    ASSERT_TRUE(full) << full.error().describe();
+    EXPECT_EQ(*full, *store->get(plain->keys[c]));
     EXPECT_EQ(camera.coarse->columns, (camera.full->columns + 3) / 4);
     EXPECT_LT(camera.coarse->samples, camera.full->samples / 4);
   }

@@ -54,7 +54,7 @@ CAPTURES=$(field captures)
 click bake.start
 wait_for '^event message Baked' 240
 wait_state "captures $CAPTURES baked $CAPTURES working 0" 60
-FILES=$(find "$WORK/room.captures" -name '*.exr' | wc -l)
+FILES=$(find "$WORK/room.captures" -name '*.pack' | wc -l)
 [ "$FILES" -ge "$CAPTURES" ] || fail "$FILES captures on disk, $CAPTURES expected"
 
 # Walk with W for a second, then look by dragging to the right.

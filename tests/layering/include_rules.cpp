@@ -26,6 +26,7 @@ const std::vector<Home>& homes() {
       {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/"}},
       {"Cairo", {"cairo"}, {"engine/picture/"}},
       {"libpng", {"png.h"}, {"engine/export/"}},
+      {"libavif", {"avif/"}, {"engine/store/"}},
       {"OpenEXR", {"OpenEXR/", "Imath/", "ImfArray", "Imf"}, {"engine/store/"}},
       {"zstd", {"zstd"}, {"engine/store/", "engine/scene/"}},
       {"tinygltf", {"tiny_gltf", "tinygltf"}, {"engine/scene/"}},

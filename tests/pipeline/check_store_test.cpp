@@ -91,13 +91,13 @@ TEST_F(CheckedStore, IsSoundAsBakedAndLeftAsItIs) {
 }
 
 TEST_F(CheckedStore, TellsOfEveryFlippedBit) {
-  for (const fs::path& path : {fileOf(".exr"), fileOf(".pack"), fileOf(".record"), light(), lightRecord()})
+  for (const fs::path& path : {fileOf(".pack"), fileOf(".record"), light(), lightRecord()})
     EXPECT_EQ(unseenFlips(path), 0) << path;
   EXPECT_THAT(check().problems, IsEmpty());
 }
 
 TEST_F(CheckedStore, TellsOfEachFileThatIsGone) {
-  for (const fs::path& path : {fileOf(".exr"), fileOf(".pack"), light()}) {
+  for (const fs::path& path : {fileOf(".pack"), light()}) {
     const fs::path aside = path.string() + ".kept";
     fs::rename(path, aside);
     EXPECT_THAT(check().problems,
@@ -134,7 +134,7 @@ TEST_F(CheckedStore, IncludesThePreviewsThatAWalkWouldShow) {
   ASSERT_TRUE(bakeProject(coarse, request_, runner));
   EXPECT_EQ(check().coarse, 1u);
   EXPECT_THAT(check().problems, IsEmpty());
-  EXPECT_EQ(unseenFlips(captures() / (coarse.keys[1].toHex() + ".exr")), 0);
+  EXPECT_EQ(unseenFlips(captures() / (coarse.keys[1].toHex() + ".pack")), 0);
 }
 
 TEST_F(CheckedStore, IsMendedByABakeThatReadsItToTheEnd) {
@@ -156,7 +156,7 @@ TEST_F(CheckedStore, IsMendedByABakeThatReadsItToTheEnd) {
   EXPECT_THAT(check().problems, IsEmpty());
   EXPECT_EQ(check().withoutRecord, 0u);
 
-  flip(fileOf(".exr"), 200);
+  flip(fileOf(".pack"), 200);
   flip(light(), 200);
   const ProjectBakeReport mended = bake();
   EXPECT_EQ(mended.captures.baked, 1);

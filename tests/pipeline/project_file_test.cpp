@@ -34,6 +34,7 @@ Project everythingSet() {
   project.layout().freeApvs = {{3, {{1, 2}, {0.5, -0.25}, 360.0 / 7, Hand::clockwise}},
                                {12, {{-4, 0.1}, {0, 0}, 60, Hand::counterClockwise}}};
   project.bake = {12.5, 24, 1.5, 32, 3, 0.02, 4};
+  project.bake.colourQuality = 63;
   project.budget = {150000, 0.0025, true};
   project.view.renderer = Renderer::zbuffer;
   project.view.reconstruction = Reconstruction::point;
@@ -296,6 +297,7 @@ TEST(OldProjectFiles, OfOneStoreyMoreAreReadWithoutWhatWasNotThereYet) {
   EXPECT_EQ(project->bake.bounces, BakeSettings{}.bounces);
   EXPECT_EQ(project->bake.pruning, BakeSettings{}.pruning);
   EXPECT_EQ(project->bake.distanceShift, BakeSettings{}.distanceShift);
+  EXPECT_EQ(project->bake.colourQuality, BakeSettings{}.colourQuality);
 }
 
 TEST(OldProjectFiles, AreSavedAsTheyAreReadAndReadAgain) {

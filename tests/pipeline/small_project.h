@@ -9,7 +9,8 @@
 
 namespace acentric::test {
 
-/// Cells of 1.2 m over a square around the origin, so many metres from its middle to its sides.
+/// Cells of 1.2 m over a square around the origin, so many metres from its middle to its sides. Captures keep
+/// every bit of their colours, so that what is drawn of them can be compared with what was baked.
 inline Project smallProject(double halfSize, double samplesPerDegree) {
   Project project;
   const double h = halfSize;
@@ -17,6 +18,7 @@ inline Project smallProject(double halfSize, double samplesPerDegree) {
   project.layout().nearBand = 0.6;
   project.layout().outline.loops = {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}};
   project.bake.samplesPerDegree = samplesPerDegree;
+  project.bake.colourQuality = kLosslessColours;
   return project;
 }
 

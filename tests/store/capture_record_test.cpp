@@ -20,7 +20,7 @@ ContentKey keyOfText(const char* text) { return Hasher().text(text).finish(); }
 CaptureRecord sample() {
   return {"camera 1,-2,0,3,0 the hall",
           {{"scene", keyOfText("a")}, {"settings", keyOfText("b")}},
-          {{".exr", 123, keyOfText("c")}, {".pack", 45, keyOfText("d")}},
+          {{".light", 123, keyOfText("c")}, {".pack", 45, keyOfText("d")}},
           SampleCounts{{1000, 200, 0, 0, 0, 0, 0, 3}, 40, 5}};
 }
 

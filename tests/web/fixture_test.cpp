@@ -78,10 +78,8 @@ class WebFixtureTest : public FolderTest {};
 TEST_F(WebFixtureTest, IsWhatTheEngineWritesAndShows) {
   const Capture capture = fixtureCapture();
   ASSERT_TRUE(capture.check()) << capture.check().error().describe();
-  const auto store = CaptureStore::open(folder_);
-  ASSERT_TRUE(store);
-  ASSERT_TRUE(store->put(kKey, capture));
-  const auto pack = readFile(folder_ / (kKey.toHex() + ".pack"));
+  ASSERT_TRUE(writeCapturePack(capture, kKey, folder_ / "capture.pack")) << "plain, as bundles hold it";
+  const auto pack = readFile(folder_ / "capture.pack");
   ASSERT_TRUE(pack);
   const std::string text = expected(capture).dump(1) + "\n";
 

@@ -1,0 +1,29 @@
+#pragma once
+/// Pictures of three planes of kColourBits each as AVIF files in memory, by libavif: one still, intra only,
+/// 4:4:4, full range. On one thread, and the same bytes each time.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace acentric {
+
+/// Rows of the planes lie one behind the other.
+struct StillPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> planes[3];  ///< luma, blue and red chroma
+};
+
+/// A side of a picture; libavif and browsers take no more.
+inline constexpr int kMostPictureSide = 32768;
+inline constexpr int kBestPictureQuality = 99;
+
+/// `quality`: 0..kBestPictureQuality.
+Result<std::vector<std::byte>> encodeStill(const StillPicture& picture, int quality);
+/// Refused before it is decoded unless its header says that it is of this size and kind.
+Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int height);
+
+}  // namespace acentric

@@ -1,0 +1,295 @@
+/// Captures as stores keep them: colours as pictures, everything else bit for bit.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <set>
+
+#include "engine/base/file.h"
+#include "engine/image/colour.h"
+#include "engine/store/capture_store.h"
+#include "engine/store/colour_tiles.h"
+#include "engine/store/sample_coder.h"
+#include "tests/store/synthetic_capture.h"
+#include "tests/store/temporary_folder.h"
+
+namespace acentric {
+namespace {
+namespace fs = std::filesystem;
+
+const ContentKey kKey{5, 6};
+constexpr int kQuality = kUsualColourQuality;
+
+/// Colours that change slowly over the picture, from dark to ten times white; deeper layers have others.
+Capture smoothly(Capture capture) {
+  const auto paint = [&](CaptureSamples& samples) {
+    for (std::size_t k = 0; k + 1 < samples.columnStart.size(); ++k)
+      for (std::size_t i = samples.columnStart[k]; i < samples.columnStart[k + 1]; ++i) {
+        const float x = float(k) / 40, y = float(samples.row[i]) / 30;
+        const float light = 0.02f + 0.5f * (1 + std::sin(x)) * (1 + std::cos(y));
+        const float scale = samples.row[i] < 20 ? 10.0f : 1.0f;
+        const std::uint16_t alpha = samples.colour[i].a;
+        samples.colour[i] = packColour({scale * light, light * 0.7f, 0.3f, 1});
+        samples.colour[i].a = alpha;
+      }
+  };
+  paint(capture), paint(capture.reflections);
+  return capture;
+}
+
+/// As displayed, over all samples of both lists.
+double psnr(const Capture& a, const Capture& b, float exposure = 1) {
+  double squares = 0, count = 0;
+  const auto add = [&](const CaptureSamples& x, const CaptureSamples& y) {
+    for (std::size_t i = 0; i < x.sampleCount(); ++i) {
+      const glm::vec3 p = toneMap(glm::vec3(unpackColour(x.colour[i])), exposure),
+                      q = toneMap(glm::vec3(unpackColour(y.colour[i])), exposure);
+      for (int c = 0; c < 3; ++c, ++count)
+        squares += std::pow(double(srgbFromLinear(p[c])) - double(srgbFromLinear(q[c])), 2);
+    }
+  };
+  add(a, b), add(a.reflections, b.reflections);
+  return -10 * std::log10(std::max(squares / std::max(count, 1.0), 1e-12));
+}
+
+/// With the colours of another, its own alpha.
+Capture withColoursOf(Capture capture, const Capture& other) {
+  const auto take = [](CaptureSamples& to, const CaptureSamples& from) {
+    for (std::size_t i = 0; i < to.sampleCount(); ++i)
+      to.colour[i] = {from.colour[i].r, from.colour[i].g, from.colour[i].b, to.colour[i].a};
+  };
+  take(capture, other), take(capture.reflections, other.reflections);
+  return capture;
+}
+
+class CodedPack : public FolderTest {
+ protected:
+  fs::path file() const { return folder_ / "c.pack"; }
+  Result<Capture> thereAndBack(const Capture& capture, int quality) const {
+    const Status written = writeCodedPack(capture, kKey, file(), quality);
+    EXPECT_TRUE(written) << written.error().describe();
+    return readCapturePack(file());
+  }
+};
+
+std::vector<Capture> everyShape() {
+  std::vector<Capture> captures;
+  for (const bool mirrors : {false, true})
+    for (const SyntheticOptions& options :
+         {SyntheticOptions{48, 40, false, false, 2, mirrors},
+          SyntheticOptions{48, 40, true, true, 3, mirrors}, SyntheticOptions{1, 1, false, false, 4, mirrors},
+          SyntheticOptions{1, 33, true, false, 5, mirrors},
+          SyntheticOptions{300, 260, true, true, 6, mirrors}}) {
+      captures.push_back(smoothly(syntheticCapture(options)));
+      captures.push_back(withSilhouettes(captures.back()));
+    }
+  return captures;
+}
+
+TEST_F(CodedPack, KeepsAllButColoursBitForBitAndColoursClosely) {
+  for (const Capture& capture : everyShape()) {
+    ASSERT_TRUE(capture.check()) << capture.check().error().describe();
+    const auto back = thereAndBack(capture, kQuality);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(withColoursOf(*back, capture), capture);
+    if (capture.sampleCount() > 100) {
+      EXPECT_GT(psnr(capture, *back), 40);
+    }
+    const auto exact = thereAndBack(capture, kLosslessColours);
+    ASSERT_TRUE(exact) << exact.error().describe();
+    EXPECT_EQ(*exact, capture);
+  }
+}
+
+TEST_F(CodedPack, KeepsDistancesThatNoStepDivides) {
+  Capture capture = syntheticCapture({4, 8, false, false, 1});
+  const double odd[] = {7.5, 1e-38, 1e-40, 1e-4, 3.3e38, 1000, 1 + 0x1p-15, 1.0 / 3};
+  for (const double step : {0.0, 1.0 / (1 << 14), 0.3}) {
+    capture.distanceStep = step;
+    for (std::size_t i = 0; i < capture.sampleCount(); ++i)
+      capture.inverseDistance[i] = storedInverseDistance(odd[i % 8], 0);
+    const auto back = thereAndBack(capture, kLosslessColours);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(*back, capture);
+  }
+}
+
+TEST_F(CodedPack, KeepsEveryDistanceOfAStep) {
+  Capture capture = syntheticCapture({64, 64, false, false, 1});
+  std::mt19937 random(3);
+  capture.distanceStep = 0x1p-10;
+  for (float& w : capture.inverseDistance)
+    w = storedInverseDistance(std::exp2(double(random() % 400) / 10 - 20), capture.distanceStep);
+  ASSERT_GT(codedStep(capture, capture.distanceStep), 0);
+  const auto back = thereAndBack(capture, kLosslessColours);
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, capture);
+}
+
+TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
+  Capture capture = smoothly(syntheticCapture({300, 260, true, false, 6}));
+  std::ranges::fill(capture.roles, std::uint8_t(3));  // as in a bake, where they change at borders of regions
+  double before = 0;
+  std::uintmax_t bytes = 0;
+  for (const int quality : {0, 50, 90, 99}) {
+    const auto back = thereAndBack(capture, quality);
+    ASSERT_TRUE(back);
+    EXPECT_GT(psnr(capture, *back), before) << quality;
+    EXPECT_GE(fs::file_size(file()), bytes) << quality;
+    before = psnr(capture, *back), bytes = fs::file_size(file());
+  }
+  EXPECT_GT(before, 50);
+  const auto best = thereAndBack(capture, 99);
+  for (const float exposure : {0.25f, 4.0f}) EXPECT_GT(psnr(capture, *best, exposure), 42) << exposure;
+  ASSERT_TRUE(thereAndBack(capture, kQuality));
+  const std::uintmax_t usual = fs::file_size(file());
+  ASSERT_TRUE(thereAndBack(capture, kLosslessColours));
+  const std::uintmax_t lossless = fs::file_size(file());
+  ASSERT_TRUE(writeCapturePack(capture, kKey, file()));
+  EXPECT_LT(usual, lossless);
+  EXPECT_LT(lossless, fs::file_size(file()));
+}
+
+TEST_F(CodedPack, IsTheSameBytesEachTime) {
+  const Capture capture = smoothly(syntheticCapture({300, 260, true, true, 6, true}));
+  ASSERT_TRUE(writeCodedPack(capture, kKey, file(), kQuality));
+  const auto first = readFile(file());
+  ASSERT_TRUE(writeCodedPack(capture, kKey, file(), kQuality));
+  EXPECT_EQ(*first, *readFile(file()));
+}
+
+TEST_F(CodedPack, StandsBesidePlainOnesInAStore) {
+  const auto store = CaptureStore::open(folder_ / "captures");
+  ASSERT_TRUE(store);
+  const Capture capture = smoothly(syntheticCapture({48, 40, true, true, 3, true}));
+  ASSERT_TRUE(writeCapturePack(capture, kKey, store->packFile(kKey))) << "as earlier versions did";
+  EXPECT_EQ(store->inspect(kKey, true)->condition, CaptureStore::Condition::sound);
+  EXPECT_EQ(*store->get(kKey), capture);
+  ASSERT_TRUE(store->put(kKey, capture, {}, kQuality));
+  EXPECT_EQ(withColoursOf(*store->get(kKey), capture), capture);
+}
+
+TEST_F(CodedPack, StoppedIsNotThere) {
+  std::stop_source stop;
+  stop.request_stop();
+  const Status written = writeCodedPack(syntheticCapture({}), kKey, file(), kQuality, stop.get_token());
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().kind, ErrorKind::cancelled);
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+/// Gives changed bytes the checksum that they need to be believed.
+void seal(std::vector<std::byte>& pack) {
+  const std::size_t checked = pack.size() - 16;
+  const std::uint64_t fileBytes = pack.size();
+  std::memcpy(pack.data() + 32, &fileBytes, sizeof fileBytes);
+  const ContentKey checksum = Hasher().bytes(pack.data(), checked).finish();
+  std::memcpy(pack.data() + checked, &checksum.high, 8);
+  std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
+}
+
+TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
+  std::mt19937 random(31);
+  for (const int quality : {kQuality, kLosslessColours}) {
+    ASSERT_TRUE(writeCodedPack(withSilhouettes(syntheticCapture({32, 24, true, true, 1, true})), kKey, file(),
+                               quality));
+    const auto sound = readFile(file()).value();
+    constexpr std::size_t kHead = 56 + 183 + 8 * 9;
+    int refused = 0;
+    for (int round = 0; round < 600; ++round) {
+      auto bytes = sound;
+      const std::size_t checked = bytes.size() - 16;
+      const std::size_t at = round % 2 ? 32 + random() % (kHead - 32) : kHead + random() % (checked - kHead);
+      const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
+                                  bytes[at] ^ std::byte(1u << (random() % 8))};
+      bytes[at] = values[random() % 4];
+      seal(bytes);
+      writeQuickly(file(), bytes);
+      const auto read = readCapturePack(file());
+      if (read) {
+        EXPECT_TRUE(read->check());
+        continue;
+      }
+      ++refused;
+      EXPECT_TRUE(read.error().kind == ErrorKind::malformed || read.error().kind == ErrorKind::unsupported)
+          << read.error().describe();
+    }
+    EXPECT_GT(refused, 200);
+  }
+}
+
+TEST_F(CodedPack, OfAHugeEmptyPictureIsRefusedUnlessItsFileIsAsLarge) {
+  ASSERT_TRUE(writeCodedPack(syntheticCapture({32, 24, false, true, 1}), kKey, file(), kLosslessColours));
+  auto bytes = readFile(file()).value();
+  const std::uint32_t huge = 65535;
+  std::memcpy(bytes.data() + 56 + 64, &huge, 4);  // columns
+  std::memcpy(bytes.data() + 56 + 68, &huge, 4);  // rows
+  seal(bytes);
+  writeQuickly(file(), bytes);
+  const auto read = readCapturePack(file());
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, testing::HasSubstr("contradicts its size"));
+}
+
+TEST(StillPictures, OfAnotherSizeOrDamagedAreRefused) {
+  StillPicture picture{32, 16, {}};
+  for (auto& plane : picture.planes)
+    for (int n = 0; n < 32 * 16; ++n) plane.push_back(std::uint16_t(300 + n % 32));
+  const auto file = encodeStill(picture, 90);
+  ASSERT_TRUE(file) << file.error().describe();
+  const auto back = decodeStill(*file, 32, 16);
+  ASSERT_TRUE(back) << back.error().describe();
+  for (int p = 0; p < 3; ++p)
+    for (std::size_t n = 0; n < 32 * 16; ++n)
+      ASSERT_NEAR(back->planes[p][n], picture.planes[p][n], 12) << p << ' ' << n;
+  for (const auto& [width, height] : {std::pair{16, 32}, {32, 32}, {31, 16}, {64, 8}})
+    EXPECT_FALSE(decodeStill(*file, width, height)) << width << 'x' << height;
+  EXPECT_FALSE(decodeStill(std::span(*file).first(file->size() / 2), 32, 16));
+  EXPECT_FALSE(decodeStill({}, 32, 16));
+}
+
+TEST(ColourCodes, AreWithinAPartOfAnEighthBitCodeAndCoverAllThatHalvesHold) {
+  const ColourCoder coder;
+  for (std::uint16_t half = 0; half < 0x7c00; half = std::uint16_t(half + 7)) {
+    const float radiance = floatFromHalf(half);
+    const HalfColour back = coder.colourOf(coder.codesOf(HalfColour(half, half, half, 0x3c00)));
+    const float grey = floatFromHalf(back.g);
+    if (radiance <= 1) {
+      ASSERT_NEAR(srgbFromLinear(grey), srgbFromLinear(radiance), 0.6 / 271) << radiance;
+    } else {
+      ASSERT_NEAR(grey / radiance, 1, 0.012) << radiance;
+    }
+  }
+  const HalfColour red = packColour({4, 0.1f, 0.02f, 1});
+  const glm::vec4 back = unpackColour(coder.colourOf(coder.codesOf(red)));
+  EXPECT_NEAR(back.r, 4, 0.06);
+  EXPECT_NEAR(back.g, 0.1, 0.01);
+  EXPECT_NEAR(back.b, 0.02, 0.01);
+}
+
+TEST(ColourTiles, GiveEachSampleAPlaceOfItsOwnAndKeepTheFirstLayerAPicture) {
+  const Capture capture = syntheticCapture({300, 260, true, true, 6, true});
+  const ColourTiles whole = layOutColours(capture, 260, true);
+  EXPECT_EQ(whole.width, 304);
+  EXPECT_EQ(std::set(whole.place.begin(), whole.place.end()).size(), capture.sampleCount());
+  EXPECT_LT(*std::ranges::max_element(whole.place), std::uint32_t(whole.width * whole.height));
+  for (std::size_t k = 0; k < 300; ++k)
+    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i)
+      if (i == capture.columnStart[k] || capture.row[i] != capture.row[i - 1]) {
+        ASSERT_EQ(whole.place[i], capture.row[i] * 304u + k);
+      }
+  // Two samples in far corners take two tiles, not a picture.
+  CaptureSamples few;
+  few.columnStart.assign(301, 1);
+  few.columnStart[0] = 0, few.columnStart[300] = 2;
+  few.row = {0, 259};
+  const ColourTiles tiles = layOutColours(few, 260, false);
+  EXPECT_EQ(tiles.height, kColourTile);
+  EXPECT_THAT(tiles.place,
+              testing::ElementsAre(0u, 304u * (259 % kColourTile) + kColourTile + 299 % kColourTile));
+}
+
+}  // namespace
+}  // namespace acentric
