@@ -41,10 +41,10 @@ TEST_F(SmallDiskTest, IsRefusedBeforeTheBakeBegins) {
 
 TEST_F(SmallDiskTest, IsRefusedBeforeThePreviewsIfTheRestHasNoRoom) {
   // Previews and light would find room, and a sixteenth of a bake is soon done.
-  const auto ran = onSmallDisk(project.captures(), 6000,
+  const auto ran = onSmallDisk(project.captures(), 2000,
                                "\"$1\" bake --coarse-first '" + project.file() + "'; echo code $?; ls -A '" +
                                    project.captures().string() + "' | wc -l");
-  EXPECT_THAT(ran.errors, HasSubstr("for previews and captures, 6 MB are free: make room"));
+  EXPECT_THAT(ran.errors, HasSubstr("for previews and captures, 2 MB are free: make room"));
   EXPECT_THAT(ran.output, HasSubstr("code 1\n0\n")) << "nothing was written";
 }
 
