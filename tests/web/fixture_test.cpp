@@ -78,20 +78,28 @@ class WebFixtureTest : public FolderTest {};
 TEST_F(WebFixtureTest, IsWhatTheEngineWritesAndShows) {
   const Capture capture = fixtureCapture();
   ASSERT_TRUE(capture.check()) << capture.check().error().describe();
-  ASSERT_TRUE(writeCapturePack(capture, kKey, folder_ / "capture.pack")) << "plain, as bundles hold it";
-  const auto pack = readFile(folder_ / "capture.pack");
-  ASSERT_TRUE(pack);
-  const std::string text = expected(capture).dump(1) + "\n";
-
   const fs::path fixtures = ACENTRIC_WEB_FIXTURES;
-  if (std::getenv("UPDATE_WEB_FIXTURES") != nullptr) {
-    ASSERT_TRUE(writeFileAtomically(fixtures / "capture.pack", *pack));
+  const bool renews = std::getenv("UPDATE_WEB_FIXTURES") != nullptr;
+  const auto compare = [&](const Capture& written, const char* name) {
+    ASSERT_TRUE(writeCapturePack(written, kKey, folder_ / name)) << "plain, as bundles hold it";
+    const auto pack = readFile(folder_ / name);
+    ASSERT_TRUE(pack);
+    if (renews) {
+      ASSERT_TRUE(writeFileAtomically(fixtures / name, *pack));
+    }
+    const auto stored = readFile(fixtures / name);
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(*stored, *pack) << "a change of the format: UPDATE_WEB_FIXTURES=1 renews the fixture";
+  };
+  compare(capture, "capture.pack");
+  compare(withSilhouettes(capture), "silhouettes.pack");
+
+  const std::string text = expected(capture).dump(1) + "\n";
+  if (renews) {
     ASSERT_TRUE(writeTextAtomically(fixtures / "capture.json", text));
   }
-  const auto storedPack = readFile(fixtures / "capture.pack");
   const auto storedText = readText(fixtures / "capture.json");
-  ASSERT_TRUE(storedPack && storedText);
-  EXPECT_EQ(*storedPack, *pack) << "a change of the format: UPDATE_WEB_FIXTURES=1 renews the fixture";
+  ASSERT_TRUE(storedText);
   EXPECT_EQ(*storedText, text);
 }
 

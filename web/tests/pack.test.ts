@@ -31,6 +31,14 @@ describe('a pack that the engine wrote', () => {
     expect(capture.background!.zenith).toEqual(golden.background.zenith);
   });
 
+  it('is shown as whole samples where it knows its silhouettes', async () => {
+    const bytes = new Uint8Array(readFileSync(fixture('silhouettes.pack')));
+    const capture = await readCapture(bytes, golden.exposure);
+    expect(asGolden(capture.samples)).toEqual(golden.samples);
+    expect(asGolden(capture.reflections!)).toEqual(golden.reflections);
+    expect([...capture.background!.runs]).toEqual(golden.background.runs);
+  });
+
   it('tells ranges of blocks that hold every sample of theirs', async () => {
     const { samples } = await readCapture(pack(), golden.exposure);
     const inverse = new Float32Array(samples.words.map((word) => word & 0xffffff00).buffer);

@@ -157,10 +157,20 @@ function rankClear(samples: Samples, columns: number): void {
 export const rowTangents = (camera: ColumnCamera): Float32Array =>
   Float32Array.from({ length: camera.rows }, (_, row) => tangentAt(camera, row + 0.5));
 
+/** Bytes of descriptions: without mirrors and silhouettes, with mirrors, and with silhouettes. */
+const kDescriptions = [124, 132, 156];
+
+/** What samples cover of their pixels, and their planes: the page draws whole samples. */
+function skipSilhouettes(file: BlockFile, samples: number, planes: number): void {
+  if (planes === 0) return;
+  file.records([2, 4], samples);
+  file.records([4, 4, 4, 1], planes);
+}
+
 export async function readCapture(bytes: Uint8Array, exposure: number): Promise<Capture> {
   const file = await BlockFile.open(bytes, BlockFileKind.capture, kVersions);
   const d = file.description;
-  if (d.byteLength !== 124 && d.byteLength !== 132) throw new DamagedFile('its description has another length');
+  if (!kDescriptions.includes(d.byteLength)) throw new DamagedFile('its description has another length');
   const double = (i: number) => d.getFloat64(8 * i, true);
   const colour = (at: number): [number, number, number] => [
     d.getFloat32(at, true), d.getFloat32(at + 4, true), d.getFloat32(at + 8, true),
@@ -172,12 +182,14 @@ export async function readCapture(bytes: Uint8Array, exposure: number): Promise<
   };
   checkCamera(camera);
   const samples = Number(d.getBigUint64(72, true)), runs = Number(d.getBigUint64(80, true));
-  const reflections = d.byteLength === 132 ? Number(d.getBigUint64(124, true)) : 0;
+  const reflections = d.byteLength >= 132 ? Number(d.getBigUint64(124, true)) : 0;
+  const silhouettes = d.byteLength === 156;
   const tangents = rowTangents(camera), colours = new DisplayColours(exposure);
   const columnCounts = () => file.records([4], camera.columns)[0] as Uint32Array;
 
   const surfaces = readSamples(file, camera, tangents, starts(columnCounts(), samples), samples, colours);
   if (reflections > 0) surfaces.mirrors = file.records([1], samples)[0] as Uint8Array;
+  if (silhouettes) skipSilhouettes(file, samples, Number(d.getBigUint64(132, true)));
   const capture: Capture = { camera, samples: surfaces, reflections: undefined, background: undefined };
   if (runs > 0) {
     const columnStart = starts(columnCounts(), runs);
@@ -193,6 +205,7 @@ export async function readCapture(bytes: Uint8Array, exposure: number): Promise<
   if (reflections > 0) {
     const seen = readSamples(file, camera, tangents, starts(columnCounts(), reflections), reflections, colours);
     seen.mirrors = file.records([1], reflections)[0] as Uint8Array;
+    if (silhouettes) skipSilhouettes(file, reflections, Number(d.getBigUint64(140, true)));
     capture.reflections = seen;
   }
   file.finish();
