@@ -211,10 +211,11 @@ TEST_F(FilesTest, CapturesGoAlongAndTemporariesStay) {
   const fs::path to = folder_ / "b" / "y.acentric.json";
   fs::create_directories(captureFolderFor(from));
   std::ofstream(captureFolderFor(from) / "k1.pack") << "one";
-  std::ofstream(captureFolderFor(from) / "k1.pack") << "two";
+  std::ofstream(captureFolderFor(from) / "k1.record") << "two";
   std::ofstream(captureFolderFor(from) / ".acentric-tmp-1-k2.pack") << "half";
   EXPECT_EQ(shareCaptures(from, to).value(), 2);
   EXPECT_TRUE(fs::exists(captureFolderFor(to) / "k1.pack"));
+  EXPECT_TRUE(fs::exists(captureFolderFor(to) / "k1.record"));
   EXPECT_FALSE(fs::exists(captureFolderFor(to) / ".acentric-tmp-1-k2.pack"));
   EXPECT_EQ(shareCaptures(from, to).value(), 0);
 }
