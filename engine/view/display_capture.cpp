@@ -43,8 +43,8 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   }
 
   if (capture.hasSilhouettes())
-    display.patches =
-        std::make_shared<const DisplayPatches>(displayPatches(camera, capture, planeTolerance, exposure));
+    display.patches = std::make_shared<const DisplayPatches>(
+        displayPatches(camera, capture, planeTolerance, display.colour));
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/image/colour.h"
 #include "engine/image/patches.h"
 
 namespace acentric {
@@ -14,7 +13,7 @@ namespace {
 class TexelWriter {
  public:
   TexelWriter(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,
-              const std::vector<Rgba8>& colours, DisplayPatches& out)
+              std::span<const Rgba8> colours, DisplayPatches& out)
       : camera_(camera), samples_(samples), tolerance_(tolerance), colours_(colours), out_(out) {
     for (int column = 0; column < camera.columns; ++column)
       direction_.push_back(camera.directionAt(column + 0.5));
@@ -41,6 +40,7 @@ class TexelWriter {
     cover_ = out_.cover.data() + display.firstTexel, colour_ = out_.colour.data() + display.firstTexel;
     std::fill(cover_, cover_ + texels, 0u);
     known_.assign(texels, 0);
+    own_.assign(texels, kNoSample);
     std::array<int, 4> cut{255, 255, 255, 255};
     for (const std::uint32_t sample : members) {
       const int i = columnOf_[sample] - patch.column, j = samples_.row[sample] - patch.row;
@@ -48,6 +48,7 @@ class TexelWriter {
       cover_[at] = samples_.coverage[sample] | std::uint32_t(samples_.roles[sample]) << kTexelRoles;
       colour_[at] = colours_[sample];
       known_[at] = 1;
+      own_[at] = sample;
       const int right = patch.columns - 1 - i, below = patch.rows - 1 - j;
       cut[0] = std::min(cut[0], i + j), cut[1] = std::min(cut[1], i + below);
       cut[2] = std::min(cut[2], right + j), cut[3] = std::min(cut[3], right + below);
@@ -56,7 +57,7 @@ class TexelWriter {
       display.cut[c] = std::uint8_t(std::min({cut[c], patch.columns - 1, patch.rows - 1, 255}));
     goOn(patch);
     fill();
-    if (!patch.blended) reachUnder(patch, members);
+    if (!patch.blended) reachUnder(patch);
     markInner();
     out_.patches.push_back(display);
   }
@@ -96,11 +97,8 @@ class TexelWriter {
 
   /// Where another surface touches this one, as at a bend, this one reaches one part of a pixel under it:
   /// eyes that look from the side would see in between them, since both are known to a part only.
-  void reachUnder(const Patch& patch, std::span<const std::uint32_t> members) {
+  void reachUnder(const Patch& patch) {
     constexpr double kTouching = 1;  // tolerances
-    own_.assign(known_.size(), kNoSample);
-    for (const std::uint32_t sample : members)
-      own_[texel(columnOf_[sample] - patch.column, samples_.row[sample] - patch.row)] = sample;
     parts_.assign(known_.size(), 0);
     for (std::size_t at = 0; at < parts_.size(); ++at) parts_[at] = std::uint16_t(cover_[at] & kTexelParts);
     for (int i = -1; i <= patch.columns; ++i)
@@ -181,7 +179,7 @@ class TexelWriter {
   const ColumnCamera& camera_;
   const CaptureSamples& samples_;
   double tolerance_;
-  const std::vector<Rgba8>& colours_;
+  std::span<const Rgba8> colours_;
   DisplayPatches& out_;
   std::vector<glm::dvec2> direction_;
   std::vector<double> tangent_;
@@ -205,14 +203,8 @@ std::size_t DisplayPatches::bytes() const {
 }
 
 DisplayPatches displayPatches(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,
-                              float exposure) {
+                              std::span<const Rgba8> colours) {
   const Patches patches = makePatches(camera, samples, tolerance);
-  std::vector<Rgba8> colours;
-  colours.reserve(samples.sampleCount());
-  for (const HalfColour& half : samples.colour) {
-    const glm::vec4 linear = unpackColour(half);
-    colours.push_back(encodeForDisplay(glm::vec3(linear), exposure, linear.a));
-  }
   DisplayPatches display;
   display.stripColumns = patches.stripColumns;
   display.stripStart = patches.stripStart;

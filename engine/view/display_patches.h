@@ -9,11 +9,13 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/base/large_vector.h"
 #include "engine/image/capture.h"
 #include "engine/image/image.h"
+#include "engine/view/patch_kernel.h"
 
 namespace acentric {
 
@@ -31,26 +33,20 @@ struct DisplayPatch {
   bool away = false;  ///< SurfacePlane::away
 };
 
-/// Of a texel's word in DisplayPatches::cover.
-inline constexpr std::uint32_t kTexelParts = 0xffff;  ///< coverage, as in CaptureSamples
-inline constexpr int kTexelRoles = 16;                ///< from this bit on, eight
-/// The texel and all eight around it are whole, for the same roles.
-inline constexpr std::uint32_t kTexelInner = 1u << 24;
-
 struct DisplayPatches {
   int stripColumns = 0;                   ///< Patches::stripColumns
   std::vector<std::uint32_t> stripStart;  ///< strips + 1 offsets
   std::vector<DisplayPatch> patches;      ///< of a strip: those that may hide others first
   LargeVector<Rgba8> colour;              ///< of texels; sRGB, straight alpha
-  LargeVector<std::uint32_t> cover;       ///< of texels
+  LargeVector<std::uint32_t> cover;       ///< of texels (kTexelParts ...)
   std::vector<glm::vec2> columnBorder;    ///< columns + 1 unit directions
   std::vector<float> rowBorder;           ///< rows + 1 tangents, falling
 
   std::size_t bytes() const;
 };
 
-/// Of samples that have planes.
+/// Of samples that have planes; `colours` are theirs, sRGB with straight alpha.
 DisplayPatches displayPatches(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,
-                              float exposure);
+                              std::span<const Rgba8> colours);
 
 }  // namespace acentric

@@ -18,6 +18,12 @@ namespace acentric {
 inline constexpr int kPixelParts = 8;
 inline constexpr std::uint32_t kAllParts = (1u << kPixelParts) - 1;
 
+/// Of a texel's word in DisplayPatches::cover.
+inline constexpr std::uint32_t kTexelParts = 0xffff;  ///< coverage, as in CaptureSamples
+inline constexpr int kTexelRoles = 16;                ///< from this bit on, eight
+/// The texel and all eight around it are whole, for the same roles.
+inline constexpr std::uint32_t kTexelInner = 1u << 24;
+
 /// Of a column of the picture, by row. Arrays have room for kPatchRoom more.
 struct PatchCanvasColumn {
   std::uint32_t* open = nullptr;  ///< parts that are not covered

@@ -5,8 +5,6 @@
 
 namespace acentric::patch_kernel {
 
-inline constexpr std::uint32_t kInner = 1u << 24;  ///< kTexelInner
-
 /// Rays of a pixel, from its centre: no two in one eighth of it across or down.
 inline constexpr float kPartX[kPixelParts] = {0.0625f,  -0.0625f, 0.3125f, -0.1875f,
                                               -0.3125f, -0.4375f, 0.1875f, 0.4375f};
@@ -156,7 +154,8 @@ struct Kernel {
     if (!B::any(B::greater(open, B::seti(0)))) return 0;
     const I cover =
         B::gather(c.cover, texelAt(B::floor(limited(places.column)), B::floor(limited(places.row))));
-    const M inner = isWanted(cover) & B::greater(B::both(cover, B::seti(std::int32_t(kInner))), B::seti(0));
+    const M inner =
+        isWanted(cover) & B::greater(B::both(cover, B::seti(std::int32_t(kTexelInner))), B::seti(0));
     I parts = B::when(inner, open);
     if (B::any(B::greater(B::different(parts, open), B::seti(0)))) {
       differentiate(x, slope, stretch, height, places);
