@@ -46,6 +46,7 @@ startCluster() {
   (umask 077 && head -c 1024 /dev/urandom > "$cluster/munge.key")
   # A lost node is to be noticed soon, and its task started again then: credentials expire after twenty seconds,
   # before which a task is not requeued. A daemon of a busy machine must be able to answer within these times.
+  # Ended jobs are remembered for a day: their states are asked for when all have ended.
   cat > "$cluster/slurm.conf" <<CONF
 ClusterName=acentric
 SlurmctldHost=$host(127.0.0.1)
@@ -71,6 +72,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=1000,bf_interval=1
 SlurmdTimeout=30
+MinJobAge=86400
 SlurmdParameters=config_overrides
 ReturnToService=2
 NodeName=one NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=1 State=UNKNOWN

@@ -243,12 +243,14 @@ export class Walk {
     ++this.framesDrawn;
   }
 
-  /** That of the eye; while its captures are not there yet the one before, whose pictures reach a little beyond it. */
+  /** That of the eye; while more of its captures are missing, the one before, whose pictures reach a little beyond it. */
   private drawnRegion(): number {
     const { region } = this, { regions } = this.current, { eye, yaw } = this.pose;
-    const ready = (number: number) =>
-      chooseCover(regions[number], [eye[0], eye[1]], yaw)?.pieces.every((piece) => this.stream.capture(piece.camera, false)) ?? false;
-    if (region >= 0 && (ready(region) || this.lastRegion < 0 || !ready(this.lastRegion))) this.lastRegion = region;
+    const missing = (number: number) => {
+      const pieces = chooseCover(regions[number], [eye[0], eye[1]], yaw)?.pieces ?? [];
+      return pieces.length === 0 ? 1 : pieces.filter((piece) => !this.stream.capture(piece.camera, false)).length / pieces.length;
+    };
+    if (region >= 0 && (this.lastRegion < 0 || missing(region) <= missing(this.lastRegion))) this.lastRegion = region;
     return this.lastRegion;
   }
 
