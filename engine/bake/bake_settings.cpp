@@ -9,6 +9,9 @@
 namespace acentric {
 namespace {
 
+/// Of what silhouettes are baked as.
+constexpr int kSilhouetteVersion = 2;
+
 constexpr double kCoarsest = 0.5;  ///< samples per degree
 
 }  // namespace
@@ -85,7 +88,7 @@ void BakeSettings::addTo(Hasher& hasher) const {
   if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
   // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
   if (colourQuality != kUsualColourQuality) hasher.text("colours").value(colourQuality);
-  if (silhouettes) hasher.text("silhouettes");
+  if (silhouettes) hasher.text("silhouettes").value(kSilhouetteVersion);
 }
 
 }  // namespace acentric

@@ -11,6 +11,7 @@
 #include "engine/bake/column_roles.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/silhouettes.h"
+#include "engine/bake/surface_planes.h"
 #include "engine/base/stopwatch.h"
 
 namespace acentric {
@@ -165,6 +166,9 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       capture.planeTolerance = planeToleranceFor(camera, columns);
     if (settings_.silhouettes) traceSilhouettes(setting, capture, runner, counts, stop);
     if (stop.stop_requested()) return stopped();
+    if (settings_.silhouettes)
+      for (CaptureSamples* list : {static_cast<CaptureSamples*>(&capture), &capture.reflections})
+        numberPlanes(*list, capture.distanceStep);
     return capture;
   } catch (const std::bad_alloc&) {
     return noMemory();

@@ -28,8 +28,7 @@ ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
     mirrorMarch_.emplace(setting.shader, *setting.beyond, setting.settings.maxLayers, sameDepth_,
                          rightBehind_);
   if (setting.mirrors != nullptr && setting.settings.silhouettes)
-    for (const FlatMirror& mirror : setting.mirrors->sides())
-      mirrorNormals_[mirror.number] = glm::vec3(mirror.normal);
+    for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
 }
 
 bool ColumnMarch::run(int column, const std::stop_token& stop) {
@@ -242,7 +241,8 @@ void ColumnMarch::addShown(const glm::vec3& direction) {
     if (setting_.settings.silhouettes)
       out_.reflections.addPlane(
           s.isSky() ? SurfacePlane{}
-                    : imagePlaneOf(s.surface, mirrorNormals_[s.mirror], s.distance * glm::dvec3(direction)));
+                    : imagePlaneOf(setting_.shader.scene().scene(), s.surface, mirrors_[s.mirror],
+                                   setting_.columns.centreOfProjection, s.distance * glm::dvec3(direction)));
   }
   out_.counts.reflections += shown_.size();
   shown_.clear();

@@ -74,8 +74,8 @@ class ColumnMarch {
   SurfacePlane plane_;                     ///< of the surface, where silhouettes are asked for
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::optional<MirrorMarch> mirrorMarch_;
-  std::vector<ShownInMirror> shown_;            ///< by the mirrors of the pixel
-  std::array<glm::vec3, 256> mirrorNormals_{};  ///< by number, where silhouettes are asked for
+  std::vector<ShownInMirror> shown_;       ///< by the mirrors of the pixel
+  std::array<FlatMirror, 256> mirrors_{};  ///< by number, where silhouettes are asked for
 };
 
 /// What a sample stands for on the surface that it hits; nothing where no texture is averaged.

@@ -308,8 +308,11 @@ class ColumnSilhouettes {
 
   /// False where the surface is not what the neighbour's sample is.
   bool shade(std::uint32_t sample, const Hit& hit, int part, int row, New& out) {
-    out.inverseDistance = storedInverseDistance(1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
-                                                setting_.distanceStep);
+    // Where the pixel's own ray would meet the plane, unless that is elsewhere altogether.
+    const double met = 1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
+                 own = at(planeOf(sample), {&beside_[1], row});
+    out.inverseDistance =
+        storedInverseDistance(own > 0.5 * met && own < 2 * met ? own : met, setting_.distanceStep);
     if (reflections_) {
       out.colour = all_.colour[sample], out.mirror = all_.mirror[sample];
       return true;

@@ -3,6 +3,7 @@
 
 #include "engine/bake/ray_scene.h"
 #include "engine/image/capture.h"
+#include "engine/scene/flat_mirrors.h"
 
 namespace acentric {
 
@@ -12,7 +13,12 @@ namespace acentric {
 SurfacePlane planeOf(const Scene& scene, const Hit& hit, const glm::dvec3& centre, const glm::vec3& direction,
                      bool away);
 
-/// Of the virtual image of a hit that a plane mirror (its normal, either way) shows at centre + `way`.
-SurfacePlane imagePlaneOf(const Hit& hit, const glm::vec3& mirrorNormal, const glm::dvec3& way);
+/// Of the virtual image of a hit that a plane mirror shows at centre + `way`; as often the same bits.
+SurfacePlane imagePlaneOf(const Scene& scene, const Hit& hit, const FlatMirror& mirror,
+                          const glm::dvec3& centre, const glm::dvec3& way);
+
+/// Each plane once, in the order in which the samples meet them; rounded, for bytes' sake, by less than
+/// distances are that are `distanceStep` apart (0: as they are).
+void numberPlanes(CaptureSamples& samples, double distanceStep);
 
 }  // namespace acentric

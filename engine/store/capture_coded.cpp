@@ -28,7 +28,7 @@ const ColourCoder& colourCoder() {
 
 /// What reading a list takes besides its blocks: its pixels, its samples.
 std::uint64_t claimOf(const SampleShape& shape) {
-  return std::uint64_t(shape.columns) * std::uint64_t(shape.rows) + kHeldBytes * shape.samples;
+  return std::uint64_t(shape.camera.columns) * std::uint64_t(shape.camera.rows) + kHeldBytes * shape.samples;
 }
 std::uint64_t pictureBytes(const ColourTiles& tiles) {
   return kPixelBytes * std::uint64_t(tiles.width) * std::uint64_t(tiles.height);
@@ -78,12 +78,13 @@ class ListWriter {
  public:
   ListWriter(const Capture& capture, const CaptureSamples& samples, int quality)
       : samples_(samples), quality_(quality) {
-    shape_ = {capture.camera.columns,  capture.camera.rows,   samples.sampleCount(),
-              !samples.mirror.empty(), samples.planes.size(), codedStep(samples, capture.distanceStep)};
+    shape_ = {capture.camera, samples.sampleCount(), !samples.mirror.empty(), samples.planes.size(),
+              codedStep(samples, capture.distanceStep)};
     if (samples.columnStart.empty()) return;
     stream_ = codeSamples(samples, shape_);
     if (quality < kLosslessColours)
-      tiles_ = layOutColours(samples, shape_.rows, &samples == static_cast<const CaptureSamples*>(&capture));
+      tiles_ = layOutColours(samples, shape_.camera.rows,
+                             &samples == static_cast<const CaptureSamples*>(&capture));
   }
   void describe(BlockFileWriter& file) const {
     file.describe(std::uint64_t(shape_.samples));
@@ -94,8 +95,8 @@ class ListWriter {
   Status add(BlockFileWriter& file, const std::stop_token& stop) const {
     if (stream_.empty()) return {};
     file.claim(claimOf(shape_));
-    if (Status added = addStream(file, stream_); !added) return added;
     if (Status added = addPlanes(file, samples_.planes); !added) return added;
+    if (Status added = addStream(file, stream_); !added) return added;
     if (quality_ >= kLosslessColours) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
     file.claim(pictureBytes(tiles_));
     return addPictures(file, samples_, tiles_, quality_, stop);
@@ -151,7 +152,7 @@ Status takeStream(BlockFileReader& file, const ListHead& head, const SampleShape
 }
 
 Status takePictures(BlockFileReader& file, const SampleShape& shape, bool whole, CaptureSamples& out) {
-  const ColourTiles tiles = layOutColours(out, shape.rows, whole);
+  const ColourTiles tiles = layOutColours(out, shape.camera.rows, whole);
   if (!file.mayHold(pictureBytes(tiles)))
     return file.malformed("its pictures are larger than its size allows");
   const std::size_t width = std::size_t(tiles.width);
@@ -178,8 +179,8 @@ Status takePictures(BlockFileReader& file, const SampleShape& shape, bool whole,
 
 Status takeList(BlockFileReader& file, const ListHead& head, const SampleShape& shape, int quality,
                 bool whole, CaptureSamples& out) {
-  if (Status read = takeStream(file, head, shape, out); !read) return read;
   if (Status read = takePlanes(file, head.planes, out.planes); !read) return read;
+  if (Status read = takeStream(file, head, shape, out); !read) return read;
   if (quality >= kLosslessColours) return file.nextRecords(colourLanes(out), out.sampleCount());
   return takePictures(file, shape, whole, out);
 }
@@ -193,12 +194,11 @@ Result<Capture> readCoded(BlockFileReader& file) {
   const bool mirrors = reflections.samples > 0;
   const ColumnCamera& camera = capture.camera;
   if (!file.describedAll() || !counts.sized || counts.samples != surfaces.samples ||
-      quality > kLosslessColours || camera.columns < 1 || camera.rows < 1 ||
+      quality > kLosslessColours || !camera.check() ||
       (!mirrors && (reflections.planes > 0 || reflections.streamBytes > 0)))
     return file.malformed("its description makes no sense");
   const auto shapeOf = [&](const ListHead& list) {
-    return SampleShape{camera.columns, camera.rows, list.samples,
-                       mirrors,        list.planes, list.stepped ? capture.distanceStep : 0};
+    return SampleShape{camera, list.samples, mirrors, list.planes, list.stepped ? capture.distanceStep : 0};
   };
   const SampleShape shapes[] = {shapeOf(surfaces), shapeOf(reflections)};
   for (const ListHead* list : {&surfaces, &reflections})

@@ -1,9 +1,9 @@
 #pragma once
-/// Inverse distances as whole numbers, foretold from samples around them. On a plane the difference between a
-/// column and the one before is the same in all rows (the inverse distance is linear in the column's
-/// direction and in the row's tangent), so a sample is foretold by the one before it, whose rounding is
-/// smoothed away, and what the samples above were off by. Where there is none before, by the samples above.
-/// All in whole numbers: every machine reads the same.
+/// Inverse distances as whole numbers, foretold by the planes of samples, or from samples around them. On a
+/// plane the difference between a column and the one before is the same in all rows (the inverse distance is
+/// linear in the column's direction and in the row's tangent), so a sample is foretold by the one before it,
+/// whose rounding is smoothed away, and what the samples above were off by. Where there is none before, by
+/// the samples above. All in whole numbers: every machine reads the same.
 
 #include <algorithm>
 #include <array>
@@ -111,6 +111,22 @@ class DistanceModel {
     last_ = own.number;
     now_[i - nowFirst_] = own;
     return value;
+  }
+
+  /// The same where the sample's plane tells `foretold`. What is coded is by how much it differs, and depends
+  /// on no number: another machine's rounding of a plane shifts one sample by a step.
+  std::optional<float> codeBeside(std::int64_t foretold, float w, std::size_t i, std::size_t above,
+                                  std::size_t before) {
+    constexpr std::size_t kNone = ~std::size_t(0);
+    const std::uint32_t offAbove = above == kNone ? 0 : now_[above - nowFirst_].off,
+                        offBefore = before == kNone ? 0 : before_[before - beforeFirst_].off;
+    Trace own;
+    const std::int64_t off =
+        codeDifference(numbers_.numberOf(w) - foretold, 0, classOf(offAbove + offBefore));
+    own.number = foretold + off;
+    own.off = std::uint32_t(std::min<std::int64_t>(std::abs(off), 255));
+    now_[i - nowFirst_] = own;
+    return numbers_.at(own.number);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "engine/store/distance_model.h"
 #include "engine/store/range_coder.h"
@@ -90,6 +91,117 @@ void findPixels(const CaptureSamples& samples, std::size_t column, std::vector<s
   }
 }
 
+/// The samples of one pixel.
+struct PixelRange {
+  std::uint32_t first = 0, end = 0;
+  std::size_t at(std::uint32_t layer) const {
+    return first == end ? kNone : std::min(first + layer, end - 1);
+  }
+};
+
+/// Pixels around one that come before it: in the column before, and above. Empty beyond the image.
+struct PixelsAround {
+  enum Place : std::uint8_t { kBefore, kAbove, kAboveBefore, kBelowBefore, kPlaces };
+  std::array<PixelRange, kPlaces> pixel;
+};
+
+/// Which plane each sample lies on: mostly one of those in the pixels around, or one that is met for the
+/// first time; planes are numbered in that order.
+template <class Coder>
+class PlaneModel {
+ public:
+  PlaneModel(Coder& coder, std::size_t planes)
+      : coder_(coder), bits_(planes > 1 ? int(std::bit_width(planes - 1)) : 1) {}
+
+  /// `before` holds the planes of the samples before this one, `own` where those of its pixel begin.
+  template <class Planes>
+  std::uint32_t code(std::uint32_t value, const Planes& planes, const PixelsAround& around,
+                     const PixelRange& own) {
+    listCandidates(planes, around, own);
+    for (std::size_t k = 0; k < count_; ++k)
+      if (coder_.bit(isIt_[std::min(k, kRanks - 1)][where_[k]], value == candidate_[k])) return candidate_[k];
+    if (coder_.bit(isNext_[std::min<std::size_t>(count_, 1)], value == next_)) return next_++;
+    return coder_.plain(value, bits_);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16, kRanks = 4;
+  static constexpr std::uint32_t kLayers = 12;
+
+  /// Nearest surfaces first; not those that the pixel has already.
+  template <class Planes>
+  void listCandidates(const Planes& planes, const PixelsAround& around, const PixelRange& own) {
+    count_ = 0;
+    for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
+      bool any = false;
+      for (std::size_t place = 0; place < PixelsAround::kPlaces; ++place) {
+        const PixelRange& pixel = around.pixel[place];
+        if (pixel.first + layer >= pixel.end) continue;
+        any = true;
+        add(planes[pixel.first + layer], std::uint8_t(1u << place), planes, own);
+      }
+      if (!any) break;
+    }
+  }
+  template <class Planes>
+  void add(std::uint32_t plane, std::uint8_t place, const Planes& planes, const PixelRange& own) {
+    for (std::size_t k = 0; k < count_; ++k)
+      if (candidate_[k] == plane) {
+        where_[k] |= place;
+        return;
+      }
+    for (std::uint32_t i = own.first; i < own.end; ++i)
+      if (planes[i] == plane) return;
+    if (count_ == kMost) return;
+    candidate_[count_] = plane, where_[count_] = place;
+    ++count_;
+  }
+
+  Coder& coder_;
+  int bits_;
+  std::array<std::uint32_t, kMost> candidate_{};
+  std::array<std::uint8_t, kMost> where_{};  ///< in which of the pixels around, by bits
+  std::size_t count_ = 0;
+  std::uint32_t next_ = 0;
+  std::array<std::array<BitChance, 1u << PixelsAround::kPlaces>, kRanks> isIt_;
+  std::array<BitChance, 2> isNext_;
+};
+
+/// Which parts of its pixel each sample covers: where the same plane goes on around it, mostly all; else part
+/// by part, each by those before it.
+template <class Coder>
+class CoverageModel {
+ public:
+  /// `around`: of the same plane in the pixels around, none where there is none.
+  std::uint16_t code(Coder& coder, std::uint16_t value,
+                     const std::array<std::optional<std::uint16_t>, PixelsAround::kPlaces>& around) {
+    std::size_t context = 0;
+    for (const auto& mask : around) context = 3 * context + (!mask ? 0u : *mask == kWholePixel ? 2u : 1u);
+    if (coder.bit(whole_[context], value == kWholePixel)) return kWholePixel;
+    const auto maskOf = [&](std::size_t place) -> std::uint32_t { return around[place].value_or(0); };
+    std::uint32_t mask = 0;
+    for (int part = 0; part < kCoverageParts * kCoverageParts; ++part) {
+      const int x = part % kCoverageParts, y = part / kCoverageParts;
+      const auto at = [&](int column, int row) -> std::uint32_t {
+        const std::uint32_t from = column < 0
+                                       ? maskOf(row < 0 ? PixelsAround::kAboveBefore : PixelsAround::kBefore)
+                                   : row < 0 ? maskOf(PixelsAround::kAbove)
+                                             : mask;
+        if (column >= kCoverageParts) return 0;
+        return from >> (kCoverageParts * (row & 3) + (column & 3)) & 1u;
+      };
+      const std::uint32_t parts =
+          at(x - 1, y) | at(x, y - 1) << 1 | at(x - 1, y - 1) << 2 | at(x + 1, y - 1) << 3;
+      mask |= std::uint32_t(coder.bit(part_[std::size_t(part)][parts], (value >> part & 1) != 0)) << part;
+    }
+    return std::uint16_t(mask);
+  }
+
+ private:
+  std::array<BitChance, 81> whole_;
+  std::array<std::array<BitChance, 16>, kCoverageParts * kCoverageParts> part_;
+};
+
 /// Walks the samples of a list whose pixels are known, writing or filling the other arrays.
 template <class Coder, class Samples>
 class AttributeWalk {
@@ -99,31 +211,48 @@ class AttributeWalk {
         samples_(samples),
         shape_(shape),
         distances_(coder, shape.distanceStep),
-        now_(std::size_t(shape.rows) + 1),
-        before_(now_) {}
+        planes_(coder, shape.planes),
+        numbers_(shape.distanceStep),
+        now_(std::size_t(shape.camera.rows) + 1),
+        before_(now_) {
+    if (shape.planes > 0)
+      for (int row = 0; row < shape.camera.rows; ++row) tangent_.push_back(shape.camera.tangentAt(row + 0.5));
+  }
 
   bool walk() {
-    for (std::size_t column = 0; column < std::size_t(shape_.columns); ++column) {
+    for (std::size_t column = 0; column < std::size_t(shape_.camera.columns); ++column) {
       std::swap(before_, now_);
       findPixels(samples_, column, now_);
+      direction_ = shape_.camera.directionAt(double(column) + 0.5);
       distances_.beginColumn(samples_.columnStart[column],
                              samples_.columnStart[column + 1] - samples_.columnStart[column]);
-      for (std::size_t row = 0; row < std::size_t(shape_.rows); ++row)
+      for (std::size_t row = 0; row < std::size_t(shape_.camera.rows); ++row) {
+        if (now_[row] == now_[row + 1]) continue;
+        const PixelsAround around = pixelsAround(row);
         for (std::uint32_t i = now_[row]; i < now_[row + 1]; ++i)
-          if (!codeSample(i, above(row, i), besides(column, row, i), i > now_[row] ? i - 1 : kNone))
-            return false;
+          if (!codeSample(i, row, around)) return false;
+      }
     }
     return true;
   }
 
  private:
-  std::size_t above(std::size_t row, std::uint32_t i) const {
-    if (row == 0 || now_[row - 1] == now_[row]) return kNone;
-    return std::min(now_[row - 1] + (i - now_[row]), now_[row] - 1);
+  PixelsAround pixelsAround(std::size_t row) const {
+    const auto pixel = [](const std::vector<std::uint32_t>& first, std::size_t r) {
+      return PixelRange{first[r], first[r + 1]};
+    };
+    PixelsAround around;
+    around.pixel[PixelsAround::kBefore] = pixel(before_, row);
+    if (row > 0) around.pixel[PixelsAround::kAbove] = pixel(now_, row - 1);
+    if (row > 0) around.pixel[PixelsAround::kAboveBefore] = pixel(before_, row - 1);
+    if (row + 2 < before_.size()) around.pixel[PixelsAround::kBelowBefore] = pixel(before_, row + 1);
+    return around;
   }
-  std::size_t besides(std::size_t column, std::size_t row, std::uint32_t i) const {
-    if (column == 0 || before_[row] == before_[row + 1]) return kNone;
-    return std::min(before_[row] + (i - now_[row]), before_[row + 1] - 1);
+  /// The sample of a pixel that lies on the plane; none if there is none.
+  std::size_t onPlane(const PixelRange& pixel, std::uint32_t plane) const {
+    for (std::uint32_t i = pixel.first; i < pixel.end; ++i)
+      if (samples_.plane[i] == plane) return i;
+    return kNone;
   }
 
   template <class Model, class Array>
@@ -137,8 +266,29 @@ class AttributeWalk {
     if constexpr (Coder::kReads) array[i] = static_cast<typename Array::value_type>(value);
   }
 
-  bool codeSample(std::size_t i, std::size_t above, std::size_t before, std::size_t inFront) {
-    const auto w = distances_.code(samples_.inverseDistance[i], i, above, before, inFront);
+  /// Where the pixel's ray meets a plane; 0 where it does not.
+  std::int64_t numberOn(const SurfacePlane& plane, std::size_t row) const {
+    constexpr double kMost = 1e9;  // 1/m
+    const double w = plane.inverseDistance(direction_, tangent_[row]);
+    if (!(w > 0)) return 0;
+    return numbers_.numberOf(storedInverseDistance(std::min(w, kMost), shape_.distanceStep));
+  }
+
+  bool codeSample(std::uint32_t i, std::size_t row, const PixelsAround& around) {
+    const std::uint32_t first = now_[row];
+    std::size_t above = around.pixel[PixelsAround::kAbove].at(i - first),
+                before = around.pixel[PixelsAround::kBefore].at(i - first);
+    if (shape_.planes > 0) {
+      if (!codePlane(i, first, around)) return false;
+      const std::size_t a = onPlane(around.pixel[PixelsAround::kAbove], samples_.plane[i]),
+                        b = onPlane(around.pixel[PixelsAround::kBefore], samples_.plane[i]);
+      if (a != kNone || b != kNone) above = a, before = b;
+    }
+    const auto w =
+        shape_.planes > 0
+            ? distances_.codeBeside(numberOn(samples_.planes[samples_.plane[i]], row),
+                                    samples_.inverseDistance[i], i, above, before)
+            : distances_.code(samples_.inverseDistance[i], i, above, before, i > first ? i - 1 : kNone);
     if constexpr (Coder::kReads) {
       if (!w) return false;
       samples_.inverseDistance[i] = *w;
@@ -146,11 +296,6 @@ class AttributeWalk {
     codeLike(roles_, samples_.roles, i, above, before, 1);
     codeAlpha(i, above, before);
     if (shape_.mirrors) codeLike(mirrors_, samples_.mirror, i, above, before, 0);
-    if (shape_.planes > 0) {
-      codeLike(coverages_, samples_.coverage, i, kNone, kNone, kWholePixel);
-      codePlane(i, above, before);
-      if (samples_.plane[i] >= shape_.planes) return false;
-    }
     return true;
   }
 
@@ -162,15 +307,17 @@ class AttributeWalk {
     if constexpr (Coder::kReads) samples_.colour[i].a = std::uint16_t(alpha);
   }
 
-  /// Planes are mostly met in the order of their numbers.
-  void codePlane(std::size_t i, std::size_t above, std::size_t before) {
-    const std::uint32_t value = samples_.plane[i];
-    const std::uint32_t next = nextPlane_;
-    const auto of = [&](std::size_t n) { return n == kNone ? next : samples_.plane[n]; };
-    const bool isNext = coder_.bit(nextPlanes_, value == next);
-    const std::uint32_t coded = isNext ? next : planes_.code(coder_, value, of(above), of(before));
-    nextPlane_ = std::max(nextPlane_, coded == ~0u ? coded : coded + 1);
-    if constexpr (Coder::kReads) samples_.plane[i] = coded;
+  /// With the parts that the sample covers. False if there is no such plane.
+  bool codePlane(std::uint32_t i, std::uint32_t first, const PixelsAround& around) {
+    const std::uint32_t plane = planes_.code(samples_.plane[i], samples_.plane, around, {first, i});
+    if (plane >= shape_.planes) return false;
+    std::array<std::optional<std::uint16_t>, PixelsAround::kPlaces> masks;
+    for (std::size_t place = 0; place < masks.size(); ++place)
+      if (const std::size_t n = onPlane(around.pixel[place], plane); n != kNone)
+        masks[place] = samples_.coverage[n];
+    const std::uint16_t mask = coverages_.code(coder_, samples_.coverage[i], masks);
+    if constexpr (Coder::kReads) samples_.plane[i] = plane, samples_.coverage[i] = mask;
+    return true;
   }
 
   Coder& coder_;
@@ -178,10 +325,12 @@ class AttributeWalk {
   const SampleShape& shape_;
   DistanceModel<Coder> distances_;
   LikeNeighbours<Coder, 8> roles_, mirrors_;
-  LikeNeighbours<Coder, 16> alphas_, coverages_;
-  LikeNeighbours<Coder, 32> planes_;
-  BitChance nextPlanes_;
-  std::uint32_t nextPlane_ = 0;
+  LikeNeighbours<Coder, 16> alphas_;
+  PlaneModel<Coder> planes_;
+  CoverageModel<Coder> coverages_;
+  DistanceNumbers numbers_;
+  std::vector<double> tangent_;              ///< of rows, where planes are asked
+  glm::dvec2 direction_{0};                  ///< of the column
   std::vector<std::uint32_t> now_, before_;  ///< where pixels begin
 };
 
@@ -202,13 +351,13 @@ double codedStep(const CaptureSamples& samples, double distanceStep) {
 
 std::vector<std::byte> codeSamples(const CaptureSamples& samples, const SampleShape& shape) {
   RangeWriter writer;
-  CountModel counts(writer, shape.rows);
+  CountModel counts(writer, shape.camera.rows);
   std::size_t left = shape.samples;
-  for (std::size_t column = 0; column < std::size_t(shape.columns); ++column) {
+  for (std::size_t column = 0; column < std::size_t(shape.camera.columns); ++column) {
     counts.beginColumn();
     std::uint32_t at = samples.columnStart[column];
     const std::uint32_t end = samples.columnStart[column + 1];
-    for (int row = 0; row < shape.rows; ++row) {
+    for (int row = 0; row < shape.camera.rows; ++row) {
       const std::uint32_t first = at;
       while (at < end && samples.row[at] == row) ++at;
       left -= counts.code(row, at - first, left);
@@ -222,12 +371,12 @@ Status decodeSamples(std::span<const std::byte> bytes, const SampleShape& shape,
   RangeReader reader(bytes);
   out.row.reserve(shape.samples);
   out.columnStart.assign(1, 0);
-  out.columnStart.reserve(std::size_t(shape.columns) + 1);
-  CountModel counts(reader, shape.rows);
+  out.columnStart.reserve(std::size_t(shape.camera.columns) + 1);
+  CountModel counts(reader, shape.camera.rows);
   std::size_t left = shape.samples;
-  for (int column = 0; column < shape.columns; ++column) {
+  for (int column = 0; column < shape.camera.columns; ++column) {
     counts.beginColumn();
-    for (int row = 0; row < shape.rows; ++row) {
+    for (int row = 0; row < shape.camera.rows; ++row) {
       const std::uint32_t count = counts.code(row, 0, left);
       out.row.insert(out.row.end(), count, std::uint16_t(row));
       left -= count;

@@ -15,7 +15,7 @@ namespace acentric {
 
 /// Which arrays a list has, and how its distances are numbered.
 struct SampleShape {
-  int columns = 0, rows = 0;
+  ColumnCamera camera;
   std::size_t samples = 0;
   bool mirrors = false;     ///< each sample has a number
   std::size_t planes = 0;   ///< of silhouettes; 0 = it does not know them
@@ -28,8 +28,8 @@ double codedStep(const CaptureSamples& samples, double distanceStep);
 /// `samples` are sound (Capture::check).
 std::vector<std::byte> codeSamples(const CaptureSamples& samples, const SampleShape& shape);
 
-/// Fills all arrays but `planes`; of colours alpha alone. Numbers are in range; that the whole is a capture
-/// Capture::check tells. `malformed` without a place.
+/// Fills all arrays but `planes`, which it reads; of colours alpha alone. Numbers are in range; that the
+/// whole is a capture Capture::check tells. `malformed` without a place.
 Status decodeSamples(std::span<const std::byte> bytes, const SampleShape& shape, CaptureSamples& out);
 
 }  // namespace acentric

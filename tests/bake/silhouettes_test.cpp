@@ -111,6 +111,20 @@ TEST(Silhouettes, PlanesTellHowFarTheSamplesAre) {
     }
 }
 
+TEST(Silhouettes, KeepEachPlaneOnceInTheOrderInWhichSamplesMeetThem) {
+  const Capture capture =
+      bakeFrom(blockBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes()).capture;
+  std::uint32_t next = 0;
+  for (const std::uint32_t plane : capture.plane) {
+    ASSERT_LE(plane, next);
+    if (plane == next) ++next;
+  }
+  EXPECT_EQ(next, capture.planes.size());
+  EXPECT_LE(capture.planes.size(), 12u) << "of two boxes";
+  for (std::size_t i = 0; i < capture.planes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(capture.planes[i], capture.planes[k]);
+}
+
 TEST(Silhouettes, OfAnEndlessWallTakeNoRays) {
   SceneBuilder builder;
   builder.box(builder.material(matte()), {4, -90, -90}, {4.5f, 90, 90});

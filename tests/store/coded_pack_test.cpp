@@ -128,6 +128,50 @@ TEST_F(CodedPack, KeepsEveryDistanceOfAStep) {
   EXPECT_EQ(*back, capture);
 }
 
+/// A wall and a floor, whose samples lie on them.
+Capture wallAndFloor() {
+  Capture capture = syntheticCapture({200, 160, false, false, 1});
+  const glm::vec3 wall(0.15f * std::cos(0.8f), 0.15f * std::sin(0.8f), 0), floor(0, 0, -1 / 1.6f);
+  capture.planes = {{wall}, {floor}};
+  std::ranges::fill(capture.roles, std::uint8_t(1));
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k)
+    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i) {
+      const auto on = [&](std::uint32_t plane) {
+        return capture.planes[plane].inverseDistance(capture.camera.directionAt(double(k) + 0.5),
+                                                     capture.camera.tangentAt(capture.row[i] + 0.5));
+      };
+      const std::uint32_t nearer = on(1) > on(0) ? 1 : 0;
+      capture.plane.push_back(nearer);
+      capture.coverage.push_back(kWholePixel);
+      capture.inverseDistance[i] = storedInverseDistance(on(nearer), capture.distanceStep);
+    }
+  capture.planeTolerance = 1.0 / (1 << 12);
+  return capture;
+}
+
+TEST_F(CodedPack, TakesNextToNothingForSamplesThatLieOnTheirPlanes) {
+  const Capture capture = wallAndFloor();
+  const auto back = thereAndBack(capture, kLosslessColours);
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, capture);
+  const SampleShape shape{capture.camera, capture.sampleCount(), false, capture.planes.size(),
+                          codedStep(capture, capture.distanceStep)};
+  EXPECT_LT(codeSamples(capture, shape).size(), capture.sampleCount() / 50);
+}
+
+TEST_F(CodedPack, KeepsWhatPlanesForetellBadly) {
+  Capture capture = wallAndFloor();
+  capture.planes[0].normal *= -1;     // behind the camera
+  capture.planes[1].normal *= 1e30f;  // in its eye
+  for (std::size_t i = 0; i < capture.sampleCount(); i += 7) capture.plane[i] ^= 1u;
+  for (const double step : {capture.distanceStep, 0.0}) {
+    capture.distanceStep = step;
+    const auto back = thereAndBack(capture, kLosslessColours);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(*back, capture);
+  }
+}
+
 TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
   Capture capture = smoothly(syntheticCapture({300, 260, true, false, 6}));
   std::ranges::fill(capture.roles, std::uint8_t(3));  // as in a bake, where they change at borders of regions
