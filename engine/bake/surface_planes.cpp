@@ -1,9 +1,8 @@
 #include "engine/bake/surface_planes.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +10,7 @@ namespace acentric {
 namespace {
 
 constexpr double kEdgeOn = 1e-3;  ///< cosine
+/// Steps of planes to one of distances, and how many the largest part of a plane that is rounded has.
 constexpr double kPerDistanceStep = 4, kLeastSteps = 64;
 
 SurfacePlane rounded(SurfacePlane plane, double step) {
@@ -18,7 +18,7 @@ SurfacePlane rounded(SurfacePlane plane, double step) {
   const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
   if (step > 0 && size > kLeastSteps * step && size < 1e9 * step)
     plane.normal = glm::vec3(glm::round(normal / step) * step);
-  for (int k = 0; k < 3; ++k) plane.normal[k] += 0.0f;  // no -0
+  for (int k = 0; k < 3; ++k) plane.normal[k] += 0.0f;  // no -0: equal planes have equal bytes
   return plane;
 }
 
@@ -50,16 +50,10 @@ SurfacePlane imagePlaneOf(const Scene& scene, const Hit& hit, const FlatMirror& 
 }
 
 void numberPlanes(CaptureSamples& samples, double distanceStep) {
-  const auto bitsOf = [](const SurfacePlane& plane) {
-    return std::bit_cast<std::array<std::uint32_t, 4>>(plane);
+  const auto hash = [](const SurfacePlane& plane) {
+    return std::hash<std::string_view>()({reinterpret_cast<const char*>(&plane), sizeof plane});
   };
-  const auto hash = [&](const SurfacePlane& plane) {
-    std::size_t sum = 0;
-    for (const std::uint32_t bits : bitsOf(plane)) sum = (sum ^ bits) * 0x9e3779b97f4a7c15u, sum ^= sum >> 29;
-    return sum;
-  };
-  const auto same = [&](const SurfacePlane& a, const SurfacePlane& b) { return bitsOf(a) == bitsOf(b); };
-  std::unordered_map<SurfacePlane, std::uint32_t, decltype(hash), decltype(same)> numbers(1024, hash, same);
+  std::unordered_map<SurfacePlane, std::uint32_t, decltype(hash)> numbers(1024, hash);
   constexpr std::uint32_t kUnmet = ~0u;
   std::vector<std::uint32_t> now(samples.planes.size(), kUnmet);
   std::vector<SurfacePlane> planes;
