@@ -188,6 +188,7 @@ class Strip {
   /// Does some of `b` lie on the eye's side of a's plane, and some beyond it?
   struct Sides {
     bool before = false, beyond = false;
+    float mean = 0;  ///< > 0: most of it lies before
   };
   Sides sidesOf(std::uint32_t a, std::uint32_t b) const {
     const SurfacePlane& plane = patches_[a].plane;
@@ -198,6 +199,7 @@ class Strip {
       const float slack = float(tolerance_) * glm::length(glm::vec2(corner)) + 1e-5f;
       sides.before = sides.before || side > slack;
       sides.beyond = sides.beyond || side < -slack;
+      sides.mean += side / slack;
     }
     return sides;
   }
@@ -217,7 +219,7 @@ class Strip {
   }
 
   struct Edge {
-    std::uint32_t to = 0;
+    std::uint32_t patch = 0;
     int weight = 0;
   };
   void addOrder(std::uint32_t i, std::uint32_t j) {
@@ -226,48 +228,79 @@ class Strip {
     const int ij = votes(i, j), ji = votes(j, i);
     bool iFirst = iHides;
     if (iHides == jHides) {
-      if (ij == ji && !iHides) return;
-      iFirst = ij != ji ? ij > ji : extents_[i].nearest > extents_[j].nearest;
+      if (ij != ji)
+        iFirst = ij > ji;
+      else if (iHides)
+        iFirst = extents_[i].nearest > extents_[j].nearest;
+      else if (ofI.mean * ofJ.mean < 0)  // close to each other, as a board and its back
+        iFirst = ofI.mean > 0;
+      else
+        return;
       out_.unordered += iHides;
     }
     const std::uint32_t from = iFirst ? i : j, to = iFirst ? j : i;
     const int weight = 1 + (iFirst ? ij : ji);
-    edges_[from].push_back({to, weight});
-    before_[to] += weight;
+    after_[from].push_back({to, weight});
+    before_[to].push_back({from, weight});
   }
 
-  /// Those that may hide others first. Where they hide each other in a ring, that which is hidden least.
+  /// Those that may hide others first. Where they hide each other in a ring, the order that breaks little: by
+  /// Eades, Lin and Smyth (1993), what hides nothing that is left goes last, what nothing hides first, and
+  /// if there is neither, first that which is hidden least for what it hides.
   std::vector<std::uint32_t> orderPatches() {
     const std::uint32_t count = std::uint32_t(patches_.size());
-    edges_.assign(count, {});
-    before_.assign(count, 0);
+    after_.assign(count, {}), before_.assign(count, {});
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t j = i + 1; j < count; ++j)
         if (!areApart(i, j)) addOrder(i, j);
+    std::vector<int> hides(count, 0), hidden(count, 0);
     const auto farther = [&](std::uint32_t a, std::uint32_t b) {
       return extents_[a].nearest != extents_[b].nearest ? extents_[a].nearest < extents_[b].nearest : a > b;
     };
     std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, decltype(farther)> free(farther);
+    std::vector<std::uint32_t> last;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (const Edge& edge : after_[i]) hides[i] += edge.weight;
+      for (const Edge& edge : before_[i]) hidden[i] += edge.weight;
+      if (hidden[i] == 0)
+        free.push(i);
+      else if (hides[i] == 0)
+        last.push_back(i);
+    }
     std::vector<char> done(count, 0);
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (before_[i] == 0) free.push(i);
-    std::vector<std::uint32_t> order;
-    while (order.size() < count) {
+    std::vector<std::uint32_t> order, reversed;
+    const auto take = [&](std::uint32_t i) {
+      done[i] = 1;
+      for (const Edge& edge : after_[i])
+        if ((hidden[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) free.push(edge.patch);
+      for (const Edge& edge : before_[i])
+        if ((hides[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) last.push_back(edge.patch);
+    };
+    while (order.size() + reversed.size() < count) {
       std::uint32_t next = kNone;
       if (!free.empty()) {
         next = free.top();
         free.pop();
+      } else if (!last.empty()) {
+        next = last.back();
+        last.pop_back();
+        if (done[next] != 0) continue;
+        reversed.push_back(next);
+        take(next);
+        continue;
       } else {
+        const auto isHiddenLess = [&](std::uint32_t a, std::uint32_t b) {
+          return double(hidden[a]) * hides[b] < double(hidden[b]) * hides[a];
+        };
         for (std::uint32_t i = 0; i < count; ++i)
-          if (done[i] == 0 && (next == kNone || before_[i] < before_[next])) next = i;
+          if (done[i] == 0 && (next == kNone || isHiddenLess(i, next))) next = i;
         ++out_.unordered;
       }
       if (done[next] != 0) continue;
-      done[next] = 1;
       order.push_back(next);
-      for (const Edge& edge : edges_[next])
-        if ((before_[edge.to] -= edge.weight) == 0 && done[edge.to] == 0) free.push(edge.to);
+      take(next);
     }
+    order.insert(order.end(), reversed.rbegin(), reversed.rend());
     return order;
   }
 
@@ -285,8 +318,7 @@ class Strip {
   std::vector<std::vector<Member>> members_;
   std::vector<Extent> extents_;
   std::unordered_map<std::uint64_t, int> votes_;
-  std::vector<std::vector<Edge>> edges_;
-  std::vector<int> before_;  ///< weight of what must come before each patch
+  std::vector<std::vector<Edge>> after_, before_;  ///< of each patch: what must come after, and before it
   Patches& out_;
 };
 

@@ -96,16 +96,19 @@ class TexelWriter {
   }
 
   /// Where another surface touches this one, as at a bend, this one reaches one part of a pixel under it:
-  /// eyes that look from the side would see in between them, since both are known to a part only.
+  /// eyes that look from the side would see in between them, since both are known to a part only. Not beyond
+  /// the strip: what lies there may be painted later.
   void reachUnder(const Patch& patch) {
     constexpr double kTouching = 1;  // tolerances
     parts_.assign(known_.size(), 0);
     for (std::size_t at = 0; at < parts_.size(); ++at) parts_[at] = std::uint16_t(cover_[at] & kTexelParts);
+    const int strip = patch.column / out_.stripColumns;
     for (int i = -1; i <= patch.columns; ++i)
       for (int j = -1; j <= patch.rows; ++j) {
         const std::size_t at = texel(i, j);
         const int column = patch.column + i, row = patch.row + j;
-        if (parts_[at] == kTexelParts || !pixels_->holds(column, row)) continue;
+        if (parts_[at] == kTexelParts || !pixels_->holds(column, row) || column / out_.stripColumns != strip)
+          continue;
         const std::uint32_t beside = partsBeside(i, j) & ~std::uint32_t(parts_[at]);
         if (beside == 0) continue;
         const double inverse = inverseAt(patch.plane, column, row);
