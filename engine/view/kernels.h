@@ -20,7 +20,7 @@ struct Kernels {
   ShadeRun shadeRun;
   CoverRow coverRow;
   BlendRow blendRow;
-  PaintPatchColumn paintPatchColumn;
+  const PatchKernel* patches;
 };
 
 /// The scalar reference first, the fastest last.

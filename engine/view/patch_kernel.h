@@ -1,5 +1,6 @@
 #pragma once
-/// The inner loop of drawing patches: some pixels of one column of the picture, from one patch.
+/// The inner loops of drawing patches: some pixels of one column of the picture, from one patch, and what is
+/// done to all pixels before and after.
 ///
 /// Each pixel's ray is put through the patch's plane to where the capture saw that place. What covers the
 /// pixel is told by eight rays, each by the part of the texel that it meets (the texels' coverage); its
@@ -26,6 +27,7 @@ inline constexpr std::uint32_t kTexelInner = 1u << 24;
 
 /// Of a column of the picture, by row. Arrays have room for kPatchRoom more.
 struct PatchCanvasColumn {
+  int rows = 0;
   std::uint32_t* open = nullptr;  ///< parts that are not covered
   float* red = nullptr;           ///< sums over covered parts of squared codes, as seen through what is clear
   float* green = nullptr;
@@ -36,7 +38,17 @@ struct PatchCanvasColumn {
       nullptr;  ///< slot of the same surface, from bit 8 on; below how many parts it covers
   std::uint32_t* mirror =
       nullptr;  ///< null: none is wanted. Parts that show a mirror, and its number from bit 16
+  /// Bit i: something may be open in rows [i << cellShift, (i + 1) << cellShift), or shows a mirror while
+  /// reflections are painted. A patch costs nothing where all is covered.
+  std::uint64_t* cells = nullptr;
+  int cellShift = 0;
 };
+/// The least that does with 64 cells; at least 4.
+constexpr int cellShiftOf(int rows) {
+  int shift = 4;
+  while (rows > 64 << shift) ++shift;
+  return shift;
+}
 inline constexpr int kPatchRoom = 16;
 
 /// A patch and a column of the picture. Places are linear in the picture's row y: value = start + y * step at
@@ -64,12 +76,20 @@ struct PatchColumn {
   float lowStart, lowStep, highStart, highStep;
 };
 
-/// Rows [first, end) of the picture. Returns how many pixels were painted.
-using PaintPatchColumn = int (*)(const PatchColumn& patch, int first, int end,
-                                 const PatchCanvasColumn& canvas);
+/// Variants of one processor. Rows are [first, end) of the column.
+struct PatchKernel {
+  /// Returns how many pixels were painted.
+  int (*paint)(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
+  /// The column's cells, from what is open or, for reflections, from what shows mirrors.
+  void (*findCells)(const PatchCanvasColumn& canvas, bool reflections);
+  /// From sums to colours in `pixels` (canvas.h), over what they hold: pixels that show mirrors, or all
+  /// others.
+  void (*settle)(const PatchCanvasColumn& canvas, bool mirrors, std::uint64_t* pixels);
+  /// Opens pixels with slots below `frontSlot` for the second cover, but for what was closed before anything
+  /// was painted.
+  void (*reopen)(const PatchCanvasColumn& canvas, std::uint32_t frontSlot, const std::uint64_t* pixels);
+};
 
-int paintPatchColumnScalar(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
-int paintPatchColumnAvx2(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
-int paintPatchColumnAvx512(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas);
+extern const PatchKernel kPatchKernelScalar, kPatchKernelAvx2, kPatchKernelAvx512;
 
 }  // namespace acentric

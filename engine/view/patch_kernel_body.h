@@ -18,6 +18,117 @@ struct Places {
   typename B::F columnAcross, rowAcross, columnDown, rowDown;  ///< to the next pixel right and below
 };
 
+/// How many parts.
+template <class B>
+typename B::I countOf(typename B::I v) {
+  v = v - B::both(B::template shiftRight<1>(v), B::seti(0x55));
+  v = B::both(v, B::seti(0x33)) + B::both(B::template shiftRight<2>(v), B::seti(0x33));
+  return B::both(v + B::template shiftRight<4>(v), B::seti(15));
+}
+
+/// Is anything open in those rows, or does any show a mirror?
+template <class B>
+bool isOpen(int first, int end, const PatchCanvasColumn& canvas, bool reflections) {
+  const std::uint32_t* words = reflections ? canvas.mirror : canvas.open;
+  typename B::I all = B::seti(0);
+  for (int y = first; y < end; y += B::kWidth)
+    all = B::maxi(all, B::both(B::load(words + y, end - y), B::seti(std::int32_t(kAllParts))));
+  return B::any(B::greater(all, B::seti(0)));
+}
+
+/// Where a batch left nothing open, of its one or two cells those that have nothing open either.
+template <class B>
+void closeCells(int y0, int count, const PatchCanvasColumn& canvas, bool reflections) {
+  const int last = (y0 + (count < B::kWidth ? count : B::kWidth) - 1) >> canvas.cellShift;
+  for (int cell = y0 >> canvas.cellShift; cell <= last; ++cell) {
+    const std::uint64_t bit = std::uint64_t(1) << cell;
+    if ((*canvas.cells & bit) == 0) continue;
+    const int end = (cell + 1) << canvas.cellShift;
+    if (!isOpen<B>(cell << canvas.cellShift, end < canvas.rows ? end : canvas.rows, canvas, reflections))
+      *canvas.cells &= ~bit;
+  }
+}
+
+template <class B>
+void findCells(const PatchCanvasColumn& canvas, bool reflections) {
+  *canvas.cells = 0;
+  for (int first = 0; first < canvas.rows; first += 1 << canvas.cellShift) {
+    const int end = first + (1 << canvas.cellShift);
+    const bool open = isOpen<B>(first, end < canvas.rows ? end : canvas.rows, canvas, reflections);
+    *canvas.cells |= std::uint64_t(open) << (first >> canvas.cellShift);
+  }
+}
+
+template <class B>
+typename B::M isZero(typename B::I v) {  // bits below 31
+  return B::greater(B::seti(1), v);
+}
+
+template <class B>
+void settle(const PatchCanvasColumn& canvas, bool mirrors, std::uint64_t* pixels) {
+  using F = typename B::F;
+  using I = typename B::I;
+  using M = typename B::M;
+  const I none = B::seti(0), all = B::seti(std::int32_t(kAllParts)), codes = B::seti(255);
+  for (int y = 0; y < canvas.rows; y += B::kWidth) {
+    const int count = canvas.rows - y;
+    const I mirror = canvas.mirror == nullptr ? none : B::load(canvas.mirror + y, count);
+    const M ours = mirrors ? B::greater(mirror, none) : isZero<B>(mirror);
+    if (!B::any(ours)) continue;
+    I colour, depth;
+    B::loadPairs(pixels + y, count, colour, depth);
+    const I open = countOf<B>(B::load(canvas.open + y, count));
+    const I source = B::load(canvas.source + y, count);
+    const M isPainted = B::greater(source, none);
+    // What lies behind also shows in a crack.
+    const M behind = ours & B::greater(open, none) & B::notLess(B::asFloat(depth), B::set(0));
+    const I shown = B::seti(kPixelParts) - open - countOf<B>(B::both(mirror, all));
+    const M isReal = mirrors ? isPainted | B::greater(shown, none) : isPainted;
+    const I number = shown + B::when(behind, open);
+    const M wanted = ours & (behind | isReal) & B::greater(number, none);
+    if (!B::any(wanted)) continue;
+    const F share = B::select(behind, B::toFloat(open) * B::load(canvas.clear + y, count), B::set(0));
+    const F parts = B::toFloat(B::maxi(number, B::seti(1)));
+    const auto code = [&](const float* sums, I was) {
+      const F before = B::toFloat(was);
+      const F mean = (B::load(sums + y, count) + before * before * share) / parts;
+      return B::truncate(B::min(B::sqrt(mean) + B::set(0.5f), B::set(255)));
+    };
+    const I red = code(canvas.red, B::both(colour, codes));
+    const I green = code(canvas.green, B::both(B::template shiftRight<8>(colour), codes));
+    const I blue = code(canvas.blue, B::both(B::template shiftRight<16>(colour), codes));
+    const I slot = B::select(isPainted, B::template shiftRight<8>(source),
+                             B::maxi(B::template shiftRight<24>(colour), B::seti(1)));
+    const I mixed = red + B::template shiftLeft<8>(green) + B::template shiftLeft<16>(blue) +
+                    B::template shiftLeft<24>(slot);
+    const I itsDepth = B::when(isPainted, B::asInts(B::load(canvas.inverseZDepth + y, count)));
+    B::storePairs(pixels + y, B::select(wanted, mixed, colour), B::select(wanted, itsDepth, depth), count);
+  }
+}
+
+template <class B>
+void reopen(const PatchCanvasColumn& canvas, std::uint32_t frontSlot, const std::uint64_t* pixels) {
+  using I = typename B::I;
+  using M = typename B::M;
+  const I none = B::seti(0), all = B::seti(std::int32_t(kAllParts));
+  for (int y = 0; y < canvas.rows; y += B::kWidth) {
+    const int count = canvas.rows - y;
+    const M ours = isZero<B>(canvas.mirror == nullptr ? none : B::load(canvas.mirror + y, count));
+    const I open = B::load(canvas.open + y, count), source = B::load(canvas.source + y, count);
+    const M wasOpen = B::greater(open + source, none);
+    I colour, depth;
+    B::loadPairs(pixels + y, count, colour, depth);
+    const M isBehind =
+        B::greater(B::seti(std::int32_t(frontSlot)), B::template shiftRight<24>(colour)) & wasOpen;
+    B::store(canvas.open + y, B::select(ours, B::when(isBehind, all), open), count);
+    B::store(canvas.source + y, B::select(ours, none, source), count);
+    const auto reset = [&](float* values, float to) {
+      B::store(values + y, B::select(ours, B::set(to), B::load(values + y, count)), count);
+    };
+    reset(canvas.red, 0), reset(canvas.green, 0), reset(canvas.blue, 0), reset(canvas.clear, 1);
+  }
+}
+
 template <class B>
 struct Kernel {
   using F = typename B::F;
@@ -69,33 +180,65 @@ struct Kernel {
   }
   static F limited(F value) { return B::min(B::max(value, B::set(-1e6f)), B::set(1e6f)); }
 
-  /// Parts of the pixels that the patch covers.
-  I partsOf(const Places<B>& places) const {
+  /// Parts of the `wanted` pixels that the patch covers.
+  I partsOf(const Places<B>& places, M wanted) const {
+    I columns[kPixelParts], rows[kPixelParts];  // in parts of texels
+    for (int part = 0; part < kPixelParts; ++part) {
+      const F dx = B::set(4 * kPartX[part]), dy = B::set(4 * kPartY[part]);
+      const F column = B::set(4) * places.column + (dx * places.columnAcross + dy * places.columnDown);
+      const F row = B::set(4) * places.row + (dx * places.rowAcross + dy * places.rowDown);
+      columns[part] = B::floor(limited(column)), rows[part] = B::floor(limited(row));
+    }
+    const auto firstOf = [](const I* places4) {
+      I least = places4[0];
+      for (int part = 1; part < kPixelParts; ++part) least = B::mini(least, places4[part]);
+      return B::template shiftSigned<2>(least);
+    };
+    const I left = firstOf(columns), top = firstOf(rows);
+    const I fromLeft = B::template shiftLeft<2>(left), fromTop = B::template shiftLeft<2>(top);
+    I beyond = B::seti(0);
+    for (int part = 0; part < kPixelParts; ++part) {
+      columns[part] = columns[part] - fromLeft, rows[part] = rows[part] - fromTop;
+      beyond = B::maxi(beyond, B::maxi(columns[part], rows[part]));
+    }
+    if (B::any(wanted & B::greater(beyond, B::seti(7)))) return partsOfMany(left, top, columns, rows);
+    // All within two texels by two: a word for the upper two and one for the lower.
+    const auto wordOf = [&](I row) {
+      const I second = B::template shiftLeft<16>(partsAt(left + B::seti(1), row));
+      return partsAt(left, row) + second;
+    };
+    const I upper = wordOf(top), lower = wordOf(top + B::seti(1));
     I parts = B::seti(0);
     for (int part = 0; part < kPixelParts; ++part) {
-      const F dx = B::set(kPartX[part]), dy = B::set(kPartY[part]);
-      const F column = places.column + (dx * places.columnAcross + dy * places.columnDown);
-      const F row = places.row + (dx * places.rowAcross + dy * places.rowDown);
-      const I fourColumns = B::floor(limited(column * B::set(4))),
-              fourRows = B::floor(limited(row * B::set(4)));
-      const I cover = B::gather(
-          c.cover, texelAt(B::template shiftSigned<2>(fourColumns), B::template shiftSigned<2>(fourRows)));
       const I bit =
-          B::template shiftLeft<2>(B::both(fourRows, B::seti(3))) + B::both(fourColumns, B::seti(3));
-      const I covered = B::when(isWanted(cover), B::both(B::shiftRightBy(cover, bit), B::seti(1)));
+          bitOf(columns[part], rows[part]) + B::template shiftLeft<2>(B::both(columns[part], B::seti(4)));
+      const I word = B::select(B::greater(rows[part], B::seti(3)), lower, upper);
+      parts = parts + B::shiftLeftBy(B::both(B::shiftRightBy(word, bit), B::seti(1)), part);
+    }
+    return parts;
+  }
+  /// The same where texels are small.
+  I partsOfMany(I left, I top, const I* columns, const I* rows) const {
+    I parts = B::seti(0);
+    for (int part = 0; part < kPixelParts; ++part) {
+      const I cover = partsAt(left + B::template shiftSigned<2>(columns[part]),
+                              top + B::template shiftSigned<2>(rows[part]));
+      const I covered = B::both(B::shiftRightBy(cover, bitOf(columns[part], rows[part])), B::seti(1));
       parts = parts + B::shiftLeftBy(covered, part);
     }
     return parts;
   }
+  /// What a texel covers, if its role is wanted.
+  I partsAt(I column, I row) const {
+    const I cover = B::gather(c.cover, texelAt(column, row));
+    return B::when(isWanted(cover), B::both(cover, B::seti(std::int32_t(kTexelParts))));
+  }
+  /// Of a part of its texel.
+  static I bitOf(I column, I row) {
+    return B::template shiftLeft<2>(B::both(row, B::seti(3))) + B::both(column, B::seti(3));
+  }
   M isWanted(I cover) const {
     return B::greater(B::both(cover, B::seti(std::int32_t(c.wantedRoles))), B::seti(0));
-  }
-
-  /// How many parts.
-  static I countOf(I v) {
-    v = v - B::both(B::template shiftRight<1>(v), B::seti(0x55));
-    v = B::both(v, B::seti(0x33)) + B::both(B::template shiftRight<2>(v), B::seti(0x33));
-    return B::both(v + B::template shiftRight<4>(v), B::seti(15));
   }
 
   template <int kShift>
@@ -127,19 +270,32 @@ struct Kernel {
 
   int paint(int first, int end, const PatchCanvasColumn& canvas) const {
     int painted = 0;
-    for (int y0 = first; y0 < end; y0 += B::kWidth) painted += paintBatch(y0, end - y0, canvas);
+    for (int y = first; y < end; y += B::kWidth) {
+      const int cell = y >> canvas.cellShift;
+      const std::uint64_t open = *canvas.cells >> cell;
+      if (open == 0) break;
+      const int skipped = __builtin_ctzll(open);
+      if (skipped > 0) y = (cell + skipped) << canvas.cellShift;
+      if (y >= end) break;
+      painted += paintBatch(y, end - y, canvas);
+    }
     return painted;
   }
 
+  /// What the patch may paint, of all that is open.
+  I openTo(I open, I mirror) const {
+    if (!c.reflects) return open;
+    const I other = B::different(B::template shiftRight<16>(mirror), B::seti(std::int32_t(c.mirror)));
+    return B::when(B::greater(B::seti(1), other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
+  }
+
   int paintBatch(int y0, int count, const PatchCanvasColumn& canvas) const {
-    I open = B::load(canvas.open + y0, count);
-    const I before = open;
-    if (c.reflects) {
-      const I mirror = B::load(canvas.mirror + y0, count);
-      const I other = B::different(B::template shiftRight<16>(mirror), B::seti(std::int32_t(c.mirror)));
-      open = B::when(B::greater(B::seti(1), other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
+    const I before = B::load(canvas.open + y0, count);
+    I open = openTo(before, c.reflects ? B::load(canvas.mirror + y0, count) : B::seti(0));
+    if (!B::any(B::greater(open, B::seti(0)))) {
+      closeCells<B>(y0, count, canvas, c.reflects);
+      return 0;
     }
-    if (!B::any(B::greater(open, B::seti(0)))) return 0;
     const F y = B::toFloat(B::counted(y0));
     Places<B> places;
     F x, slope, stretch, height;
@@ -159,7 +315,8 @@ struct Kernel {
     I parts = B::when(inner, open);
     if (B::any(B::greater(B::different(parts, open), B::seti(0)))) {
       differentiate(x, slope, stretch, height, places);
-      parts = B::select(inner, parts, B::both(partsOf(places), open));
+      parts = B::select(inner, parts,
+                        B::both(partsOf(places, B::greater(B::different(parts, open), B::seti(0))), open));
     }
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
@@ -171,13 +328,13 @@ struct Kernel {
              const PatchCanvasColumn& canvas) const {
     F rgba[4];
     colourAt(places, rgba);
-    const F number = B::toFloat(countOf(parts));
+    const F number = B::toFloat(countOf<B>(parts));
     const F clear = B::load(canvas.clear + y0, count);
     F weight = clear * number;
     if (c.blended) {
       const F alpha = rgba[3] * B::set(1.0f / 255);
       weight = weight * alpha;
-      const F share = number / B::max(B::toFloat(countOf(open)), B::set(1));
+      const F share = number / B::max(B::toFloat(countOf<B>(open)), B::set(1));
       B::store(canvas.clear + y0, B::select(painted, clear * (B::set(1) - alpha * share), clear), count);
     }
     const I mirror = canvas.mirror == nullptr ? B::seti(0) : B::load(canvas.mirror + y0, count);
@@ -193,21 +350,35 @@ struct Kernel {
     if (c.blended) return;
     if (c.reflects) {
       B::store(canvas.mirror + y0, mirror - parts, count);
+      closeIfCovered(y0, count, open, parts, canvas);
       return;
     }
     B::store(canvas.open + y0, before - parts, count);
+    closeIfCovered(y0, count, before, parts, canvas);
     if (waits) {
       const I itsNumber = B::seti(std::int32_t(c.mirror << 16));
       const I others = B::both(mirror, B::seti(std::int32_t(kAllParts)));
       B::store(canvas.mirror + y0, B::select(painted, itsNumber + others + parts, mirror), count);
     }
     const I source = B::load(canvas.source + y0, count);
-    const I mine = countOf(parts);
+    const I mine = countOf<B>(parts);
     const M more = painted & B::greater(mine, B::both(source, B::seti(255)));
     B::store(canvas.source + y0, B::select(more, mine + B::seti(std::int32_t(c.slot << 8)), source), count);
     const F depth = B::load(canvas.inverseZDepth + y0, count);
     B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), count);
   }
+
+  void closeIfCovered(int y0, int count, I open, I parts, const PatchCanvasColumn& canvas) const {
+    if (!B::any(B::greater(open - parts, B::seti(0)))) closeCells<B>(y0, count, canvas, c.reflects);
+  }
 };
+
+template <class B>
+int paint(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas) {
+  return Kernel<B>{patch}.paint(first, end, canvas);
+}
+
+template <class B>
+inline constexpr PatchKernel kVariant{paint<B>, findCells<B>, settle<B>, reopen<B>};
 
 }  // namespace acentric::patch_kernel

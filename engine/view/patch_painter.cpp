@@ -1,8 +1,6 @@
 #include "engine/view/patch_painter.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 #include "engine/view/cracks.h"
 
@@ -11,22 +9,23 @@ namespace {
 
 class PatchPainter {
  public:
-  PatchPainter(const PatchPlan& plan, PaintPatchColumn kernel, int x0, int x1, PatchCanvas& memory,
+  PatchPainter(const PatchPlan& plan, const PatchKernel& kernel, int x0, int x1, PatchCanvas& memory,
                Canvas& canvas)
       : plan_(plan),
         kernel_(kernel),
         countedFrom_(x0),
         countedTo_(x1),
+        cellShift_(cellShiftOf(canvas.height)),
         mirrors_(!plan.reflections.empty()),
         memory_(memory),
         canvas_(canvas) {
     const std::size_t room = canvas.pixels.size() + kPatchRoom;
     memory.open.assign(room, kAllParts);
     for (auto* words : {&memory.source, &memory.mirror}) words->assign(room, 0);
-    for (auto* sums : {&memory.red, &memory.green, &memory.blue, &memory.inverseZDepth})
-      sums->assign(room, 0);
+    for (auto* sums : {&memory.red, &memory.green, &memory.blue}) sums->assign(room, 0);
     memory.clear.assign(room, 1);
-    memory.covered.assign(room, 0);
+    memory.inverseZDepth.resize(room);
+    memory.cells.assign(std::size_t(canvas.width), 0);
   }
 
   /// Nothing is painted where something covers the captures, but for what its mirrors show.
@@ -37,7 +36,6 @@ class PatchPainter {
         if (local == kUncovered) continue;
         const std::size_t at = canvas_.indexOf(x) + std::size_t(y);
         memory_.open[at] = 0;
-        memory_.covered[at] = 1;
         if (mirrors_ && !mirrors.empty() && mirrors[local] != 0)
           memory_.mirror[at] = kAllParts | std::uint32_t(mirrors[local]) << 16;
       }
@@ -49,94 +47,86 @@ class PatchPainter {
     if (!plan_.behind.empty()) {
       Cracks cracks;
       cracks.open(canvas_, plan_.frontSlot);
-      reopen();
+      for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
+        kernel_.reopen(canvasColumn(x), plan_.frontSlot, canvas_.column(x));
       paint(plan_.behind);
       settle(false);
       cracks.close(canvas_);
     }
     if (mirrors_) {
-      paint(plan_.reflections);
-      paint(plan_.mirrors);
+      paint(plan_.reflections, true);
+      paint(plan_.mirrors, true);
       settle(true);
     }
     return counts_;
   }
 
  private:
-  void paint(const std::vector<StripDraw>& strips) {
+  void paint(const std::vector<StripDraw>& strips, bool reflections = false) {
+    for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
+      kernel_.findCells(canvasColumn(x), reflections);
     for (const StripDraw& strip : strips)
       for (const PatchDraw& draw : strip.patches) paint(strip, draw);
   }
 
-  /// For the second cover: where nothing of the first lies, and its cracks.
-  void reopen() {
-    for (std::size_t at = 0; at < canvas_.pixels.size(); ++at) {
-      if (memory_.mirror[at] != 0) continue;
-      const bool open = slotOf(canvas_.pixels[at]) < plan_.frontSlot && memory_.covered[at] == 0;
-      memory_.open[at] = open ? kAllParts : 0;
-      memory_.source[at] = 0;
-      memory_.red[at] = memory_.green[at] = memory_.blue[at] = 0;
-      memory_.clear[at] = 1;
-    }
+  void settle(bool mirrors) {
+    for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
+      kernel_.settle(canvasColumn(x), mirrors, canvas_.column(x));
   }
 
-  /// From sums to colours on the canvas, over its background: pixels that show mirrors, or all others.
-  void settle(bool mirrors) {
-    for (std::size_t at = 0; at < canvas_.pixels.size(); ++at) {
-      if ((memory_.mirror[at] != 0) != mirrors) continue;
-      const int open = std::popcount(memory_.open[at]);
-      int painted = kPixelParts - open - std::popcount(memory_.mirror[at] & kAllParts);
-      glm::vec3 sum(memory_.red[at], memory_.green[at], memory_.blue[at]);
-      const bool isReal = memory_.source[at] != 0 || (mirrors && painted > 0);
-      if (open > 0 && inverseZDepthOf(canvas_.pixels[at]) >= 0) {  // also what shows in a crack
-        const Rgba8 behind = colourOf(static_cast<std::uint32_t>(canvas_.pixels[at]));
-        const glm::vec3 code(behind);
-        sum += code * code * (float(open) * memory_.clear[at]);
-        painted += open;
-      } else if (!isReal) {
-        continue;
-      }
-      if (painted <= 0) continue;
-      const glm::uvec3 code(glm::min(glm::sqrt(sum / float(painted)) + 0.5f, glm::vec3(255)));
-      const std::uint32_t slot =
-          memory_.source[at] != 0 ? memory_.source[at] >> 8 : std::max(slotOf(canvas_.pixels[at]), 1u);
-      canvas_.pixels[at] = canvasPixel(code.r | code.g << 8 | code.b << 16 | slot << 24,
-                                       memory_.source[at] != 0 ? memory_.inverseZDepth[at] : 0);
-    }
+  /// Those that hold rows of [first, end).
+  std::uint64_t cellsOf(int first, int end) const {
+    return (~std::uint64_t(0) << (first >> cellShift_)) &
+           (~std::uint64_t(0) >> (63 - ((end - 1) >> cellShift_)));
   }
 
   void paint(const StripDraw& strip, const PatchDraw& draw) {
-    const int x0 = std::max(draw.polygon.x0(), canvas_.x0);
-    const int x1 = std::min(draw.polygon.x1(), canvas_.x0 + canvas_.width);
+    const PolygonRows& polygon = draw.polygon;
+    const int x0 = std::max(polygon.x0(), canvas_.x0);
+    const int x1 = std::min(polygon.x1(), canvas_.x0 + canvas_.width);
     if (x0 >= x1) return;
-    counts_.samplesRead += draw.polygon.x0() < countedTo_ && std::max(draw.polygon.x0(), 0) >= countedFrom_;
+    counts_.samplesRead += polygon.x0() < countedTo_ && std::max(polygon.x0(), 0) >= countedFrom_;
+    const auto cells = std::span(memory_.cells).subspan(std::size_t(x0 - canvas_.x0), std::size_t(x1 - x0));
+    std::uint64_t open = 0;
+    for (const std::uint64_t column : cells) open |= column;
+    if ((open & cellsOf(polygon.y0(), polygon.y1())) == 0) return;
+    polygon.rows(x0, x1, memory_.rows);
     PatchColumn column = draw.column;
     for (int x = x0; x < x1; ++x) {
-      const glm::ivec2 rows = draw.polygon.rows(x);
-      if (rows.x >= rows.y) continue;
+      const std::size_t i = std::size_t(x - x0);
+      const RowRange& rows = memory_.rows[i];
+      if (rows.first >= rows.end || (cells[i] & cellsOf(rows.first, rows.end)) == 0) continue;
       const float at = float(x);
-      for (int i = 0; i < 3; ++i) column.start[i] = draw.column.start[i] + at * draw.column.across[i];
+      for (int k = 0; k < 3; ++k) column.start[k] = draw.column.start[k] + at * draw.column.across[k];
       column.depthStart = draw.column.depthStart + at * draw.column.depthAcross;
       if (strip.limited) {
         column.lowStart = strip.lowStart + at * strip.lowAcross;
         column.highStart = strip.highStart + at * strip.highAcross;
       }
-      const int painted = kernel_(column, rows.x, rows.y, canvasColumn(x));
+      const int painted = kernel_.paint(column, rows.first, rows.end, canvasColumn(x));
       if (x >= countedFrom_ && x < countedTo_) counts_.samplesDrawn += std::uint64_t(painted);
     }
   }
 
   PatchCanvasColumn canvasColumn(int x) {
     const std::size_t at = canvas_.indexOf(x);
-    return {memory_.open.data() + at,   memory_.red.data() + at,
-            memory_.green.data() + at,  memory_.blue.data() + at,
-            memory_.clear.data() + at,  memory_.inverseZDepth.data() + at,
-            memory_.source.data() + at, mirrors_ ? memory_.mirror.data() + at : nullptr};
+    return {canvas_.height,
+            memory_.open.data() + at,
+            memory_.red.data() + at,
+            memory_.green.data() + at,
+            memory_.blue.data() + at,
+            memory_.clear.data() + at,
+            memory_.inverseZDepth.data() + at,
+            memory_.source.data() + at,
+            mirrors_ ? memory_.mirror.data() + at : nullptr,
+            memory_.cells.data() + (x - canvas_.x0),
+            cellShift_};
   }
 
   const PatchPlan& plan_;
-  PaintPatchColumn kernel_;
+  const PatchKernel& kernel_;
   int countedFrom_, countedTo_;
+  int cellShift_;
   bool mirrors_;
   PatchCanvas& memory_;
   Canvas& canvas_;
@@ -145,7 +135,7 @@ class PatchPainter {
 
 }  // namespace
 
-WarpCounts paintPatches(const PatchPlan& plan, PaintPatchColumn kernel, const CoverImage* cover,
+WarpCounts paintPatches(const PatchPlan& plan, const PatchKernel& kernel, const CoverImage* cover,
                         std::span<const std::uint8_t> coverMirrors, int x0, int x1, PatchCanvas& memory,
                         Canvas& canvas) {
   PatchPainter painter(plan, kernel, x0, x1, memory, canvas);

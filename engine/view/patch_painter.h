@@ -12,14 +12,15 @@ namespace acentric {
 struct PatchCanvas {
   std::vector<std::uint32_t> open, source, mirror;
   std::vector<float> red, green, blue, clear, inverseZDepth;
-  std::vector<std::uint8_t> covered;  ///< by local geometry
+  std::vector<std::uint64_t> cells;
+  std::vector<RowRange> rows;  ///< of a polygon, by column
 };
 
 /// Pieces of the first cover; those of the second where nothing of the first lies, and before it in its
 /// cracks (cracks.h); then what mirrors show. `canvas` holds the background, and columns [x0, x1) are right
 /// if it holds pixelsReadBeside more on either side. `cover` and `coverMirrors` as WarpOptions'. Counts
 /// patches read and pixels painted.
-WarpCounts paintPatches(const PatchPlan& plan, PaintPatchColumn kernel, const CoverImage* cover,
+WarpCounts paintPatches(const PatchPlan& plan, const PatchKernel& kernel, const CoverImage* cover,
                         std::span<const std::uint8_t> coverMirrors, int x0, int x1, PatchCanvas& memory,
                         Canvas& canvas);
 

@@ -221,22 +221,28 @@ bool PolygonRows::set(std::span<const glm::dvec3> corners, int width, int height
   return x0_ < x1_ && y0_ < y1_;
 }
 
-glm::ivec2 PolygonRows::rows(int column) const {
-  if (x1_ - x0_ <= kSmall || y1_ - y0_ <= kSmall) return {y0_, y1_};
-  const float from = float(column) - kMargin, to = float(column + 1) + kMargin;
-  float top = HUGE_VALF, bottom = -HUGE_VALF;
+void PolygonRows::rows(int first, int end, std::vector<RowRange>& out) const {
+  out.assign(std::size_t(end - first), {y0_, y1_});
+  if (x1_ - x0_ <= kSmall || y1_ - y0_ <= kSmall) return;
+  std::ranges::fill(out, RowRange{y1_, y0_});
   for (int i = 0; i < count_; ++i) {
     glm::vec2 a = places_[std::size_t(i)], b = places_[std::size_t(i + 1 == count_ ? 0 : i + 1)];
     if (a.x > b.x) std::swap(a, b);
-    if (b.x < from || a.x > to) continue;
     const float rate = b.x > a.x ? (b.y - a.y) / (b.x - a.x) : 0;
-    const float atFrom = a.x < from ? a.y + (from - a.x) * rate : a.y;
-    const float atTo = b.x > to ? a.y + (to - a.x) * rate : b.y;
-    top = std::min({top, atFrom, atTo}), bottom = std::max({bottom, atFrom, atTo});
+    // Columns that it reaches with the margin.
+    const float low = std::ceil(a.x - 1 - kMargin), high = std::floor(b.x + kMargin) + 1;
+    const int from = low > float(first) ? int(std::min(low, float(end))) : first;
+    const int to = high < float(end) ? int(std::max(high, float(first))) : end;
+    for (int x = from; x < to; ++x) {
+      const float left = float(x) - kMargin, right = float(x + 1) + kMargin;
+      const float atLeft = a.x < left ? a.y + (left - a.x) * rate : a.y;
+      const float atRight = b.x > right ? a.y + (right - a.x) * rate : b.y;
+      RowRange& rows = out[std::size_t(x - first)];
+      const float top = std::min(atLeft, atRight) - kMargin, bottom = std::max(atLeft, atRight) + kMargin;
+      rows.first = std::min(rows.first, int(std::clamp(std::floor(top), float(y0_), float(y1_))));
+      rows.end = std::max(rows.end, int(std::clamp(std::ceil(bottom), float(y0_), float(y1_))));
+    }
   }
-  if (top > bottom) return {0, 0};
-  return {int(std::clamp(std::floor(top - kMargin), float(y0_), float(y1_))),
-          int(std::clamp(std::ceil(bottom + kMargin), float(y0_), float(y1_)))};
 }
 
 PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const ViewPlan& plan,

@@ -14,6 +14,10 @@
 
 namespace acentric {
 
+struct RowRange {
+  int first = 0, end = 0;
+};
+
 /// A convex polygon on the picture, as the rows that it touches in each column.
 class PolygonRows {
  public:
@@ -23,8 +27,10 @@ class PolygonRows {
   bool set(std::span<const glm::dvec3> corners, int width, int height);
   int x0() const { return x0_; }
   int x1() const { return x1_; }
-  /// Rows [x, y) that the polygon may touch in the column.
-  glm::ivec2 rows(int column) const;
+  int y0() const { return y0_; }
+  int y1() const { return y1_; }
+  /// Rows that the polygon may touch in each of the columns [first, end), which lie in [x0, x1).
+  void rows(int first, int end, std::vector<RowRange>& out) const;
 
  private:
   int x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0;

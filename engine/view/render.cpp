@@ -112,7 +112,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     canvas.places = canvas.places && !patches;
     if (sky) paintBackground(*sky, view, limits, kBackgroundSlot, canvas);
     background.paint(view, canvas);
-    counts[strip] = patches ? paintPatches(patchPlan, kernels.paintPatchColumn, cover, coverMirrors, x0, x1,
+    counts[strip] = patches ? paintPatches(patchPlan, *kernels.patches, cover, coverMirrors, x0, x1,
                                            memory.patchCanvases[strip], canvas)
                             : warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
     develop(canvas, x0, x1, sources, kernels, frame, memory.inverseZDepth);

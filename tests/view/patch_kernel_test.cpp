@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <random>
 
+#include "engine/view/canvas.h"
 #include "engine/view/display_patches.h"
 #include "engine/view/kernels.h"
+#include "engine/view/patch_plan.h"
 
 namespace acentric {
 namespace {
@@ -16,11 +19,14 @@ constexpr int kRows = 64;  ///< of the canvas
 
 /// A column of the picture with everything that kernels write.
 struct CanvasColumn {
+  int rows = kRows;
   std::vector<std::uint32_t> open, source, mirror;
   std::vector<float> red, green, blue, clear, inverseZDepth;
+  std::uint64_t cells = ~std::uint64_t(0);
 
-  CanvasColumn()
-      : open(kRows + kPatchRoom, kAllParts),
+  explicit CanvasColumn(int count = kRows)
+      : rows(count),
+        open(std::size_t(count) + kPatchRoom, kAllParts),
         source(open.size()),
         mirror(open.size()),
         red(open.size()),
@@ -29,11 +35,29 @@ struct CanvasColumn {
         clear(open.size(), 1),
         inverseZDepth(open.size()) {}
   PatchCanvasColumn view() {
-    return {open.data(),  red.data(),           green.data(),  blue.data(),
-            clear.data(), inverseZDepth.data(), source.data(), mirror.data()};
+    return {rows,          open.data(),  red.data(),           green.data(),
+            blue.data(),   clear.data(), inverseZDepth.data(), source.data(),
+            mirror.data(), &cells,       cellShiftOf(rows)};
   }
-  bool operator==(const CanvasColumn&) const = default;
+  bool showsTheSame(const CanvasColumn& other) const {
+    return open == other.open && source == other.source && mirror == other.mirror && red == other.red &&
+           green == other.green && blue == other.blue && clear == other.clear &&
+           inverseZDepth == other.inverseZDepth;
+  }
+  /// Those that must be set.
+  std::uint64_t cellsThatAreOpen(bool reflections) const {
+    std::uint64_t found = 0;
+    for (int y = 0; y < rows; ++y) {
+      const std::uint32_t word = (reflections ? mirror : open)[std::size_t(y)];
+      if ((word & kAllParts) != 0) found |= std::uint64_t(1) << (y >> cellShiftOf(rows));
+    }
+    return found;
+  }
 };
+
+int paintPatch(const PatchColumn& patch, int first, int end, const PatchCanvasColumn& canvas) {
+  return kPatchKernelScalar.paint(patch, first, end, canvas);
+}
 
 /// A patch of columns x rows samples, one pixel of the picture each at `scale` 1, seen from where the capture
 /// was taken: the picture's row y shows the patch's row y * scale + shift, at its column `column`.
@@ -82,7 +106,7 @@ TEST(PatchKernel, CoversTheSharesOfPixelsThatAnEdgeLeaves) {
   CanvasColumn canvas;
   // The patch begins at row 10.25 of the picture and ends at row 42.25.
   const PatchColumn column = patch.column(2, 1, -10.25);
-  const int painted = paintPatchColumnScalar(column, 0, kRows, canvas.view());
+  const int painted = paintPatch(column, 0, kRows, canvas.view());
   EXPECT_EQ(painted, 33);
   for (int y = 0; y < kRows; ++y) {
     const double share = std::clamp(y + 1 - 10.25, 0.0, 1.0) - std::clamp(y + 1 - 42.25, 0.0, 1.0);
@@ -102,7 +126,7 @@ TEST(PatchKernel, PaintsWhatIsStillOpenAndNothingElse) {
   CanvasColumn canvas;
   canvas.open[20] = 0;
   canvas.open[21] = 0x0f;
-  paintPatchColumnScalar(patch.column(2, 1, -10), 0, kRows, canvas.view());
+  paintPatch(patch.column(2, 1, -10), 0, kRows, canvas.view());
   EXPECT_EQ(canvas.red[20], 0);
   EXPECT_EQ(canvas.red[21], 255.0f * 255 * 4);
   EXPECT_EQ(canvas.open[21], 0u);
@@ -114,7 +138,7 @@ TEST(PatchKernel, InterpolatesBetweenSamples) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 32; ++j) patch.set(i, j, kTexelParts, 0xff000000u | std::uint32_t(8 * j));
   CanvasColumn canvas;
-  paintPatchColumnScalar(patch.column(2, 0.25, 0), 0, kRows, canvas.view());
+  paintPatch(patch.column(2, 0.25, 0), 0, kRows, canvas.view());
   for (int y = 4; y < kRows - 4; ++y) {
     const double code = 8 * ((y + 0.5) * 0.25 - 0.5);
     EXPECT_NEAR(std::sqrt(canvas.red[std::size_t(y)] / kPixelParts), code, 0.05) << y;
@@ -126,7 +150,7 @@ TEST(PatchKernel, LeavesOutSamplesOfOtherRoles) {
   patch.setAll(kTexelParts, 0xffffffff);
   for (int i = 0; i < 4; ++i) patch.set(i, 12, kTexelParts, 0xffffffff, 2);
   CanvasColumn canvas;
-  paintPatchColumnScalar(patch.column(2, 1, 0), 0, kRows, canvas.view());
+  paintPatch(patch.column(2, 1, 0), 0, kRows, canvas.view());
   EXPECT_EQ(canvas.open[11], 0u);
   EXPECT_EQ(canvas.open[12], kAllParts);
   EXPECT_EQ(canvas.open[13], 0u);
@@ -139,10 +163,10 @@ TEST(PatchKernel, TintsWhatLiesBehindGlass) {
   CanvasColumn canvas;
   PatchColumn pane = glass.column(2, 1, 0);
   pane.blended = true;
-  paintPatchColumnScalar(pane, 0, kRows, canvas.view());
+  paintPatch(pane, 0, kRows, canvas.view());
   EXPECT_EQ(canvas.open[10], kAllParts);
   EXPECT_EQ(canvas.source[10], 0u);
-  paintPatchColumnScalar(wall.column(2, 1, 0), 0, kRows, canvas.view());
+  paintPatch(wall.column(2, 1, 0), 0, kRows, canvas.view());
   EXPECT_NEAR(canvas.red[10], 255.0 * 255 * 8 * (1 - 128 / 255.0), 10);
 }
 
@@ -153,18 +177,19 @@ TEST(PatchKernel, AMirrorWaitsForWhatItShows) {
   CanvasColumn canvas;
   PatchColumn surface = mirror.column(2, 1, 0);
   surface.mirror = 3;
-  paintPatchColumnScalar(surface, 0, kRows, canvas.view());
+  paintPatch(surface, 0, kRows, canvas.view());
   EXPECT_EQ(canvas.mirror[10], 3u << 16 | kAllParts);
   EXPECT_EQ(canvas.red[10], 0);
   PatchColumn shown = image.column(2, 1, -16);
   shown.mirror = 3, shown.reflects = true;
-  paintPatchColumnScalar(shown, 0, kRows, canvas.view());
+  kPatchKernelScalar.findCells(canvas.view(), true);
+  paintPatch(shown, 0, kRows, canvas.view());
   EXPECT_EQ(canvas.mirror[10], 3u << 16 | kAllParts);  // not there
   EXPECT_EQ(canvas.mirror[20], 3u << 16);
   EXPECT_EQ(canvas.red[20], 255.0f * 255 * 8);
   EXPECT_EQ(canvas.green[20], 0);
   surface.reflects = true;  // its own colour where nothing is known of what it shows
-  paintPatchColumnScalar(surface, 0, kRows, canvas.view());
+  paintPatch(surface, 0, kRows, canvas.view());
   EXPECT_EQ(canvas.green[10], 255.0f * 255 * 8);
   EXPECT_EQ(canvas.green[20], 0);
 }
@@ -198,13 +223,131 @@ TEST(PatchKernel, EveryVariantGivesTheSameBits) {
     }
     const int first = int(random() % 20), end = first + int(random() % (kRows - 20));
     CanvasColumn expected = before;
-    const int painted = supportedKernels().front().paintPatchColumn(column, first, end, expected.view());
-    for (const Kernels& kernels : supportedKernels().subspan(1)) {
+    const int painted = paintPatch(column, first, end, expected.view());
+    for (const Kernels& kernels : supportedKernels()) {
       CanvasColumn canvas = before;
-      ASSERT_EQ(kernels.paintPatchColumn(column, first, end, canvas.view()), painted) << kernels.name;
-      ASSERT_EQ(canvas, expected) << kernels.name << ", trial " << trial;
+      kernels.patches->findCells(canvas.view(), column.reflects);
+      ASSERT_EQ(canvas.cells, before.cellsThatAreOpen(column.reflects)) << kernels.name;
+      ASSERT_EQ(kernels.patches->paint(column, first, end, canvas.view()), painted) << kernels.name;
+      ASSERT_TRUE(canvas.showsTheSame(expected)) << kernels.name << ", trial " << trial;
+      ASSERT_EQ(canvas.cells | canvas.cellsThatAreOpen(column.reflects), canvas.cells) << kernels.name;
     }
   }
+}
+
+TEST(PatchKernel, ClosesTheCellsThatAPatchCovers) {
+  FlatPatch patch(4, 100);
+  patch.setAll(kTexelParts, 0xffffffff);
+  for (const Kernels& kernels : supportedKernels())
+    for (const int rows : {720, 1024, 1025, 2160}) {
+      CanvasColumn canvas(rows);
+      const PatchCanvasColumn view = canvas.view();
+      kernels.patches->findCells(view, false);
+      ASSERT_EQ(canvas.cells, canvas.cellsThatAreOpen(false)) << rows;
+      kernels.patches->paint(patch.column(2, 1, -100), 0, rows, view);
+      ASSERT_EQ(canvas.open[99], kAllParts);
+      ASSERT_EQ(canvas.open[150], 0u);
+      EXPECT_EQ(canvas.cells, canvas.cellsThatAreOpen(false)) << kernels.name << ", " << rows;
+    }
+}
+
+/// Pixel by pixel, what PatchKernel::settle says.
+std::uint64_t settled(const CanvasColumn& canvas, std::size_t y, bool mirrors, std::uint64_t pixel) {
+  if ((canvas.mirror[y] != 0) != mirrors) return pixel;
+  const int open = std::popcount(canvas.open[y]);
+  int painted = kPixelParts - open - std::popcount(canvas.mirror[y] & kAllParts);
+  float sums[3] = {canvas.red[y], canvas.green[y], canvas.blue[y]};
+  const bool isReal = canvas.source[y] != 0 || (mirrors && painted > 0);
+  if (open > 0 && inverseZDepthOf(pixel) >= 0) {
+    for (int i = 0; i < 3; ++i) {
+      const float code = float(pixel >> (8 * i) & 255);
+      sums[i] += code * code * (float(open) * canvas.clear[y]);
+    }
+    painted += open;
+  } else if (!isReal) {
+    return pixel;
+  }
+  if (painted <= 0) return pixel;
+  std::uint32_t colour = 0;
+  for (int i = 0; i < 3; ++i)
+    colour |= std::uint32_t(std::min(std::sqrt(sums[i] / float(painted)) + 0.5f, 255.0f)) << (8 * i);
+  const std::uint32_t slot = canvas.source[y] != 0 ? canvas.source[y] >> 8 : std::max(slotOf(pixel), 1u);
+  return canvasPixel(colour | slot << 24, canvas.source[y] != 0 ? canvas.inverseZDepth[y] : 0);
+}
+
+TEST(PatchKernel, SettlesAndReopensAsPixelByPixel) {
+  std::mt19937 random(11);
+  constexpr int kCount = 37;  // no multiple of lanes
+  constexpr std::uint32_t kFront = 4;
+  for (int trial = 0; trial < 100; ++trial) {
+    CanvasColumn canvas(kCount);
+    std::vector<CanvasPixel> pixels(kCount);
+    for (std::size_t y = 0; y < kCount; ++y) {
+      const bool hasMirror = random() % 4 == 0, touched = random() % 3 != 0;
+      const std::uint32_t covered = touched ? random() & kAllParts : 0;
+      canvas.open[y] = random() % 6 == 0 ? 0 : kAllParts & ~covered;
+      canvas.source[y] = covered != 0 ? (1 + random() % 9) << 8 | std::uint32_t(std::popcount(covered)) : 0;
+      canvas.mirror[y] = hasMirror ? (1 + random() % 3) << 16 | (random() & covered) : 0;
+      for (auto* sums : {&canvas.red, &canvas.green, &canvas.blue})
+        (*sums)[y] = covered != 0 ? float(random() % (255 * 255 * 8)) : 0;
+      canvas.clear[y] = float(random() % 256) / 255;
+      canvas.inverseZDepth[y] = float(random() % 1000) / 100;
+      const bool isEmpty = random() % 3 == 0;
+      pixels[y] = isEmpty ? kEmptyPixel : canvasPixel(std::uint32_t(random()), float(random() % 100) / 10);
+    }
+    for (const Kernels& kernels : supportedKernels())
+      for (const bool mirrors : {false, true}) {
+        std::vector<CanvasPixel> drawn = pixels;
+        kernels.patches->settle(canvas.view(), mirrors, drawn.data());
+        for (std::size_t y = 0; y < kCount; ++y)
+          ASSERT_EQ(drawn[y], settled(canvas, y, mirrors, pixels[y])) << kernels.name << ", row " << y;
+
+        CanvasColumn again = canvas;
+        kernels.patches->reopen(again.view(), kFront, pixels.data());
+        for (std::size_t y = 0; y < kCount; ++y) {
+          const bool waits = canvas.mirror[y] != 0;
+          const bool wasClosed = canvas.open[y] == 0 && canvas.source[y] == 0;
+          const std::uint32_t open = slotOf(pixels[y]) < kFront && !wasClosed ? kAllParts : 0;
+          ASSERT_EQ(again.open[y], waits ? canvas.open[y] : open) << kernels.name << ", row " << y;
+          ASSERT_EQ(again.source[y], waits ? canvas.source[y] : 0) << kernels.name << ", row " << y;
+          ASSERT_EQ(again.green[y], waits ? canvas.green[y] : 0) << kernels.name << ", row " << y;
+          ASSERT_EQ(again.clear[y], waits ? canvas.clear[y] : 1) << kernels.name << ", row " << y;
+        }
+      }
+  }
+}
+
+TEST(PolygonRows, HoldEveryRowThatThePolygonTouches) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-20, 120);
+  std::vector<RowRange> rows;
+  int seen = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const glm::dvec2 a(place(random), place(random)), b(place(random), place(random)),
+        c(place(random), place(random));
+    const std::array<glm::dvec3, 3> corners{{{2.0 * a, 2}, {b, 1}, {3.0 * c, 3}}};
+    PolygonRows polygon;
+    if (!polygon.set(corners, 100, 80)) continue;
+    polygon.rows(polygon.x0(), polygon.x1(), rows);
+    std::vector<RowRange> touched(std::size_t(polygon.x1() - polygon.x0()), {80, 0});
+    constexpr int kSteps = 300;
+    for (int i = 0; i <= kSteps; ++i)
+      for (int j = 0; i + j <= kSteps; ++j) {
+        const glm::dvec2 q = a + double(i) / kSteps * (b - a) + double(j) / kSteps * (c - a);
+        if (q.x < 0 || q.x >= 100 || q.y < 0 || q.y >= 80) continue;
+        ASSERT_GE(int(q.x), polygon.x0());
+        ASSERT_LT(int(q.x), polygon.x1());
+        RowRange& all = touched[std::size_t(int(q.x) - polygon.x0())];
+        all.first = std::min(all.first, int(q.y)), all.end = std::max(all.end, int(q.y) + 1);
+      }
+    for (std::size_t x = 0; x < rows.size(); ++x)
+      if (touched[x].first < touched[x].end) {
+        ASSERT_LE(rows[x].first, touched[x].first) << "trial " << trial << ", column " << x;
+        ASSERT_GE(rows[x].end, touched[x].end) << "trial " << trial << ", column " << x;
+        ++seen;
+      }
+  }
+  EXPECT_GT(seen, 2000);
 }
 
 }  // namespace
