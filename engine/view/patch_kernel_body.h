@@ -180,7 +180,7 @@ struct Kernel {
   }
   static F limited(F value) { return B::min(B::max(value, B::set(-1e6f)), B::set(1e6f)); }
 
-  /// Parts of the `wanted` pixels that the patch covers.
+  /// Parts of pixels that the patch covers; whether their texels are few is asked of the `wanted` ones alone.
   I partsOf(const Places<B>& places, M wanted) const {
     I columns[kPixelParts], rows[kPixelParts];  // in parts of texels
     for (int part = 0; part < kPixelParts; ++part) {
@@ -313,10 +313,10 @@ struct Kernel {
     const M inner =
         isWanted(cover) & B::greater(B::both(cover, B::seti(std::int32_t(kTexelInner))), B::seti(0));
     I parts = B::when(inner, open);
-    if (B::any(B::greater(B::different(parts, open), B::seti(0)))) {
+    const M byEdges = B::greater(B::different(parts, open), B::seti(0));
+    if (B::any(byEdges)) {
       differentiate(x, slope, stretch, height, places);
-      parts = B::select(inner, parts,
-                        B::both(partsOf(places, B::greater(B::different(parts, open), B::seti(0))), open));
+      parts = B::select(inner, parts, B::both(partsOf(places, byEdges), open));
     }
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
