@@ -244,7 +244,7 @@ class Strip {
     before_[to].push_back({from, weight});
   }
 
-  /// Those that may hide others first. Where they hide each other in a ring, the order that breaks little: by
+  /// Those that may hide others first. Where they hide each other in a ring, an order that breaks little: by
   /// Eades, Lin and Smyth (1993), what hides nothing that is left goes last, what nothing hides first, and
   /// if there is neither, first that which is hidden least for what it hides.
   std::vector<std::uint32_t> orderPatches() {
@@ -276,28 +276,25 @@ class Strip {
       for (const Edge& edge : before_[i])
         if ((hides[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) last.push_back(edge.patch);
     };
+    const auto isHiddenLess = [&](std::uint32_t a, std::uint32_t b) {
+      return double(hidden[a]) * hides[b] < double(hidden[b]) * hides[a];
+    };
     while (order.size() + reversed.size() < count) {
       std::uint32_t next = kNone;
-      if (!free.empty()) {
-        next = free.top();
-        free.pop();
-      } else if (!last.empty()) {
+      const bool goesLast = free.empty() && !last.empty();
+      if (goesLast) {
         next = last.back();
         last.pop_back();
-        if (done[next] != 0) continue;
-        reversed.push_back(next);
-        take(next);
-        continue;
+      } else if (!free.empty()) {
+        next = free.top();
+        free.pop();
       } else {
-        const auto isHiddenLess = [&](std::uint32_t a, std::uint32_t b) {
-          return double(hidden[a]) * hides[b] < double(hidden[b]) * hides[a];
-        };
         for (std::uint32_t i = 0; i < count; ++i)
           if (done[i] == 0 && (next == kNone || isHiddenLess(i, next))) next = i;
         ++out_.unordered;
       }
       if (done[next] != 0) continue;
-      order.push_back(next);
+      (goesLast ? reversed : order).push_back(next);
       take(next);
     }
     order.insert(order.end(), reversed.rbegin(), reversed.rend());

@@ -140,6 +140,34 @@ struct EightLanes {
     first = {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index.v, 8)};
     second = {_mm256_i32gather_epi32(reinterpret_cast<const int*>(table + 1), index.v, 8)};
   }
+
+  static __m256i firstPairs(int count) {
+    return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3));
+  }
+  static void loadPairs(const std::uint64_t* p, int count, I& low, I& high) {
+    const auto* from = reinterpret_cast<const long long*>(p);
+    const __m256i first = _mm256_maskload_epi64(from, firstPairs(count));
+    const __m256i second = _mm256_maskload_epi64(from + 4, firstPairs(count - 4));
+    const auto half = [&](auto shuffled) {
+      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(shuffled), 0xd8)};
+    };
+    low = half(_mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), 0x88));
+    high = half(_mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), 0xdd));
+  }
+  static __m256i pairsOf(I low, I high, bool upper) {
+    const __m256i first = _mm256_unpacklo_epi32(low.v, high.v), second = _mm256_unpackhi_epi32(low.v, high.v);
+    return upper ? _mm256_permute2x128_si256(first, second, 0x31)
+                 : _mm256_permute2x128_si256(first, second, 0x20);
+  }
+  static void storePairs(std::uint64_t* p, I low, I high) {
+    __m256i* const to = reinterpret_cast<__m256i*>(p);
+    _mm256_storeu_si256(to, pairsOf(low, high, false)), _mm256_storeu_si256(to + 1, pairsOf(low, high, true));
+  }
+  static void storePairs(std::uint64_t* p, I low, I high, int count) {
+    auto* const to = reinterpret_cast<long long*>(p);
+    _mm256_maskstore_epi64(to, firstPairs(count), pairsOf(low, high, false));
+    _mm256_maskstore_epi64(to + 4, firstPairs(count - 4), pairsOf(low, high, true));
+  }
 };
 
 }  // namespace

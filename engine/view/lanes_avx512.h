@@ -148,6 +148,21 @@ struct SixteenLanes {
     first = {_mm512_i32gather_epi32(index.v, table, 8)};
     second = {_mm512_i32gather_epi32(index.v, table + 1, 8)};
   }
+
+  static void loadPairs(const std::uint64_t* p, int count, I& low, I& high) {
+    const __m512i first = _mm512_maskz_loadu_epi64(__mmask8(firstLanes(count)), p);
+    const __m512i second = _mm512_maskz_loadu_epi64(__mmask8(firstLanes(count) >> 8), p + 8);
+    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    low = {_mm512_permutex2var_epi32(first, even, second)};
+    high = {_mm512_permutex2var_epi32(first, (I{even} + seti(1)).v, second)};
+  }
+  static void storePairs(std::uint64_t* p, I low, I high) { storePairs(p, low, high, kWidth); }
+  static void storePairs(std::uint64_t* p, I low, I high, int count) {
+    const __m512i lanes = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    _mm512_mask_storeu_epi64(p, __mmask8(firstLanes(count)), _mm512_permutex2var_epi32(low.v, lanes, high.v));
+    _mm512_mask_storeu_epi64(p + 8, __mmask8(firstLanes(count) >> 8),
+                             _mm512_permutex2var_epi32(low.v, (I{lanes} + seti(8)).v, high.v));
+  }
 };
 
 }  // namespace

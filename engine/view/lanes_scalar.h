@@ -101,6 +101,15 @@ struct OneLane {
     first = static_cast<I>(table[2 * std::ptrdiff_t(index)]);
     second = static_cast<I>(table[2 * std::ptrdiff_t(index) + 1]);
   }
+
+  /// Words of 64 bits, as their low and high halves; the first `count` lanes as above, or all.
+  static void loadPairs(const std::uint64_t* p, int, I& low, I& high) {
+    low = static_cast<I>(static_cast<std::uint32_t>(*p)), high = static_cast<I>(*p >> 32);
+  }
+  static void storePairs(std::uint64_t* p, I low, I high) {
+    *p = static_cast<std::uint32_t>(low) | std::uint64_t(static_cast<std::uint32_t>(high)) << 32;
+  }
+  static void storePairs(std::uint64_t* p, I low, I high, int) { storePairs(p, low, high); }
 };
 
 }  // namespace

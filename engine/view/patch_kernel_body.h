@@ -18,6 +18,12 @@ struct Places {
   typename B::F columnAcross, rowAcross, columnDown, rowDown;  ///< to the next pixel right and below
 };
 
+/// Of words whose highest bit is 0.
+template <class B>
+typename B::M isZero(typename B::I v) {
+  return B::greater(B::seti(1), v);
+}
+
 /// How many parts.
 template <class B>
 typename B::I countOf(typename B::I v) {
@@ -57,11 +63,6 @@ void findCells(const PatchCanvasColumn& canvas, bool reflections) {
     const bool open = isOpen<B>(first, end < canvas.rows ? end : canvas.rows, canvas, reflections);
     *canvas.cells |= std::uint64_t(open) << (first >> canvas.cellShift);
   }
-}
-
-template <class B>
-typename B::M isZero(typename B::I v) {  // bits below 31
-  return B::greater(B::seti(1), v);
 }
 
 template <class B>
@@ -286,7 +287,7 @@ struct Kernel {
   I openTo(I open, I mirror) const {
     if (!c.reflects) return open;
     const I other = B::different(B::template shiftRight<16>(mirror), B::seti(std::int32_t(c.mirror)));
-    return B::when(B::greater(B::seti(1), other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
+    return B::when(isZero<B>(other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
   }
 
   int paintBatch(int y0, int count, const PatchCanvasColumn& canvas) const {

@@ -21,7 +21,8 @@ class PatchPainter {
         canvas_(canvas) {
     const std::size_t room = canvas.pixels.size() + kPatchRoom;
     memory.open.assign(room, kAllParts);
-    for (auto* words : {&memory.source, &memory.mirror}) words->assign(room, 0);
+    memory.source.assign(room, 0);
+    if (mirrors_) memory.mirror.assign(room, 0);
     for (auto* sums : {&memory.red, &memory.green, &memory.blue}) sums->assign(room, 0);
     memory.clear.assign(room, 1);
     memory.inverseZDepth.resize(room);
@@ -47,8 +48,7 @@ class PatchPainter {
     if (!plan_.behind.empty()) {
       Cracks cracks;
       cracks.open(canvas_, plan_.frontSlot);
-      for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
-        kernel_.reopen(canvasColumn(x), plan_.frontSlot, canvas_.column(x));
+      forColumns([&](int x) { kernel_.reopen(canvasColumn(x), plan_.frontSlot, canvas_.column(x)); });
       paint(plan_.behind);
       settle(false);
       cracks.close(canvas_);
@@ -62,16 +62,19 @@ class PatchPainter {
   }
 
  private:
+  template <class Each>
+  void forColumns(const Each& each) const {
+    for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x) each(x);
+  }
+
   void paint(const std::vector<StripDraw>& strips, bool reflections = false) {
-    for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
-      kernel_.findCells(canvasColumn(x), reflections);
+    forColumns([&](int x) { kernel_.findCells(canvasColumn(x), reflections); });
     for (const StripDraw& strip : strips)
       for (const PatchDraw& draw : strip.patches) paint(strip, draw);
   }
 
   void settle(bool mirrors) {
-    for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x)
-      kernel_.settle(canvasColumn(x), mirrors, canvas_.column(x));
+    forColumns([&](int x) { kernel_.settle(canvasColumn(x), mirrors, canvas_.column(x)); });
   }
 
   /// Those that hold rows of [first, end).

@@ -52,12 +52,6 @@ struct WarpLanes : EightLanes {
   }
   static I together(I kept, I lanes) { return {_mm256_permutevar8x32_epi32(lanes.v, kept.v)}; }
   static void storeAll(std::uint32_t* p, I a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
-  static void storePairs(std::uint64_t* p, I low, I high) {
-    const __m256i first = _mm256_unpacklo_epi32(low.v, high.v), second = _mm256_unpackhi_epi32(low.v, high.v);
-    __m256i* const to = reinterpret_cast<__m256i*>(p);
-    _mm256_storeu_si256(to, _mm256_permute2x128_si256(first, second, 0x20));
-    _mm256_storeu_si256(to + 1, _mm256_permute2x128_si256(first, second, 0x31));
-  }
 };
 
 }  // namespace

@@ -34,11 +34,6 @@ struct WarpLanes : SixteenLanes {
   /// Those lanes first, one after the other; zeros behind them.
   static I together(M kept, I lanes) { return {_mm512_maskz_compress_epi32(kept.v, lanes.v)}; }
   static void storeAll(std::uint32_t* p, I a) { _mm512_storeu_si512(p, a.v); }
-  static void storePairs(std::uint64_t* p, I low, I high) {
-    const __m512i lanes = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-    _mm512_storeu_si512(p, _mm512_permutex2var_epi32(low.v, lanes, high.v));
-    _mm512_storeu_si512(p + 8, _mm512_permutex2var_epi32(low.v, (I{lanes} + seti(8)).v, high.v));
-  }
 };
 
 }  // namespace

@@ -26,9 +26,6 @@ struct WarpLane : OneLane {
   static M kept(M accepted) { return accepted; }
   static I together(M, I lane) { return lane; }
   static void storeAll(std::uint32_t* p, I a) { *p = static_cast<std::uint32_t>(a); }
-  static void storePairs(std::uint64_t* p, I low, I high) {
-    *p = static_cast<std::uint32_t>(low) | std::uint64_t(static_cast<std::uint32_t>(high)) << 32;
-  }
 };
 
 }  // namespace
