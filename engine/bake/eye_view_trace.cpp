@@ -187,6 +187,7 @@ std::shared_ptr<const EyeView> EyeView::trace(const RayScene& scene, const glm::
   view->held_ = std::move(held);
   MapTrace(scene, eye, elevations, view->lattice_, view->inverseZ_).run(runner, rays, stop);
   if (stop.stop_requested()) return nullptr;
+  view->hiddenBelow_ = HiddenMap(view->lattice_, view->inverseZ_);
   return view;
 }
 

@@ -6,9 +6,6 @@
 namespace acentric {
 namespace {
 
-/// Of an inverse distance: what is farther than this behind the surface of the map is behind it, wherever
-/// between four rays the point lies.
-constexpr double kBehind = 1e-2;
 /// Four rays show one plane when they depart from it by no more than this share.
 constexpr double kFlat = 4e-3;
 /// Of the limit: one part in so many.
@@ -16,7 +13,29 @@ constexpr std::size_t kSightShare = 3;
 
 }  // namespace
 
-std::size_t EyeView::bytesOf(int texelsPerEdge) { return CubeLattice(texelsPerEdge).size() * sizeof(float); }
+HiddenMap::HiddenMap(const CubeLattice& lattice, const std::vector<float>& inverseZ)
+    : below_(sizeOf(lattice.side()), 0) {
+  const int side = lattice.side(), across = tilesAcross(side), down = tilesDown(side);
+  for (int face = 0; face < CubeLattice::kFaces; ++face)
+    for (int row = 0; row < side; ++row) {
+      const float* low = inverseZ.data() + lattice.index(face, 0, row);
+      const float* high = low + lattice.cornersPerEdge();
+      for (int column = 0; column < side; ++column) {
+        const float least =
+            std::min({low[column], low[column + 1], high[column], high[column + 1]}) * float(1 - kBehind);
+        const int tile = (face * down + row / kTileRows) * across + column / kTileColumns;
+        const int within = row % kTileRows * kTileColumns + column % kTileColumns;
+        if (least > 0)
+          below_[std::size_t(tile * kTileRows * kTileColumns + within)] =
+              std::uint16_t(std::bit_cast<std::uint32_t>(least) >> 16);
+      }
+    }
+}
+
+std::size_t EyeView::bytesOf(int texelsPerEdge) {
+  return CubeLattice(texelsPerEdge).size() * sizeof(float) +
+         HiddenMap::sizeOf(texelsPerEdge) * sizeof(std::uint16_t);
+}
 
 EyeView::EyeView(const glm::dvec3& eye, int texelsPerEdge)
     : eye_(eye), lattice_(texelsPerEdge), inverseZ_(lattice_.size(), -1.0f) {}

@@ -6,6 +6,7 @@
 /// four neighbouring rays; where they disagree, along edges, the point itself is traced. The map itself is
 /// traced coarsely first, and finer where neighbours do not show one plane.
 
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
@@ -25,9 +26,36 @@ namespace acentric {
 /// not tell them apart.
 inline constexpr double kSameSurface = 2e-3;
 
+/// Of an inverse distance: what is farther than this behind the surface of a map is behind it, wherever
+/// between four rays the point lies.
+inline constexpr double kBehind = 1e-2;
+
 /// Elevations, radians.
 struct ElevationRange {
   double bottom = 0, top = 0;
+};
+
+/// A map made to tell quickly what lies hidden: by texel below which inverse distance all does, in 16 bits,
+/// rounded down.
+class HiddenMap {
+ public:
+  HiddenMap() = default;
+  /// Of a map (EyeView).
+  HiddenMap(const CubeLattice& lattice, const std::vector<float>& inverseZ);
+
+  /// Texels lie in tiles as large as a cache line, since one point after the other is asked about.
+  static constexpr int kColumnBits = 3, kTileColumns = 1 << kColumnBits, kRowBits = 2,
+                       kTileRows = 1 << kRowBits;
+  static int tilesAcross(int side) { return (side + kTileColumns - 1) / kTileColumns; }
+  static int tilesDown(int side) { return (side + kTileRows - 1) / kTileRows; }
+  static std::size_t sizeOf(int side) {
+    return std::size_t(CubeLattice::kFaces * tilesAcross(side) * tilesDown(side)) * kTileColumns * kTileRows;
+  }
+  const std::uint16_t* data() const { return below_.data(); }
+  static float valueOf(std::uint16_t below) { return std::bit_cast<float>(std::uint32_t(below) << 16); }
+
+ private:
+  std::vector<std::uint16_t> below_;  ///< the upper halves of floats
 };
 
 class EyeView {
@@ -60,6 +88,9 @@ class EyeView {
   }
 
   const glm::dvec3& eye() const { return eye_; }
+  bool isUntraced() const { return lattice_.side() == 1; }
+  /// By texel, see HiddenMap: 0 where nothing is known.
+  const HiddenMap& hiddenBelow() const { return hiddenBelow_; }
   const CubeLattice& lattice() const { return lattice_; }
   std::size_t bytes() const { return bytesOf(lattice_.side()); }
   static std::size_t bytesOf(int texelsPerEdge);
@@ -71,6 +102,7 @@ class EyeView {
   CubeLattice lattice_;
   /// By corner: one over the distance along the face's axis; 0: nothing there; < 0: not looked at.
   std::vector<float> inverseZ_;
+  HiddenMap hiddenBelow_;
   MemoryBudget::Share held_;
 };
 

@@ -126,7 +126,8 @@ std::optional<MirrorSight::Seen> MirrorSight::sees(std::size_t role, const FlatM
                  rays);
     return seen.has_value();
   };
-  const Side side = sight_->sideSeen(role, surface, hints, ImageIn{mirror}, seesIt);
+  const Side side =
+      sight_->sideSeen(role, surface, hints, ImageIn{mirror}, seesIt, [](std::size_t) { return false; });
   if (seen) seen->side = side;
   return seen;
 }
@@ -144,7 +145,7 @@ std::optional<MirrorSight::Seen> MirrorSight::seesAlong(std::size_t role, const 
   if (!(slope > kLeastSlope)) return std::nullopt;
   const glm::vec3 onwards(mirror.reflected(direction));
   std::optional<Seen> seen;
-  sight_->any(role, hints, [&](const EyeView& view) {
+  sight_->any(role, hints, [&](const EyeView& view, std::size_t) {
     const double height = mirror.height(view.eye());
     if (!(height > lift)) return false;
     const glm::dvec3 at = view.eye() + height / slope * direction;

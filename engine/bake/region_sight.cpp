@@ -1,5 +1,7 @@
 #include "engine/bake/region_sight.h"
 
+#include <utility>
+
 namespace acentric {
 
 std::optional<RegionSight> RegionSight::look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
@@ -13,20 +15,21 @@ std::optional<RegionSight> RegionSight::look(const RayScene& scene, const Layout
     if (former == nullptr || former->region != role.region) {
       const auto region = testEyes.of(role.polygon, role.grown, eyeZ, runner, rays, stop);
       if (!region) return std::nullopt;
-      sight.eyes_.emplace_back();
+      std::vector<std::shared_ptr<const EyeView>> eyes;
       for (const glm::dvec3& eye : region->eyes) {
         auto view = views.at(eye, runner, rays, stop);
         if (!view) return std::nullopt;
-        sight.eyes_.back().push_back(std::move(view));
+        eyes.push_back(std::move(view));
       }
       std::shared_ptr<const RegionSky> sky;  // of no eyes: none
-      if (const auto& eyes = sight.eyes_.back(); !eyes.empty()) {
+      if (!eyes.empty()) {
         sky = skies.at(role.polygon, eyeZ, eyes, runner, rays, stop);
         if (!sky) return std::nullopt;
       }
       sight.skies_.push_back(std::move(sky));
+      sight.groups_.emplace_back(std::move(eyes));
     }
-    sight.region_.push_back(sight.eyes_.size() - 1);
+    sight.region_.push_back(sight.groups_.size() - 1);
     former = &role;
   }
   return sight;
@@ -41,12 +44,13 @@ RegionSight RegionSight::untraced(const RayScene& scene, const LayoutCamera& cam
   const Role* former = nullptr;
   for (const Role& role : camera.roles) {
     if (former == nullptr || former->region != role.region) {
-      sight.eyes_.emplace_back();
+      std::vector<std::shared_ptr<const EyeView>> eyes;
       for (const glm::dvec3& eye : testEyes.of(role.polygon, role.grown, eyeZ, inline_, rays)->eyes)
-        sight.eyes_.back().push_back(EyeView::untraced(eye));
+        eyes.push_back(EyeView::untraced(eye));
+      sight.groups_.emplace_back(std::move(eyes));
       sight.skies_.emplace_back();
     }
-    sight.region_.push_back(sight.eyes_.size() - 1);
+    sight.region_.push_back(sight.groups_.size() - 1);
     former = &role;
   }
   return sight;
@@ -61,28 +65,41 @@ RegionSight RegionSight::withEyes(int count, const LayoutCamera& camera, double 
   for (std::size_t role = 0; role < camera.roles.size(); ++role) {
     if (former != nullptr && former->region == camera.roles[role].region) continue;
     former = &camera.roles[role];
-    const std::vector<glm::dvec3> eyes = placedEyes(former->polygon, eyeZ, settings);
-    for (std::size_t i = std::size_t(placed); i < eyes.size(); ++i)
-      more.eyes_[region_[role]].push_back(EyeView::untraced(eyes[i]));
+    const std::vector<glm::dvec3> places = placedEyes(former->polygon, eyeZ, settings);
+    EyeGroup& group = more.groups_[region_[role]];
+    auto eyes = group.eyes();
+    for (std::size_t i = std::size_t(placed); i < places.size(); ++i)
+      eyes.push_back(EyeView::untraced(places[i]));
+    group = EyeGroup(std::move(eyes));
   }
   return more;
 }
 
 std::vector<glm::dvec3> RegionSight::eyes() const {
   std::vector<glm::dvec3> eyes;
-  for (const auto& region : eyes_)
-    for (const auto& view : region) eyes.push_back(view->eye());
+  for (const EyeGroup& region : groups_)
+    for (const auto& view : region.eyes()) eyes.push_back(view->eye());
   return eyes;
 }
 
 Side RegionSight::sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
                        RayCounts& rays) const {
+  const EyeGroup& group = groups_[region_[role]];
+  const glm::dvec3& point = surface.point();
+  bool askedOne = false, askedAll = false;
+  const auto isHidden = [&](std::size_t eye) {
+    // The one that answered last mostly does again.
+    if (group.isUntraced() || !std::exchange(askedOne, true)) return false;
+    if (!std::exchange(askedAll, true)) group.findHidden(point, hints.hidden);
+    return hints.hidden[eye] != 0;
+  };
   return sideSeen(
       role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
       [&](const EyeView& view, bool closely) {
-        return closely ? seesClosely(*scene_, view, surface.point(), rays)
-                       : seesPoint(*scene_, view, surface.point(), tolerance, rays);
-      });
+        return closely ? seesClosely(*scene_, view, point, rays)
+                       : seesPoint(*scene_, view, point, tolerance, rays);
+      },
+      isHidden);
 }
 
 bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints,
@@ -91,7 +108,7 @@ bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints
   if (sky == nullptr) return false;
   const EyeView::Sees shown = sky->looksAlong(direction);
   if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
-  return any(role, hints, [&](const EyeView& view) {
+  return any(role, hints, [&](const EyeView& view, std::size_t) {
     ++rays.visibility;
     return !std::isfinite(scene_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
   });

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
+#include <utility>
 
 #include "engine/geometry/conventions.h"
 
@@ -24,6 +25,7 @@ int atMost(int samples, double angle, double pitch) { return std::clamp(int(angl
 /// What ordering wants to know of a patch.
 struct Extent {
   std::array<glm::vec3, 8> corners{};       ///< of an octagon around it, relative to P
+  std::array<float, 8> perSlack{};          ///< one over by how much each may be off a plane unnoticed
   float nearest = 0, farthest = HUGE_VALF;  ///< largest and smallest inverse distance
 };
 
@@ -143,46 +145,63 @@ class Strip {
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       const SurfacePlane& plane = patches_[i].plane;
       Extent extent;
+      std::array<glm::ivec2, 8> far;
+      std::array<int, 8> most;
+      most.fill(INT_MIN);
       for (const Member& member : members_[i]) {
+        for (std::size_t way = 0; way < kWays.size(); ++way)
+          if (const int along = kWays[way].x * member.column + kWays[way].y * member.row; along > most[way])
+            most[way] = along, far[way] = {member.column, member.row};
         const float inverse = float(inverseAt(plane, member.column, member.row));
         extent.nearest = std::max(extent.nearest, inverse);
         extent.farthest = std::min(extent.farthest, std::max(inverse, 0.0f));
       }
       for (std::size_t way = 0; way < kWays.size(); ++way) {
-        const auto far = std::ranges::max_element(members_[i], {}, [&](const Member& member) {
-          return kWays[way].x * member.column + kWays[way].y * member.row;
-        });
-        const glm::dvec2 at = glm::dvec2(far->column + 0.5, far->row + 0.5) + 0.5 * glm::dvec2(kWays[way]);
+        const glm::dvec2 at = glm::dvec2(far[way]) + 0.5 + 0.5 * glm::dvec2(kWays[way]);
         const glm::vec3 direction(camera_.directionAt(at.x), camera_.tangentAt(at.y));
         const float inverse = std::max(glm::dot(plane.normal, direction), kHorizon * extent.nearest);
         extent.corners[way] = direction / std::max(inverse, 1e-6f);
+        extent.perSlack[way] = 1 / (float(tolerance_) * glm::length(glm::vec2(extent.corners[way])) + 1e-5f);
       }
       extents_.push_back(extent);
     }
   }
 
-  static std::uint64_t pair(std::uint32_t a, std::uint32_t b) { return std::uint64_t(a) << 32 | b; }
-
   /// In how many parts of pixels the one of two patches lies before the other, as the camera sees them.
+  struct Votes {
+    std::uint32_t first = 0, second = 0;  ///< patches, first < second
+    int before = 0, behind = 0;           ///< where the first lies before the second, or behind it
+  };
   void countVotes() {
+    std::vector<Votes> all;
+    std::vector<std::size_t> last, now;  // of the pixel before: mostly the same patches lie in this one
     for (int column = first_; column < end_; ++column)
       for (int row = 0; row < camera_.rows; ++row) {
-        const auto all = pixels_.at(column, row);
-        for (const std::uint32_t a : all)
-          for (std::uint32_t b = a + 1; b < *all.end(); ++b) {
+        now.clear();
+        const auto pixel = pixels_.at(column, row);
+        for (const std::uint32_t a : pixel)
+          for (std::uint32_t b = a + 1; b < *pixel.end(); ++b) {
             const int shared = std::popcount(std::uint16_t(samples_.coverage[a] & samples_.coverage[b]));
             if (shared == 0 || planeOf(a).away != 0 || planeOf(b).away != 0) continue;
             const bool aFirst = inverseAt(planeOf(a), column, row) >= inverseAt(planeOf(b), column, row);
-            if (aFirst)
-              votes_[pair(owner(a), owner(b))] += shared;
-            else
-              votes_[pair(owner(b), owner(a))] += shared;
+            const std::uint32_t before = owner(aFirst ? a : b), behind = owner(aFirst ? b : a);
+            const auto [first, second] = std::minmax(before, behind);
+            std::size_t at = now.size() < last.size() ? last[now.size()] : all.size();
+            if (at == all.size() || all[at].first != first || all[at].second != second) {
+              at = all.size();
+              all.push_back({first, second, 0, 0});
+            }
+            (before < behind ? all[at].before : all[at].behind) += shared;
+            now.push_back(at);
           }
+        std::swap(last, now);
       }
-  }
-  int votes(std::uint32_t before, std::uint32_t behind) const {
-    const auto found = votes_.find(pair(before, behind));
-    return found == votes_.end() ? 0 : found->second;
+    std::ranges::sort(all, {}, [](const Votes& v) { return std::pair(v.first, v.second); });
+    for (const Votes& one : all) {
+      if (votes_.empty() || votes_.back().first != one.first || votes_.back().second != one.second)
+        votes_.push_back({one.first, one.second, 0, 0});
+      votes_.back().before += one.before, votes_.back().behind += one.behind;
+    }
   }
 
   /// Does some of `b` lie on the eye's side of a's plane, and some beyond it?
@@ -192,14 +211,15 @@ class Strip {
   };
   Sides sidesOf(std::uint32_t a, std::uint32_t b) const {
     const SurfacePlane& plane = patches_[a].plane;
+    const Extent& extent = extents_[b];
     const float towardsEye = plane.away != 0 ? 1.0f : -1.0f;
     Sides sides;
-    for (const glm::vec3& corner : extents_[b].corners) {
-      const float side = towardsEye * (glm::dot(plane.normal, corner) - 1);
-      const float slack = float(tolerance_) * glm::length(glm::vec2(corner)) + 1e-5f;
-      sides.before = sides.before || side > slack;
-      sides.beyond = sides.beyond || side < -slack;
-      sides.mean += side / slack;
+    for (std::size_t way = 0; way < extent.corners.size(); ++way) {
+      const float side =
+          towardsEye * (glm::dot(plane.normal, extent.corners[way]) - 1) * extent.perSlack[way];
+      sides.before |= side > 1;
+      sides.beyond |= side < -1;
+      sides.mean += side;
     }
     return sides;
   }
@@ -222,10 +242,10 @@ class Strip {
     std::uint32_t patch = 0;
     int weight = 0;
   };
-  void addOrder(std::uint32_t i, std::uint32_t j) {
+  /// `ij`, `ji`: votes for i before j, and for j before i.
+  void addOrder(std::uint32_t i, std::uint32_t j, int ij, int ji) {
     const Sides ofJ = sidesOf(i, j), ofI = sidesOf(j, i);
     const bool iHides = ofI.before && ofJ.beyond, jHides = ofJ.before && ofI.beyond;
-    const int ij = votes(i, j), ji = votes(j, i);
     bool iFirst = iHides;
     if (iHides == jHides) {
       if (ij != ji)
@@ -250,9 +270,13 @@ class Strip {
   std::vector<std::uint32_t> orderPatches() {
     const std::uint32_t count = std::uint32_t(patches_.size());
     after_.assign(count, {}), before_.assign(count, {});
+    auto votes = votes_.begin();
     for (std::uint32_t i = 0; i < count; ++i)
-      for (std::uint32_t j = i + 1; j < count; ++j)
-        if (!areApart(i, j)) addOrder(i, j);
+      for (std::uint32_t j = i + 1; j < count; ++j) {
+        const bool hasVotes = votes != votes_.end() && votes->first == i && votes->second == j;
+        if (!areApart(i, j)) addOrder(i, j, hasVotes ? votes->before : 0, hasVotes ? votes->behind : 0);
+        if (hasVotes) ++votes;
+      }
     std::vector<int> hides(count, 0), hidden(count, 0);
     const auto farther = [&](std::uint32_t a, std::uint32_t b) {
       return extents_[a].nearest != extents_[b].nearest ? extents_[a].nearest < extents_[b].nearest : a > b;
@@ -314,7 +338,7 @@ class Strip {
   std::vector<Patch> patches_;
   std::vector<std::vector<Member>> members_;
   std::vector<Extent> extents_;
-  std::unordered_map<std::uint64_t, int> votes_;
+  std::vector<Votes> votes_;                       ///< by patches
   std::vector<std::vector<Edge>> after_, before_;  ///< of each patch: what must come after, and before it
   Patches& out_;
 };

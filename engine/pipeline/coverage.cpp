@@ -84,7 +84,7 @@ class BakeSight final : public CaptureSight {
     const FlushDenormals flush;
     const RegionSight& sight = sightOf(camera).ofSky;
     RegionSight::Hints hints = sight.hints();
-    return sight.any(role, hints, [&](const EyeView& view) {
+    return sight.any(role, hints, [&](const EyeView& view, std::size_t) {
       return !std::isfinite(rays_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
     });
   }
