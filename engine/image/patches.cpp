@@ -4,6 +4,8 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -19,6 +21,12 @@ constexpr double kWidestStrip = radians(4.0), kHighestTile = radians(8.0);
 
 /// Planes are taken no nearer to their horizon than where they are so much farther away than the patch.
 constexpr float kHorizon = 0.02f;
+
+/// Pairs of patches that are looked at for the order of one strip: leaves make far more. Those left out are
+/// ordered by what the camera itself sees of them, and by how near they are.
+constexpr std::size_t kMostPairs = 4'000'000;
+/// Samples of a pixel behind one that it is compared with.
+constexpr std::uint32_t kMostBehind = 64;
 
 int atMost(int samples, double angle, double pitch) { return std::clamp(int(angle / pitch), 1, samples); }
 
@@ -180,7 +188,7 @@ class Strip {
         now.clear();
         const auto pixel = pixels_.at(column, row);
         for (const std::uint32_t a : pixel)
-          for (std::uint32_t b = a + 1; b < *pixel.end(); ++b) {
+          for (std::uint32_t b = a + 1; b < std::min(*pixel.end(), a + kMostBehind); ++b) {
             const int shared = std::popcount(std::uint16_t(samples_.coverage[a] & samples_.coverage[b]));
             if (shared == 0 || planeOf(a).away != 0 || planeOf(b).away != 0) continue;
             const bool aFirst = inverseAt(planeOf(a), column, row) >= inverseAt(planeOf(b), column, row);
@@ -244,6 +252,7 @@ class Strip {
   };
   /// `ij`, `ji`: votes for i before j, and for j before i.
   void addOrder(std::uint32_t i, std::uint32_t j, int ij, int ji) {
+    if (areApart(i, j)) return;
     const Sides ofJ = sidesOf(i, j), ofI = sidesOf(j, i);
     const bool iHides = ofI.before && ofJ.beyond, jHides = ofJ.before && ofI.beyond;
     bool iFirst = iHides;
@@ -264,25 +273,62 @@ class Strip {
     before_[to].push_back({from, weight});
   }
 
-  /// Those that may hide others first. Where they hide each other in a ring, an order that breaks little: by
-  /// Eades, Lin and Smyth (1993), what hides nothing that is left goes last, what nothing hides first, and
-  /// if there is neither, first that which is hidden least for what it hides.
-  std::vector<std::uint32_t> orderPatches() {
+  /// Of pairs of patches: which goes first.
+  void findOrders() {
     const std::uint32_t count = std::uint32_t(patches_.size());
     after_.assign(count, {}), before_.assign(count, {});
-    auto votes = votes_.begin();
+    const std::vector<char> isLarge = findLarge();
+    std::vector<std::uint32_t> large;
     for (std::uint32_t i = 0; i < count; ++i)
-      for (std::uint32_t j = i + 1; j < count; ++j) {
-        const bool hasVotes = votes != votes_.end() && votes->first == i && votes->second == j;
-        if (!areApart(i, j)) addOrder(i, j, hasVotes ? votes->before : 0, hasVotes ? votes->behind : 0);
-        if (hasVotes) ++votes;
-      }
-    std::vector<int> hides(count, 0), hidden(count, 0);
+      if (isLarge[i] != 0) large.push_back(i);
+    auto vote = votes_.begin();
+    const auto voted = [&](std::uint32_t i) { return vote != votes_.end() && vote->first == i; };
+    const auto addVoted = [&] {
+      addOrder(vote->first, vote->second, vote->before, vote->behind);
+      ++vote;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto visit = [&](std::uint32_t j) {
+        while (voted(i) && vote->second < j) addVoted();
+        if (voted(i) && vote->second == j)
+          addVoted();
+        else
+          addOrder(i, j, 0, 0);
+      };
+      if (isLarge[i] != 0)
+        for (std::uint32_t j = i + 1; j < count; ++j) visit(j);
+      else
+        std::for_each(std::ranges::upper_bound(large, i), large.end(), visit);
+      while (voted(i)) addVoted();
+    }
+  }
+
+  bool looksAtEach() const { return patches_.size() * patches_.size() / 2 <= kMostPairs; }
+  /// Those that are looked at beside every other: all, or so many of the largest that it takes no longer than
+  /// kMostPairs.
+  std::vector<char> findLarge() const {
+    const std::size_t count = patches_.size();
+    if (looksAtEach()) return std::vector<char>(count, 1);
+    std::vector<std::uint32_t> bySize(count);
+    std::iota(bySize.begin(), bySize.end(), 0u);
+    std::ranges::stable_sort(bySize, std::greater<>(), [&](std::uint32_t i) { return members_[i].size(); });
+    std::vector<char> isLarge(count, 0);
+    for (std::size_t n = 0; n < kMostPairs / count; ++n) isLarge[bySize[n]] = 1;
+    return isLarge;
+  }
+
+  /// Those that may hide others first. Where they hide each other in a ring, an order that breaks little: by
+  /// Eades, Lin and Smyth (1993), what hides nothing that is left goes last, what nothing hides first, and
+  /// if there is neither, first that which is hidden least for what it hides; of too many, the nearest.
+  std::vector<std::uint32_t> orderPatches() {
+    findOrders();
+    const std::uint32_t count = std::uint32_t(patches_.size());
+    std::vector<std::int64_t> hides(count, 0), hidden(count, 0);
     const auto farther = [&](std::uint32_t a, std::uint32_t b) {
       return extents_[a].nearest != extents_[b].nearest ? extents_[a].nearest < extents_[b].nearest : a > b;
     };
     std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, decltype(farther)> free(farther);
-    std::vector<std::uint32_t> last;
+    std::vector<std::uint32_t> last, left;
     for (std::uint32_t i = 0; i < count; ++i) {
       for (const Edge& edge : after_[i]) hides[i] += edge.weight;
       for (const Edge& edge : before_[i]) hidden[i] += edge.weight;
@@ -290,7 +336,11 @@ class Strip {
         free.push(i);
       else if (hides[i] == 0)
         last.push_back(i);
+      else
+        left.push_back(i);
     }
+    const bool isEach = looksAtEach();
+    if (!isEach) std::ranges::sort(left, farther);
     std::vector<char> done(count, 0);
     std::vector<std::uint32_t> order, reversed;
     const auto take = [&](std::uint32_t i) {
@@ -301,7 +351,7 @@ class Strip {
         if ((hides[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) last.push_back(edge.patch);
     };
     const auto isHiddenLess = [&](std::uint32_t a, std::uint32_t b) {
-      return double(hidden[a]) * hides[b] < double(hidden[b]) * hides[a];
+      return double(hidden[a]) * double(hides[b]) < double(hidden[b]) * double(hides[a]);
     };
     while (order.size() + reversed.size() < count) {
       std::uint32_t next = kNone;
@@ -312,10 +362,13 @@ class Strip {
       } else if (!free.empty()) {
         next = free.top();
         free.pop();
-      } else {
-        for (std::uint32_t i = 0; i < count; ++i)
-          if (done[i] == 0 && (next == kNone || isHiddenLess(i, next))) next = i;
+      } else if (isEach) {
+        std::erase_if(left, [&](std::uint32_t i) { return done[i] != 0; });
+        next = *std::ranges::min_element(left, isHiddenLess);
         ++out_.unordered;
+      } else {
+        next = left.back();
+        left.pop_back();
       }
       if (done[next] != 0) continue;
       (goesLast ? reversed : order).push_back(next);

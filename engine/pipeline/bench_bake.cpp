@@ -20,7 +20,8 @@ namespace {
 /// What a set leaves on of the plan's effects.
 enum class BenchLight { none, hardShadows, all };
 
-/// One layer without pruning shows what the effects cost; the qualities are as a bake has them.
+/// One layer without pruning and silhouettes shows what the effects cost; the qualities are as a bake has
+/// them.
 struct Kind {
   const char* name;
   BenchLight light;
@@ -111,6 +112,7 @@ class Bench {
     BakeSettings settings = open_.project.bake;
     settings.pruning = false;
     settings.maxLayers = 1;
+    settings.silhouettes = false;
     return settings;
   }
 

@@ -99,6 +99,9 @@ class WarpBench {
   ViewSettings settingsOf(Renderer renderer) const {
     ViewSettings settings = open_.project.view;
     settings.renderer = renderer;
+    // Of the ways to draw captures this is about those that warp samples: they exist in double precision.
+    if (settings.reconstruction == Reconstruction::patches)
+      settings.reconstruction = Reconstruction::filtered;
     return settings;
   }
 

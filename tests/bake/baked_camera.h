@@ -51,10 +51,8 @@ struct Baked {
   }
 };
 
-inline Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, BakeSettings settings = {},
-                      int workers = 0) {
-  if (settings == BakeSettings{})
-    settings.samplesPerDegree = 2, settings.ambientRays = 12, settings.surfaceTexel = 0.2;
+inline Baked bakeAsSet(const RayScenePtr& scene, const LayoutCamera& camera, const BakeSettings& settings,
+                       int workers = 0) {
   Baked out;
   out.columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, settings);
   TaskRunner runner(workers);
@@ -67,6 +65,15 @@ inline Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, Bake
   EXPECT_TRUE(capture->check().has_value()) << capture->check().error().describe();
   out.capture = std::move(*capture);
   return out;
+}
+
+/// What the march along the rays of pixels keeps, without what silhouettes add beside it.
+inline Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, BakeSettings settings = {},
+                      int workers = 0) {
+  if (settings == BakeSettings{})
+    settings.samplesPerDegree = 2, settings.ambientRays = 12, settings.surfaceTexel = 0.2;
+  settings.silhouettes = false;
+  return bakeAsSet(scene, camera, settings, workers);
 }
 
 /// A room whose wall in front is at x = 6, lit by a lamp.

@@ -65,6 +65,7 @@ Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, bool prunin
   BakeSettings settings;
   settings.samplesPerDegree = 2;
   settings.pruning = pruning;
+  settings.silhouettes = false;
   const ColumnCamera columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, settings);
   TaskRunner runner(0);
   Baked baked;

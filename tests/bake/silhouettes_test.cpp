@@ -9,8 +9,8 @@
 namespace acentric {
 namespace {
 
+using test::bakeAsSet;
 using test::Baked;
-using test::bakeFrom;
 using test::cameraAt;
 using test::matte;
 using test::SceneBuilder;
@@ -73,7 +73,7 @@ int covering(const Capture& capture, int column, int row, int part) {
 
 TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
   const auto scene = blockBeforeWall().rays();
-  const Baked baked = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
   const ColumnCamera& camera = baked.columns;
   ASSERT_TRUE(baked.capture.hasSilhouettes());
   int edges = 0, missing = 0, over = 0, parts = 0;
@@ -99,7 +99,7 @@ TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
 }
 
 TEST(Silhouettes, PlanesTellHowFarTheSamplesAre) {
-  const Baked baked = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const Baked baked = bakeAsSet(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
   const Capture& capture = baked.capture;
   for (int column = 0; column < baked.columns.columns; ++column)
     for (auto i = capture.columnStart[std::size_t(column)]; i < capture.columnStart[std::size_t(column) + 1];
@@ -113,7 +113,7 @@ TEST(Silhouettes, PlanesTellHowFarTheSamplesAre) {
 
 TEST(Silhouettes, KeepEachPlaneOnceInTheOrderInWhichSamplesMeetThem) {
   const Capture capture =
-      bakeFrom(blockBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes()).capture;
+      bakeAsSet(blockBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes()).capture;
   std::uint32_t next = 0;
   for (const std::uint32_t plane : capture.plane) {
     ASSERT_LE(plane, next);
@@ -130,9 +130,9 @@ TEST(Silhouettes, OfAnEndlessWallTakeNoRays) {
   builder.box(builder.material(matte()), {4, -90, -90}, {4.5f, 90, 90});
   const auto scene = builder.rays();
   BakeSettings settings = withSilhouettes();
-  const Baked with = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  const Baked with = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), settings);
   settings.silhouettes = false;
-  const Baked without = bakeFrom(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  const Baked without = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), settings);
   EXPECT_EQ(with.rays.primary, without.rays.primary);
   EXPECT_EQ(with.capture.sampleCount(), without.capture.sampleCount());
   EXPECT_FALSE(without.capture.hasSilhouettes());
@@ -140,10 +140,10 @@ TEST(Silhouettes, OfAnEndlessWallTakeNoRays) {
 }
 
 TEST(Silhouettes, OfAPostReachIntoPixelsWhoseOwnRayPassesIt) {
-  const Baked with = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const Baked with = bakeAsSet(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
   BakeSettings settings = withSilhouettes();
   settings.silhouettes = false;
-  const Baked without = bakeFrom(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), settings);
+  const Baked without = bakeAsSet(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), settings);
   EXPECT_GT(with.capture.sampleCount(), without.capture.sampleCount());
   EXPECT_EQ(with.counts.keptInAll(), with.capture.sampleCount());
 }
@@ -156,7 +156,7 @@ TEST(Silhouettes, EndWhereNoServedRegionSeesTheSurface) {
   const auto scene = builder.rays();
   BakeSettings settings = withSilhouettes();
   settings.pruning = true;
-  const Baked baked = bakeFrom(scene, cameraAt({0, 0}, {square(0.3)}), settings);
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.3)}), settings);
   // Far behind the screen nothing of the wall is kept, in no part of a pixel.
   const int column = int(radians(5.0) / baked.columns.columnPitch());
   const int row = baked.columns.rows / 2;
@@ -169,8 +169,8 @@ TEST(Silhouettes, EndWhereNoServedRegionSeesTheSurface) {
 TEST(Silhouettes, AreTheSameForAnyNumberOfThreads) {
   const auto scene = postBeforeWall().rays();
   const LayoutCamera camera = cameraAt({0, 0}, {square(0.5)});
-  EXPECT_EQ(bakeFrom(scene, camera, withSilhouettes(), 0).capture,
-            bakeFrom(scene, camera, withSilhouettes(), 3).capture);
+  EXPECT_EQ(bakeAsSet(scene, camera, withSilhouettes(), 0).capture,
+            bakeAsSet(scene, camera, withSilhouettes(), 3).capture);
 }
 
 }  // namespace

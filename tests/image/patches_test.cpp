@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <set>
 
 #include "engine/geometry/conventions.h"
@@ -165,6 +166,40 @@ TEST(Patches, SeenFromTheirOtherSideAreOrderedForEyesThere) {
         EXPECT_LT(f, n);
       }
     }
+}
+
+/// As leaves make them, or a file that is made to take for ever: each sample a patch, more than can be
+/// compared with one another.
+TEST(Patches, OfLeavesAreOrderedByHowNearTheyAre) {
+  const ColumnCamera camera{{0, 0, 1.5}, 0, radians(3.0), radians(40.0), radians(-40.0), 32, 3000};
+  CaptureSamples capture;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> distance(3, 9);
+  capture.columnStart.push_back(0);
+  for (int column = 0; column < camera.columns; ++column) {
+    for (int row = 0; row < camera.rows; ++row) {
+      const SurfacePlane plane = wall(distance(random));
+      capture.row.push_back(std::uint16_t(row));
+      capture.inverseDistance.push_back(
+          float(plane.inverseDistance(camera.directionAt(column + 0.5), camera.tangentAt(row + 0.5))));
+      capture.colour.push_back(packColour({1, 1, 1, 1}));
+      capture.roles.push_back(1);
+      capture.coverage.push_back(kWholePixel);
+      capture.plane.push_back(std::uint32_t(capture.planes.size()));
+      capture.planes.push_back(plane);
+    }
+    capture.columnStart.push_back(std::uint32_t(capture.row.size()));
+  }
+  const Patches patches = makePatches(camera, capture, 1e-7);
+  ASSERT_EQ(patches.samples.size(), capture.sampleCount());
+  EXPECT_EQ(std::set<std::uint32_t>(patches.samples.begin(), patches.samples.end()).size(),
+            capture.sampleCount());
+  ASSERT_EQ(patches.strips(), 1u);
+  std::size_t falls = 0;
+  for (std::size_t n = 1; n < patches.samples.size(); ++n)
+    falls += capture.inverseDistance[patches.samples[n - 1]] >= capture.inverseDistance[patches.samples[n]];
+  EXPECT_GT(patches.patches.size(), 90000u);
+  EXPECT_GT(falls, patches.samples.size() * 99 / 100);
 }
 
 }  // namespace
