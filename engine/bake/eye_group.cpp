@@ -28,7 +28,7 @@ void EyeGroup::findHidden(const glm::dvec3& point, std::vector<std::uint8_t>& hi
   hidden.resize(blocks_.size() * kLanes);
   const glm::vec3 at(point - base_);
   const float half = 0.5f * float(side_), end = float(side_);
-  const int last = side_ - 1, across = HiddenMap::tilesAcross(side_), down = HiddenMap::tilesDown(side_);
+  const int last = side_ - 1;
   const auto size = [](const Floats& v) { return v < 0 ? -v : v; };
   const auto texel = [&](const Floats& place) {
     const Floats clamped = place < 0 ? Floats{} : place > end ? Floats{} + end : place;
@@ -46,11 +46,7 @@ void EyeGroup::findHidden(const glm::dvec3& point, std::vector<std::uint8_t>& hi
     const Floats distance = size(axis), w = 1 / (distance > kNearest ? distance : Floats{} + kNearest);
     const Whole face = (alongX ? Whole{} : alongY ? Whole{} + 2 : Whole{} + 4) - (axis < 0);
     const Whole column = texel((u * w + 1) * half), row = texel((v * w + 1) * half);
-    const Whole tile =
-        (face * down + (row >> HiddenMap::kRowBits)) * across + (column >> HiddenMap::kColumnBits);
-    const Whole index = (tile << (HiddenMap::kRowBits + HiddenMap::kColumnBits)) +
-                        ((row & (HiddenMap::kTileRows - 1)) << HiddenMap::kColumnBits) +
-                        (column & (HiddenMap::kTileColumns - 1));
+    const Whole index = HiddenMap::indexOf(side_, face, column, row);
     for (std::size_t i = 0; i < kLanes; ++i)
       *out++ = block.map[i] != nullptr && w[i] < HiddenMap::valueOf(block.map[i][index[i]]) ? 1 : 0;
   }

@@ -15,7 +15,7 @@ constexpr std::size_t kSightShare = 3;
 
 HiddenMap::HiddenMap(const CubeLattice& lattice, const std::vector<float>& inverseZ)
     : below_(sizeOf(lattice.side()), 0) {
-  const int side = lattice.side(), across = tilesAcross(side), down = tilesDown(side);
+  const int side = lattice.side();
   for (int face = 0; face < CubeLattice::kFaces; ++face)
     for (int row = 0; row < side; ++row) {
       const float* low = inverseZ.data() + lattice.index(face, 0, row);
@@ -23,10 +23,8 @@ HiddenMap::HiddenMap(const CubeLattice& lattice, const std::vector<float>& inver
       for (int column = 0; column < side; ++column) {
         const float least =
             std::min({low[column], low[column + 1], high[column], high[column + 1]}) * float(1 - kBehind);
-        const int tile = (face * down + row / kTileRows) * across + column / kTileColumns;
-        const int within = row % kTileRows * kTileColumns + column % kTileColumns;
         if (least > 0)
-          below_[std::size_t(tile * kTileRows * kTileColumns + within)] =
+          below_[std::size_t(indexOf(side, face, column, row))] =
               std::uint16_t(std::bit_cast<std::uint32_t>(least) >> 16);
       }
     }

@@ -43,18 +43,28 @@ class HiddenMap {
   /// Of a map (EyeView).
   HiddenMap(const CubeLattice& lattice, const std::vector<float>& inverseZ);
 
+  static std::size_t sizeOf(int side) {
+    return std::size_t(CubeLattice::kFaces * tilesAcross(side) * tilesDown(side)) * kTileColumns * kTileRows;
+  }
+  /// Where the value of a texel is, `side` of them to an edge: of whole numbers, or of vectors of them.
+  template <class Whole>
+  static Whole indexOf(int side, const Whole& face, const Whole& column, const Whole& row) {
+    const Whole tile =
+        (face * tilesDown(side) + (row >> kRowBits)) * tilesAcross(side) + (column >> kColumnBits);
+    return (tile << (kRowBits + kColumnBits)) + ((row & (kTileRows - 1)) << kColumnBits) +
+           (column & (kTileColumns - 1));
+  }
+  bool empty() const { return below_.empty(); }
+  const std::uint16_t* data() const { return below_.data(); }
+  static float valueOf(std::uint16_t below) { return std::bit_cast<float>(std::uint32_t(below) << 16); }
+
+ private:
   /// Texels lie in tiles as large as a cache line, since one point after the other is asked about.
   static constexpr int kColumnBits = 3, kTileColumns = 1 << kColumnBits, kRowBits = 2,
                        kTileRows = 1 << kRowBits;
   static int tilesAcross(int side) { return (side + kTileColumns - 1) / kTileColumns; }
   static int tilesDown(int side) { return (side + kTileRows - 1) / kTileRows; }
-  static std::size_t sizeOf(int side) {
-    return std::size_t(CubeLattice::kFaces * tilesAcross(side) * tilesDown(side)) * kTileColumns * kTileRows;
-  }
-  const std::uint16_t* data() const { return below_.data(); }
-  static float valueOf(std::uint16_t below) { return std::bit_cast<float>(std::uint32_t(below) << 16); }
 
- private:
   std::vector<std::uint16_t> below_;  ///< the upper halves of floats
 };
 
@@ -88,7 +98,7 @@ class EyeView {
   }
 
   const glm::dvec3& eye() const { return eye_; }
-  bool isUntraced() const { return lattice_.side() == 1; }
+  bool isUntraced() const { return hiddenBelow_.empty(); }
   /// By texel, see HiddenMap: 0 where nothing is known.
   const HiddenMap& hiddenBelow() const { return hiddenBelow_; }
   const CubeLattice& lattice() const { return lattice_; }
