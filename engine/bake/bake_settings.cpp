@@ -26,7 +26,8 @@ BakeSettings BakeSettings::at(Quality quality) const {
   const bool preview = quality == Quality::preview;
   const int part = preview ? 4 : 2;
   const auto fewer = [&](int& count, int least) { count = std::min(count, std::max(count / part, least)); };
-  out.samplesPerDegree = std::max(samplesPerDegree / part, std::min(samplesPerDegree, kCoarsest));
+  out.samplesPerDegree =
+      std::max(samplesPerDegree / (preview ? 6 : 2), std::min(samplesPerDegree, kCoarsest));
   fewer(out.ambientRays, 4);
   fewer(out.shadowRays, 4);
   fewer(out.bounces, 1);

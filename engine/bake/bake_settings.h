@@ -23,15 +23,15 @@ inline constexpr Quality kQualities[] = {Quality::preview, Quality::draft, Quali
 const char* nameOf(Quality quality);  ///< preview, draft, final
 
 struct BakeSettings {
-  double samplesPerDegree = 8;  ///< columns and rows per degree, 0.5..64
-  int ambientRays = 32;         ///< per place that light is gathered for, 0..1024; for occlusion and bounces
-  double ambientRadius = 2.0;   ///< metres; occluders beyond fade out
-  int shadowRays = 16;          ///< per sample towards each light with a size, 1..1024
-  int bounces = 2;              ///< of light between surfaces, 1..8; used where the plan has interreflection
-  double surfaceTexel = 0.04;   ///< metres between light samples on local geometry, and of gathered light
-  int maxLayers = 8;            ///< samples kept per pixel for one region at most, 1..64
-  bool pruning = true;          ///< keep only what a served region sees from one of its test eyes
-  int testEyes = 8;             ///< placed evenly in each served region, 1..64
+  double samplesPerDegree = 12;  ///< columns and rows per degree, 0.5..64
+  int ambientRays = 32;          ///< per place that light is gathered for, 0..1024; for occlusion and bounces
+  double ambientRadius = 2.0;    ///< metres; occluders beyond fade out
+  int shadowRays = 16;           ///< per sample towards each light with a size, 1..1024
+  int bounces = 2;               ///< of light between surfaces, 1..8; used where the plan has interreflection
+  double surfaceTexel = 0.04;    ///< metres between light samples on local geometry, and of gathered light
+  int maxLayers = 8;             ///< samples kept per pixel for one region at most, 1..64
+  bool pruning = true;           ///< keep only what a served region sees from one of its test eyes
+  int testEyes = 8;              ///< placed evenly in each served region, 1..64
   /// Of what eyes in a region see, the share that pruning may lose: until no more is lost, eyes are added to
   /// the region, up to 64. kLeastPruningLoss..1; 0 = ask those placed evenly alone, whatever is lost.
   double pruningLoss = 0.0005;
@@ -42,9 +42,9 @@ struct BakeSettings {
   /// How true colours are to what was baked (colour_quality.h): 0..99 as pictures, 100 = every bit.
   int colourQuality = kUsualColourQuality;
   /// Samples tell the plane of their surface, and how much of their pixel it covers (capture.h).
-  bool silhouettes = false;
+  bool silhouettes = true;
 
-  /// Those that a quality is baked with: a quarter or half of the resolution, fewer rays, layers and eyes.
+  /// Those that a quality is baked with: a sixth or half of the resolution, fewer rays, layers and eyes.
   BakeSettings at(Quality quality) const;
   Status check() const;
   void addTo(Hasher& hasher) const;

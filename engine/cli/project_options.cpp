@@ -32,7 +32,8 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
-  c->add_option("--samples-per-degree", o.samplesPerDegree, "Resolution of the captures (default 8)")
+  c->add_option("--samples-per-degree", o.samplesPerDegree,
+                fmt::format("Resolution of the captures (default {})", BakeSettings{}.samplesPerDegree))
       ->check(CLI::Range(0.5, 64.0));
   c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of the model (default: guessed, and said)");
   c->add_option("--up", o.up, "Up axis of the model: guess, y or z")

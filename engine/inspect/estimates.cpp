@@ -15,8 +15,8 @@ constexpr std::size_t kFewestProbes = 16;
 constexpr std::size_t kSlicedProbes = 8;
 /// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
 constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
-/// The same where it is to be brief.
-constexpr std::size_t kBriefProbes = 10, kBriefSliced = 5;
+/// The same where it is to be brief: a tenth of the cameras, within these bounds.
+constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 5;
 
 /// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
 /// probed.
@@ -88,7 +88,8 @@ Result<std::vector<CaptureProbe>> probeCaptures(const std::vector<int>& order, c
                                                 BakeProber& prober, const Progress& progress,
                                                 const std::stop_token& stop) {
   const double wanted = options.brief ? 0 : kCaptureRays * options.effort;
-  const std::size_t fewestProbes = options.brief ? kBriefProbes : kFewestProbes;
+  const std::size_t fewestProbes =
+      options.brief ? std::clamp(order.size() / 10, kFewestBriefProbes, kBriefProbes) : kFewestProbes;
   double rays = 0;
   for (std::size_t probed = 0; probed < order.size(); ++probed) {
     if (probed >= fewestProbes && rays >= wanted) break;

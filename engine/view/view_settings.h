@@ -68,7 +68,7 @@ inline constexpr double kLargestMeshError = 64;
 
 struct ViewSettings {
   Renderer renderer = Renderer::list;
-  Reconstruction reconstruction = Reconstruction::filtered;
+  Reconstruction reconstruction = Reconstruction::patches;
   int maxSplatPixels = 16;  ///< side of the largest splat, 1..64
   /// Meshes: how far a surface may shift in a picture against where its samples lie, in samples,
   /// 0.01..kLargestMeshError.

@@ -85,7 +85,7 @@ TEST(BakeForecastTold, ByBenchRepresentationsForWhatNoEarlierRunBaked) {
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   const auto bench = [&](const std::string& only) {
     return acentric({"bench", "representations", project.file(), "-o", (project.folder() / "ways").string(),
-                     "--poses", "2", "--size", "96x54", "--json", "--only", only});
+                     "--poses", "2", "--size", "96x54", "--tolerance", "0.5", "--json", "--only", only});
   };
   const auto first = bench("rooms");
   ASSERT_EQ(first.exitCode, 0) << first.errors;

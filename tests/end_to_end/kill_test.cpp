@@ -37,7 +37,7 @@ std::map<fs::path, Identity> finishedCaptures(const fs::path& folder) {
 }
 
 TEST(KilledBake, FinishesNextTimeWithoutBakingAnythingTwice) {
-  SampleProject project("kill");
+  SampleProject project("kill", "-2,-2;2,-2;2,2;-2,2");
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   const auto whole = acentric({"bake", project.file(), "--json"});
   ASSERT_EQ(whole.exitCode, 0) << whole.errors;

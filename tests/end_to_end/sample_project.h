@@ -1,5 +1,5 @@
 #pragma once
-/// A small project of the generated gallery, at a resolution that bakes in seconds.
+/// A small project of the generated gallery, so coarse that it bakes in seconds.
 
 #include <filesystem>
 #include <fstream>
@@ -31,6 +31,7 @@ class SampleProject {
     Json project = read();
     project["bake"]["ambientRays"] = 4;
     project["bake"]["surfaceTexel"] = 0.5;
+    project["bake"]["pruningLoss"] = 0.005;
     write(project);
   }
   std::string file() const { return (folder_.path() / "gallery.acentric.json").string(); }

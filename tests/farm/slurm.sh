@@ -23,9 +23,9 @@ mkdir -p -- "$shared"
 project=$shared/gallery.acentric.json
 captures=$shared/gallery.captures
 "$generator" "$shared/gallery.glb" > /dev/null
-"$acentric" new "$shared/gallery.glb" -o "$project" --cell 2.5 --samples-per-degree 3 \
+"$acentric" new "$shared/gallery.glb" -o "$project" --cell 2.5 --samples-per-degree 2 \
   --outline "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5" > /dev/null
-sed -i 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.08/' "$project"
+sed -i 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.15/' "$project"
 "$acentric" bake "$project" > "$work/local.txt" || fail "the local bake failed"
 mv -- "$captures" "$work/expected"
 note "local: $(cat "$work/local.txt")"
@@ -42,7 +42,7 @@ startCluster
 note "cluster is up"
 
 # --- The bake is submitted
-"$acentric" farm slurm "$project" --nodes 2 --threads 1 --task-seconds 3 --submit --json > "$work/farm.json"
+"$acentric" farm slurm "$project" --nodes 2 --threads 1 --task-seconds 2 --submit --json > "$work/farm.json"
 read -r array merge < <(sed -n 's/.*"array": "\([0-9]*\)".*/\1/p; s/.*"merge": "\([0-9]*\)".*/\1/p' "$work/farm.json" | xargs)
 [[ -n $array && -n $merge ]] || fail "no jobs: $(cat "$work/farm.json")"
 tasks=$(sed -n 's/.*"cameraTasks": \([0-9]*\).*/\1/p' "$work/farm.json")

@@ -35,7 +35,6 @@ class ExportExr : public FolderTest {
     builder.box(builder.material(test::matte()), {-4, -4, 0}, {4, 4, 3}, true).point({0, 0, 2.5F}, 50);
     Project project = test::smallProject(0.5, 1);
     project.bake.ambientRays = 0;
-    project.bake.silhouettes = true;
     open_ = test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
   }
   void bake(const BakeRequest& request = {}) {

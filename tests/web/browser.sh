@@ -12,7 +12,7 @@ mkdir -p "$work"
 cd -- "$work"
 project=$work/walk.acentric.json
 [[ -f gallery.glb ]] || "$gallery" gallery.glb
-sed -e 's/"samplesPerDegree": [0-9.]*/"samplesPerDegree": 3.0/' -e 's/"ambientRays": [0-9]*/"ambientRays": 4/' \
+sed -e 's/"samplesPerDegree": [0-9.]*/"samplesPerDegree": 2.0/' -e 's/"ambientRays": [0-9]*/"ambientRays": 4/' \
   -e 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.2/' "$here/../../projects/gallery/gallery.acentric.json" > "$project"
 "$acentric" bake "$project"
 rm -rf site
