@@ -26,4 +26,5 @@ acentric_precompiled(acentric_precompiled_program PROGRAM)
 if(ACENTRIC_TESTS)
   acentric_precompiled(acentric_precompiled_test PROGRAM
     LINK GTest::gmock GTest::gtest_main HEADERS <gmock/gmock.h> <gtest/gtest.h>)
+  target_compile_options(acentric_precompiled_test PRIVATE ${ACENTRIC_TEST_OPTIMIZATION})
 endif()

@@ -9,7 +9,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kLabelWidth = 150;
+constexpr float kDialogLabelWidth = 150;
 constexpr float kWideButton = 128;
 
 /// Buttons from left to right; logged as "dialog.NAME".
@@ -47,7 +47,7 @@ void drawDraft(PanelContext& context, NewProjectDraft& draft) {
     choices.push_back(
         {fmt::format("{}   {}", nameOf(Configuration(i)), describe(Configuration(i))), "", true});
   int index = int(draft.configuration);
-  ui::choiceField("Configuration", choices, index, kLabelWidth,
+  ui::choiceField("Configuration", choices, index, kDialogLabelWidth,
                   "How panoramas are placed: angle of a camera and the polygons of the lattice.");
   context.log.item("new.configuration");
   draft.configuration = Configuration(index);
@@ -56,14 +56,14 @@ void drawDraft(PanelContext& context, NewProjectDraft& draft) {
   const ui::FieldEdit size =
       ui::numberField({"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
                        "Edge length of the polygons. At first about a dozen rings fill the walkable area."},
-                      draft.cellSize, kLabelWidth);
+                      draft.cellSize, kDialogLabelWidth);
   context.log.item("new.cellSize");
   if (size.changed) draft.derived = false;
   ui::numberField(
       {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
-      draft.eyeHeight, kLabelWidth);
+      draft.eyeHeight, kDialogLabelWidth);
   context.log.item("new.eyeHeight");
-  ui::checkField("All storeys", draft.everyStorey, kLabelWidth,
+  ui::checkField("All storeys", draft.everyStorey, kDialogLabelWidth,
                  "A layout on each floor that is found, not only on the largest.");
   context.log.item("new.everyStorey");
 }

@@ -8,7 +8,7 @@ namespace acentric::editor {
 namespace {
 namespace palette = ui::palette;
 
-constexpr float kRow = 18, kHead = 24, kPadding = 8;
+constexpr float kRow = 18, kHead = 24, kListPadding = 8;
 
 ImU32 packed(const Rgba8& colour) { return IM_COL32(colour.r, colour.g, colour.b, 255); }
 
@@ -36,7 +36,7 @@ bool drawRow(PanelContext& context, int place, const UsedImage& image, const Rgb
 }  // namespace
 
 float imageListHeight(std::size_t images) {
-  return ui::scaled(kHead + kRow * float(std::max<std::size_t>(1, images)) + kPadding);
+  return ui::scaled(kHead + kRow * float(std::max<std::size_t>(1, images)) + kListPadding);
 }
 
 std::optional<int> drawImageList(PanelContext& context, const ImVec2& low, const ImVec2& high,
@@ -45,7 +45,7 @@ std::optional<int> drawImageList(PanelContext& context, const ImVec2& low, const
   context.log.rect("walk.images", low.x, low.y, high.x, high.y);
   ImGui::SetCursorScreenPos(low);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::backdrop.withOpacity(0.9F).vec());
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(kPadding, 4)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(kListPadding, 4)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, 4);
   if (ImGui::BeginChild("##images", {high.x - low.x, high.y - low.y}, false,

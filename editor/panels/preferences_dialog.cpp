@@ -12,7 +12,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kLabelWidth = 168;
+constexpr float kPreferencesLabelWidth = 168;
 constexpr std::array<int, 9> kScales = {0, 75, 90, 100, 110, 125, 150, 175, 200};  ///< per cent; 0: automatic
 
 void heading(PanelContext& context, const char* text) {
@@ -32,7 +32,7 @@ void drawLook(PanelContext& context) {
                                              ui::Choice{"Light", "", true, ""}};
   int theme = int(preferences.theme);
   const ui::FieldEdit themed =
-      ui::choiceField("Theme", kThemes, theme, kLabelWidth, "Colours of the window.");
+      ui::choiceField("Theme", kThemes, theme, kPreferencesLabelWidth, "Colours of the window.");
   if (themed.changed) preferences.theme = Theme(theme);
   saveIf(context, themed, "preferences.theme");
 
@@ -47,7 +47,7 @@ void drawLook(PanelContext& context) {
     choices.front().label += fmt::format(" ({:.0f} %)", 100 * context.window.look().scale);
   }
   const ui::FieldEdit sized = ui::choiceField(
-      "Interface", choices, index, kLabelWidth,
+      "Interface", choices, index, kPreferencesLabelWidth,
       "Size of texts, buttons and marks. Also with Ctrl+= and Ctrl+-; Ctrl+0: as the display asks.");
   if (sized.changed) preferences.scalePercent = kScales[std::size_t(index)];
   saveIf(context, sized, "preferences.scale");
@@ -56,13 +56,13 @@ void drawLook(PanelContext& context) {
 void drawWork(PanelContext& context) {
   Preferences& preferences = context.session().preferences();
   heading(context, "Baking and saving");
-  bakeThreadsField(context, kLabelWidth);
-  bakeMemoryField(context, kLabelWidth);
+  bakeThreadsField(context, kPreferencesLabelWidth);
+  bakeMemoryField(context, kPreferencesLabelWidth);
   saveIf(context,
          ui::numberField({"Autosave every", "%.0f s", 0.5, Preferences::kLeastAutosaveSeconds,
                           Preferences::kMostAutosaveSeconds,
                           "Beside the project, never over it; offered again after a crash."},
-                         preferences.autosaveSeconds, kLabelWidth),
+                         preferences.autosaveSeconds, kPreferencesLabelWidth),
          "preferences.autosave");
 }
 
@@ -70,17 +70,17 @@ void drawWalk(PanelContext& context) {
   Preferences& preferences = context.session().preferences();
   heading(context, "Walk");
   ImGui::PushID("walk");
-  walkSpeedField(context, kLabelWidth);
+  walkSpeedField(context, kPreferencesLabelWidth);
   saveIf(context,
          ui::numberField({"Mouse sensitivity", "%.2f", 0.01, Preferences::kLeastLookSensitivity,
                           Preferences::kMostLookSensitivity, "1 turns a fifth of a degree a pixel."},
-                         preferences.lookSensitivity, kLabelWidth),
+                         preferences.lookSensitivity, kPreferencesLabelWidth),
          "preferences.sensitivity");
   saveIf(context,
-         ui::checkField("Inverted look", preferences.invertLook, kLabelWidth,
+         ui::checkField("Inverted look", preferences.invertLook, kPreferencesLabelWidth,
                         "Moving the mouse up looks down, as in aircraft."),
          "preferences.invert");
-  walkMemoryField(context, kLabelWidth);
+  walkMemoryField(context, kPreferencesLabelWidth);
   ImGui::PopID();
 }
 
@@ -92,12 +92,12 @@ void drawStart(PanelContext& context) {
       ui::Choice{"The last project", "The sample, while there is none.", true, ""},
       ui::Choice{"Nothing", "", true, ""}};
   int startUp = int(preferences.startUp);
-  const ui::FieldEdit edit = ui::choiceField("Open at start", kChoices, startUp, kLabelWidth,
+  const ui::FieldEdit edit = ui::choiceField("Open at start", kChoices, startUp, kPreferencesLabelWidth,
                                              "When no file is named on the command line.");
   if (edit.changed) preferences.startUp = StartUp(startUp);
   saveIf(context, edit, "preferences.startUp");
   bool guide = !preferences.guideSeen;
-  const ui::FieldEdit guided = ui::checkField("Guided start", guide, kLabelWidth,
+  const ui::FieldEdit guided = ui::checkField("Guided start", guide, kPreferencesLabelWidth,
                                               "Shown at the next start. It is in the Help menu, too.");
   if (guided.changed) preferences.guideSeen = !guide;
   saveIf(context, guided, "preferences.guide");

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t(1) << 20;
+constexpr std::size_t kLargestPreferences = std::size_t(1) << 20;
 
 /// A value that is missing, of another kind or not finite leaves `value`; one out of range is put into it.
 template <class Number>
@@ -101,7 +101,7 @@ fs::path preferencesFile() {
 Preferences loadPreferences(const fs::path& file, std::string* problem) {
   Preferences preferences;
   if (file.empty()) return preferences;
-  const auto text = readText(file, kMostBytes);
+  const auto text = readText(file, kLargestPreferences);
   if (!text) {
     if (problem != nullptr && text.error().kind != ErrorKind::notFound)
       *problem = "The preferences cannot be read: " + text.error().describe();

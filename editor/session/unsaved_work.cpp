@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t(64) << 20;
+constexpr std::size_t kLargestAutosave = std::size_t(64) << 20;
 constexpr const char* kEnding = ".unsaved.json";
 constexpr const char* kFormat = "acentric-unsaved";
 
@@ -36,7 +36,7 @@ bool isOfLivingProcess(const Json& json) {
 }
 
 Result<Json> readJson(const fs::path& autosave) {
-  const auto text = readText(autosave, kMostBytes);
+  const auto text = readText(autosave, kLargestAutosave);
   if (!text) return tl::unexpected(text.error());
   auto json = parseJson<Json>(*text);
   if (!json || !json->is_object() || json->value("format", Json()) != kFormat)

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t(1) << 16;
+constexpr std::size_t kLargestPlaces = std::size_t(1) << 16;
 constexpr double kMostPixels = 1e6;
 
 /// Two whole numbers of a length that occurs.
@@ -58,7 +58,7 @@ fs::path windowPlacesFile() {
 std::vector<ui::WindowPlace> loadWindowPlaces(const fs::path& file) {
   std::vector<ui::WindowPlace> places;
   if (file.empty()) return places;
-  const auto text = readText(file, kMostBytes);
+  const auto text = readText(file, kLargestPlaces);
   if (!text) return places;
   const Json json = parseJson<Json>(*text).value_or(Json());
   if (!json.is_array()) return places;

@@ -37,7 +37,6 @@ BakeSettings BakeSettings::at(Quality quality) const {
   out.pruning = !preview && pruning;
   fewer(out.testEyes, 4);
   out.pruningLoss = 0;
-  out.silhouettes = !preview && silhouettes;
   return out;
 }
 

@@ -24,7 +24,7 @@ std::string rangesText(const std::vector<int>& sorted) {
   return text;
 }
 
-Json toJson(const CaptureState& state) {
+Json stateJson(const CaptureState& state) {
   return {{"reason", nameOf(state.reason)}, {"changed", state.changed}, {"damage", state.damage}};
 }
 
@@ -46,7 +46,7 @@ Report storeyReport(const StoreyPlan& plan, const BakeRequest& request, const St
     const CaptureState& found = state.cameras[std::size_t(camera)];
     byReason[describe(found)].push_back(camera);
     Json entry = {{"camera", camera}, {"key", plan.cameras[std::size_t(camera)].key.toHex()}};
-    entry.update(toJson(found));
+    entry.update(stateJson(found));
     missing.push_back(std::move(entry));
   }
   report.text = fmt::format("{} of {} cameras would be baked{}\n", stale.size(), request.cameras->size(),
@@ -60,7 +60,7 @@ Report storeyReport(const StoreyPlan& plan, const BakeRequest& request, const St
   const bool light = request.surfaceLight && !state.light.baked();
   if (light) report.text += fmt::format("  the light on local geometry: {}\n", describe(state.light));
   report.json = {{"dryRun", true}, {"of", request.cameras->size()}, {"missing", std::move(missing)}};
-  report.json["surfaceLight"] = request.surfaceLight ? toJson(state.light) : Json(nullptr);
+  report.json["surfaceLight"] = request.surfaceLight ? stateJson(state.light) : Json(nullptr);
   return report;
 }
 

@@ -10,7 +10,7 @@
 namespace acentric::cli {
 namespace {
 
-const char* nameOf(WhyOver why) {
+const char* reasonOf(WhyOver why) {
   switch (why) {
     case WhyOver::smallest:
       return "smallest";
@@ -62,7 +62,7 @@ Json toJson(const RefineResult& refined, const Layout& layout, const FitCommandO
   for (const RefineResult::Over& over : refined.over) {
     Json region = cli::toJson(layout.regions[std::size_t(over.region)]);
     region["triangles"] = refined.budgets.triangles[std::size_t(over.region)];
-    region["why"] = nameOf(over.why);
+    region["why"] = reasonOf(over.why);
     json["over"].push_back(std::move(region));
   }
   return json;

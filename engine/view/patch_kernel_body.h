@@ -180,6 +180,11 @@ struct Kernel {
     return B::times(i, B::seti(c.rows + 2)) + j;
   }
   static F limited(F value) { return B::min(B::max(value, B::set(-1e6f)), B::set(1e6f)); }
+  /// A part of the texels along one side. Whatever lies beyond is the outermost of the border, which covers
+  /// nothing.
+  static I partAt(F place4, std::int32_t texels) {
+    return B::floor(B::min(B::max(place4, B::set(-4)), B::set(4 * float(texels) + 3)));
+  }
 
   /// Parts of pixels that the patch covers; whether their texels are few is asked of the `wanted` ones alone.
   I partsOf(const Places<B>& places, M wanted) const {
@@ -188,7 +193,7 @@ struct Kernel {
       const F dx = B::set(4 * kPartX[part]), dy = B::set(4 * kPartY[part]);
       const F column = B::set(4) * places.column + (dx * places.columnAcross + dy * places.columnDown);
       const F row = B::set(4) * places.row + (dx * places.rowAcross + dy * places.rowDown);
-      columns[part] = B::floor(limited(column)), rows[part] = B::floor(limited(row));
+      columns[part] = partAt(column, c.columns), rows[part] = partAt(row, c.rows);
     }
     const auto firstOf = [](const I* places4) {
       I least = places4[0];

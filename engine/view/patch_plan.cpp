@@ -249,7 +249,7 @@ PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const
                       TaskRunner& runner) {
   struct Task {
     const PieceDraw* piece;
-    const DisplayCapture* capture;
+    std::shared_ptr<const DisplayCapture> capture;
     std::size_t strip;
     std::uint32_t slot;
     bool reflects, mirrorsOnly;
@@ -262,8 +262,8 @@ PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const
                           std::vector<StripDraw>& out) {
     const std::size_t from = tasks.size();
     for (std::size_t i = end; i-- > first;) {
-      const DisplayCapture* capture = scene.captures[std::size_t(pieces[i].camera)].get();
-      if (shown) capture = capture->reflections.get();
+      std::shared_ptr<const DisplayCapture> capture = scene.captures[std::size_t(pieces[i].camera)];
+      if (shown) capture = capture->reflections;
       if (capture == nullptr || capture->patches == nullptr) continue;
       for (const std::size_t strip : stripsOf(pieces[i], *capture))
         tasks.push_back({&pieces[i], capture, strip, firstSlot + std::uint32_t(i), shown || mirrorsOnly,
@@ -287,6 +287,7 @@ PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const
     const Task& task = tasks[i];
     *task.out = StripPlanner(view, rays, *task.piece, *task.capture, task.strip, task.slot)
                     .plan(task.reflects, task.mirrorsOnly);
+    task.out->piece = task.piece, task.out->capture = task.capture;
   });
   return patches;
 }

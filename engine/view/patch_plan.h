@@ -6,6 +6,7 @@
 /// order that holds for every eye.
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "engine/base/task_runner.h"
@@ -45,7 +46,9 @@ struct PatchDraw {
 
 /// What the patches of one piece and strip have in common.
 struct StripDraw {
-  std::vector<PatchDraw> patches;  ///< front to back
+  const PieceDraw* piece = nullptr;               ///< of the plan
+  std::shared_ptr<const DisplayCapture> capture;  ///< its camera's, or what the mirrors there show
+  std::vector<PatchDraw> patches;                 ///< front to back
   bool limited = false;  ///< PatchColumn::limited: then the borders' values at column 0, and per column
   float lowStart = 0, lowAcross = 0, highStart = 0, highAcross = 0;
 };
@@ -58,7 +61,7 @@ struct PatchPlan {
   std::vector<StripDraw> mirrors;      ///< the mirrors themselves, where nothing is known of what they show
 };
 
-/// Of captures that have patches.
+/// Of captures that have patches. Valid as long as the plan is.
 PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const ViewPlan& plan,
                       TaskRunner& runner);
 

@@ -309,12 +309,16 @@ class CanvasWarp {
 
 }  // namespace
 
+bool wantsPatches(const ViewSettings& settings) {
+  return settings.reconstruction == Reconstruction::patches && !depthTested(settings.renderer) &&
+         settings.renderer != Renderer::precise;
+}
+
 bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings) {
   const auto have = [&](const PieceDraw& piece) {
     return scene.captures[static_cast<std::size_t>(piece.camera)]->patches != nullptr;
   };
-  return settings.reconstruction == Reconstruction::patches && !depthTested(settings.renderer) &&
-         settings.renderer != Renderer::precise && std::ranges::all_of(plan.pieces, have);
+  return wantsPatches(settings) && std::ranges::all_of(plan.pieces, have);
 }
 
 int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings) {

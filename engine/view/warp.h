@@ -40,6 +40,8 @@ struct WarpCounts {
   }
 };
 
+/// Are frames made of patches where captures have them?
+bool wantsPatches(const ViewSettings& settings);
 /// Are frames of this plan made of patches? All of its captures must have them.
 bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
 

@@ -26,6 +26,11 @@ class BufferUpload {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(*owned));
     return add(bytes, std::move(owned));
   }
+  /// Of values that `owner` keeps.
+  template <class Value>
+  GlBuffer add(std::span<const Value> values, std::shared_ptr<const void> owner) {
+    return add(std::as_bytes(values), std::move(owner));
+  }
   /// Of values that live until they are sent.
   template <class Value>
   GlBuffer add(const std::vector<Value>& values) {

@@ -16,6 +16,10 @@ CaptureUpload::CaptureUpload(CaptureTask task, PackedCapture capture) : task_(st
   }
   buffers_.rowTangents = sending_.add(std::move(capture.rowTangents));
   buffers_.background = sending_.add(std::move(capture.background));
+  if (capture.patches) {
+    buffers_.patchColours = sending_.add(std::span(capture.patches->colour), capture.patches);
+    buffers_.patchCovers = sending_.add(std::span(capture.patches->cover), capture.patches);
+  }
   buffers_.clearRanks = std::move(capture.clearRanks);
   buffers_.bytes = sending_.bytes();
 }

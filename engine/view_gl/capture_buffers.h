@@ -27,6 +27,7 @@ struct CaptureBuffers {  ///< as PackedCapture
   std::vector<CaptureChunk> chunks;
   GlBuffer rowTangents;
   GlBuffer background;
+  GlBuffer patchColours, patchCovers;
   std::vector<std::uint8_t> clearRanks;
   std::size_t bytes = 0;
   std::uint64_t lastUse = 0;

@@ -27,7 +27,7 @@ void CaptureResidency::begin(const CaptureSet& inScene) {
 
 bool CaptureResidency::ready(const std::shared_ptr<const DisplayCapture>& capture, CaptureParts parts) {
   const CaptureBuffers* const buffers = find(capture);
-  return buffers != nullptr && (parts == CaptureParts::background || buffers->parts == CaptureParts::samples);
+  return buffers != nullptr && (parts == CaptureParts::background || buffers->parts == parts);
 }
 
 Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const DisplayCapture>& capture,
@@ -37,8 +37,8 @@ Result<const CaptureBuffers*> CaptureResidency::get(const std::shared_ptr<const 
 }
 
 Status CaptureResidency::ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name,
-                             bool lacked) {
-  return want(taskOf(capture, name, CaptureParts::samples), lacked);
+                             CaptureParts parts, bool lacked) {
+  return want(taskOf(capture, name, parts), lacked);
 }
 
 CaptureTask CaptureResidency::taskOf(const std::shared_ptr<const DisplayCapture>& capture,

@@ -29,7 +29,7 @@ class CaptureResidency : public BuiltResidency<CaptureTask, PackedCapture, Captu
   /// Is to be packed in the background, after what this frame asked for before it. `lacked`: by this frame;
   /// otherwise it is for those to come. Fails if it could not be.
   Status ask(const std::shared_ptr<const DisplayCapture>& capture, const std::string& name,
-             bool lacked = true);
+             CaptureParts parts = CaptureParts::samples, bool lacked = true);
   /// After a frame: what it asked for is packed next.
   void end() { beginWanted(); }
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
+#include "engine/view/warp.h"
 #include "engine/view_gl/background_pass.h"
 #include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/fill_pass.h"
@@ -20,6 +21,7 @@
 #include "engine/view_gl/gl_state.h"
 #include "engine/view_gl/live_captures.h"
 #include "engine/view_gl/local_pass.h"
+#include "engine/view_gl/patch_pass.h"
 
 namespace acentric {
 namespace {
@@ -60,7 +62,8 @@ struct GlRenderer::Impl {
         bytesPerFrame(options.bytesPerFrame),
         secondsPerFrame(options.secondsPerFrame),
         captures(own, waits ? nullptr : CaptureResidency::makeBuilder(options.wake)),
-        meshes(options.runner != nullptr ? *options.runner : own,
+        runner(options.runner != nullptr ? *options.runner : own),
+        meshes(runner,
                waits ? nullptr : MeshResidency::makeBuilder(options.backgroundThreads, options.wake)) {}
 
   const bool waits;
@@ -69,6 +72,7 @@ struct GlRenderer::Impl {
   TaskRunner own;  // this thread alone
   ProgramCache programs;
   CaptureResidency captures;
+  TaskRunner& runner;
   MeshResidency meshes;
   LiveCaptures live{captures, meshes, kCaptureBudgetBytes};
   FrameTarget target;
@@ -77,6 +81,7 @@ struct GlRenderer::Impl {
   BackgroundPass background{programs, captures};
   CapturePass capturePass{programs, captures, meshes};
   FilterPass filter{programs};
+  PatchPass patchPass{programs, captures, runner};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
   FrameStats stats;
@@ -88,9 +93,15 @@ struct GlRenderer::Impl {
   SendLimit sendLimit() const { return {bytesPerFrame, std::max(secondsPerFrame, 0.1 * stats.totalSeconds)}; }
   Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                  const ViewSettings& settings);
+  /// What captures show, over the background. Returns whether mirrors among the local geometry are marked.
+  Result<bool> drawCaptures(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                            const ViewSettings& settings, LocalBuffers* local);
+  Result<bool> drawPatches(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
+                           LocalBuffers* local);
   /// Null: none is to be drawn.
   Result<LocalBuffers*> localOf(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
-  /// Returns whether there are mirrors among the local geometry.
+  /// Returns whether there are any.
+  Result<bool> markLocalMirrors(const WalkScene& scene, const PerspectiveView& view, LocalBuffers* local);
   Result<bool> drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                                const ViewSettings& settings, LocalBuffers* local);
   Status drawAfterBackground(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
@@ -154,17 +165,48 @@ Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, c
   target.begin();
   const Clock::time_point start = Clock::now();
   if (Status drawn = background.draw(scene, plan, view, target); !drawn) return drawn;
-  if (Status drawn = capturePass.draw(scene, plan, view, settings, target, stats); !drawn) return drawn;
+  const Result<bool> mirrorsMarked = drawsPatches(scene, plan, settings)
+                                         ? drawPatches(scene, plan, view, *local)
+                                         : drawCaptures(scene, plan, view, settings, *local);
+  if (!mirrorsMarked) return tl::unexpected(mirrorsMarked.error());
+  stats.warpSeconds = secondsOfDrawing(start);
+  return drawAfterBackground(scene, plan, view, settings, *local, *mirrorsMarked);
+}
+
+Result<bool> GlRenderer::Impl::drawCaptures(const WalkScene& scene, const ViewPlan& plan,
+                                            const PerspectiveView& view, const ViewSettings& settings,
+                                            LocalBuffers* local) {
+  if (Status drawn = capturePass.draw(scene, plan, view, settings, target, stats); !drawn)
+    return tl::unexpected(drawn.error());
   bool mirrorsMarked = false;
   if (!plan.reflections.empty()) {
-    const Result<bool> marked = drawReflections(scene, plan, view, settings, *local);
-    if (!marked) return tl::unexpected(marked.error());
+    const Result<bool> marked = drawReflections(scene, plan, view, settings, local);
+    if (!marked) return marked;
     mirrorsMarked = *marked;
   }
   if (isFiltered(settings.reconstruction))
-    if (Status filtered = filter.draw(target, mirrorsMarked); !filtered) return filtered;
-  stats.warpSeconds = secondsOfDrawing(start);
-  return drawAfterBackground(scene, plan, view, settings, *local, mirrorsMarked);
+    if (Status filtered = filter.draw(target, mirrorsMarked); !filtered)
+      return tl::unexpected(filtered.error());
+  return mirrorsMarked;
+}
+
+Result<bool> GlRenderer::Impl::drawPatches(const WalkScene& scene, const ViewPlan& plan,
+                                           const PerspectiveView& view, LocalBuffers* local) {
+  const bool mirrors = !plan.reflections.empty();
+  if (Status ready = target.beginPieces(mirrors, false); !ready) return tl::unexpected(ready.error());
+  Result<bool> marked = mirrors ? markLocalMirrors(scene, view, local) : false;
+  if (!marked) return marked;
+  if (Status drawn = patchPass.draw(scene, plan, view, *marked, target, stats); !drawn)
+    return tl::unexpected(drawn.error());
+  return marked;
+}
+
+Result<bool> GlRenderer::Impl::markLocalMirrors(const WalkScene& scene, const PerspectiveView& view,
+                                                LocalBuffers* local) {
+  if (local == nullptr || !local->mirrors || !scene.mirrors) return false;
+  if (Status marked = localPass.markMirrors(scene, view, target, *local); !marked)
+    return tl::unexpected(marked.error());
+  return true;
 }
 
 Result<LocalBuffers*> GlRenderer::Impl::localOf(const WalkScene& scene, const ViewPlan& plan,
@@ -182,13 +224,11 @@ Result<LocalBuffers*> GlRenderer::Impl::localOf(const WalkScene& scene, const Vi
 Result<bool> GlRenderer::Impl::drawReflections(const WalkScene& scene, const ViewPlan& plan,
                                                const PerspectiveView& view, const ViewSettings& settings,
                                                LocalBuffers* local) {
-  const bool mark = local != nullptr && local->mirrors && scene.mirrors;
-  if (mark)
-    if (Status marked = localPass.markMirrors(scene, view, target, *local); !marked)
-      return tl::unexpected(marked.error());
-  if (Status drawn = capturePass.drawReflections(scene, plan, view, settings, mark, target, stats); !drawn)
+  const Result<bool> marked = markLocalMirrors(scene, view, local);
+  if (!marked) return marked;
+  if (Status drawn = capturePass.drawReflections(scene, plan, view, settings, *marked, target, stats); !drawn)
     return tl::unexpected(drawn.error());
-  return mark;
+  return marked;
 }
 
 Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewPlan& plan,

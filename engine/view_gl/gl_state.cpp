@@ -55,6 +55,15 @@ GlStateGuard::GlStateGuard() {
     glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_START, GLuint(i), &storage_[i].start);
     glGetInteger64i_v(GL_SHADER_STORAGE_BUFFER_SIZE, GLuint(i), &storage_[i].size);
   }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    ImageUnit& unit = images_[i];
+    glGetIntegeri_v(GL_IMAGE_BINDING_NAME, GLuint(i), &unit.texture);
+    glGetIntegeri_v(GL_IMAGE_BINDING_LEVEL, GLuint(i), &unit.level);
+    glGetIntegeri_v(GL_IMAGE_BINDING_LAYERED, GLuint(i), &unit.layered);
+    glGetIntegeri_v(GL_IMAGE_BINDING_LAYER, GLuint(i), &unit.layer);
+    glGetIntegeri_v(GL_IMAGE_BINDING_ACCESS, GLuint(i), &unit.access);
+    glGetIntegeri_v(GL_IMAGE_BINDING_FORMAT, GLuint(i), &unit.format);
+  }
   glGetIntegerv(GL_VIEWPORT, viewport_.data());
   glGetFloatv(GL_DEPTH_RANGE, depthRange_.data());
   glGetBooleanv(GL_COLOR_WRITEMASK, colourMask_.data());
@@ -119,6 +128,11 @@ GlStateGuard::~GlStateGuard() {
                         GLsizeiptr(binding.size));
     else
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLuint(i), name(binding.buffer));
+  }
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const ImageUnit& unit = images_[i];
+    glBindImageTexture(GLuint(i), name(unit.texture), unit.level, GLboolean(unit.layered != 0), unit.layer,
+                       token(unit.access), token(unit.format));
   }
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, name(storageBuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name(drawFramebuffer_));

@@ -16,8 +16,9 @@ class GlStateGuard {
   GlStateGuard(const GlStateGuard&) = delete;
   GlStateGuard& operator=(const GlStateGuard&) = delete;
 
-  static constexpr int kTextureUnits = 4;     ///< units 0..3 may be bound by our passes
+  static constexpr int kTextureUnits = 5;     ///< units 0..4 may be bound by our passes
   static constexpr int kStorageBindings = 6;  ///< shader storage bindings 0..5 too
+  static constexpr int kImageUnits = 2;       ///< and image units 0 and 1
 
  private:
   struct TextureUnit {
@@ -26,6 +27,9 @@ class GlStateGuard {
   struct StorageBinding {
     GLint buffer = 0;
     GLint64 start = 0, size = 0;
+  };
+  struct ImageUnit {
+    GLint texture = 0, level = 0, layered = 0, layer = 0, access = GL_READ_ONLY, format = GL_R8;
   };
   static constexpr std::array<GLenum, 13> kSwitches = {GL_BLEND,
                                                        GL_DEPTH_TEST,
@@ -44,6 +48,7 @@ class GlStateGuard {
   std::array<GLboolean, kSwitches.size()> switches_{};
   std::array<TextureUnit, kTextureUnits> units_{};
   std::array<StorageBinding, kStorageBindings> storage_{};
+  std::array<ImageUnit, kImageUnits> images_{};
   std::array<GLint, 4> viewport_{};
   std::array<GLboolean, 4> colourMask_{};
   std::array<GLint, 6> blend_{};  // equations, then source and destination factors, of colour and alpha

@@ -5,16 +5,13 @@
 #include <utility>
 
 #include "engine/view/view_cameras.h"
+#include "engine/view/warp.h"
 
 namespace acentric {
 namespace {
 
 /// Captures around the eye that are sent before they are seen.
 constexpr std::size_t kMostAhead = 64;
-
-std::size_t bytesOfAll(const DisplayCapture& capture) {
-  return packedBytes(capture) + (capture.reflections ? packedBytes(*capture.reflections) : 0);
-}
 
 /// The first cover, which is in front, comes first.
 std::vector<int> camerasInView(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {
@@ -46,20 +43,27 @@ std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture,
                                                       const ViewSettings& settings) {
   std::vector<Part> parts;
   if (settings.renderer != Renderer::glMesh || capture->blended || meshes_.find(capture) == nullptr)
-    parts.push_back({capture, Mirrors::none});
-  if (capture->reflections) parts.push_back({capture->reflections, Mirrors::reflect});
+    parts.push_back({capture, Mirrors::none, partsDrawn(*capture)});
+  if (capture->reflections)
+    parts.push_back({capture->reflections, Mirrors::reflect, partsDrawn(*capture->reflections)});
   return parts;
+}
+
+std::size_t LiveCaptures::bytesOfAll(const DisplayCapture& capture) const {
+  return packedBytes(capture, partsDrawn(capture)) +
+         (capture.reflections ? packedBytes(*capture.reflections, partsDrawn(*capture.reflections)) : 0);
 }
 
 bool LiveCaptures::ready(const CapturePtr& capture, const ViewSettings& settings) {
   return std::ranges::all_of(partsOf(capture, settings),
-                             [&](const Part& part) { return captures_.ready(part.capture); });
+                             [&](const Part& part) { return captures_.ready(part.capture, part.parts); });
 }
 
 Status LiveCaptures::ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked) {
   for (const Part& part : partsOf(capture, settings))
-    if (!captures_.ready(part.capture))
-      if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), lacked); !asked)
+    if (!captures_.ready(part.capture, part.parts))
+      if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), part.parts, lacked);
+          !asked)
         return asked;
   return {};
 }
@@ -109,7 +113,7 @@ Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const View
   if (bytes > limit.left()) return {};
   limit.sent(bytes);
   for (const Part& part : partsOf(capture, settings))
-    if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors)); !sent)
+    if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors), part.parts); !sent)
       return tl::unexpected(sent.error());
   return {};
 }
@@ -129,6 +133,10 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
                                               FrameStats& stats) {
   if (!view.check()) return &scene;  // as planning will tell
   const std::vector<int> cameras = camerasInView(scene, view, settings);
+  const auto havePatches = [&](int camera) {
+    return scene.captures[std::size_t(camera)]->patches != nullptr;
+  };
+  asPatches_ = wantsPatches(settings) && std::ranges::all_of(cameras, havePatches);
   letGo(scene, cameras);
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];

@@ -41,7 +41,12 @@ class LiveCaptures {
   struct Part {  ///< of what is drawn of a camera
     CapturePtr capture;
     Mirrors mirrors;
+    CaptureParts parts;
   };
+  CaptureParts partsDrawn(const DisplayCapture& capture) const {
+    return asPatches_ && capture.patches ? CaptureParts::patches : CaptureParts::samples;
+  }
+  std::size_t bytesOfAll(const DisplayCapture& capture) const;
   std::vector<Part> partsOf(const CapturePtr& capture, const ViewSettings& settings);
   bool ready(const CapturePtr& capture, const ViewSettings& settings);
   Status ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked);
@@ -53,6 +58,7 @@ class LiveCaptures {
   CaptureResidency& captures_;
   MeshResidency& meshes_;
   std::size_t memoryBytes_;
+  bool asPatches_ = false;         ///< is this frame?
   std::vector<CapturePtr> drawn_;  ///< by camera: that which was ready last; null = none
   WalkScene planned_;
 };

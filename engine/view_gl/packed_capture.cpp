@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/base/contract.h"
+
 namespace acentric {
 namespace {
 
@@ -99,6 +101,29 @@ Status packChunks(const DisplayCapture& capture, const CaptureTask& task, const 
   return {};
 }
 
+std::size_t bytesOfTexels(const DisplayPatches& patches) {
+  return patches.colour.size() * sizeof(patches.colour[0]) + patches.cover.size() * sizeof(patches.cover[0]);
+}
+
+/// Of the patches that a capture has.
+Status checkPatches(const DisplayPatches& patches, const CaptureTask& task) {
+  const std::size_t texels = patches.colour.size();
+  bool sound = patches.cover.size() == texels;
+  for (const DisplayPatch& patch : patches.patches)
+    sound = sound &&
+            patch.firstTexel + (patch.columns + std::size_t(2)) * (patch.rows + std::size_t(2)) <= texels;
+  if (!sound)
+    return fail(ErrorKind::malformed, "the capture's patches have other texels than they say", task.name);
+  if (texels * sizeof(std::uint32_t) > task.largestBuffer)
+    return fail(
+        ErrorKind::tooLarge,
+        fmt::format("its patches have {} texels, more than this driver's storage buffers hold ({}): bake "
+                    "with fewer samples per degree or use a CPU renderer",
+                    texels, task.largestBuffer / sizeof(std::uint32_t)),
+        task.name);
+  return {};
+}
+
 }  // namespace
 
 bool CaptureTask::sameAs(const CaptureTask& other) const {
@@ -109,15 +134,18 @@ std::size_t PackedCapture::bytes() const {
   std::size_t sum = bytesOf(rowTangents) + bytesOf(background);
   for (const PackedColumns& chunk : chunks)
     sum += bytesOf(chunk.samples) + bytesOf(chunk.mirrors) + bytesOf(chunk.layers) + bytesOf(chunk.slants);
-  return sum;
+  return sum + (patches ? bytesOfTexels(*patches) : 0);
 }
 
-std::size_t packedBytes(const DisplayCapture& capture) {
+std::size_t packedBytes(const DisplayCapture& capture, CaptureParts parts) {
+  const std::size_t background = capture.background.runs.runCount() * sizeof(glm::uvec2);
+  if (parts == CaptureParts::patches) return background + bytesOfTexels(*capture.patches);
+  if (parts == CaptureParts::background) return background;
   const std::size_t samples = capture.samples.size();
   std::size_t bytes = samples * sizeof(GlSample) + inWords<Slant>(samples) * sizeof(Slant);
   if (capture.layered) bytes += inWords<LayerPlace>(samples) * sizeof(LayerPlace);
   if (!capture.mirror.empty()) bytes += inWords<std::uint8_t>(samples);
-  return bytes + bytesOf(capture.rowTangent) + capture.background.runs.runCount() * sizeof(glm::uvec2);
+  return background + bytes + bytesOf(capture.rowTangent);
 }
 
 Status checkArrays(const DisplayCapture& capture, const char* name) {
@@ -157,6 +185,11 @@ Result<PackedCapture> packCapture(const DisplayCapture& capture, const CaptureTa
     packed.clearRanks.resize(std::size_t(capture.camera.columns));
     for (std::size_t k = 0; capture.blended && k < packed.clearRanks.size() && !stop.stop_requested(); ++k)
       packed.clearRanks[k] = clearRanks(capture, capture.columnStart[k], capture.columnStart[k + 1]);
+  }
+  if (task.parts == CaptureParts::patches) {
+    require(capture.patches != nullptr, "patches are asked for of a capture that has them");
+    if (Status whole = checkPatches(*capture.patches, task); !whole) return tl::unexpected(whole.error());
+    packed.patches = capture.patches;
   }
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped", task.name);
   return packed;

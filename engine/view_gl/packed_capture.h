@@ -32,8 +32,8 @@ struct GlSample {
 };
 static_assert(sizeof(GlSample) == 12, "the shader reads a stride of 12 bytes");
 
-/// What is asked for of a capture: its background alone, or its samples with it.
-enum class CaptureParts { background, samples };
+/// What is asked for of a capture: its background alone, or its samples or patches with it.
+enum class CaptureParts { background, samples, patches };
 
 struct CaptureTask {
   std::weak_ptr<const DisplayCapture> capture;
@@ -63,6 +63,7 @@ struct PackedCapture {
   std::vector<glm::uvec2> background;  ///< of each run: first row | end row << 16, roles
   std::vector<std::uint8_t>
       clearRanks;  ///< per column: most clear samples in one pixel, at most kMostClearRanks
+  std::shared_ptr<const DisplayPatches> patches;
 
   std::size_t bytes() const;
 };
@@ -74,8 +75,8 @@ std::size_t bytesOf(const std::vector<Value>& values) {
 
 /// Fails on a capture whose arrays contradict each other: nothing that reads them checks again.
 Status checkArrays(const DisplayCapture& capture, const char* name);
-/// That a capture's samples and its background become, in one chunk.
-std::size_t packedBytes(const DisplayCapture& capture);
+/// That these parts of a capture become, in one chunk.
+std::size_t packedBytes(const DisplayCapture& capture, CaptureParts parts);
 /// `capture` is the task's. Fails on one whose arrays contradict each other, or whose single column is beyond
 /// the largest buffer; and when stopped.
 Result<PackedCapture> packCapture(const DisplayCapture& capture, const CaptureTask& task,

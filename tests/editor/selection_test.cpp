@@ -5,7 +5,7 @@
 namespace acentric::editor {
 namespace {
 
-Layout smallLayout() {
+Layout hexagonLayout() {
   LayoutSpec spec;
   spec.cellSize = 1;
   spec.outline.loops = {{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}};
@@ -20,7 +20,7 @@ TEST(Selection, CombinesAsAskedFor) {
 }
 
 TEST(Selection, ABoxTouchesWhatItHoldsCrossesOrLiesIn) {
-  const Layout layout = smallLayout();
+  const Layout layout = hexagonLayout();
   const Region& region = layout.regions[layout.regions.size() / 2];
   const glm::dvec2 middle = region.polygon.centroid();
   EXPECT_EQ(cellsTouching(layout, middle - 0.01, middle + 0.01), std::vector<CellId>{region.id});
@@ -34,7 +34,7 @@ TEST(Selection, ABoxTouchesWhatItHoldsCrossesOrLiesIn) {
 }
 
 TEST(Selection, InvertingTwiceIsNothing) {
-  const Layout layout = smallLayout();
+  const Layout layout = hexagonLayout();
   const std::set<CellId> some = cellsWhere(layout, [](std::size_t r) { return r % 3 == 0; });
   const std::set<CellId> others = inverted(layout, some);
   EXPECT_EQ(some.size() + others.size(), layout.regions.size());
@@ -42,7 +42,7 @@ TEST(Selection, InvertingTwiceIsNothing) {
 }
 
 TEST(Selection, OverBudgetIsAboveItNotAtIt) {
-  const Layout layout = smallLayout();
+  const Layout layout = hexagonLayout();
   RegionBudgets budgets;
   budgets.triangles.assign(layout.regions.size(), 10);
   budgets.triangles[2] = 11;
@@ -51,7 +51,7 @@ TEST(Selection, OverBudgetIsAboveItNotAtIt) {
 }
 
 TEST(Selection, WarningsAreOfRegionsAndOfTheCamerasThatTheyShow) {
-  const Layout layout = smallLayout();
+  const Layout layout = hexagonLayout();
   PlacementReport report;
   PlacementFinding note, region, camera;
   note.severity = Severity::note;

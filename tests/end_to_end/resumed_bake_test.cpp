@@ -70,7 +70,7 @@ TEST(SecondBake, OfAProjectIsRefusedUnlessItTakesTheFirstOver) {
 }
 
 TEST(ChangedModel, EndsTheBakeWhichSaysWhatWasKeptAndTheNextOneBakesItAsItIs) {
-  const SampleProject project("changed-model");
+  const SampleProject project("changed-model", "-3,-3;3,-3;3,3;-3,3");
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   const fs::path model = project.folder() / "gallery.glb";
   const auto original = readFile(model);

@@ -45,7 +45,7 @@ Json bakeShard(const std::string& file, int number, int count, std::vector<std::
 }
 
 TEST(Shards, SideBySideMakeTheStoreOfOneBake) {
-  SampleProject project("shards");
+  SampleProject project("shards", "-3,-3;3,-3;3,3;-3,3");
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   const auto whole = acentric({"bake", project.file(), "--json"});
   ASSERT_EQ(whole.exitCode, 0) << whole.errors;
@@ -77,7 +77,7 @@ TEST(Shards, SideBySideMakeTheStoreOfOneBake) {
 }
 
 TEST(Shards, CountTheCamerasOfAllStoreysOrOfOne) {
-  SampleProject project("storey-shards");
+  SampleProject project("storey-shards", "-3,-3;3,-3;3,3;-3,3");
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   Json json = project.read();
   json["storeys"].push_back(json["storeys"][0]);

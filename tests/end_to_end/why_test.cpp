@@ -63,7 +63,7 @@ class BakeReasonsTest : public testing::Test {
   fs::path fileOf(int camera, const char* extension) const {
     return project.captures() / (baked["cameras"][std::size_t(camera)]["key"].get<std::string>() + extension);
   }
-  SampleProject project{"why"};
+  SampleProject project{"why", "-3,-3;3,-3;3,3;-3,3"};
   std::string file = project.file();
   Json first, baked;
 };

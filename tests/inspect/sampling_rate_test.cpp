@@ -21,9 +21,9 @@ ColumnCamera cameraAt(const glm::dvec3& place, double samplesPerDegree) {
   return camera;
 }
 
-class Random {
+class RandomPlaces {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit RandomPlaces(unsigned seed) : engine_(seed) {}
   double operator()(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
@@ -46,7 +46,7 @@ TEST(SamplingRate, OfAWallSeenFaceOnIsTheSamplesPerRadianOverTheDistance) {
 }
 
 TEST(SamplingRate, IsTheChangeOfColumnAndRowWithThePoint) {
-  Random random(1);
+  RandomPlaces random(1);
   for (int n = 0; n < 500; ++n) {
     const ColumnCamera camera = cameraAt({random(-3, 3), random(-3, 3), random(0, 2)}, 5);
     const glm::dvec3 point =
@@ -79,7 +79,7 @@ TEST(SamplingRate, AtASlantFallsWithTheCosineInThatDirectionAlone) {
 }
 
 TEST(SamplingRate, TakesTheDirectionWithFewestSamplesPerPixel) {
-  Random random(2);
+  RandomPlaces random(2);
   for (int n = 0; n < 1000; ++n) {
     const auto matrix = [&] {
       return glm::dmat2(random(-2, 2), random(-2, 2), random(-2, 2), random(-2, 2));

@@ -19,7 +19,7 @@ OpenProject openRoom(const SceneBuilder& builder, double samplesPerDegree) {
   return test::openWith(builder.rays(), project, "room.acentric.json");
 }
 
-SceneBuilder furnishedRoom() {
+SceneBuilder furnishedModel() {
   SceneBuilder builder;
   const int white = builder.material(matte());
   Material pane = matte();
@@ -51,7 +51,7 @@ bool heldByCapture(const Capture& capture, const glm::dvec3& point, double toler
 }
 
 TEST(ProjectReach, ForetellsWhatTheBakeCaptures) {
-  OpenProject open = openRoom(furnishedRoom(), 4);
+  OpenProject open = openRoom(furnishedModel(), 4);
   open.project.bake.pruning = false;  // random points are seen from no eye in particular
   open.project.bake.maxLayers = 2;
   open.project.bake.silhouettes = false;  // they reach one pixel farther
@@ -124,7 +124,7 @@ TEST(OpaqueTracer, SeesThroughGlassAndBlendedSurfacesAsTheTruthDoes) {
 }
 
 TEST(HoleCorrelation, ComparesWhatIsForetoldWithWhatWasRendered) {
-  OpenProject open = openRoom(furnishedRoom(), 4);
+  OpenProject open = openRoom(furnishedModel(), 4);
   open.project.bake.maxLayers = 1;  // so that holes open
   const ProjectReach reach(open);
   TaskRunner runner(1);

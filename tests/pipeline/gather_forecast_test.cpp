@@ -17,7 +17,7 @@ namespace {
 using test::SceneBuilder;
 
 /// A room whose boxes hide parts of it from all cameras, with a ball of many small triangles.
-RayScenePtr furnishedRoom(std::initializer_list<Effect> off = {}) {
+RayScenePtr litRoom(std::initializer_list<Effect> off = {}) {
   SceneBuilder builder;
   const int paint = builder.material(test::matte({0.8f, 0.7f, 0.6f}));
   builder.box(paint, {-4, -3, 0}, {4, 3, 3}, true).point({0, 0, 2.5f}, 50);
@@ -67,13 +67,13 @@ void expectForetold(const OpenProject& open, const std::vector<int>& cameras, do
 const std::initializer_list<Effect> kNoBounces{Effect::diffuseInterreflection};
 
 TEST(GatherForecast, TellsWhatAllCamerasGather) {
-  const OpenProject open = test::openWith(furnishedRoom(kNoBounces), project());
+  const OpenProject open = test::openWith(litRoom(kNoBounces), project());
   ASSERT_TRUE(open.plan.on(Effect::ambientOcclusion));
   expectForetold(open, allCameras(open), 0.1);
 }
 
 TEST(GatherForecast, TellsWhatBouncesGatherOfTheirCells) {
-  const OpenProject open = test::openWith(furnishedRoom(), project());
+  const OpenProject open = test::openWith(litRoom(), project());
   ASSERT_TRUE(open.plan.on(Effect::diffuseInterreflection));
   expectForetold(open, allCameras(open), 0.15);
 }
@@ -82,13 +82,13 @@ TEST(GatherForecast, TellsWhatFewCamerasGatherAndWithoutPruning) {
   Project wanted = project();
   wanted.bake.pruning = false;
   wanted.bake.maxLayers = 2;
-  const OpenProject open = test::openWith(furnishedRoom(kNoBounces), wanted);
+  const OpenProject open = test::openWith(litRoom(kNoBounces), wanted);
   expectForetold(open, {1, 4}, 0.15);
 }
 
 TEST(GatherForecast, OfThePartsTellsTheWholeAsNoPartCan) {
   // Two halves of the cameras gather more than the whole does: each finds nothing there.
-  const OpenProject open = test::openWith(furnishedRoom(kNoBounces), project());
+  const OpenProject open = test::openWith(litRoom(kNoBounces), project());
   std::vector<int> even, odd;
   for (const int camera : allCameras(open)) (camera % 2 == 0 ? even : odd).push_back(camera);
   TaskRunner runner(1);
@@ -100,14 +100,14 @@ TEST(GatherForecast, OfThePartsTellsTheWholeAsNoPartCan) {
 }
 
 TEST(GatherForecast, TellsWhatTheSurfacesOwnLightGathersBeyondTheCaptures) {
-  const OpenProject open = test::openWith(furnishedRoom(kNoBounces), project());
+  const OpenProject open = test::openWith(litRoom(kNoBounces), project());
   const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
   const auto layout = layOutSurfaceLight(*open.rays, local.wanted, open.project.bake);
   ASSERT_TRUE(layout);
   TaskRunner runner(1);
   for (const std::vector<int>& cameras : {std::vector<int>{}, std::vector{0}}) {
     // The light reads every place of the surfaces it is baked for; those not read before are gathered.
-    const auto fresh = test::openWith(furnishedRoom(kNoBounces), project());
+    const auto fresh = test::openWith(litRoom(kNoBounces), project());
     gatheredBy(fresh, cameras);
     const auto gathered = fresh.rays->gatheredLight(fresh.project.bake);
     RayCounts rest;
@@ -124,7 +124,7 @@ TEST(GatherForecast, TellsWhatTheSurfacesOwnLightGathersBeyondTheCaptures) {
 }
 
 TEST(GatherForecast, IsTheSameHoweverManyThreadsAndNothingWhereNothingIsGathered) {
-  OpenProject open = test::openWith(furnishedRoom(), project());
+  OpenProject open = test::openWith(litRoom(), project());
   TaskRunner one(0), three(2);
   const auto a = forecastGathering(open, {0, 2}, nullptr, one),
              b = forecastGathering(open, {0, 2}, nullptr, three);

@@ -1,7 +1,10 @@
 /// Captures with silhouettes from the scene to the frame.
 
+#include <set>
+
 #include "engine/bake/truth.h"
 #include "engine/measure/compare.h"
+#include "engine/view/patch_tiles.h"
 #include "tests/pipeline/baked_room.h"
 
 namespace acentric {
@@ -129,6 +132,47 @@ TEST_F(PatchWalk, ReachTheNearestSurfacesFromEveryRegion) {
       }
   }
   EXPECT_LT(wrong, all / 200);
+}
+
+TEST_F(PatchWalk, TilesListThePatchesThatTouchThem) {
+  const PerspectiveView view = views().front();
+  const auto plan = planView(room_->walk, view, {});
+  ASSERT_TRUE(plan);
+  TaskRunner runner(0);
+  const PatchPlan patches = planPatches(room_->walk, view, *plan, runner);
+  PatchTiles tiles;
+  tiles.find(patches.surfaces, view.width, view.height);
+  std::vector<const PatchDraw*> draws;
+  for (const StripDraw& strip : patches.surfaces)
+    for (const PatchDraw& draw : strip.patches) draws.push_back(&draw);
+  std::size_t listed = 0;
+  std::vector<RowRange> rows;
+  std::vector<std::vector<int>> expected(draws.size());  // its tiles, by pixel
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const PolygonRows& polygon = draws[d]->polygon;
+    polygon.rows(polygon.x0(), polygon.x1(), rows);
+    std::set<int> touched;
+    for (int x = polygon.x0(); x < polygon.x1(); ++x)
+      for (int y = rows[std::size_t(x - polygon.x0())].first; y < rows[std::size_t(x - polygon.x0())].end;
+           ++y)
+        touched.insert(y / PatchTiles::kSide * 1000 + x / PatchTiles::kSide);
+    expected[d].assign(touched.begin(), touched.end());
+  }
+  std::vector<std::vector<int>> found(draws.size());
+  for (const PatchTile& tile : tiles.tiles) {
+    EXPECT_LT(tile.first, tile.end);
+    for (std::uint32_t i = tile.first; i < tile.end; ++i) {
+      EXPECT_TRUE(i == tile.first || tiles.patches[i - 1] < tiles.patches[i]) << "front to back";
+      found[tiles.patches[i]].push_back(tile.y / PatchTiles::kSide * 1000 + tile.x / PatchTiles::kSide);
+      ++listed;
+    }
+  }
+  EXPECT_EQ(listed, tiles.patches.size());
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    // Rows of the columns of a tile are taken together: a few tiles more.
+    EXPECT_TRUE(std::ranges::includes(found[d], expected[d])) << d;
+    EXPECT_LE(found[d].size(), 2 * expected[d].size() + 1) << d;
+  }
 }
 
 }  // namespace

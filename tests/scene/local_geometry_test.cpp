@@ -27,7 +27,7 @@ Scene sceneOf(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangle
   return scene;
 }
 
-double areaOf(const LocalGeometry& local) {
+double sumOfAreas(const LocalGeometry& local) {
   double area = 0;
   for (const LocalTriangle& t : local.triangles) {
     const glm::dvec3 a(local.vertices[t.vertices.x].position), b(local.vertices[t.vertices.y].position),
@@ -43,11 +43,11 @@ Scene floorScene() {
 }
 
 TEST(LocalGeometry, AFloorIsCutToThePolygonsArea) {
-  EXPECT_NEAR(areaOf(clipToPolygon(floorScene(), rectangle(-1, -2, 3, 4))), 24, 1e-5);
+  EXPECT_NEAR(sumOfAreas(clipToPolygon(floorScene(), rectangle(-1, -2, 3, 4))), 24, 1e-5);
   ConvexPolygon hexagon;
   for (int i = 0; i < 6; ++i)
     hexagon.corners.push_back(2.0 * glm::dvec2(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3)));
-  EXPECT_NEAR(areaOf(clipToPolygon(floorScene(), hexagon)), 1.5 * std::sqrt(3.0) * 4, 1e-5);
+  EXPECT_NEAR(sumOfAreas(clipToPolygon(floorScene(), hexagon)), 1.5 * std::sqrt(3.0) * 4, 1e-5);
 }
 
 TEST(LocalGeometry, ATriangleInsideIsKeptAsItIsAndOneOutsideIsDropped) {
@@ -124,7 +124,7 @@ TEST(LocalGeometry, PiecesOfATilingAddUpToTheWhole) {
     const Scene scene = sceneOf(p, {{0, 1, 2}});
     double sum = 0;
     for (int x = -3; x < 3; ++x)
-      for (int y = -3; y < 3; ++y) sum += areaOf(clipToPolygon(scene, rectangle(x, y, x + 1, y + 1)));
+      for (int y = -3; y < 3; ++y) sum += sumOfAreas(clipToPolygon(scene, rectangle(x, y, x + 1, y + 1)));
     const double whole = 0.5 * glm::length(glm::cross(glm::dvec3(p[1] - p[0]), glm::dvec3(p[2] - p[0])));
     EXPECT_NEAR(sum, whole, 1e-4 * (1 + whole));
   }

@@ -145,6 +145,27 @@ TEST(PatchKernel, InterpolatesBetweenSamples) {
   }
 }
 
+TEST(PatchKernel, CoversNothingBeyondWhatReachesIntoItsBorder) {
+  FlatPatch patch(4, 32);
+  patch.setAll(kTexelParts, 0xffffffff);
+  for (int i = 0; i < 4; ++i) patch.set(i, -1, 0xf000, 0xffffffff), patch.set(i, 32, 0x000f, 0xffffffff);
+  for (const double scale : {1.0, 0.3, 3.0}) {
+    CanvasColumn canvas;
+    const double shift = -13.4 * scale;
+    paintPatch(patch.column(2, scale, shift), 0, kRows, canvas.view());
+    for (int y = 0; y < kRows; ++y) {
+      const double low = y * scale + shift, high = low + scale;
+      const bool inside = low > 0 && high < 32, outside = high < -0.25 || low > 32.25;
+      if (inside) {
+        EXPECT_EQ(canvas.open[std::size_t(y)], 0u) << y << " " << scale;
+      }
+      if (outside) {
+        EXPECT_EQ(canvas.open[std::size_t(y)], kAllParts) << y << " " << scale;
+      }
+    }
+  }
+}
+
 TEST(PatchKernel, LeavesOutSamplesOfOtherRoles) {
   FlatPatch patch(4, 32);
   patch.setAll(kTexelParts, 0xffffffff);

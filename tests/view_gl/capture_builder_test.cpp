@@ -172,7 +172,7 @@ TEST(PackedCapture, IsCutBetweenColumnsIntoBuffersOfTheUsualSize) {
   const auto whole = packed(std::size_t(1) << 20, std::size_t(1) << 20);
   ASSERT_TRUE(whole);
   ASSERT_EQ(whole->chunks.size(), 1u);
-  EXPECT_EQ(whole->bytes(), packedBytes(*capture));
+  EXPECT_EQ(whole->bytes(), packedBytes(*capture, CaptureParts::samples));
   for (const std::size_t usual : {5 * column, std::size_t(12)}) {
     const auto cut = packed(usual, column * 6);
     ASSERT_TRUE(cut);

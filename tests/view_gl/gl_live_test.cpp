@@ -308,7 +308,7 @@ TEST_F(GlLive, WhatIsOnItsWayCountsAsGraphicsMemory) {
   CaptureResidency residency(runner, CaptureResidency::makeBuilder([&] { wakes.release(); }));
   ASSERT_TRUE(residency.get(captures[0], "there"));
   const std::size_t there = residency.bytes();
-  const std::size_t coming = packedBytes(*captures[1]);
+  const std::size_t coming = packedBytes(*captures[1], CaptureParts::samples);
   residency.trim(there);
   ASSERT_TRUE(residency.ask(captures[1], "coming"));
   residency.end();

@@ -1,0 +1,12 @@
+// What is known of each pixel while patches are painted, front to back (engine/view/patch_kernel.h). Parts: one bit for each
+// of a pixel's rays.
+const int kPixelParts = 8;
+const uint kAllParts = 0xffu;
+
+// Of the words of a pixel's state:
+// x: parts that nothing covers yet
+// y: parts that show a mirror and wait for what it shows; from bit 16 on its number
+// z: source of the surface that covers most parts, from bit 8 on; below how many it covers. 0: nothing is painted
+// w: inverse depth of that surface, a float
+
+uint mirrorPartsOf(uvec4 state) { return state.y & kAllParts; }

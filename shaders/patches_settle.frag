@@ -1,0 +1,52 @@
+// From what was painted to colours, over what the picture holds: of pixels that show mirrors, or of all others. Defines:
+// MIRRORS; IN_CRACKS (of the second cover: in cracks of the first, only what lies before what shows there).
+#include "capture_depth.glsl"
+#include "patch_state.glsl"
+#ifdef IN_CRACKS
+#include "cracks.glsl"
+#endif
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint source;
+
+uniform sampler2D sums;
+uniform usampler2D states;
+uniform sampler2D coloursBefore;
+uniform usampler2D sourcesBefore;
+uniform uint hole;
+uniform uint background;
+#ifdef MIRRORS
+uniform usampler2D mirrors;  // of local geometry
+uniform bool local;          // those alone, or all others
+#endif
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  uvec4 state = texelFetch(states, at, 0);
+#ifdef MIRRORS
+  if (state.y == 0u || local != (state.x == 0u && state.z == 0u)) discard;
+#else
+  if (state.y != 0u) discard;
+#endif
+  vec4 sum = texelFetch(sums, at, 0);
+  uint before = texelFetch(sourcesBefore, at, 0).r;
+  bool painted = state.z != 0u;
+  int open = bitCount(state.x);
+  bool behind = open > 0 && before != hole;  // what lies behind shows between the parts that are covered
+  int shown = kPixelParts - open - bitCount(mirrorPartsOf(state));
+  bool real = painted;
+#ifdef MIRRORS
+  real = real || shown > 0;
+#endif
+  int number = shown + (behind ? open : 0);
+  if (!(behind || real) || number <= 0) discard;
+  float depth = max(kBackgroundDepthScale * (painted ? uintBitsToFloat(state.w) : 0.0), kSkyDepth);
+#ifdef IN_CRACKS
+  if (liesBehindCrack(depth)) discard;
+#endif
+  vec3 codes = texelFetch(coloursBefore, at, 0).rgb * 255.0;
+  vec3 mean = (sum.rgb + codes * codes * (behind ? float(open) * sum.w : 0.0)) / float(number);
+  colour = vec4(min(floor(sqrt(mean) + 0.5), 255.0) / 255.0, 1.0);
+  source = painted ? state.z >> 8 : before == hole ? background : before;
+  gl_FragDepth = depth;
+}

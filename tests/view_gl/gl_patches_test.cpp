@@ -1,0 +1,135 @@
+/// Patches on the graphics card, against the CPU: the same rays of each pixel, so the same picture.
+
+#include <algorithm>
+#include <cmath>
+
+#include "gl_fixture.h"
+#include "tests/bake/mirror_materials.h"
+#include "tests/pipeline/baked_room.h"
+
+namespace acentric {
+namespace {
+
+using test::differingSources;
+using test::kMostDifferingShare;
+using test::onCpu;
+
+/// A hall with blocks, a pane of glass, a mirror on a far wall and one that stands beside the path.
+RayScenePtr hall() {
+  test::SceneBuilder builder;
+  builder.box(builder.material(test::glowing({0.4f, 0.35f, 0.3f})), {-7, -7, 0}, {7, 7, 3.5f}, true);
+  for (int i = 0; i < 9; ++i) {
+    const float angle = 0.7f * float(i), far = 3.2f + 0.3f * float(i % 4);
+    const float x = far * std::cos(angle), y = far * std::sin(angle);
+    builder.box(builder.material(test::glowing({0.1f * float(i), 0.3f, 0.9f - 0.1f * float(i)})),
+                {x - 0.3f, y - 0.2f, 0}, {x + 0.3f, y + 0.25f, 0.6f + 0.25f * float(i)});
+  }
+  Material glass = test::glowing({0.2f, 0.5f, 0.3f});
+  glass.baseColour.a = 0.4f;
+  glass.alphaMode = AlphaMode::blend;
+  builder.quad(builder.material(glass), {-4.5f, -1, 0.5f}, {-4.5f, 1.5f, 0.5f}, {-4.5f, 1.5f, 2.2f},
+               {-4.5f, -1, 2.2f});
+  const int silver = builder.material(test::silver());
+  builder.quad(silver, {6, -3, 0.5f}, {6, -3, 2.8f}, {6, 3, 2.8f}, {6, 3, 0.5f});
+  builder.quad(silver, {-0.8f, 1.4f, 0.8f}, {0.6f, 1.4f, 0.8f}, {0.6f, 1.4f, 2.4f}, {-0.8f, 1.4f, 2.4f});
+  builder.sky({0.5f, 0.6f, 0.9f});
+  return builder.rays();
+}
+
+class GlPatches : public test::WithGl {
+ protected:
+  static test::BakedRoom roomOf(Configuration configuration) {
+    Project project = test::smallProject(1.2, 3);
+    project.layout().configuration = configuration;
+    project.bake.silhouettes = true;
+    return test::BakedRoom(hall(), project);
+  }
+  static std::vector<PerspectiveView> viewsOf(const Layout& layout) {
+    std::vector<PerspectiveView> views;
+    for (int i = 0; i < 8; ++i) {
+      PerspectiveView view;
+      view.eye = {0.5 * std::cos(2.1 * i), 0.5 * std::sin(2.1 * i), layout.eyeZ()};
+      view.yawRadians = kPi / 4 * i, view.pitchRadians = 0.1 * (i % 3 - 1);
+      view.fovRadians = radians(i == 5 ? 179.0 : 60.0);
+      view.width = 321, view.height = 199;  // odd: half a pixel matters
+      views.push_back(view);
+    }
+    return views;
+  }
+  /// Decibels between both pictures.
+  static double likeness(const Frame& a, const Frame& b) {
+    double squares = 0;
+    for (std::size_t i = 0; i < a.colour.pixels.size(); ++i) {
+      const Rgba8 &p = a.colour.pixels[i], &q = b.colour.pixels[i];
+      for (const int difference : {p.r - q.r, p.g - q.g, p.b - q.b}) squares += difference * difference;
+    }
+    return 10 * std::log10(255.0 * 255.0 * 3 * double(a.colour.pixels.size()) / std::max(squares, 1e-9));
+  }
+  bool hasVariant(const std::string& words) const {
+    return std::ranges::any_of(renderer_->variants(),
+                               [&](const std::string& v) { return v.find(words) != std::string::npos; });
+  }
+};
+
+TEST_F(GlPatches, ArePaintedAsOnTheCpu) {
+  for (const Configuration configuration : {Configuration::b, Configuration::e}) {
+    const test::BakedRoom room = roomOf(configuration);
+    bool reflected = false, second = false, clipped = false;
+    for (const PerspectiveView& view : viewsOf(*room.open.layout)) {
+      ViewSettings settings;
+      settings.renderer = Renderer::gl;
+      for (const bool local : {true, false}) {
+        settings.localGeometry = settings.fillHoles = local;
+        const Frame cpu = onCpu(room.walk, view, settings), gl = onGl(room.walk, view, settings);
+        EXPECT_GE(likeness(cpu, gl), 50) << nameOf(configuration) << " " << view.yawRadians << " " << local;
+        EXPECT_LE(differingSources(cpu, gl), kMostDifferingShare) << view.yawRadians << " " << local;
+        EXPECT_EQ(gl.stats.images, cpu.stats.images);
+        EXPECT_GT(gl.stats.samplesRead, 0u);
+      }
+      const auto plan = planView(room.walk, view, settings);
+      ASSERT_TRUE(plan);
+      reflected |= !plan->reflections.empty();
+      for (const PieceDraw& piece : plan->pieces) second |= piece.secondary, clipped |= piece.clipToPart;
+    }
+    EXPECT_TRUE(reflected) << "no view shows a mirror";
+    EXPECT_TRUE(second) << "no view has a second cover";
+    EXPECT_TRUE(clipped) << "no view is so wide that it is split in parts";
+  }
+  for (const char* words : {"CLIP_TO_PART", "BLENDED", "REFLECT", "patches_begin.frag LOCAL_MIRRORS"})
+    EXPECT_TRUE(hasVariant(words)) << words;
+}
+
+TEST_F(GlPatches, AreDrawnOfNoCaptureThatHasNone) {
+  test::BakedRoom room = roomOf(Configuration::b);
+  ViewSettings settings;
+  settings.renderer = Renderer::gl;
+  const PerspectiveView view = viewsOf(*room.open.layout).front();
+  for (auto& capture : room.walk.captures) {
+    auto bare = std::make_shared<DisplayCapture>(*capture);
+    bare->patches = nullptr;
+    capture = bare;
+  }
+  const Frame asPatches = onGl(room.walk, view, settings);
+  EXPECT_FALSE(hasVariant("patches.frag"));
+  settings.reconstruction = Reconstruction::filtered;
+  EXPECT_EQ(asPatches.colour.pixels, onGl(room.walk, view, settings).colour.pixels);
+}
+
+TEST_F(GlPatches, WhoseTexelsAreNotThoseTheySayAreRefused) {
+  test::BakedRoom room = roomOf(Configuration::b);
+  ViewSettings settings;
+  settings.renderer = Renderer::gl;
+  for (auto& capture : room.walk.captures) {
+    auto damaged = std::make_shared<DisplayCapture>(*capture);
+    auto patches = std::make_shared<DisplayPatches>(*capture->patches);
+    patches->patches.back().rows += 1;
+    damaged->patches = patches;
+    capture = damaged;
+  }
+  const auto drawn = renderer_->draw(room.walk, viewsOf(*room.open.layout).front(), settings);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().kind, ErrorKind::malformed);
+}
+
+}  // namespace
+}  // namespace acentric
