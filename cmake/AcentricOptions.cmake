@@ -38,7 +38,8 @@ if(ACENTRIC_SANITIZE)
 endif()
 
 option(ACENTRIC_JOIN_SOURCES "Compile several sources of some targets at once: all takes less time, one change more" ON)
-# acentric_join_sources(TARGET): it is one of those. No two of its sources may give one name to different things.
+# acentric_join_sources(TARGET): it is one of those; none that the C library takes single objects of. Where sources that
+# are joined give one name to two things the compiler says so: rename one.
 function(acentric_join_sources target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${ACENTRIC_JOIN_SOURCES} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()

@@ -16,8 +16,7 @@ uniform usampler2D sourcesBefore;
 uniform uint hole;
 uniform uint background;
 #ifdef MIRRORS
-uniform usampler2D mirrors;  // of local geometry
-uniform bool local;          // those alone, or all others
+uniform bool local;  // those of local geometry alone, or all others
 #endif
 
 void main() {

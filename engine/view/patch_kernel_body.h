@@ -123,6 +123,7 @@ void reopen(const PatchCanvasColumn& canvas, std::uint32_t frontSlot, const std:
         B::greater(B::seti(std::int32_t(frontSlot)), B::template shiftRight<24>(colour)) & wasOpen;
     B::store(canvas.open + y, B::select(ours, B::when(isBehind, all), open), count);
     B::store(canvas.source + y, B::select(ours, none, source), count);
+    if (!B::any(ours & isBehind)) continue;  // nothing is painted here any more
     const auto reset = [&](float* values, float to) {
       B::store(values + y, B::select(ours, B::set(to), B::load(values + y, count)), count);
     };

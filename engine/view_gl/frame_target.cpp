@@ -6,21 +6,10 @@
 #include <array>
 
 #include "engine/view_gl/gl_check.h"
+#include "engine/view_gl/pass_texture.h"
 
 namespace acentric {
 namespace {
-
-GlTexture storage(GLenum format, int width, int height) {
-  GlTexture texture = GlTexture::make();
-  glBindTexture(GL_TEXTURE_2D, texture.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-  // One level without mipmaps: the default filter would make the texture incomplete.
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
-}
 
 Status complete() {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -60,11 +49,11 @@ Status FrameTarget::resize(int width, int height) {
   mirrors_.reset();
   places_.reset();
   glActiveTexture(GL_TEXTURE0);
-  colour_ = storage(GL_RGBA8, width, height);
+  colour_ = pictureTexture(GL_RGBA8, width, height);
   colourSrgb_ = GlTexture::make();
   glTextureView(colourSrgb_.name(), GL_TEXTURE_2D, colour_.name(), GL_SRGB8_ALPHA8, 0, 1, 0, 1);
-  source_ = storage(GL_R16UI, width, height);
-  depth_ = storage(GL_DEPTH32F_STENCIL8, width, height);
+  source_ = pictureTexture(GL_R16UI, width, height);
+  depth_ = pictureTexture(GL_DEPTH32F_STENCIL8, width, height);
   if (Status made = checkGl("making the frame's textures"); !made) return made;
 
   draw_ = GlFramebuffer::make();
@@ -122,8 +111,8 @@ Status FrameTarget::makePieces(bool mirrors, bool places, GlFramebuffer& framebu
 
 Status FrameTarget::beginPieces(bool mirrors, bool places) {
   glActiveTexture(GL_TEXTURE0);
-  if (mirrors && !mirrors_) mirrors_ = storage(GL_R8UI, width_, height_);
-  if (places && !places_) places_ = storage(GL_R16UI, width_, height_);
+  if (mirrors && !mirrors_) mirrors_ = pictureTexture(GL_R8UI, width_, height_);
+  if (places && !places_) places_ = pictureTexture(GL_R16UI, width_, height_);
   if (!pieces_ || withMirrors_ != mirrors || withPlaces_ != places) {
     if (Status made = makePieces(mirrors, places, pieces_); !made) return made;
     if (Status made = makePieces(false, places, reflections_); !made) return made;
@@ -160,7 +149,7 @@ void FrameTarget::endPainting() const {
 Status FrameTarget::beginClearLayer() {
   if (!clear_) {
     glActiveTexture(GL_TEXTURE0);
-    clearLayer_ = storage(GL_RGBA8, width_, height_);
+    clearLayer_ = pictureTexture(GL_RGBA8, width_, height_);
     clear_ = GlFramebuffer::make();
     glBindFramebuffer(GL_FRAMEBUFFER, clear_.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, clearLayer_.name(), 0);

@@ -1,8 +1,8 @@
 #pragma once
 /// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
-/// as buffers. Draws the pieces of the same ViewPlan back to front without depth test (or, for comparison,
-/// with one; or as adaptive meshes with one, built when a capture is first drawn), then local geometry with
-/// one.
+/// as buffers. Draws the pieces of the same ViewPlan as patches, front to back, or as points, back to front
+/// without depth test (or, for comparison, with one; or as adaptive meshes with one, built when a capture is
+/// first drawn), then local geometry with one.
 
 #include <cstddef>
 #include <functional>
@@ -26,8 +26,9 @@ struct GlRendererOptions {
   /// ready a capture is drawn as points with a depth test or, where settings have changed, as the mesh that
   /// it had.
   bool waitForCaptures = true;
-  TaskRunner* runner = nullptr;  ///< builds the meshes waited for; outlives the renderer; null: this thread
-  int backgroundThreads = 1;     ///< that build those not waited for; one more packs captures
+  /// Plans patches, and builds the meshes waited for; outlives the renderer; null: this thread.
+  TaskRunner* runner = nullptr;
+  int backgroundThreads = 1;  ///< that build those not waited for; one more packs captures
   std::size_t bytesPerFrame = std::size_t(32) << 20;  ///< sent at most by a frame that does not wait
   /// It sends no longer than this, or than a tenth of what the frame before it took; a megabyte always.
   double secondsPerFrame = 0.004;

@@ -6,6 +6,9 @@
 
 namespace acentric {
 
+/// One level, read without filtering.
+GlTexture pictureTexture(GLenum format, int width, int height);
+
 class PassTexture {
  public:
   /// `format`: sized, one that can be drawn into. Keeps what it has when the size is the same.

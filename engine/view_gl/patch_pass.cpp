@@ -10,15 +10,6 @@
 namespace acentric {
 namespace {
 
-GlTexture pixelsOf(GLenum format, int width, int height) {
-  GlTexture texture = GlTexture::make();
-  glBindTexture(GL_TEXTURE_2D, texture.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return texture;
-}
-
 glm::vec4 placeOf(const float* direction, float inverseDepth) {
   return {direction[0], direction[1], direction[2], inverseDepth};
 }
@@ -89,10 +80,9 @@ Status PatchPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
 Status PatchPass::resize(int width, int height) {
   if (width == width_ && height == height_) return {};
   width_ = height_ = 0;
-  glActiveTexture(GL_TEXTURE0);
   for (Pixels* pixels : {&now_, &before_}) {
-    pixels->sums = pixelsOf(GL_RGBA32F, width, height);
-    pixels->states = pixelsOf(GL_RGBA32UI, width, height);
+    pixels->sums = pictureTexture(GL_RGBA32F, width, height);
+    pixels->states = pictureTexture(GL_RGBA32UI, width, height);
     pixels->into = GlFramebuffer::make();
     glBindFramebuffer(GL_FRAMEBUFFER, pixels->into.name());
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, pixels->sums.name(), 0);

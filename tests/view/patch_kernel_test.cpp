@@ -331,6 +331,7 @@ TEST(PatchKernel, SettlesAndReopensAsPixelByPixel) {
           const std::uint32_t open = slotOf(pixels[y]) < kFront && !wasClosed ? kAllParts : 0;
           ASSERT_EQ(again.open[y], waits ? canvas.open[y] : open) << kernels.name << ", row " << y;
           ASSERT_EQ(again.source[y], waits ? canvas.source[y] : 0) << kernels.name << ", row " << y;
+          if (!waits && open == 0) continue;  // nothing is painted there any more
           ASSERT_EQ(again.green[y], waits ? canvas.green[y] : 0) << kernels.name << ", row " << y;
           ASSERT_EQ(again.clear[y], waits ? canvas.clear[y] : 1) << kernels.name << ", row " << y;
         }

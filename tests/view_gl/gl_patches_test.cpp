@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "gl_fixture.h"
 #include "tests/bake/mirror_materials.h"
@@ -38,11 +39,16 @@ RayScenePtr hall() {
 
 class GlPatches : public test::WithGl {
  protected:
-  static test::BakedRoom roomOf(Configuration configuration) {
+  static void TearDownTestSuite() { rooms_.clear(); }
+  /// Baked once for all tests.
+  static const test::BakedRoom& roomOf(Configuration configuration) {
+    if (const auto known = rooms_.find(configuration); known != rooms_.end()) return known->second;
     Project project = test::smallProject(1.2, 3);
     project.layout().configuration = configuration;
     project.bake.silhouettes = true;
-    return test::BakedRoom(hall(), project);
+    test::BakedRoom room(hall(), project);
+    room.walk.mirrors = room.open.mirrors;
+    return rooms_.emplace(configuration, std::move(room)).first->second;
   }
   static std::vector<PerspectiveView> viewsOf(const Layout& layout) {
     std::vector<PerspectiveView> views;
@@ -69,11 +75,14 @@ class GlPatches : public test::WithGl {
     return std::ranges::any_of(renderer_->variants(),
                                [&](const std::string& v) { return v.find(words) != std::string::npos; });
   }
+
+ private:
+  static inline std::map<Configuration, test::BakedRoom> rooms_;
 };
 
 TEST_F(GlPatches, ArePaintedAsOnTheCpu) {
   for (const Configuration configuration : {Configuration::b, Configuration::e}) {
-    const test::BakedRoom room = roomOf(configuration);
+    const test::BakedRoom& room = roomOf(configuration);
     bool reflected = false, second = false, clipped = false;
     for (const PerspectiveView& view : viewsOf(*room.open.layout)) {
       ViewSettings settings;
@@ -100,33 +109,35 @@ TEST_F(GlPatches, ArePaintedAsOnTheCpu) {
 }
 
 TEST_F(GlPatches, AreDrawnOfNoCaptureThatHasNone) {
-  test::BakedRoom room = roomOf(Configuration::b);
+  const test::BakedRoom& room = roomOf(Configuration::b);
+  WalkScene walk = room.walk;
   ViewSettings settings;
   settings.renderer = Renderer::gl;
   const PerspectiveView view = viewsOf(*room.open.layout).front();
-  for (auto& capture : room.walk.captures) {
+  for (auto& capture : walk.captures) {
     auto bare = std::make_shared<DisplayCapture>(*capture);
     bare->patches = nullptr;
     capture = bare;
   }
-  const Frame asPatches = onGl(room.walk, view, settings);
+  const Frame asPatches = onGl(walk, view, settings);
   EXPECT_FALSE(hasVariant("patches.frag"));
   settings.reconstruction = Reconstruction::filtered;
-  EXPECT_EQ(asPatches.colour.pixels, onGl(room.walk, view, settings).colour.pixels);
+  EXPECT_EQ(asPatches.colour.pixels, onGl(walk, view, settings).colour.pixels);
 }
 
 TEST_F(GlPatches, WhoseTexelsAreNotThoseTheySayAreRefused) {
-  test::BakedRoom room = roomOf(Configuration::b);
+  const test::BakedRoom& room = roomOf(Configuration::b);
+  WalkScene walk = room.walk;
   ViewSettings settings;
   settings.renderer = Renderer::gl;
-  for (auto& capture : room.walk.captures) {
+  for (auto& capture : walk.captures) {
     auto damaged = std::make_shared<DisplayCapture>(*capture);
     auto patches = std::make_shared<DisplayPatches>(*capture->patches);
     patches->patches.back().rows += 1;
     damaged->patches = patches;
     capture = damaged;
   }
-  const auto drawn = renderer_->draw(room.walk, viewsOf(*room.open.layout).front(), settings);
+  const auto drawn = renderer_->draw(walk, viewsOf(*room.open.layout).front(), settings);
   ASSERT_FALSE(drawn);
   EXPECT_EQ(drawn.error().kind, ErrorKind::malformed);
 }
