@@ -8,7 +8,7 @@ struct Patch {
   // and the inverse depth. At pixel (0, 0), and per pixel down and across.
   vec4 start, down, across;
   vec4 places;   // column and row of the strip's middle, from the patch's first; tangent of that row
-  uvec4 texels;  // first; columns | rows << 16; mirror
+  uvec4 texels;  // first; columns | rows << 16; mirror; is it blended?
 };
 layout(std430, binding = 0) readonly buffer Patches { Patch patches[]; };
 layout(std430, binding = 1) readonly buffer TilePatches { uint tilePatches[]; };

@@ -4,7 +4,6 @@
 #include <new>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <span>
 
 #include "engine/base/contract.h"
@@ -150,13 +149,10 @@ Frame draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettin
   }
 
   const Stopwatch warpTime;
-  std::set<int> images;
-  for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
-    for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
   const WarpCounts counts = drawCaptures(
       scene, view, settings, plan, drawLocal ? &memory.cover : nullptr,
       raster ? std::span(raster->mirrors()) : std::span<const std::uint8_t>(), runner, memory, frame);
-  stats.images = static_cast<int>(images.size());
+  stats.images = imagesOf(plan);
   stats.missingImages = plan.missingImages;
   stats.samplesRead = counts.samplesRead;
   stats.samplesDrawn = counts.samplesDrawn;

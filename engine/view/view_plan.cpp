@@ -75,6 +75,13 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
   return plan;
 }
 
+int imagesOf(const ViewPlan& plan) {
+  std::set<int> images;
+  for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
+    for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
+  return static_cast<int>(images.size());
+}
+
 Result<ViewPlan> planCaptures(const WalkScene& scene, const PerspectiveView& view,
                               const ViewSettings& settings, std::span<const int> cameras) {
   if (auto status = view.check(); !status) return tl::unexpected(status.error());

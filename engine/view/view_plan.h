@@ -62,6 +62,9 @@ struct ViewPlan {
 
 Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
 
+/// Of how many captures it shows something.
+int imagesOf(const ViewPlan& plan);
+
 /// A plan that draws these captures whole, in this order, wherever the eye is: of captures that no regions
 /// share out, for renderers that test depth. Its region is -1: no local geometry is drawn.
 Result<ViewPlan> planCaptures(const WalkScene& scene, const PerspectiveView& view,

@@ -6,27 +6,6 @@
 #include "engine/view_gl/whole_picture.h"
 
 namespace acentric {
-namespace {
-
-GlTexture levelTexture(int width, int height) {
-  GlTexture texture = GlTexture::make();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA16F, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return texture;
-}
-
-GlFramebuffer into(const GlTexture& texture) {
-  GlFramebuffer framebuffer = GlFramebuffer::make();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
-  return framebuffer;
-}
-
-}  // namespace
-
 FillPass::FillPass(ProgramCache& programs) : programs_(programs), noAttributes_(GlVertexArray::make()) {}
 
 Status FillPass::resize(int width, int height) {
@@ -36,12 +15,11 @@ Status FillPass::resize(int width, int height) {
   for (int w = width, h = height; w > 1 || h > 1 || levels_.empty();) {
     w = (w + 1) / 2;
     h = (h + 1) / 2;
-    Level level{w, h, levelTexture(w, h), levelTexture(w, h), {}, {}};
-    level.intoReduced = into(level.reduced);
-    level.intoExpanded = into(level.expanded);
+    Level level;
+    for (PassTexture* texture : {&level.reduced, &level.expanded})
+      if (Status sized = texture->resize(w, h); !sized) return sized;
     levels_.push_back(std::move(level));
   }
-  if (Status made = checkGl("making the textures of the hole fill"); !made) return made;
   width_ = width;
   height_ = height;
   return {};
@@ -88,8 +66,7 @@ Status FillPass::draw(const FrameTarget& target, int reach) {
   while (used < levels_.size() && (2 << used) <= reach) ++used;
   for (std::size_t n = 0; n < used; ++n) {
     const Level& level = levels_[n];
-    glBindFramebuffer(GL_FRAMEBUFFER, level.intoReduced.name());
-    glViewport(0, 0, level.width, level.height);
+    level.reduced.bindForDrawing();
     if (n == 0)
       drawWholePicture(**first, noAttributes_,
                        {{"frameColour", target.colourCodes()}, {"frameDepth", target.depths()}});
@@ -99,8 +76,7 @@ Status FillPass::draw(const FrameTarget& target, int reach) {
   GLuint known = levels_[used - 1].reduced.name();
   for (std::size_t n = used - 1; n-- > 0;) {
     const Level& level = levels_[n];
-    glBindFramebuffer(GL_FRAMEBUFFER, level.intoExpanded.name());
-    glViewport(0, 0, level.width, level.height);
+    level.expanded.bindForDrawing();
     drawWholePicture(**expand, noAttributes_, {{"own", level.reduced.name()}, {"coarser", known}});
     known = level.expanded.name();
   }

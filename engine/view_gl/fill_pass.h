@@ -7,6 +7,7 @@
 
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
+#include "engine/view_gl/pass_texture.h"
 
 namespace acentric {
 
@@ -19,9 +20,7 @@ class FillPass {
 
  private:
   struct Level {
-    int width = 0, height = 0;
-    GlTexture reduced, expanded;
-    GlFramebuffer intoReduced, intoExpanded;
+    PassTexture reduced{GL_RGBA16F}, expanded{GL_RGBA16F};
   };
   bool anyHole(const FrameTarget& target, GlProgram& counter) const;
   Status resize(int width, int height);

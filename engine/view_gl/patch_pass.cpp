@@ -1,7 +1,6 @@
 #include "engine/view_gl/patch_pass.h"
 
 #include <array>
-#include <set>
 
 #include "engine/view/display_patches.h"
 #include "engine/view_gl/gl_check.h"
@@ -51,10 +50,7 @@ Status PatchPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
                        bool localMirrors, FrameTarget& target, FrameStats& stats) {
   if (Status sized = resize(target.width(), target.height()); !sized) return sized;
   const PatchPlan patches = planPatches(scene, view, plan, runner_);
-  std::set<int> images;
-  for (const auto* pieces : {&plan.pieces, &plan.backgrounds})
-    for (const PieceDraw& piece : *pieces) images.insert(piece.camera);
-  stats.images = int(images.size());
+  stats.images = imagesOf(plan);
 
   const bool mirrors = !plan.reflections.empty();
   glDisable(GL_BLEND);

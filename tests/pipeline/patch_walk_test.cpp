@@ -6,33 +6,16 @@
 #include "engine/measure/compare.h"
 #include "engine/view/patch_tiles.h"
 #include "tests/pipeline/baked_room.h"
+#include "tests/pipeline/hall_of_blocks.h"
 
 namespace acentric {
 namespace {
 
-/// A hall of one colour with blocks, slanted ones among them, and a pane of glass. Nothing is lit: colours
-/// are exact.
+/// With a slanted board.
 RayScenePtr hall() {
-  test::SceneBuilder builder;
-  const auto unlit = [&](glm::vec3 colour) {
-    Material m = test::matte(colour);
-    m.unlit = true;
-    return m;
-  };
-  builder.box(builder.material(unlit({0.4f, 0.35f, 0.3f})), {-7, -7, 0}, {7, 7, 3.5f}, true);
-  for (int i = 0; i < 9; ++i) {
-    const float angle = 0.7f * float(i), far = 3.2f + 0.3f * float(i % 4);
-    const float x = far * std::cos(angle), y = far * std::sin(angle);
-    builder.box(builder.material(unlit({0.1f * float(i), 0.3f, 0.9f - 0.1f * float(i)})),
-                {x - 0.3f, y - 0.2f, 0}, {x + 0.3f, y + 0.25f, 0.6f + 0.25f * float(i)});
-  }
-  builder.quad(builder.material(unlit({0.8f, 0.7f, 0.1f})), {5, -3, 0.2f}, {5.5f, 3, 0.9f}, {5.5f, 3, 2.4f},
-               {5, -3, 3.1f});
-  Material glass = unlit({0.2f, 0.5f, 0.3f});
-  glass.baseColour.a = 0.4f;
-  glass.alphaMode = AlphaMode::blend;
-  builder.quad(builder.material(glass), {-4.5f, -1, 0.5f}, {-4.5f, 1.5f, 0.5f}, {-4.5f, 1.5f, 2.2f},
-               {-4.5f, -1, 2.2f});
+  test::SceneBuilder builder = test::hallOfBlocks();
+  builder.quad(builder.material(test::glowing({0.8f, 0.7f, 0.1f})), {5, -3, 0.2f}, {5.5f, 3, 0.9f},
+               {5.5f, 3, 2.4f}, {5, -3, 3.1f});
   return builder.rays();
 }
 

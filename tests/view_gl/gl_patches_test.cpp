@@ -5,8 +5,8 @@
 #include <map>
 
 #include "gl_fixture.h"
-#include "tests/bake/mirror_materials.h"
 #include "tests/pipeline/baked_room.h"
+#include "tests/pipeline/hall_of_blocks.h"
 
 namespace acentric {
 namespace {
@@ -15,21 +15,9 @@ using test::differingSources;
 using test::kMostDifferingShare;
 using test::onCpu;
 
-/// A hall with blocks, a pane of glass, a mirror on a far wall and one that stands beside the path.
+/// With a mirror on a far wall and one that stands beside the path.
 RayScenePtr hall() {
-  test::SceneBuilder builder;
-  builder.box(builder.material(test::glowing({0.4f, 0.35f, 0.3f})), {-7, -7, 0}, {7, 7, 3.5f}, true);
-  for (int i = 0; i < 9; ++i) {
-    const float angle = 0.7f * float(i), far = 3.2f + 0.3f * float(i % 4);
-    const float x = far * std::cos(angle), y = far * std::sin(angle);
-    builder.box(builder.material(test::glowing({0.1f * float(i), 0.3f, 0.9f - 0.1f * float(i)})),
-                {x - 0.3f, y - 0.2f, 0}, {x + 0.3f, y + 0.25f, 0.6f + 0.25f * float(i)});
-  }
-  Material glass = test::glowing({0.2f, 0.5f, 0.3f});
-  glass.baseColour.a = 0.4f;
-  glass.alphaMode = AlphaMode::blend;
-  builder.quad(builder.material(glass), {-4.5f, -1, 0.5f}, {-4.5f, 1.5f, 0.5f}, {-4.5f, 1.5f, 2.2f},
-               {-4.5f, -1, 2.2f});
+  test::SceneBuilder builder = test::hallOfBlocks();
   const int silver = builder.material(test::silver());
   builder.quad(silver, {6, -3, 0.5f}, {6, -3, 2.8f}, {6, 3, 2.8f}, {6, 3, 0.5f});
   builder.quad(silver, {-0.8f, 1.4f, 0.8f}, {0.6f, 1.4f, 0.8f}, {0.6f, 1.4f, 2.4f}, {-0.8f, 1.4f, 2.4f});
