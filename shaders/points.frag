@@ -1,6 +1,5 @@
 // Colour and camera of a sample. Defines: MARK_MIRRORS says which mirror the pixel now shows, of captures with MIRRORS that of
-// the sample, else none; REFLECT paints only the pixels that show the sample's mirror; RECTANGLE keeps a rectangle of the
-// square and says where in the pixel the sample lies; IN_CRACKS paints before what shows in cracks alone.
+// the sample, else none; REFLECT paints only the pixels that show the sample's mirror; IN_CRACKS paints before what shows in cracks alone.
 #ifdef IN_CRACKS
 #include "cracks.glsl"
 #endif
@@ -20,22 +19,10 @@ layout(location = 2) out uint mirror;
 uniform usampler2D mirrors;
 #endif
 
-#ifdef RECTANGLE
-flat in ivec4 rectangle;
-flat in ivec3 sampleInside;
-uniform vec2 pictureSize;
-layout(location = 3) out uint place;
-#endif
 
 void main() {
 #ifdef IN_CRACKS
   if (liesBehindCrack(gl_FragCoord.z)) discard;
-#endif
-#ifdef RECTANGLE
-  ivec2 from = ivec2(gl_FragCoord.x, pictureSize.y - gl_FragCoord.y) - rectangle.xy;
-  if (any(greaterThanEqual(from, rectangle.zw))) discard;
-  ivec2 eighths = clamp(sampleInside.xy - 8 * from - 4, -8, 7) & 15;
-  place = uint(eighths.x | eighths.y << 4 | sampleInside.z << 8);
 #endif
 #ifdef REFLECT
   if (texelFetch(mirrors, ivec2(gl_FragCoord.xy), 0).r != pointMirror) discard;

@@ -1,5 +1,4 @@
-// One sample of a capture -> one square point. Defines: SPLAT, RECTANGLE (the rectangle that filtered samples cover, of which
-// the fragment shader keeps the pixels), CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
+// One sample of a capture -> one square point. Defines: SPLAT, CLIP_TO_PART, CLIP_TO_PIECE, LAYERED; for captures with clear samples,
 // OPAQUE (draws the others) and CLEAR (draws these, one rank at a time); MIRRORS passes on each sample's mirror; UNORDERED
 // leaves samples in the order in which they are stored, for a depth test.
 //
@@ -46,15 +45,6 @@ uniform float inverseFocal;  // 1/pixels
 uniform vec2 baselineInPlan;  // b, horizontal
 #endif
 
-#ifdef RECTANGLE
-layout(std430, binding = 4) readonly buffer Slants { uint slantsOfTwo[]; };  // engine/view/slant_code.h
-uniform vec3 eastInPicture;   // K M x
-uniform vec3 northInPicture;  // K M y
-uniform vec2 steps;           // half a rectangle's size along a row and along a column, radians
-uniform float perSpread;      // eight times half a rectangle's size where samples lie a pixel apart
-flat out ivec4 rectangle;     // first pixel from the left and the top, width, height
-flat out ivec3 sampleInside;  // eighths of a pixel from its left and upper border, and how far it spreads (canvas.h)
-#endif
 
 flat out vec4 pointColour;
 #ifdef MIRRORS
@@ -109,31 +99,6 @@ uint rankAmongClear(uint index, uint first) {
 }
 #endif
 
-#ifdef RECTANGLE
-// Tangents of the angles by which the sample's surface leans, along a row and along a column.
-vec2 slantOf(uint index) {
-  int word = int(slantsOfTwo[index >> 1]), first = int(index & 1u) * 16;
-  vec2 codes = vec2(bitfieldExtract(word, first, 8), bitfieldExtract(word, first + 8, 8));
-  return codes / (127.0 - abs(codes));
-}
-
-// Around the picture of the piece of surface that a sample stands for: a parallelogram, whose sides are the derivatives of
-// the position along a row and a column of the capture, the slant included (engine/view/warp_kernel_body.h). Its longer side.
-float spanRectangle(vec2 c, float t, float w, vec2 slant, float z, vec2 position) {
-  vec2 lean = w * slant * steps;
-  vec3 across = steps.x * (c.x * northInPicture - c.y * eastInPicture) + lean.x * baselineInPicture;
-  vec3 down = lean.y * baselineInPicture - (1.0 + t * t) * steps.y * upInPicture;
-  vec2 halfSize = (abs(across.xy - position * across.z) + abs(down.xy - position * down.z)) / z;
-  halfSize = clamp(halfSize, 0.5, 0.5 * maxSide);
-  vec2 first = ceil(position - 0.5 - halfSize);
-  vec2 size = max(ceil(position - 0.5 + halfSize) - first, 1.0);
-  rectangle = ivec4(first, size);
-  vec2 inside = clamp(floor((position - first) * 8.0 + 0.5), 0.0, 255.0);
-  float spread = clamp(floor(8.5 - perSpread / min(halfSize.x, halfSize.y)), 0.0, 7.0);
-  sampleInside = ivec3(inside, spread);
-  return max(size.x, size.y);
-}
-#endif
 
 void main() {
   uint own = samples[gl_VertexID].rowAndColumn >> 16;
@@ -151,10 +116,6 @@ void main() {
   pointColour = colour;
 #ifdef MIRRORS
   pointMirror = bitfieldExtract(mirrorsOfFour[index >> 2], int(index & 3u) * 8, 8);
-#endif
-#ifdef RECTANGLE
-  rectangle = ivec4(0);
-  sampleInside = ivec3(0);
 #endif
   gl_PointSize = 1.0;
   gl_Position = kOutside;
@@ -180,15 +141,9 @@ void main() {
   side = ceil(clamp(stretch / q.z * footprint, 1.0, maxSide));
   gl_PointSize = side;
 #endif
-#ifdef RECTANGLE
-  side = spanRectangle(column.inPlan, t, w, slantOf(index), q.z, position);
-  gl_PointSize = side;
-  vec2 centre = vec2(rectangle.xy) + 0.5 * side;
-#else
   // The square of whole pixels whose centres lie within side/2 of the position: said exactly, so that the rasteriser's
   // sub-pixel rounding has no say.
   vec2 centre = floor(position + 0.5 - 0.5 * side) + 0.5 * side;
-#endif
   vec2 clip = 2.0 * (centre + clipMargin) / (pictureSize + 2.0 * clipMargin) - 1.0;
   gl_Position = vec4(clip.x, -clip.y, max(kBackgroundDepthScale * w / q.z, kSkyDepth), 1.0);
 }

@@ -273,9 +273,6 @@ void drawBake(PanelContext& context) {
        "How true captures are to the colours that were baked: less gives smaller files. 100 keeps every "
        "bit, in files many times as large."},
       &BakeSettings::colourQuality, "colour quality");
-  bakeCheck(context, "silhouettes", "Silhouettes",
-            "Samples know the plane of their surface, and to a quarter of a sample where it ends.",
-            &BakeSettings::silhouettes);
 }
 
 void drawImport(PanelContext& context) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "editor/panels/walk_panel.h"
-#include "editor/session/mesh_text.h"
 #include "editor/session/screenshot.h"
+#include "editor/session/sending_text.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
 #include "ui/image_view.h"
@@ -155,9 +155,7 @@ void WalkPanel::nameSource(const glm::dvec2& pointer) const {
   const PixelSource here = source.at(int(at.x), int(at.y));
   const Layout& layout = *shown_.loaded->walk.layout;
   const SourceRole role = SourceRoles(layout, shown_.view).of(here);
-  std::string text = sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : "");
-  for (const MeshCost& cost : shown_.stats.meshes)
-    if (sourceOfCamera(cost.camera) == here) text += "\n" + meshText(cost);
+  const std::string text = sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : "");
   ui::tooltip(text);
 }
 
@@ -198,8 +196,7 @@ void WalkPanel::takePicture(PanelContext& context) {
 
 void WalkPanel::openGl(Session& session) {
   if (gl_ || !glProblem_.empty()) return;
-  auto created = GlRenderer::create(
-      {.waitForCaptures = false, .backgroundThreads = std::max(1, threads_ / 2), .wake = wake_});
+  auto created = GlRenderer::create({.waitForCaptures = false, .wake = wake_});
   if (created) {
     gl_ = std::move(*created);
     return;
@@ -237,11 +234,9 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   if (!stats) return;
   ++context.state().picturesShown;
   if (context.log.on())
-    context.log.event(
-        "glframe",
-        fmt::format("{}x{} images {} meshes {} awaited {} points {} captures {} missing {}", view.width,
-                    view.height, stats->images, stats->meshes.size(), stats->meshesAwaited,
-                    stats->pointsForMeshes, stats->capturesAwaited, stats->missingImages));
+    context.log.event("glframe",
+                      fmt::format("{}x{} images {} captures {} missing {}", view.width, view.height,
+                                  stats->images, stats->capturesAwaited, stats->missingImages));
   showingGl_ = true;
   ++glPictures_;
   if (plain) return;
@@ -320,9 +315,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     line(figuresText(*compared));
   }
   if (shown_.valid)
-    for (const std::string& words :
-         {meshSumText(shown_.stats), meshesAwaitedText(shown_.stats), capturesAwaitedText(shown_.stats)})
-      if (!words.empty()) line(words);
+    if (const std::string words = capturesAwaitedText(shown_.stats); !words.empty()) line(words);
   if (session.walk() && !session.walk()->walk.surfaceLight && !nothingBaked(session))
     line("near geometry unlit until a bake ends");
   if (session.streaming()) line("captures are being read");

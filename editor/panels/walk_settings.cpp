@@ -28,8 +28,6 @@ const char* labelOf(Renderer renderer) {
       return "OpenGL";
     case Renderer::glZbuffer:
       return "OpenGL, depth test";
-    case Renderer::glMesh:
-      return "OpenGL, meshes";
   }
   return "";
 }
@@ -48,9 +46,6 @@ const char* helpFor(Renderer renderer) {
       return "List priority on the graphics card.";
     case Renderer::glZbuffer:
       return "The same splats on the graphics card with a depth test, for comparison.";
-    case Renderer::glMesh:
-      return "Captures as triangles, within the mesh error: no cracks near walls; points until they are "
-             "built.";
   }
   return "";
 }
@@ -61,10 +56,6 @@ const char* labelOf(Reconstruction reconstruction) {
       return "Points";
     case Reconstruction::splat:
       return "Splats";
-    case Reconstruction::surface:
-      return "Surface";
-    case Reconstruction::filtered:
-      return "Filtered";
     case Reconstruction::patches:
       return "Patches";
   }
@@ -77,15 +68,8 @@ const char* helpFor(Reconstruction reconstruction) {
       return "One pixel a sample: shows the sampling. The least time.";
     case Reconstruction::splat:
       return "Squares as large as a sample's footprint. Costs the pixels that they paint over.";
-    case Reconstruction::surface:
-      return "Rectangles that follow the surface: neighbours are joined however it is turned, and edges do "
-             "not grow. Costs two more bytes read per sample.";
-    case Reconstruction::filtered:
-      return "The same rectangles, then each pixel the mean of the samples around it: smooth edges. Costs "
-             "one more pass over the picture: frames take a tenth to a third longer than with splats.";
     case Reconstruction::patches:
-      return "Surfaces drawn to their edges, colours interpolated within them. Of captures baked with "
-             "silhouettes, on the processor; others are filtered.";
+      return "Surfaces drawn to their edges, colours interpolated within them.";
   }
   return "";
 }
@@ -180,15 +164,6 @@ void drawPainting(PanelContext& context) {
             {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
             view.maxSplatPixels, kLabelWidth),
         "largest splat");
-  apply(ui::numberField(
-            {"Mesh error", "%.2f samples", 0.01, 0.01, 64,
-             "Of OpenGL meshes: how far a surface may shift in the picture. Larger: fewer triangles."},
-            view.meshError, kLabelWidth),
-        "mesh error");
-  apply(ui::numberField({"Mesh triangles", view.maxMeshTriangles == 0 ? "any number" : "%.0f", 1000, 0, 2e9,
-                         "Of one capture at most, with a larger error where it must be. 0: any number."},
-                        view.maxMeshTriangles, kLabelWidth),
-        "mesh triangles");
   const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
     bool value = view.*member;
     const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help);

@@ -41,7 +41,8 @@ struct BakeSettings {
   double distanceShift = kUsualDistanceShift;
   /// How true colours are to what was baked (colour_quality.h): 0..99 as pictures, 100 = every bit.
   int colourQuality = kUsualColourQuality;
-  /// Samples tell the plane of their surface, and how much of their pixel it covers (capture.h).
+  /// Samples tell the plane of their surface, and how much of their pixel it covers (capture.h). Always, but
+  /// where a benchmark times what else a bake does.
   bool silhouettes = true;
 
   /// Those that a quality is baked with: a sixth or half of the resolution, fewer rays, layers and eyes.

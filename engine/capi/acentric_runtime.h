@@ -171,9 +171,7 @@ enum { ACENTRIC_LIST = 0, ACENTRIC_SCALAR = 1, ACENTRIC_ZBUFFER = 2 };
 enum {
   ACENTRIC_POINT = 0,
   ACENTRIC_SPLAT = 1,
-  ACENTRIC_SURFACE = 2,
-  ACENTRIC_FILTERED = 3,
-  ACENTRIC_PATCHES = 4
+  ACENTRIC_PATCHES = 4 /* so are 2 and 3, of earlier versions */
 };
 typedef struct acentric_settings {
   int32_t renderer;         /* list priority, its plain reference, or a depth buffer */
@@ -243,8 +241,7 @@ ACENTRIC_API acentric_status acentric_render(acentric_bundle* bundle, const acen
 typedef struct acentric_sample {
   /* Bits of a float, the inverse horizontal distance in 1/m, but for the last 8: the roles. */
   uint32_t w_and_roles;
-  uint16_t row;
-  int8_t across, down; /* slant of the surface: tangent = code / (127 - |code|) along a row and a column */
+  uint32_t row;
 } acentric_sample;
 
 /* Column k has samples [column_start[k], column_start[k + 1]), rows not falling, in a pixel nearest first. */

@@ -11,7 +11,7 @@ constexpr acentric_status kOk = ACENTRIC_OK;
 
 // What is given out lies in memory as the header says.
 static_assert(sizeof(acentric_sample) == sizeof(PackedSample) && offsetof(acentric_sample, row) == 4 &&
-              offsetof(acentric_sample, across) == 6);
+              sizeof(acentric_sample::row) == 4);
 static_assert(sizeof(acentric_local_vertex) == sizeof(LocalVertex) &&
               sizeof(acentric_local_triangle) == sizeof(LocalTriangle));
 static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(HalfColour) == 8);

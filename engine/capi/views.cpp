@@ -104,6 +104,12 @@ namespace acentric::capi {
 /// By their numbers in the library.
 constexpr Renderer kOffered[] = {Renderer::list, Renderer::scalar, Renderer::zbuffer};
 static_assert(ACENTRIC_LIST == 0 && ACENTRIC_SCALAR == 1 && ACENTRIC_ZBUFFER == 2);
+constexpr Reconstruction kPlain[] = {Reconstruction::point, Reconstruction::splat};
+static_assert(ACENTRIC_POINT == 0 && ACENTRIC_SPLAT == 1);
+
+std::int32_t codeOf(Reconstruction reconstruction) {
+  return reconstruction == Reconstruction::patches ? ACENTRIC_PATCHES : std::int32_t(reconstruction);
+}
 
 Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* settings) {
   ViewSettings out = bundle.view;
@@ -114,17 +120,14 @@ Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* s
   if (settings->reconstruction < ACENTRIC_POINT || settings->reconstruction > ACENTRIC_PATCHES)
     return refuse("there is no such reconstruction");
   out.renderer = kOffered[settings->renderer];
-  out.reconstruction = Reconstruction(settings->reconstruction);
+  out.reconstruction =
+      settings->reconstruction > ACENTRIC_SPLAT ? Reconstruction::patches : kPlain[settings->reconstruction];
   out.maxSplatPixels = settings->max_splat_pixels;
   out.localGeometry = settings->local_geometry != 0;
   out.secondaryCover = settings->secondary_cover != 0;
   out.fillHoles = settings->fill_holes != 0;
   return out;
 }
-static_assert(int(Reconstruction::point) == ACENTRIC_POINT && int(Reconstruction::splat) == ACENTRIC_SPLAT &&
-              int(Reconstruction::surface) == ACENTRIC_SURFACE &&
-              int(Reconstruction::filtered) == ACENTRIC_FILTERED &&
-              int(Reconstruction::patches) == ACENTRIC_PATCHES);
 static_assert(int(Loaded::absent) == ACENTRIC_ABSENT && int(Loaded::coarse) == ACENTRIC_COARSE &&
               int(Loaded::full) == ACENTRIC_FULL);
 
@@ -148,8 +151,8 @@ acentric_status acentric_default_settings(acentric_bundle* bundle, acentric_sett
   return guarded(bundle, [&](Runtime& runtime) {
     if (settings == nullptr) return refused(bundle, "settings is NULL");
     const ViewSettings& from = runtime.bundle().view;
-    *settings = {ACENTRIC_LIST,      int32_t(from.reconstruction), from.maxSplatPixels,
-                 from.localGeometry, from.secondaryCover,          from.fillHoles};
+    *settings = {ACENTRIC_LIST,      codeOf(from.reconstruction), from.maxSplatPixels,
+                 from.localGeometry, from.secondaryCover,         from.fillHoles};
     return kOk;
   });
 }

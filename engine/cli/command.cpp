@@ -76,8 +76,6 @@ Status apply(const Look& look, ViewSettings& settings) {
     if (!parsed) return tl::unexpected(parsed.error());
     settings.reconstruction = *parsed;
   }
-  if (look.meshError) settings.meshError = *look.meshError;
-  if (look.maxMeshTriangles) settings.maxMeshTriangles = *look.maxMeshTriangles;
   return settings.check();
 }
 
@@ -344,7 +342,6 @@ Json toJson(const FrameStats& stats) {
           {"missingImages", stats.missingImages},
           {"samplesRead", stats.samplesRead},
           {"samplesDrawn", stats.samplesDrawn},
-          {"meshTriangles", stats.meshTriangles},
           {"localTriangles", stats.localTriangles},
           {"warpMs", stats.warpSeconds * 1e3},
           {"localMs", stats.localSeconds * 1e3},

@@ -76,9 +76,7 @@ std::string timeText(double seconds);
 
 /// What the options of a command change in the project's ViewSettings.
 struct Look {
-  std::string reconstruction;       ///< empty = the project's
-  std::optional<double> meshError;  ///< none = the project's, as below
-  std::optional<int> maxMeshTriangles;
+  std::string reconstruction;  ///< empty = the project's
 };
 Status apply(const Look& look, ViewSettings& settings);
 

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/bake_requests.h"
+#include "engine/cli/path_frames.h"
 #include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/simplified_regions.h"
+#include "engine/view/view_cameras.h"
 
 namespace acentric::cli {
 namespace {
@@ -223,6 +226,17 @@ Status checkOptions(const BakeOptions& options, const Common& common) {
   return {};
 }
 
+/// Those that frames of 16:9 along a path are painted from.
+Result<std::vector<int>> camerasAlong(const BakeOptions& options, const Common& common) {
+  const auto walk = openAlong(options.project, options.along, "1280x720", 0, 0, common, Along::oneStorey);
+  if (!walk) return tl::unexpected(walk.error());
+  const OpenProject& open = walk->storeys.front();
+  std::set<int> cameras;
+  for (const PerspectiveView& view : evenly(walk->views, options.frames))
+    for (const int camera : camerasOf(*open.layout, view, open.project.view).cameras) cameras.insert(camera);
+  return std::vector<int>(cameras.begin(), cameras.end());
+}
+
 /// The plan of the storey chosen, or of all.
 Result<BakePlan> planFor(const BakeOptions& options, const Common& common) {
   std::optional<int> storey;
@@ -249,7 +263,13 @@ Result<BakePlan> planFor(const BakeOptions& options, const Common& common) {
 
 }  // namespace
 
-Result<Report> runBake(const BakeOptions& options, const Common& common) {
+Result<Report> runBake(const BakeOptions& asked, const Common& common) {
+  BakeOptions options = asked;
+  if (!asked.along.empty()) {
+    auto cameras = camerasAlong(asked, common);
+    if (!cameras) return tl::unexpected(cameras.error());
+    options.only = std::move(*cameras);
+  }
   const auto shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
   if (!shard) return tl::unexpected(shard.error());
   if (Status sound = checkOptions(options, common); !sound) return tl::unexpected(sound.error());

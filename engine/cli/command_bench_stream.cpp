@@ -8,7 +8,6 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
-#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
 #include "engine/pipeline/walk_stream.h"
@@ -92,7 +91,6 @@ struct WalkTally {
   std::vector<double> frameMs, takeMs, sendMs;
   int incomplete = 0;          ///< frames with a camera of which nothing was there
   int coarse = 0;              ///< frames with a coarse stand-in
-  int asPoints = 0;            ///< frames with points in place of a mesh
   int awaiting = 0;            ///< frames with captures in memory that were not on the graphics card
   int unsent = 0;              ///< of these: with nothing in their place
   std::uint64_t mostSent = 0;  ///< bytes, by a frame
@@ -100,7 +98,6 @@ struct WalkTally {
 
   void count(const FrameStats& stats) {
     sendMs.push_back(stats.sendSeconds * 1e3);
-    asPoints += stats.pointsForMeshes > 0;
     awaiting += stats.capturesAwaited > 0;
     unsent += stats.capturesAwaited > stats.standIns;
     mostSent = std::max(mostSent, stats.bytesSent);
@@ -153,7 +150,6 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
   const double openSeconds = clock.seconds();
 
   WalkTally tally;
-  MeshBudget meshes;
   const Stopwatch walking;
   for (bool last = false; !last;) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
@@ -172,7 +168,6 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
     tally.frameMs.push_back(frameTime.seconds() * 1e3);
     tally.count(*snapshot, camerasOf(*open.layout, view, settings), now);
     tally.count(*drawn);
-    meshes.add(*drawn);
     const double rest = kFrameSeconds - frameTime.seconds();
     if (rest > 0) std::this_thread::sleep_for(std::chrono::duration<double>(rest));
   }
@@ -194,7 +189,6 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
                       {"frames", count},
                       {"incompleteFrames", tally.incomplete},
                       {"coarseFrames", tally.coarse},
-                      {"pointFrames", tally.asPoints},
                       {"frameMsMedian", frames.median},
                       {"frameMsP99", frames.p99},
                       {"frameMsMax", frames.max},
@@ -228,11 +222,6 @@ Result<Report> runBenchStream(const BenchOptions& options, const Common& common)
         "on "
         "their way there, {} with nothing in their place\n",
         sending.p99, sending.max, bytesText(tally.mostSent), tally.awaiting, tally.unsent);
-  }
-  if (settings.renderer == Renderer::glMesh) {
-    report.json["mesh"] = meshes.json();
-    report.text +=
-        meshes.text() + fmt::format("  {} frames with points in place of meshes\n", tally.asPoints);
   }
   return report;
 }

@@ -5,7 +5,6 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
-#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/statistics.h"
 
@@ -16,7 +15,6 @@ namespace {
 struct Timings {
   std::vector<double> total, plan, warp, local, fill;
   double samplesRead = 0, samplesDrawn = 0, localTriangles = 0;
-  MeshBudget meshes;
 
   void add(const FrameStats& stats) {
     total.push_back(stats.totalSeconds * 1e3), plan.push_back(stats.planSeconds * 1e3);
@@ -24,7 +22,6 @@ struct Timings {
     fill.push_back(stats.fillSeconds * 1e3);
     samplesRead += double(stats.samplesRead), samplesDrawn += double(stats.samplesDrawn);
     localTriangles += double(stats.localTriangles);
-    meshes.add(stats);
   }
 };
 
@@ -132,10 +129,6 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
           spreadOf(t.plan).median, warp.median, warp.p99, spreadOf(t.local).median, spreadOf(t.fill).median,
           rate / 1e6);
     report.text += "\n";
-    if (t.meshes.any()) {
-      report.json["renderers"].back()["mesh"] = t.meshes.json();
-      report.text += t.meshes.text();
-    }
   }
   return report;
 }

@@ -313,21 +313,19 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
   if (!result) return tl::unexpected(result.error());
 
   Json frames = Json::array();
-  std::string csv = "eyeX,eyeY,eyeZ,yawDegrees,missed,open,expected,measured\n";
-  double missed = 0, open = 0, expected = 0, measured = 0;
+  std::string csv = "eyeX,eyeY,eyeZ,yawDegrees,missed,open,measured\n";
+  double missed = 0, open = 0, measured = 0;
   std::uint64_t holes = 0, predicted = 0, both = 0;
   for (const HoleSample& f : result->frames) {
     frames.push_back({{"eye", cli::toJson(f.view.eye)},
                       {"yawDegrees", degrees(f.view.yawRadians)},
                       {"missed", f.missed},
                       {"open", f.open},
-                      {"expected", f.expected},
                       {"measured", f.measured},
                       {"missingImages", f.missingImages}});
-    csv +=
-        fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.view.eye.x, f.view.eye.y,
-                    f.view.eye.z, degrees(f.view.yawRadians), f.missed, f.open, f.expected, f.measured);
-    missed += f.missed, open += f.open, expected += f.expected, measured += f.measured;
+    csv += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f.view.eye.x, f.view.eye.y,
+                       f.view.eye.z, degrees(f.view.yawRadians), f.missed, f.open, f.measured);
+    missed += f.missed, open += f.open, measured += f.measured;
     holes += f.holes, predicted += f.predicted, both += f.both;
   }
   const double n = double(result->frames.size());
@@ -339,7 +337,6 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
                  {"height", walk->size.height},
                  {"missed", toJson(result->missed)},
                  {"open", toJson(result->open)},
-                 {"expected", toJson(result->expected)},
                  {"pixels", {{"holes", holes}, {"predicted", predicted}, {"both", both}}},
                  {"frames", std::move(frames)}};
   const auto line = [&](const char* name, double mean, const Correlation& c) {
@@ -351,10 +348,8 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
           "{} frames of {}x{} from {} eyes, renderer {}: holes measured, mean {:.4f} %; foretold as\n", n,
           walk->size.width, walk->size.height, result->eyes, options.renderer, 100 * measured / n) +
       line("missed", missed, result->missed) + line("open", open, result->open) +
-      line("expected", expected, result->expected) +
       fmt::format(
-          "  (missed: the surface seen is in no capture; open: nor is anything behind it; expected: "
-          "no splat falls on the pixel)\n"
+          "  (missed: the surface seen is in no capture; open: nor is anything behind it)\n"
           "{} pixels are holes, {} were foretold as open, {} both\n",
           holes, predicted, both);
   if (!options.csv.empty())

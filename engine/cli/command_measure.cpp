@@ -5,7 +5,6 @@
 #include "engine/cli/attribution_report.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
-#include "engine/cli/mesh_budget.h"
 #include "engine/cli/path_frames.h"
 #include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
@@ -42,7 +41,6 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
   std::vector<double> psnr, ssim, holes, milliseconds;
   SeamSums seams;
   AttributionReport attribution(open.project.bake.samplesPerDegree);
-  MeshBudget meshes;
   Json frames = Json::array();
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (common.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
@@ -59,7 +57,6 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
     if (!options.images.empty())
       if (Status written = writeTriple(options.images, i, *frame, truth); !written)
         return tl::unexpected(written.error());
-    meshes.add(frame->stats);
     psnr.push_back(comparison->psnr);
     ssim.push_back(comparison->ssim);
     holes.push_back(comparison->holeShare);
@@ -92,10 +89,6 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
       "  frame time median {:6.1f} ms   p99   {:6.1f} ms\n",
       views.size(), walk->size.width, walk->size.height, (*maker)->name(), runner->threads(), p.median, p.min,
       s.median, s.min, 100 * h.median, 100 * h.max, m.median, m.p99);
-  if (meshes.any()) {
-    report.json["mesh"] = meshes.json();
-    report.text += meshes.text();
-  }
   if (options.attribution) {
     report.json["attribution"] = attribution.json();
     report.text += attribution.text();

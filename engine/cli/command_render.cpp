@@ -6,7 +6,6 @@
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/frame_pictures.h"
-#include "engine/cli/mesh_budget.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {
@@ -129,9 +128,6 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
                  {"renderMs", seconds * 1e3},
                  {"stats", toJson(frame->stats)},
                  {"warnings", (*maker)->warnings()}};
-  MeshBudget meshes;
-  meshes.add(frame->stats);
-  if (meshes.any()) report.json["mesh"] = meshes.json();
   if (mode == PictureMode::sources) report.json["sources"] = pictures.sourcesJson(*frame, view);
   if (mode == PictureMode::difference) report.json["gain"] = options.gain;
   report.text = fmt::format("{}\n", options.output.string());
@@ -147,7 +143,6 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
         frame->stats.fillSeconds * 1e3, frame->stats.images, frame->stats.missingImages,
         countText(frame->stats.samplesRead), countText(frame->stats.samplesDrawn),
         countText(frame->stats.localTriangles), 100 * holeShare);
-  if (options.stats && meshes.any()) report.text += meshes.text();
   return report;
 }
 

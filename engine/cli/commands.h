@@ -81,8 +81,10 @@ Result<Report> runFitBySplitting(const FitCommandOptions& options, const Common&
 struct BakeOptions {
   std::filesystem::path project;
   std::vector<int> only;
-  std::string shard;           ///< "2/8"; empty = all
-  std::string light = "with";  ///< surface light: with, without or only
+  std::filesystem::path along;  ///< only the cameras that frames along this path are painted from
+  int frames = 0;               ///< of the path, evenly chosen; 0 = all
+  std::string shard;            ///< "2/8"; empty = all
+  std::string light = "with";   ///< surface light: with, without or only
   bool dryRun = false;
   bool prune = false;
   std::string quality = "final";

@@ -172,12 +172,22 @@ void addBake(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "bake", "Bake what is missing; may be stopped and started again at any time",
                     "  acentric bake kitchen.acentric.json --threads 2\n"
                     "  acentric bake kitchen.acentric.json --dry-run\n"
+                    "  acentric bake kitchen.acentric.json --along tour.json\n"
                     "  acentric bake kitchen.acentric.json --shard 2/8",
                     runBake);
   c->add_option("project", o.project, "Project file")->required();
   addStoreyOption(*c, chosen, "all of them");
   addPresetOption(*c, chosen);
-  c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)")->delimiter(',');
+  auto* only = c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)");
+  only->delimiter(',');
+  auto* along = c->add_option(
+      "--along", o.along,
+      "Only the cameras that a walk along this path needs: one of the project's by its name, or a file");
+  along->excludes(only);
+  c->add_option("--frames", o.frames, "Of --along: only so many frames, evenly chosen (0 = all)")
+      ->needs(along)
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   c->add_option("--shard", o.shard,
                 "Bake a share: 2/8 is the second of eight, which may run side by side on machines that share "
                 "the project's folder");

@@ -22,20 +22,8 @@ void addRenderer(CLI::App& command, std::string& renderer, bool truthToo) {
 
 void addLook(CLI::App& command, Look& look) {
   command
-      .add_option("--reconstruction", look.reconstruction,
-                  "point, splat, surface, filtered or patches (default: the project's)")
-      ->check(CLI::IsMember({"point", "splat", "surface", "filtered", "patches"}));
-  command
-      .add_option("--mesh-error", look.meshError,
-                  "Of gl-mesh: how far surfaces may shift in a picture, in samples; larger takes fewer "
-                  "triangles (default: the project's)")
-      ->check(CLI::Range(0.01, kLargestMeshError));
-  command
-      .add_option(
-          "--mesh-triangles", look.maxMeshTriangles,
-          "Of gl-mesh: at most so many a capture, with a larger error where it must be; 0 = any number "
-          "(default: the project's)")
-      ->check(CLI::Range(0, 2000000000));
+      .add_option("--reconstruction", look.reconstruction, "point, splat or patches (default: the project's)")
+      ->check(CLI::IsMember({"point", "splat", "patches"}));
 }
 
 void addTruthSamples(CLI::App& command, int& samples) {
@@ -208,10 +196,9 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
   c->add_option("--speed", o.metresPerSecond, "Of --stream, metres per second")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  c->add_flag(
-      "--wait-for-captures", o.waitForCaptures,
-      "Of --stream with OpenGL: frames wait until the captures and meshes they lack are on the graphics "
-      "card");
+  c->add_flag("--wait-for-captures", o.waitForCaptures,
+              "Of --stream with OpenGL: frames wait until the captures that they lack are on the graphics "
+              "card");
 }
 
 void addBenchGrowth(CLI::App& bench, Chosen& chosen) {

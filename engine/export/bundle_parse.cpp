@@ -238,7 +238,7 @@ BundlePose poseOf(const Node& node) {
 
 ViewSettings viewOf(const Node& node) {
   ViewSettings view;
-  const auto reconstruction = parseReconstruction(node["reconstruction"].text());
+  const auto reconstruction = parseReconstruction(reconstructionNow(node["reconstruction"].text()));
   if (!reconstruction) node["reconstruction"].refuse(reconstruction.error().message);
   view.reconstruction = *reconstruction;
   view.maxSplatPixels = int(node["maxSplatPixels"].integer(1, 64));

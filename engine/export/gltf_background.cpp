@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "engine/export/capture_mesh.h"
 #include "engine/export/glb.h"
 #include "engine/export/texture_atlas.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/background.h"
-#include "engine/view/capture_mesh.h"
 
 namespace acentric {
 namespace {

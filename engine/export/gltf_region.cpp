@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "engine/export/bundle_json.h"
+#include "engine/export/capture_mesh.h"
 #include "engine/export/glb.h"
 #include "engine/export/gltf_background.h"
 #include "engine/export/gltf_local.h"
-#include "engine/view/view_settings.h"
 
 namespace acentric {
 namespace {

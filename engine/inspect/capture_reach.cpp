@@ -122,22 +122,6 @@ bool CaptureReach::keptFor(int camera, std::size_t role, const Way& way, double 
   return !keptAmong(camera, role, way, met, distance * (1 - sight_->rightBehind(camera)) - rounding).empty();
 }
 
-std::vector<OpaqueHit> CaptureReach::samplesAlong(int camera, const glm::dvec3& direction, double nearest,
-                                                  double farthest, int role) const {
-  const double flat = glm::length(glm::dvec2(direction));
-  Way way;
-  if (!wayTo(camera, direction, farthest * flat / (1 - kBorderOverlap), role, way)) return {};
-  std::vector<OpaqueHit> samples;
-  for (const Way::Exit& exit : way.exits) {
-    const double from = (1 - kBorderOverlap) * exit.horizontal / way.flat;
-    const std::vector<OpaqueHit> kept =
-        keptAmong(camera, exit.role, way, surfacesAlong(way, from, farthest), nearest);
-    samples.insert(samples.end(), kept.begin(), kept.end());
-  }
-  std::ranges::sort(samples, {}, &OpaqueHit::distance);
-  return samples;
-}
-
 bool CaptureReach::holds(int camera, const glm::dvec3& point, int role) const {
   const glm::dvec3 offset = point - columns_[std::size_t(camera)].centreOfProjection;
   const double distance = glm::length(offset);

@@ -29,10 +29,6 @@ class CaptureReach {
   /// Does the camera's capture hold this point of a surface, for what is drawn by one of its roles (-1: by
   /// any)? Whether the point lies in the camera's sector is the cover's business (Piece::holds).
   bool holds(int camera, const glm::dvec3& point, int role = -1) const;
-  /// The opaque samples that it has along a direction (unit) from `nearest` to `farthest` metres, nearest
-  /// first.
-  std::vector<OpaqueHit> samplesAlong(int camera, const glm::dvec3& direction, double nearest,
-                                      double farthest, int role = -1) const;
   /// Does it hold the sky in this direction (unit)? Above and below its rows there is nothing else.
   bool holdsSky(int camera, const glm::dvec3& direction, int role = -1) const;
 

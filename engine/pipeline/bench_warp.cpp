@@ -100,8 +100,7 @@ class WarpBench {
     ViewSettings settings = open_.project.view;
     settings.renderer = renderer;
     // Of the ways to draw captures this is about those that warp samples: they exist in double precision.
-    if (settings.reconstruction == Reconstruction::patches)
-      settings.reconstruction = Reconstruction::filtered;
+    if (settings.reconstruction == Reconstruction::patches) settings.reconstruction = Reconstruction::splat;
     return settings;
   }
 

@@ -139,7 +139,7 @@ void countPixels(const Frame& frame, const ViewHoles& holes, HoleSample& sample)
     const PixelSource source = frame.source.pixels[i];
     const bool hole =
         (source == kSourceHole || source == kSourceInvented) && std::isfinite(holes.rayDistance.pixels[i]);
-    const bool predicted = holes.bare.pixels[i] != 0;
+    const bool predicted = holes.openPixels.pixels[i] != 0;
     sample.holes += hole ? 1 : 0;
     sample.predicted += predicted ? 1 : 0;
     sample.both += hole && predicted ? 1 : 0;
@@ -153,11 +153,10 @@ std::vector<HoleSample> byEye(const std::vector<HoleSample>& frames) {
     HoleSample sum = frames[first];
     for (last = first + 1; last < frames.size() && frames[last].view.eye == sum.view.eye; ++last) {
       const HoleSample& frame = frames[last];
-      sum.missed += frame.missed, sum.open += frame.open;
-      sum.expected += frame.expected, sum.measured += frame.measured;
+      sum.missed += frame.missed, sum.open += frame.open, sum.measured += frame.measured;
     }
     const double n = double(last - first);
-    sum.missed /= n, sum.open /= n, sum.expected /= n, sum.measured /= n;
+    sum.missed /= n, sum.open /= n, sum.measured /= n;
     eyes.push_back(sum);
   }
   return eyes;
@@ -223,11 +222,7 @@ Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vec
     if (!holes) return tl::unexpected(holes.error());
     const auto frame = render(view);
     if (!frame) return tl::unexpected(frame.error());
-    HoleSample sample{view,
-                      holes->missed,
-                      holes->open,
-                      holes->expected,
-                      holeShareOf(*frame, holes->rayDistance),
+    HoleSample sample{view, holes->missed, holes->open, holeShareOf(*frame, holes->rayDistance),
                       frame->stats.missingImages};
     countPixels(*frame, *holes, sample);
     out.frames.push_back(sample);
@@ -236,7 +231,6 @@ Result<HoleCorrelation> correlateHoles(const ProjectReach& reach, const std::vec
   out.eyes = int(eyes.size());
   out.missed = correlationOf(eyes, &HoleSample::missed);
   out.open = correlationOf(eyes, &HoleSample::open);
-  out.expected = correlationOf(eyes, &HoleSample::expected);
   return out;
 }
 

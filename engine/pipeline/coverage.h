@@ -34,8 +34,8 @@ SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int dis
 /// One frame: holes foretold, and holes rendered.
 struct HoleSample {
   PerspectiveView view;
-  double missed = 0, open = 0, expected = 0;  ///< ViewHoles
-  double measured = 0;                        ///< hole share of the frame
+  double missed = 0, open = 0;  ///< ViewHoles
+  double measured = 0;          ///< hole share of the frame
   int missingImages = 0;
   /// Pixels: open in the frame, open by prediction, and both.
   std::uint64_t holes = 0, predicted = 0, both = 0;
@@ -50,7 +50,7 @@ struct HoleCorrelation {
   int eyes = 0;  ///< that frames in a row were made from
   /// Each against `measured`, eye by eye: the frames that one eye looks through are taken together, since
   /// single frames of a good capture have too few holes to compare.
-  Correlation missed, open, expected;
+  Correlation missed, open;
 };
 
 /// Views all round from places drawn at random where one may stand, six to a place, each 60 degrees wide, and

@@ -84,7 +84,7 @@ Knob nameKnob(std::string name, std::string what, bool bakes, Field field, Parse
 void viewKnobs(std::vector<Knob>& table) {
   table.push_back(nameKnob("reconstruction", "how samples become pixels", false,
                            [](Project & p) -> auto& { return p.view.reconstruction; }, parseReconstruction,
-                           {"point", "splat", "surface", "filtered", "patches"}));
+                           {"point", "splat", "patches"}));
   table.push_back(nameKnob(
       "renderer", "list priority, depth buffer or OpenGL", false,
       [](Project & p) -> auto& { return p.view.renderer; }, parseRenderer, rendererNames()));
@@ -179,9 +179,6 @@ void bakeKnobs(std::vector<Knob>& table) {
   table.push_back(numberKnob("colour-quality", "how true captures' colours are; 100 = every bit", true,
                              [](Project & p) -> auto& { return p.bake.colourQuality; },
                              {"80", "90", "97", "100"}));
-  table.push_back(switchKnob(
-      "silhouettes", "samples tell their surface's plane and what they cover of their pixel", true,
-      [](Project & p) -> auto& { return p.bake.silhouettes; }));
   table.push_back(numberKnob("shadow-rays", "per sample towards each light with a size", true,
                              [](Project & p) -> auto& { return p.bake.shadowRays; }, {"4", "16", "64"}));
   table.push_back(numberKnob("ambient-rays", "per place that light is gathered for", true,

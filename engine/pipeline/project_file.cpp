@@ -182,12 +182,10 @@ void readImport(const Json& json, ImportOptions& options) {
 }
 
 void readView(const Json& json, Project& project) {
-  project.view.renderer = *parseRenderer(json.value("renderer", nameOf(project.view.renderer)));
-  project.view.reconstruction =
-      *parseReconstruction(json.value("reconstruction", nameOf(project.view.reconstruction)));
+  project.view.renderer = *parseRenderer(rendererNow(json.value("renderer", nameOf(project.view.renderer))));
+  project.view.reconstruction = *parseReconstruction(
+      reconstructionNow(json.value("reconstruction", nameOf(project.view.reconstruction))));
   read(json, "maxSplatPixels", project.view.maxSplatPixels);
-  read(json, "meshError", project.view.meshError);
-  read(json, "maxMeshTriangles", project.view.maxMeshTriangles);
   read(json, "localGeometry", project.view.localGeometry);
   read(json, "secondaryCover", project.view.secondaryCover);
   read(json, "fillHoles", project.view.fillHoles);
@@ -223,7 +221,6 @@ Project projectFrom(const Json& json) {
     read(json["bake"], "eyeRange", project.bake.eyeRange);
     read(json["bake"], "distanceShift", project.bake.distanceShift);
     read(json["bake"], "colourQuality", project.bake.colourQuality);
-    read(json["bake"], "silhouettes", project.bake.silhouettes);
   }
   if (json.contains("budget")) {
     read(json["budget"], "trianglesPerRegion", project.budget.trianglesPerRegion);
@@ -358,8 +355,7 @@ std::string formatProject(const Project& project) {
         {"pruningLoss", project.bake.pruningLoss},
         {"eyeRange", project.bake.eyeRange},
         {"distanceShift", project.bake.distanceShift},
-        {"colourQuality", project.bake.colourQuality},
-        {"silhouettes", project.bake.silhouettes}}},
+        {"colourQuality", project.bake.colourQuality}}},
       {"budget",
        {{"trianglesPerRegion", project.budget.trianglesPerRegion},
         {"maxErrorMetres", project.budget.maxErrorMetres},
@@ -368,8 +364,6 @@ std::string formatProject(const Project& project) {
        {{"renderer", nameOf(project.view.renderer)},
         {"reconstruction", nameOf(project.view.reconstruction)},
         {"maxSplatPixels", project.view.maxSplatPixels},
-        {"meshError", project.view.meshError},
-        {"maxMeshTriangles", project.view.maxMeshTriangles},
         {"localGeometry", project.view.localGeometry},
         {"secondaryCover", project.view.secondaryCover},
         {"fillHoles", project.view.fillHoles},

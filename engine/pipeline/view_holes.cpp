@@ -3,21 +3,20 @@
 #include <algorithm>
 
 #include "engine/layout/drawing_order.h"
-#include "engine/pipeline/sample_splats.h"
 
 namespace acentric {
 namespace {
 
 /// Surfaces along one view ray that are asked for; behind so many hardly anything is captured.
 constexpr int kMostSurfaces = 12;
+
 class ViewJudge {
  public:
   ViewJudge(const CaptureReach& reach, const PerspectiveView& view, const ViewSettings& settings, int region)
       : reach_(reach),
         view_(view),
         settings_(settings),
-        region_(reach.layout().regions[std::size_t(region)]),
-        splats_(reach, view, settings) {
+        region_(reach.layout().regions[std::size_t(region)]) {
     if (settings.secondaryCover)
       covers_ = drawnCovers(reach.layout(), region);
     else
@@ -27,8 +26,7 @@ class ViewJudge {
   struct Pixel {
     float rayDistance = std::numeric_limits<float>::infinity();
     bool missed = false;
-    bool bare = false;     ///< no splat falls there
-    bool nothing = false;  ///< no captured surface along the ray at all
+    bool open = false;  ///< no captured surface along the ray at all
   };
 
   Pixel judge(double u, double v) const {
@@ -40,17 +38,16 @@ class ViewJudge {
     if (settings_.localGeometry &&
         region_.grown.containsClosed(glm::dvec2(view_.eye + hit.distance * direction)))
       return pixel;
-    pixel.bare = true, pixel.nothing = true;
-    const glm::dvec2 place = glm::dvec2(u, v) - 0.5 * glm::dvec2(view_.width, view_.height);
-    for (int n = 0; n < kMostSurfaces && (pixel.bare || pixel.nothing); ++n) {
+    pixel.open = true;
+    for (int n = 0; n < kMostSurfaces && pixel.open; ++n) {
       if (!hit.found()) {
-        if (skyHeld(direction)) pixel.bare = pixel.nothing = false;
+        pixel.open = !skyHeld(direction);
         break;
       }
       const glm::dvec3 point = view_.eye + hit.distance * direction;
       // Of what lies in the near band only the local geometry is drawn.
-      if (!region_.grown.containsClosed(glm::dvec2(point))) judgeSurface(point, place, pixel);
-      if (n == 0) pixel.missed = pixel.nothing;
+      pixel.open = region_.grown.containsClosed(glm::dvec2(point)) || !held(point);
+      if (n == 0) pixel.missed = pixel.open;
       const double behind = hit.distance * (1 + 1e-6) + 1e-9;
       hit = reach_.tracer().trace(view_.eye, direction, behind, kInfinity);
     }
@@ -60,14 +57,11 @@ class ViewJudge {
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  /// Of what lies at a point of the view ray beyond the near band.
-  void judgeSurface(const glm::dvec3& point, const glm::dvec2& place, Pixel& pixel) const {
-    for (const Cover& cover : covers_) {
+  bool held(const glm::dvec3& point) const {
+    return std::ranges::any_of(covers_, [&](const Cover& cover) {
       const Piece* piece = pieceAt(cover, glm::dvec2(point));
-      if (piece == nullptr) continue;
-      if (pixel.nothing && reach_.holds(piece->camera, point, piece->role)) pixel.nothing = false;
-      if (pixel.bare && splats_.cover(*piece, point, place)) pixel.bare = false;
-    }
+      return piece != nullptr && reach_.holds(piece->camera, point, piece->role);
+    });
   }
 
   bool skyHeld(const glm::dvec3& direction) const {
@@ -86,7 +80,6 @@ class ViewJudge {
   const PerspectiveView& view_;
   const ViewSettings& settings_;
   const Region& region_;
-  SampleSplats splats_;
   std::vector<Cover> covers_;
 };
 
@@ -100,19 +93,18 @@ Result<ViewHoles> predictHoles(const CaptureReach& reach, const PerspectiveView&
     return fail(ErrorKind::invalidArgument, "the eye stands outside every region", "predicted holes");
   const ViewJudge judge(reach, view, settings, *region);
   ViewHoles holes;
-  holes.bare = Image<std::uint8_t>(view.width, view.height);
+  holes.openPixels = Image<std::uint8_t>(view.width, view.height);
   holes.rayDistance = FloatImage(view.width, view.height);
   struct Row {
-    std::uint64_t missed = 0, open = 0, expected = 0;
+    std::uint64_t missed = 0, open = 0;
   };
   std::vector<Row> rows(std::size_t(view.height));
   runner.parallelFor(rows.size(), [&](std::size_t y) {
     for (int x = 0; x < view.width; ++x) {
       const ViewJudge::Pixel pixel = judge.judge(x + 0.5, double(y) + 0.5);
       rows[y].missed += pixel.missed ? 1 : 0;
-      rows[y].open += pixel.nothing ? 1 : 0;
-      rows[y].expected += pixel.bare ? 1 : 0;
-      holes.bare.at(x, int(y)) = pixel.bare ? 1 : 0;
+      rows[y].open += pixel.open ? 1 : 0;
+      holes.openPixels.at(x, int(y)) = pixel.open ? 1 : 0;
       holes.rayDistance.at(x, int(y)) = pixel.rayDistance;
     }
   });
@@ -120,7 +112,6 @@ Result<ViewHoles> predictHoles(const CaptureReach& reach, const PerspectiveView&
   for (const Row& row : rows) {
     holes.missed += double(row.missed) / pixels;
     holes.open += double(row.open) / pixels;
-    holes.expected += double(row.expected) / pixels;
   }
   return holes;
 }

@@ -4,9 +4,8 @@
 ///
 /// A rendered frame counts a pixel as a hole if no real sample fell on it though the truth has a surface
 /// there. That is less than what is missed: behind a surface that no capture holds, another may be held and
-/// paint the pixel (wrongly). And it is more: what is thinner than the samples lie apart falls between them,
-/// and where a surface lies slanted to the camera and the eye sees it straight, the splats part. All are told
-/// apart here; the last by looking along those rays of the cameras whose samples may lie on the pixel.
+/// paint the pixel (wrongly). Both are told apart here. Patches of surfaces reach as far as their surface is
+/// captured; between splats more may be open.
 
 #include "engine/base/task_runner.h"
 #include "engine/geometry/perspective_view.h"
@@ -18,11 +17,10 @@ namespace acentric {
 
 struct ViewHoles {
   /// Shares of all pixels.
-  double missed = 0;         ///< what the eye sees there is in no capture that the view draws
-  double open = 0;           ///< nor is anything behind it
-  double expected = 0;       ///< no splat of a sample falls there
-  Image<std::uint8_t> bare;  ///< pixels on which none falls: 1, else 0
-  FloatImage rayDistance;    ///< metres to the first opaque surface; infinity = none
+  double missed = 0;               ///< what the eye sees there is in no capture that the view draws
+  double open = 0;                 ///< nor is anything behind it
+  Image<std::uint8_t> openPixels;  ///< 1, else 0
+  FloatImage rayDistance;          ///< metres to the first opaque surface; infinity = none
 };
 
 /// `settings`: what the view draws, and how large. Its eye stands in one of the layout's regions.

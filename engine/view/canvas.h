@@ -3,7 +3,6 @@
 /// vertical lines, so that successive samples write to neighbouring memory. One 64-bit word a pixel: a
 /// splat's pixel is one store.
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -27,21 +26,6 @@ constexpr float inverseZDepthOf(CanvasPixel pixel) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(pixel >> 32));
 }
 constexpr std::uint32_t slotOf(CanvasPixel pixel) { return static_cast<std::uint32_t>(pixel) >> 24; }
-
-/// Where places are kept (Reconstruction::filtered), the lowest bits of the inverse depth say where the
-/// sample lies: in bits 0..3 eighths of a pixel right of the pixel's centre, in 4..7 below it, each -8..7,
-/// and in 8..10 how far it spreads (Splat::spread). So a pixel written without them has its sample in its
-/// centre. Depths are then exact to 12 bits.
-inline constexpr CanvasPixel kPlaceBits = CanvasPixel(0x7ff) << 32;
-
-/// `fromLeft`, `fromTop`: eighths of a pixel from the pixel's left and upper border; beyond a pixel around
-/// the centre they are cut off.
-constexpr CanvasPixel placeBits(int fromLeft, int fromTop, std::uint32_t spread) {
-  const auto code = [](int fromBorder) {
-    return static_cast<unsigned>(std::clamp(fromBorder - 4, -8, 7)) & 15u;
-  };
-  return CanvasPixel(code(fromLeft) | code(fromTop) << 4 | spread << 8) << 32;
-}
 
 inline constexpr CanvasPixel kEmptyPixel = canvasPixel(0, -1.0f);
 
@@ -71,12 +55,9 @@ struct Canvas {
   /// What such a pixel was painted: one that is another by now was painted since, and shows no mirror any
   /// more (settleMirrors).
   std::vector<CanvasPixel> mirrorPixels;
-  bool places = false;  ///< pixels say where their samples lie (kPlaceBits)
 
   PixelRect rect() const { return {x0, 0, x0 + width, height}; }
   std::size_t indexOf(int x) const { return std::size_t(x - x0) * std::size_t(height); }
-  /// The bits of its pixels' high halves that are depth.
-  CanvasPixel depthBits() const { return ~CanvasPixel(0xffffffff) & ~(places ? kPlaceBits : 0); }
   /// Takes away mirrors that were painted over.
   void settleMirrors() {
     for (std::size_t i = 0; i < mirrors.size(); ++i)

@@ -14,10 +14,7 @@ inline constexpr int kBlockSide = 16;
 struct CanvasBlock {
   const std::uint64_t* pixels = nullptr;  ///< CanvasPixel, column by column
   std::ptrdiff_t columnPitch = 0;
-  const std::uint32_t* filtered =
-      nullptr;  ///< colours instead of the pixels' own, kBlockSide a column; or null
   const std::uint32_t* sources = nullptr;  ///< PixelSource by slot
-  std::uint32_t depthBits = 0;             ///< those of a pixel's high half that are depth
   std::uint32_t* colour = nullptr;         ///< Rgba8 words: opaque, holes 0
   std::uint16_t* source = nullptr;
   float* inverseZDepth = nullptr;  ///< 1/m, 0 in holes

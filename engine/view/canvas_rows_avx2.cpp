@@ -40,17 +40,8 @@ void transpose(__m256i (&rows)[kSide]) {
 /// A quarter of a block.
 void writeQuarter(const CanvasBlock& block) {
   const __m256i opaque = _mm256_set1_epi32(-0x1000000);
-  const __m256i depthBits = _mm256_set1_epi32(static_cast<int>(block.depthBits));
   __m256i rows[kSide], empty[kSide];
-  for (int x = 0; x < kSide; ++x) {
-    const __m256i own = halvesOf<0>(block.pixels + x * block.columnPitch);
-    rows[x] = own;
-    if (block.filtered == nullptr) continue;
-    const __m256i hole = _mm256_cmpeq_epi32(_mm256_and_si256(own, opaque), _mm256_setzero_si256());
-    const __m256i filtered =
-        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(block.filtered + x * kBlockSide));
-    rows[x] = _mm256_blendv_epi8(filtered, own, _mm256_or_si256(hole, opaque));
-  }
+  for (int x = 0; x < kSide; ++x) rows[x] = halvesOf<0>(block.pixels + x * block.columnPitch);
   transpose(rows);
   for (int y = 0; y < kSide; ++y) {
     const __m256i slot = _mm256_srli_epi32(rows[y], 24);
@@ -67,7 +58,7 @@ void writeQuarter(const CanvasBlock& block) {
   transpose(rows);
   for (int y = 0; y < kSide; ++y)
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(block.inverseZDepth + y * block.rowPitch),
-                        _mm256_andnot_si256(empty[y], _mm256_and_si256(rows[y], depthBits)));
+                        _mm256_andnot_si256(empty[y], rows[y]));
 }
 
 }  // namespace
@@ -78,7 +69,6 @@ void writeRowsAvx2(const CanvasBlock& block) {
       CanvasBlock quarter = block;
       const std::ptrdiff_t at = y * block.rowPitch + x;
       quarter.pixels += x * block.columnPitch + y;
-      if (quarter.filtered != nullptr) quarter.filtered += x * kBlockSide + y;
       quarter.colour += at, quarter.source += at, quarter.inverseZDepth += at;
       writeQuarter(quarter);
     }

@@ -45,17 +45,9 @@ void transpose(__m512i (&rows)[kBlockSide]) {
 
 void writeRowsAvx512(const CanvasBlock& block) {
   const __m512i opaque = _mm512_set1_epi32(-0x1000000);
-  const __m512i depthBits = _mm512_set1_epi32(static_cast<int>(block.depthBits));
   __m512i rows[kBlockSide];
   __mmask16 filled[kBlockSide];
-  for (int x = 0; x < kBlockSide; ++x) {
-    const __m512i own = halvesOf<0>(block.pixels + x * block.columnPitch);
-    rows[x] = own;
-    if (block.filtered == nullptr) continue;
-    const __m512i filtered = _mm512_loadu_si512(block.filtered + x * kBlockSide);
-    rows[x] = _mm512_mask_blend_epi32(_mm512_test_epi32_mask(own, opaque), own,
-                                      _mm512_ternarylogic_epi32(opaque, own, filtered, 0xca));
-  }
+  for (int x = 0; x < kBlockSide; ++x) rows[x] = halvesOf<0>(block.pixels + x * block.columnPitch);
   transpose(rows);
   for (int y = 0; y < kBlockSide; ++y) {
     filled[y] = _mm512_test_epi32_mask(rows[y], opaque);
@@ -68,8 +60,7 @@ void writeRowsAvx512(const CanvasBlock& block) {
   for (int x = 0; x < kBlockSide; ++x) rows[x] = halvesOf<1>(block.pixels + x * block.columnPitch);
   transpose(rows);
   for (int y = 0; y < kBlockSide; ++y)
-    _mm512_storeu_si512(block.inverseZDepth + y * block.rowPitch,
-                        _mm512_maskz_and_epi32(filled[y], rows[y], depthBits));
+    _mm512_storeu_si512(block.inverseZDepth + y * block.rowPitch, _mm512_maskz_mov_epi32(filled[y], rows[y]));
 }
 
 }  // namespace acentric

@@ -13,7 +13,6 @@ class DepthWindow {
  public:
   DepthWindow(const Canvas& canvas)
       : canvas_(canvas),
-        mask_(canvas.depthBits()),
         pitch_(std::size_t(canvas.height) + 2 * kReach),
         depths_(kColumns * pitch_, kNothing) {
     for (int x = 0; x < kReach; ++x) fetch(x);
@@ -38,11 +37,10 @@ class DepthWindow {
       return;
     }
     const CanvasPixel* const from = canvas_.column(canvas_.x0 + x);
-    for (int y = 0; y < canvas_.height; ++y) to[y] = inverseZDepthOf(from[y] & mask_);
+    for (int y = 0; y < canvas_.height; ++y) to[y] = inverseZDepthOf(from[y]);
   }
 
   const Canvas& canvas_;
-  CanvasPixel mask_;
   std::size_t pitch_;
   std::vector<float> depths_;
 };
@@ -81,11 +79,10 @@ void Cracks::open(Canvas& canvas, std::uint32_t openBelow) {
 }
 
 void Cracks::close(Canvas& canvas) {
-  const CanvasPixel mask = canvas.depthBits();
   for (const Crack& crack : cracks_) {
     CanvasPixel& pixel = canvas.pixels[crack.at];
     if (slotOf(pixel) == 0 ||
-        !(inverseZDepthOf(pixel & mask) > kBefore * inverseZDepthOf(crack.pixel & mask)))
+        !(inverseZDepthOf(pixel) > kBefore * inverseZDepthOf(crack.pixel)))
       pixel = crack.pixel;
   }
 }

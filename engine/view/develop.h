@@ -7,9 +7,8 @@
 
 namespace acentric {
 
-/// Writes columns [x0, x1) of the picture, which the canvas holds, and holds with their neighbours if it
-/// keeps places: it is then filtered. `sources`: by slot. `frame` and `inverseZDepth` (1/m, 0
-/// in holes) are as large as the picture.
+/// Writes columns [x0, x1) of the picture, which the canvas holds. `sources`: by slot. `frame` and
+/// `inverseZDepth` (1/m, 0 in holes) are as large as the picture.
 void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources,
              const Kernels& kernels, Frame& frame, FloatImage& inverseZDepth);
 

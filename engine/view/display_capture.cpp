@@ -3,7 +3,6 @@
 #include <span>
 
 #include "engine/base/contract.h"
-#include "engine/view/slant.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
@@ -29,11 +28,9 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   display.camera = camera;
   display.columnStart = capture.columnStart;
   display.mirror.assign(capture.mirror.begin(), capture.mirror.end());
-  const std::vector<Slant> slants =
-      slantsOf(camera, capture.columnStart, capture.row, capture.inverseDistance);
   display.samples.resize(capture.sampleCount());
   for (std::size_t i = 0; i < display.samples.size(); ++i)
-    display.samples[i] = packSample(capture.inverseDistance[i], capture.roles[i], capture.row[i], slants[i]);
+    display.samples[i] = packSample(capture.inverseDistance[i], capture.roles[i], capture.row[i]);
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {

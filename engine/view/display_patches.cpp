@@ -99,29 +99,41 @@ class TexelWriter {
   /// eyes that look from the side would see in between them, since both are known to a part only. Not beyond
   /// the strip: what lies there may be painted later.
   void reachUnder(const Patch& patch) {
-    constexpr double kTouching = 1;  // tolerances
     parts_.assign(known_.size(), 0);
     for (std::size_t at = 0; at < parts_.size(); ++at) parts_[at] = std::uint16_t(cover_[at] & kTexelParts);
-    const int strip = patch.column / out_.stripColumns;
     for (int i = -1; i <= patch.columns; ++i)
       for (int j = -1; j <= patch.rows; ++j) {
         const std::size_t at = texel(i, j);
         const int column = patch.column + i, row = patch.row + j;
-        if (parts_[at] == kTexelParts || !pixels_->holds(column, row) || column / out_.stripColumns != strip)
+        if (parts_[at] == kTexelParts || !pixels_->holds(column, row))
           continue;
         const std::uint32_t beside = partsBeside(i, j) & ~std::uint32_t(parts_[at]);
         if (beside == 0) continue;
-        const double inverse = inverseAt(patch.plane, column, row);
         std::uint32_t touched = 0;
         for (const std::uint32_t sample : pixels_->at(column, row))
-          if (sample != own_[at] && colours_[sample].a == 255 &&
-              std::abs(inverseAt(samples_.planes[samples_.plane[sample]], column, row) - inverse) <=
-                  kTouching * tolerance_)
-            touched |= samples_.coverage[sample];
+          if (sample != own_[at] && colours_[sample].a == 255 && (samples_.coverage[sample] & beside) != 0)
+            touched |= partsTouching(patch.plane, samples_.planes[samples_.plane[sample]], column, row) &
+                       samples_.coverage[sample];
         if ((beside & touched) == 0) continue;
         if (cover_[at] == 0) cover_[at] = std::uint32_t(patch.roles) << kTexelRoles;
         cover_[at] |= beside & touched;
       }
+  }
+  /// Parts of a pixel in which two planes are as near to each other as the tolerance, or meet within a part.
+  std::uint32_t partsTouching(const SurfacePlane& a, const SurfacePlane& b, int column, int row) const {
+    const glm::dvec3 difference = glm::dvec3(a.normal) - glm::dvec3(b.normal);
+    const glm::dvec2& direction = direction_[std::size_t(column)];
+    const double tangent = tangent_[std::size_t(row)];
+    const double middle = glm::dot(difference, glm::dvec3(direction, tangent));
+    const double across = camera_.columnPitch() * (difference.y * direction.x - difference.x * direction.y);
+    const double down = -camera_.rowPitch() * (1 + tangent * tangent) * difference.z;
+    const double most = tolerance_ + kMeetWithin * (std::abs(across) + std::abs(down));
+    std::uint32_t parts = 0;
+    for (int part = 0; part < 16; ++part) {
+      const double x = (part % 4 + 0.5) / 4 - 0.5, y = (part / 4 + 0.5) / 4 - 0.5;
+      parts |= std::uint32_t(std::abs(middle + x * across + y * down) <= most) << part;
+    }
+    return parts;
   }
   /// Parts of a texel that lie beside one that the patch covers, in it or next to it.
   std::uint32_t partsBeside(int i, int j) const {
@@ -188,9 +200,10 @@ class TexelWriter {
   std::vector<double> tangent_;
   std::vector<std::uint16_t> columnOf_;
   std::optional<PixelSamples> pixels_;
-  int width_ = 0, height_ = 0;      ///< of the patch, with its border
-  std::uint32_t* cover_ = nullptr;  ///< of the patch
-  Rgba8* colour_ = nullptr;         ///< of the patch
+  int width_ = 0, height_ = 0;                  ///< of the patch, with its border
+  std::uint32_t* cover_ = nullptr;              ///< of the patch
+  Rgba8* colour_ = nullptr;                     ///< of the patch
+  static constexpr double kMeetWithin = 0.125;  ///< samples
   static constexpr std::uint32_t kNoSample = 0xffffffff;
   std::vector<std::uint8_t> known_;   ///< of the patch's texels: do they have a colour?
   std::vector<std::uint32_t> own_;    ///< their samples

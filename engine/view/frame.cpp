@@ -3,17 +3,6 @@
 #include <algorithm>
 
 namespace acentric {
-void MeshCost::add(const MeshCost& other) {
-  samples += other.samples, triangles += other.triangles, bytes += other.bytes;
-  error = std::max(error, other.error);
-  buildSeconds += other.buildSeconds;
-}
-
-MeshCost FrameStats::meshSum() const {
-  MeshCost sum;
-  for (const MeshCost& cost : meshes) sum.add(cost);
-  return sum;
-}
 
 std::size_t Frame::holeCount() const {
   return source.pixels.size() - std::size_t(std::ranges::count_if(source.pixels, isReal));

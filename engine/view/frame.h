@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "engine/image/image.h"
 
@@ -26,19 +25,6 @@ constexpr PixelSource sourceOfCamera(int camera) {
   return camera + 1 < kSourceBackground ? static_cast<PixelSource>(camera + 1) : kSourceBackground - 1;
 }
 
-/// What drawing a capture as a mesh takes (capture_mesh.h).
-struct MeshCost {
-  int camera = 0;
-  std::uint64_t samples = 0;    ///< in the mesh: all that are opaque
-  std::uint64_t triangles = 0;  ///< that they became
-  std::uint64_t bytes = 0;      ///< of buffers
-  double error = 0;             ///< samples; more than was asked for where triangles are limited
-  double buildSeconds = 0;      ///< once
-
-  /// Of both together; the error is the larger.
-  void add(const MeshCost& other);
-};
-
 struct FrameStats {
   int images = 0;         ///< captures drawn
   int missingImages = 0;  ///< captures that the view needs and that are not there to be drawn
@@ -46,11 +32,7 @@ struct FrameStats {
   std::uint64_t samplesDrawn = 0;  ///< that fell on the picture
   int capturesAwaited = 0;         ///< captures that are loaded and not on the graphics card yet
   int standIns = 0;             ///< of these: drawn as what their camera had before; the others are missing
-  std::uint64_t bytesSent = 0;  ///< of captures and meshes, to the graphics card since the frame before
-  std::uint64_t meshTriangles = 0;  ///< submitted: those of columns in sight and of roles that are needed
-  std::vector<MeshCost> meshes;     ///< of the captures drawn, by camera
-  int meshesAwaited = 0;            ///< captures drawn whose mesh for these settings is not ready yet
-  int pointsForMeshes = 0;          ///< of these: drawn as points; the others as the mesh that they had
+  std::uint64_t bytesSent = 0;  ///< of captures, to the graphics card since the frame before
   std::uint64_t localTriangles = 0;
   double sendSeconds = 0;  ///< for that, and for packing what the frame packed itself
   double planSeconds = 0;  ///< choosing pieces and columns
@@ -58,9 +40,6 @@ struct FrameStats {
   double localSeconds = 0;
   double fillSeconds = 0;
   double totalSeconds = 0;
-
-  /// Of all captures drawn as meshes together.
-  MeshCost meshSum() const;
 };
 
 struct Frame {

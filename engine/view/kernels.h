@@ -5,7 +5,6 @@
 
 #include "engine/view/canvas_rows.h"
 #include "engine/view/patch_kernel.h"
-#include "engine/view/pixel_filter.h"
 #include "engine/view/surface_kernel.h"
 #include "engine/view/warp_kernel.h"
 
@@ -15,7 +14,6 @@ struct Kernels {
   const char* name;
   ProjectSamples project;
   FindBlocks findBlocks;
-  FilterPixels filter;
   WriteRows writeRows;
   ShadeRun shadeRun;
   CoverRow coverRow;

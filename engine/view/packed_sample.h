@@ -5,16 +5,13 @@
 
 #include <cstdint>
 
-#include "engine/view/slant_code.h"
-
 namespace acentric {
 
 struct PackedSample {
   /// 1/m, horizontal: the bits of a float but for its last eight, which captures do not use
   /// (storedInverseDistance). Instead of those: the roles that need the sample.
   std::uint32_t inverseDistanceAndRoles;
-  std::uint16_t row;
-  Slant slant;  ///< how its surface is turned (slant.h)
+  std::uint32_t row;
   bool operator==(const PackedSample&) const = default;
 };
 static_assert(sizeof(PackedSample) == 8);

@@ -96,7 +96,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
       static_cast<std::size_t>(std::min(kStripsPerThread * runner.threads(), view.width));
   const bool patches = drawsPatches(scene, plan, settings);
   const PatchPlan patchPlan = patches ? planPatches(scene, view, plan, runner) : PatchPlan();
-  const int beside = pixelsReadBeside(plan, settings);
+  const int beside = pixelsReadBeside(plan);
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);
   if (memory.patchCanvases.size() < strips && patches) memory.patchCanvases.resize(strips);
   const std::vector<int> borders = stripBorders(view.width, strips, memory.strips);
@@ -106,9 +106,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     const Stopwatch time;
     const int x0 = borders[strip], x1 = borders[strip + 1];
     Canvas& canvas = memory.canvases[strip];
-    clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
-                canvas);
-    canvas.places = canvas.places && !patches;
+    clearCanvas(scene, view, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width), canvas);
     if (sky) paintBackground(*sky, view, limits, kBackgroundSlot, canvas);
     background.paint(view, canvas);
     counts[strip] = patches ? paintPatches(patchPlan, *kernels.patches, cover, coverMirrors, x0, x1,

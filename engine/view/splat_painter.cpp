@@ -66,9 +66,8 @@ void blendInto(const BlendedPixel& at, std::uint32_t colour, std::uint64_t newSt
   at.blended = static_cast<std::uint32_t>(pixel);
 }
 
-/// `kMarks`: samples may be of mirrors, which the canvas is told. `kPlaces`: and where samples lie.
-/// `kBehind`: only open pixels are painted.
-template <PaintMode mode, bool kMarks, bool kPlaces, bool kBehind>
+/// `kMarks`: samples may be of mirrors, which the canvas is told. `kBehind`: only open pixels are painted.
+template <PaintMode mode, bool kMarks, bool kBehind>
 class Painter {
  public:
   Painter(const PaintTarget& target, const SplatArrays& splats)
@@ -108,16 +107,15 @@ class Painter {
 
  private:
   static constexpr bool kOver = mode == PaintMode::over || mode == PaintMode::overBlended;
-  static constexpr CanvasPixel kPlace = kPlaces ? kPlaceBits : 0;
 
-  std::uint16_t rowOf(int i) const { return target_.samples[sampleOf(splats_, i)].row; }
+  std::uint32_t rowOf(int i) const { return target_.samples[splats_.indices[i]].row; }
 
   /// Samples of one pixel, [first, last): those before the foot come nearer to the eye in stored order, those
   /// beyond it recede.
   [[gnu::always_inline]] std::uint64_t paintPixel(int first, int last) const {
     if (last - first == 1) return paint(first);
     int foot = first;
-    while (foot < last && inverseDistanceOf(target_.samples[sampleOf(splats_, foot)]) > target_.footInverse)
+    while (foot < last && inverseDistanceOf(target_.samples[splats_.indices[foot]]) > target_.footInverse)
       ++foot;
     std::uint64_t painted = 0;
     for (int i = first; i < foot; ++i) painted += paint(i);
@@ -131,9 +129,7 @@ class Painter {
     return first >= target_.countedFrom && first < target_.countedTo;
   }
 
-  std::uint8_t mirrorOf(int i) const {
-    return kMarks ? target_.mirror[sampleOf(splats_, i)] : std::uint8_t(0);
-  }
+  std::uint8_t mirrorOf(int i) const { return kMarks ? target_.mirror[splats_.indices[i]] : std::uint8_t(0); }
 
   [[gnu::always_inline]] bool paint(int i) const {
     const std::uint32_t steps = splats_.steps[i];
@@ -152,15 +148,10 @@ class Painter {
   [[gnu::always_inline]] bool paintCorners(CanvasPixel pixel, std::uint32_t first, std::uint32_t steps,
                                            std::uint8_t mirror) const {
     const std::ptrdiff_t right = steps & 0xffffu, down = steps >> 16 & 1u;
-    CanvasPixel beside = 0, below = 0;  // what differs there
-    if constexpr (kPlaces) {
-      beside = CanvasPixel(steps >> 24 & 0xfu) << 32;
-      below = CanvasPixel(steps >> 24 & 0xf0u) << 32;
-    }
     const bool seen = paintOne(first, pixel, mirror);
-    paintOne(first + down, pixel ^ below, mirror);
-    paintOne(first + right, pixel ^ beside, mirror);
-    paintOne(first + right + down, pixel ^ beside ^ below, mirror);
+    paintOne(first + down, pixel, mirror);
+    paintOne(first + right, pixel, mirror);
+    paintOne(first + right + down, pixel, mirror);
     return seen;
   }
 
@@ -173,16 +164,14 @@ class Painter {
       open = mirrors_[at] == mirror;
       painted = reflected(pixel, painted);
     }
-    const bool inFront = mode != PaintMode::nearest || depthOf(painted) > depthOf(pixel);
+    const bool inFront = mode != PaintMode::nearest || inverseZDepthOf(painted) > inverseZDepthOf(pixel);
     pixel = open && inFront ? painted : pixel;
     return open;
   }
 
-  static float depthOf(CanvasPixel pixel) { return inverseZDepthOf(pixel & ~kPlace); }
-
   /// What a mirror's pixel becomes: it keeps the mirror's own depth.
   static CanvasPixel reflected(CanvasPixel mirror, CanvasPixel shown) {
-    constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff) & ~kPlace;
+    constexpr CanvasPixel kDepth = ~CanvasPixel(0xffffffff);
     return (mirror & kDepth) | (shown & ~kDepth);
   }
 
@@ -193,9 +182,8 @@ class Painter {
     const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
     if (!wanted) return false;
     const std::uint8_t mirror = mirrorOf(i);
-    const CanvasPixel plain = splat.pixel & ~kPlace;
-    const int x0 = std::max(splat.x, rect_.x0), x1 = std::min(splat.x + splat.width, rect_.x1);
-    const int y0 = std::max(splat.y, rect_.y0), y1 = std::min(splat.y + splat.height, rect_.y1);
+    const int x0 = std::max(splat.x, rect_.x0), x1 = std::min(splat.x + splat.side, rect_.x1);
+    const int y0 = std::max(splat.y, rect_.y0), y1 = std::min(splat.y + splat.side, rect_.y1);
     bool counted = counts(splat.x);
     if constexpr (kBehind)
       counted = counted && slotOf(pixels_[(x0 - rect_.x0) * height_ + y0]) < target_.openBelow;
@@ -208,23 +196,19 @@ class Painter {
         const std::ptrdiff_t at = (x - rect_.x0) * height_ + y;
         if (kBehind && slotOf(pixels_[at]) >= target_.openBelow) continue;
         if (tints) {
-          tint(at, plain, colour, stamp);
+          tint(at, splat.pixel, colour, stamp);
           continue;
         }
-        CanvasPixel pixel = plain;
-        if constexpr (kPlaces)
-          pixel |=
-              placeBits(splat.placeX - 8 * (x - splat.x), splat.placeY - 8 * (y - splat.y), splat.spread);
-        paintOne(at, pixel, mirror);
-        if (mirror != 0 && mode != PaintMode::reflect && pixels_[at] == pixel)
-          mirrors_[at] = mirror, mirrorPixels_[at] = pixel;
+        paintOne(at, splat.pixel, mirror);
+        if (mirror != 0 && mode != PaintMode::reflect && pixels_[at] == splat.pixel)
+          mirrors_[at] = mirror, mirrorPixels_[at] = splat.pixel;
       }
     return counted;
   }
 
   /// Of a sample that is not opaque.
   void tint(std::ptrdiff_t at, CanvasPixel plain, std::uint32_t colour, std::uint64_t stamp) const {
-    if (mode != PaintMode::overBlended && !(inverseZDepthOf(plain) >= depthOf(pixels_[at]))) return;
+    if (mode != PaintMode::overBlended && !(inverseZDepthOf(plain) >= inverseZDepthOf(pixels_[at]))) return;
     const BlendedPixel pixel{pixels_[at], stamps_[at], blended_[at]};
     if (kBehind && (pixel.validStamp() >> 56) >= target_.openBelow) return;  // tinted by what is in front
     blendInto(pixel, colour, stamp);
@@ -241,29 +225,24 @@ class Painter {
   CanvasPixel* const mirrorPixels_;
 };
 
-template <bool kMarks, bool kPlaces, bool kBehind>
+template <bool kMarks, bool kBehind>
 std::uint64_t paintBy(const PaintTarget& target, PaintMode mode, const SplatArrays& splats, int first,
                       int end, bool reversed, bool pixelByPixel) {
   const auto paint = [&](auto painter) { return painter.paint(first, end, reversed, pixelByPixel); };
   switch (mode) {
     case PaintMode::over:
-      return paint(Painter<PaintMode::over, kMarks, kPlaces, kBehind>(target, splats));
+      return paint(Painter<PaintMode::over, kMarks, kBehind>(target, splats));
     case PaintMode::overBlended:
-      return paint(Painter<PaintMode::overBlended, kMarks, kPlaces, kBehind>(target, splats));
+      return paint(Painter<PaintMode::overBlended, kMarks, kBehind>(target, splats));
     case PaintMode::nearest:
       pixelByPixel = false;
-      return paint(Painter<PaintMode::nearest, kMarks, kPlaces, kBehind>(target, splats));
+      return paint(Painter<PaintMode::nearest, kMarks, kBehind>(target, splats));
     case PaintMode::blendOnNearest:
-      return paint(Painter<PaintMode::blendOnNearest, kMarks, kPlaces, kBehind>(target, splats));
+      return paint(Painter<PaintMode::blendOnNearest, kMarks, kBehind>(target, splats));
     case PaintMode::reflect:
-      return paint(Painter<PaintMode::reflect, true, kPlaces, false>(target, splats));
+      return paint(Painter<PaintMode::reflect, true, false>(target, splats));
   }
   return 0;
-}
-
-template <bool kMarks, bool kPlaces>
-constexpr auto paintByPlace(bool behind) {
-  return behind ? paintBy<kMarks, kPlaces, true> : paintBy<kMarks, kPlaces, false>;
 }
 
 }  // namespace
@@ -272,10 +251,8 @@ std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const Splat
                           int end, bool reversed, bool pixelByPixel) {
   const Canvas& canvas = *target.canvas;
   const bool behind = target.openBelow > 0, marks = !canvas.mirrors.empty() && target.mirror != nullptr;
-  const auto paint = canvas.places
-                         ? marks ? paintByPlace<true, true>(behind) : paintByPlace<false, true>(behind)
-                     : marks ? paintByPlace<true, false>(behind)
-                             : paintByPlace<false, false>(behind);
+  const auto paint = marks ? (behind ? paintBy<true, true> : paintBy<true, false>)
+                           : (behind ? paintBy<false, true> : paintBy<false, false>);
   return paint(target, mode, splats, first, end, reversed, pixelByPixel);
 }
 

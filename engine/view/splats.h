@@ -11,31 +11,18 @@ namespace acentric {
 
 /// All that the arrays say of one splat.
 struct Splat {
-  int x = 0, y = 0;            ///< of its top left pixel
-  int width = 1, height = 1;   ///< pixels
-  int placeX = 0, placeY = 0;  ///< of its sample, eighths of a pixel from its left and upper border
-  std::uint32_t index = 0;     ///< of its sample
-  std::uint32_t spread = 0;    ///< SplatArrays::indices
-  CanvasPixel pixel = 0;       ///< SplatArrays::pixels
+  int x = 0, y = 0;         ///< of its top left pixel
+  int side = 1;             ///< pixels
+  std::uint32_t index = 0;  ///< of its sample
+  CanvasPixel pixel = 0;    ///< SplatArrays::pixels
 };
 
-/// Of a word of SplatArrays::indices.
-inline std::uint32_t sampleOf(std::uint32_t index) { return index & 0xfffffffu; }
-inline std::uint32_t sampleOf(const SplatArrays& splats, int i) { return sampleOf(splats.indices[i]); }
 inline int columnOf(const SplatArrays& splats, int i) {
   return static_cast<std::int16_t>(splats.corners[i] & 0xffffu);
 }
 inline Splat splatAt(const SplatArrays& splats, int i) {
-  const auto byte = [&](int k) { return static_cast<int>(splats.sizes[i] >> (8 * k) & 0xffu); };
-  return {columnOf(splats, i),
-          static_cast<std::int16_t>(splats.corners[i] >> 16),
-          byte(0),
-          byte(1),
-          byte(2),
-          byte(3),
-          sampleOf(splats, i),
-          splats.indices[i] >> 28,
-          splats.pixels[i]};
+  return {columnOf(splats, i), static_cast<std::int16_t>(splats.corners[i] >> 16),
+          static_cast<int>(splats.sides[i]), splats.indices[i], splats.pixels[i]};
 }
 
 /// `samples` and their colours.
@@ -54,7 +41,7 @@ class SplatMemory {
       std::uint32_t* words = words_.data();
       arrays_.pixels = pixels_.data();
       for (std::uint32_t** array :
-           {&arrays_.steps, &arrays_.firsts, &arrays_.corners, &arrays_.sizes, &arrays_.indices}) {
+           {&arrays_.steps, &arrays_.firsts, &arrays_.corners, &arrays_.sides, &arrays_.indices}) {
         *array = words;
         words += size;
       }

@@ -23,8 +23,6 @@ const char* nameOf(Renderer renderer) {
       return "gl";
     case Renderer::glZbuffer:
       return "gl-zbuffer";
-    case Renderer::glMesh:
-      return "gl-mesh";
   }
   return "list";
 }
@@ -38,6 +36,8 @@ Result<Renderer> parseRenderer(std::string_view name) {
       "renderer");
 }
 
+std::string_view rendererNow(std::string_view name) { return name == "gl-mesh" ? "gl" : name; }
+
 std::vector<std::string> rendererNames() {
   std::vector<std::string> names;
   for (Renderer renderer : kRenderers) names.emplace_back(nameOf(renderer));
@@ -50,10 +50,6 @@ const char* nameOf(Reconstruction reconstruction) {
       return "point";
     case Reconstruction::splat:
       return "splat";
-    case Reconstruction::surface:
-      return "surface";
-    case Reconstruction::filtered:
-      return "filtered";
     case Reconstruction::patches:
       return "patches";
   }
@@ -64,22 +60,18 @@ Result<Reconstruction> parseReconstruction(std::string_view name) {
   for (Reconstruction reconstruction : kReconstructions)
     if (name == nameOf(reconstruction)) return reconstruction;
   return fail(ErrorKind::invalidArgument,
-              fmt::format("no reconstruction is called '{}': use point, splat, surface or filtered", name),
+              fmt::format("no reconstruction is called '{}': use point, splat or patches", name),
               "reconstruction");
+}
+
+std::string_view reconstructionNow(std::string_view name) {
+  return name == "surface" || name == "filtered" ? "patches" : name;
 }
 
 Status ViewSettings::check() const {
   if (maxSplatPixels < 1 || maxSplatPixels > 64)
     return fail(ErrorKind::invalidArgument,
                 fmt::format("largest splat of {} pixels: must lie in 1..64", maxSplatPixels),
-                "view settings");
-  if (!(meshError >= 0.01 && meshError <= kLargestMeshError))
-    return fail(ErrorKind::invalidArgument,
-                fmt::format("mesh error of {} samples: must lie in 0.01..{}", meshError, kLargestMeshError),
-                "view settings");
-  if (maxMeshTriangles < 0)
-    return fail(ErrorKind::invalidArgument,
-                fmt::format("at most {} triangles in a mesh: must not be negative", maxMeshTriangles),
                 "view settings");
   return {};
 }

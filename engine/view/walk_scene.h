@@ -44,8 +44,8 @@ inline std::uint8_t rolesOf(const PackedSample& sample) {
   return static_cast<std::uint8_t>(sample.inverseDistanceAndRoles);
 }
 /// The inverse distance is rounded to the bits that are kept.
-inline PackedSample packSample(float inverseDistance, std::uint8_t roles, std::uint16_t row, Slant slant) {
-  return {((std::bit_cast<std::uint32_t>(inverseDistance) + 0x80u) & ~0xffu) | roles, row, slant};
+inline PackedSample packSample(float inverseDistance, std::uint8_t roles, std::uint32_t row) {
+  return {((std::bit_cast<std::uint32_t>(inverseDistance) + 0x80u) & ~0xffu) | roles, row};
 }
 
 /// A capture with display colours and what the kernels need beside the samples. Sample order as in Capture.

@@ -30,29 +30,23 @@ glm::dvec3 baselineOf(const PieceDraw&, const DisplayCapture& capture, const Per
 template <class T>
 ProjectColumnOf<T> columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
                                   const ViewSettings& settings, const PieceDraw& piece,
-                                  const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot,
-                                  bool places) {
+                                  const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot) {
   const glm::dvec3 baseline = baselineOf(piece, capture, view, T());
   ProjectColumnOf<T> column{};
   axes.project(glm::dvec3(0, 0, 1), column.z);
   axes.project(baseline, column.b);
   const double focal = view.focalPixels();
   const double pitch = std::max(capture.camera.columnPitch(), capture.camera.rowPitch());
-  column.footprint = settings.reconstruction == Reconstruction::splat
-                         ? static_cast<T>(focal * pitch * kSlantAllowance)
-                         : T(0);
+  column.footprint = settings.reconstruction == Reconstruction::point
+                         ? T(0)
+                         : static_cast<T>(focal * pitch * kSlantAllowance);
   column.maxSide = static_cast<T>(settings.maxSplatPixels);
-  column.slanted = followsSlant(settings.reconstruction);
-  column.acrossStep = static_cast<T>(0.5 * kOverlap * capture.camera.columnPitch());
-  column.perSpread = static_cast<T>(8 * 0.5 * kOverlap);
-  column.downStep = static_cast<T>(0.5 * kOverlap * capture.camera.rowPitch());
   column.roles = piece.roles;
   column.centreX = T(0.5) * static_cast<T>(view.width);
   column.centreY = T(0.5) * static_cast<T>(view.height);
   column.inverseFocal = static_cast<T>(1 / focal);
   column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
   column.slot = slot;
-  column.places = places;
   column.baseline[0] = static_cast<T>(baseline.x), column.baseline[1] = static_cast<T>(baseline.y);
   if (piece.clipToPart) {
     const AzimuthRange part = piece.part.azimuths;
@@ -85,8 +79,7 @@ class CanvasWarp {
   }
 
   WarpCounts run() {
-    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr,
-                              pixelsReadBeside(plan_, settings_));
+    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, pixelsReadBeside(plan_));
     if (!uncovered.none()) drawAllPieces(uncovered);
     if (plan_.reflections.empty()) return counts_;
     canvas_.settleMirrors();
@@ -153,20 +146,13 @@ class CanvasWarp {
         const std::size_t at = canvas_.indexOf(x) + static_cast<std::size_t>(y);
         canvas_.mirrors[at] = *mirror;
         any = any || *mirror != 0;
-        if (*mirror != 0 || (canvas_.places && isBesideCoverMirror(x, y))) canvas_.pixels[at] = kEmptyPixel;
+        if (*mirror != 0) canvas_.pixels[at] = kEmptyPixel;
       }
     return any;
   }
-  /// Filters would mix what other local geometry hides there into the mirror.
-  bool isBesideCoverMirror(int x, int y) const {
-    for (const int dx : {-1, 0, 1})
-      for (const int dy : {-1, 0, 1})
-        if (coverMirrorAt(x + dx, y + dy).value_or(0) != 0) return true;
-    return false;
-  }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
-    constants_ = columnTemplate<float>(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
+    constants_ = columnTemplate<float>(axes_, view_, settings_, piece, capture, rect_, slot);
     if (options_.precise) beginPrecisely(piece, capture, slot);
     for (std::size_t i = 0; i < planes_.normals.size(); ++i)
       blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
@@ -185,7 +171,7 @@ class CanvasWarp {
   }
 
   void beginPrecisely(const PieceDraw& piece, const DisplayCapture& capture, std::uint32_t slot) {
-    precise_ = columnTemplate<double>(axes_, view_, settings_, piece, capture, rect_, slot, canvas_.places);
+    precise_ = columnTemplate<double>(axes_, view_, settings_, piece, capture, rect_, slot);
     rowTangent_.resize(static_cast<std::size_t>(capture.camera.rows));
     for (std::size_t r = 0; r < rowTangent_.size(); ++r)
       rowTangent_[r] = capture.camera.tangentAt(static_cast<double>(r) + 0.5);
@@ -195,7 +181,6 @@ class CanvasWarp {
                        const SplatArrays& splats) {
     const glm::dvec2 direction = capture.camera.directionAt(static_cast<double>(k) + 0.5);
     axes_.project(glm::dvec3(direction, 0), precise_.a);
-    axes_.project(precise_.acrossStep * glm::dvec3(-direction.y, direction.x, 0), precise_.across);
     precise_.maxInverseDistance = double(constants_.maxInverseDistance);
     precise_.minInverseDistance = double(constants_.minInverseDistance);
     precise_.direction[0] = direction.x, precise_.direction[1] = direction.y;
@@ -210,8 +195,6 @@ class CanvasWarp {
       return 0;
     const glm::dvec2 direction(capture.columnDirection[k]);
     axes_.project(glm::dvec3(direction, 0), constants_.a);
-    axes_.project(double(constants_.acrossStep) * glm::dvec3(-direction.y, direction.x, 0),
-                  constants_.across);
     constants_.maxInverseDistance = piece.maxInverseDistance[k];
     constants_.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     constants_.direction[0] = capture.columnDirection[k].x,
@@ -275,7 +258,7 @@ class CanvasWarp {
                              openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
     const auto isAbove = [&](std::uint32_t index) {
-      return capture.rowTangent[samples[sampleOf(index)].row] > order.pivotTangent;
+      return capture.rowTangent[samples[index].row] > order.pivotTangent;
     };
     const int above = static_cast<int>(std::partition_point(splats.indices, splats.indices + count, isAbove) -
                                        splats.indices);
@@ -321,20 +304,19 @@ bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettin
   return wantsPatches(settings) && std::ranges::all_of(plan.pieces, have);
 }
 
-int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings) {
+int pixelsReadBeside(const ViewPlan& plan) {
   const bool second = std::ranges::find(plan.pieces, true, &PieceDraw::secondary) != plan.pieces.end();
-  return (isFiltered(settings.reconstruction) ? 1 : 0) + (second ? Cracks::kReach : 0);
+  return second ? Cracks::kReach : 0;
 }
 
-void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                 const ViewPlan& plan, int x0, int x1, Canvas& canvas) {
+void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewPlan& plan, int x0, int x1,
+                 Canvas& canvas) {
   const bool blended = std::ranges::any_of(plan.pieces, [&](const PieceDraw& piece) {
     return scene.captures[static_cast<std::size_t>(piece.camera)]->blended;
   });
   canvas.x0 = x0;
   canvas.width = x1 - x0;
   canvas.height = view.height;
-  canvas.places = isFiltered(settings.reconstruction);
   const std::size_t size = static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   canvas.pixels.assign(size, kEmptyPixel);
   canvas.stamps.assign(blended ? size : 0, 0);

@@ -15,9 +15,6 @@ namespace acentric {
 /// degrees.
 inline constexpr double kSlantAllowance = 1.25;
 
-/// Rectangles after the slant of their surface are this much larger than the sample's share of it.
-inline constexpr double kOverlap = 1.1;
-
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
   FindBlocks findBlocks = findBlocksScalar;
@@ -46,13 +43,12 @@ bool wantsPatches(const ViewSettings& settings);
 bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
 
 /// So many pixels on either side of a pixel have a say in it.
-int pixelsReadBeside(const ViewPlan& plan, const ViewSettings& settings);
+int pixelsReadBeside(const ViewPlan& plan);
 
-/// Makes it an empty canvas of columns [x0, x1) of the picture, with what the plan and the settings need:
-/// stamps if some piece holds blended samples, mirrors if there are reflections, places if it is to be
-/// filtered.
-void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
-                 const ViewPlan& plan, int x0, int x1, Canvas& canvas);
+/// Makes it an empty canvas of columns [x0, x1) of the picture, with what the plan needs: stamps if some
+/// piece holds blended samples, mirrors if there are reflections.
+void clearCanvas(const WalkScene& scene, const PerspectiveView& view, const ViewPlan& plan, int x0, int x1,
+                 Canvas& canvas);
 
 /// Slots on the canvas, from back to front: holes, the background without a capture, backgrounds of captures,
 /// pieces (those of the second cover, which only fill what the first leaves open, before the others),

@@ -1,5 +1,5 @@
 #pragma once
-/// The inner loop of the warp: from samples of one capture column to squares or rectangles on the picture.
+/// The inner loop of the warp: from samples of one capture column to squares on the picture.
 ///
 /// One template (warp_kernel_body.h) is compiled three times: one sample at a time for any processor, eight
 /// at a time with AVX2 and sixteen with AVX-512 (and once in double precision, as a reference). All do the
@@ -17,24 +17,18 @@
 namespace acentric {
 
 /// The splats of a column, an array for each thing that is known of them, with room for all samples of the
-/// runs and kSampleRoom more. A splat is a square; with ProjectColumn::slanted a rectangle.
+/// runs and kSampleRoom more. A splat is a square of whole pixels.
 struct SplatArrays {
-  /// What its pixels become: CanvasPixel, of the colour without its alpha. Where places are kept, that of the
-  /// pixel in the top left corner.
+  /// What its pixels become: CanvasPixel, of the colour without its alpha.
   std::uint64_t* pixels = nullptr;
-  /// For painting all pixels by their corners: 0 if the splat is more than two pixels wide or high, reaches
-  /// beyond the rectangle, or is not opaque. Else kWholeSplat, and from its first pixel to the others: in
-  /// bits 0..15 the step to the right, in bit 16 the step down; in bits 24..27 and 28..31 the bits of their
-  /// horizontal and vertical places that are others (kPlaceBits).
+  /// For painting all pixels by their corners: 0 if the splat is more than two pixels wide, reaches beyond
+  /// the canvas, or is not opaque. Else kWholeSplat, and from its first pixel to the others: in bits 0..15
+  /// the step to the right, in bit 16 the step down.
   std::uint32_t* steps = nullptr;
   std::uint32_t* firsts = nullptr;   ///< where steps start: the first pixel on the canvas
   std::uint32_t* corners = nullptr;  ///< of the top left pixel: x, and y in the upper half, both signed
-  /// Bytes: width, height; of a rectangle the sample's place, eighths of a pixel from its left and upper
-  /// border, 255 at most.
-  std::uint32_t* sizes = nullptr;
-  /// In bits 0..27 the sample, firstIndex + its place among those handed in; of a rectangle in bits 28..30
-  /// its spread: samples of its surface lie 8 / (8 - spread) pixels apart, or less if it is 0.
-  std::uint32_t* indices = nullptr;
+  std::uint32_t* sides = nullptr;    ///< pixels
+  std::uint32_t* indices = nullptr;  ///< of the sample in its column
 };
 inline constexpr std::uint32_t kWholeSplat = 1u << 17;
 
@@ -53,18 +47,12 @@ struct ProjectColumnOf {
   T maxInverseDistance;  ///< nearer samples are dropped
   T minInverseDistance;  ///< farther ones too; 0: none
   T footprint;           ///< splat side at q.z = 1, straight ahead, row tangent 0; 0: points
-  bool slanted;          ///< rectangles after each sample's slant instead of squares
-  T across[3];           ///< slanted: half the rectangle's size along a row, as q is
-  T acrossStep;          ///< slanted: half its size along a row and along a column, radians
-  T downStep;
-  T perSpread;  ///< slanted: eight times half a rectangle's size where samples lie a pixel apart
   T maxSide;
   std::uint32_t roles;          ///< samples that none of these needs are dropped
   T centreX, centreY;           ///< picture centre, pixels
   T inverseFocal;               ///< 1/pixels
   std::int32_t x0, y0, x1, y1;  ///< the canvas: splats that miss it are dropped
   std::uint32_t slot;           ///< of the canvas, 1..255
-  bool places;                  ///< pixels say where their samples lie
   PartTest partTest;
   T direction[2];     ///< column direction in plan
   T baseline[2];      ///< b in plan, metres

@@ -18,21 +18,21 @@ constexpr KeptLanes kKeptLanes;
 
 struct WarpLanes : EightLanes {
   using EightLanes::load;
-  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+  static void load(const PackedSample* p, I& inverseAndRoles, I& row) {
     const __m256 first = _mm256_loadu_ps(reinterpret_cast<const float*>(p)),
                  second = _mm256_loadu_ps(reinterpret_cast<const float*>(p + 4));
     const auto inOrder = [](__m256 lanes) {
       return I{_mm256_permute4x64_epi64(_mm256_castps_si256(lanes), 0xd8)};
     };
     inverseAndRoles = inOrder(_mm256_shuffle_ps(first, second, 0x88));
-    rowAndSlant = inOrder(_mm256_shuffle_ps(first, second, 0xdd));
+    row = inOrder(_mm256_shuffle_ps(first, second, 0xdd));
   }
   static I words(const unsigned char* p, int count) {
     return load(reinterpret_cast<const std::uint32_t*>(p), count);
   }
-  static F tangents(const float* table, const PackedSample* rising, I rowAndSlant) {
-    const I row = both(rowAndSlant, seti(0xffff));
-    const int first = rising[0].row, span = rising[kWidth - 1].row - first;
+  static F tangents(const float* table, const PackedSample* rising, I row) {
+    const int first = static_cast<int>(rising[0].row),
+              span = static_cast<int>(rising[kWidth - 1].row) - first;
     if (span >= kWidth) return gather(table, row);
     const __m256 near = _mm256_maskload_ps(table + first, firstLanes(span + 1));
     return {_mm256_permutevar8x32_ps(near, (row - seti(first)).v)};

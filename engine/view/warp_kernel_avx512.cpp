@@ -7,17 +7,16 @@ namespace {
 
 struct WarpLanes : SixteenLanes {
   using SixteenLanes::load;
-  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+  static void load(const PackedSample* p, I& inverseAndRoles, I& row) {
     const __m512i first = _mm512_loadu_si512(p), second = _mm512_loadu_si512(p + 8);
     const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     inverseAndRoles = {_mm512_permutex2var_epi32(first, even, second)};
-    rowAndSlant = {_mm512_permutex2var_epi32(first, (I{even} + seti(1)).v, second)};
+    row = {_mm512_permutex2var_epi32(first, (I{even} + seti(1)).v, second)};
   }
   static I words(const unsigned char* p, int count) {
     return load(reinterpret_cast<const std::uint32_t*>(p), count);
   }
-  static F tangents(const float* table, const PackedSample* rising, I rowAndSlant) {
-    const I row = both(rowAndSlant, seti(0xffff));
+  static F tangents(const float* table, const PackedSample* rising, I row) {
     const unsigned first = rising[0].row, span = rising[kWidth - 1].row - first;
     if (span >= kWidth) return gather(table, row);
     const __m512 near = _mm512_maskz_loadu_ps(static_cast<__mmask16>((2u << span) - 1), table + first);

@@ -27,45 +27,28 @@ inline typename B::M insidePart(const C& c, typename B::F w) {
 }
 
 template <class B, class C>
-inline typename B::M touches(const C& c, typename B::I x, typename B::I y, typename B::I width,
-                             typename B::I height) {
-  return B::greater(B::seti(c.x1), x) & B::greater(B::seti(c.y1), y) & B::greater(x + width, B::seti(c.x0)) &
-         B::greater(y + height, B::seti(c.y0));
-}
-
-/// Half of kPlaceBits: eighths of a pixel from a pixel's border to the sample, as told from its centre.
-template <class B>
-inline typename B::I placeCode(typename B::I fromBorder) {
-  return B::both(B::mini(B::maxi(fromBorder - B::seti(4), B::seti(-8)), B::seti(7)), B::seti(15));
+inline typename B::M touches(const C& c, typename B::I x, typename B::I y, typename B::I side) {
+  return B::greater(B::seti(c.x1), x) & B::greater(B::seti(c.y1), y) & B::greater(x + side, B::seti(c.x0)) &
+         B::greater(y + side, B::seti(c.y0));
 }
 
 /// Writes the accepted splats one after the other (and whatever it likes behind them), and returns how many.
 template <class B, class C>
 inline int appendSplats(const C& c, typename B::M accepted, typename B::I x, typename B::I y,
-                        typename B::I width, typename B::I height, typename B::I placeX, typename B::I placeY,
-                        typename B::I spread, typename B::F inverseZDepth, typename B::I colour,
+                        typename B::I side, typename B::F inverseZDepth, typename B::I colour,
                         std::uint32_t firstIndex, const SplatArrays& out, int written) {
   using I = typename B::I;
   const unsigned bits = B::bits(accepted);
   if (bits == 0) return 0;
   const auto notAbove = [](I a, std::int32_t limit) { return B::greater(B::seti(limit + 1), a); };
   const std::int32_t canvasHeight = c.y1 - c.y0;
-  const typename B::M whole = notAbove(width, 2) & notAbove(height, 2) & B::greater(x, B::seti(c.x0 - 1)) &
-                              B::greater(y, B::seti(c.y0 - 1)) & notAbove(x + width, c.x1) &
-                              notAbove(y + height, c.y1) &
+  const typename B::M whole = notAbove(side, 2) & B::greater(x, B::seti(c.x0 - 1)) &
+                              B::greater(y, B::seti(c.y0 - 1)) & notAbove(x + side, c.x1) &
+                              notAbove(y + side, c.y1) &
                               B::greater(B::template shiftRight<24>(colour), B::seti(254));
-  I steps = B::seti(kWholeSplat) + B::when(B::greater(width, B::seti(1)), B::seti(canvasHeight)) +
-            B::when(B::greater(height, B::seti(1)), B::seti(1 << 16));
-  I depth = B::asInts(inverseZDepth);
-  if (c.places) {
-    const I left = placeCode<B>(placeX), top = placeCode<B>(placeY);
-    const I right = placeCode<B>(placeX - B::template shiftLeft<3>(width - B::seti(1)));
-    const I bottom = placeCode<B>(placeY - B::template shiftLeft<3>(height - B::seti(1)));
-    depth = B::both(depth, B::seti(~0x7ff)) + left + B::template shiftLeft<4>(top) +
-            B::template shiftLeft<8>(spread);
-    steps = steps + B::template shiftLeft<24>(B::different(left, right)) +
-            B::template shiftLeft<28>(B::different(top, bottom));
-  }
+  const I steps =
+      B::seti(kWholeSplat) + B::when(B::greater(side, B::seti(1)), B::seti(canvasHeight + (1 << 16)));
+  const I depth = B::asInts(inverseZDepth);
   const I first = B::times(x - B::seti(c.x0), B::seti(canvasHeight)) + y - B::seti(c.y0);
   const I word = B::both(colour, B::seti(0xffffff)) + B::seti(static_cast<std::int32_t>(c.slot << 24));
   const auto kept = B::kept(accepted);
@@ -74,62 +57,9 @@ inline int appendSplats(const C& c, typename B::M accepted, typename B::I x, typ
   B::storeAll(out.firsts + written, B::together(kept, first));
   B::storeAll(out.corners + written,
               B::together(kept, B::both(x, B::seti(0xffff)) + B::template shiftLeft<16>(y)));
-  B::storeAll(out.sizes + written,
-              B::together(kept, width + B::template shiftLeft<8>(height) + B::template shiftLeft<16>(placeX) +
-                                    B::template shiftLeft<24>(placeY)));
-  B::storeAll(out.indices + written, B::together(kept, B::counted(static_cast<std::int32_t>(firstIndex)) +
-                                                           B::template shiftLeft<28>(spread)));
+  B::storeAll(out.sides + written, B::together(kept, side));
+  B::storeAll(out.indices + written, B::together(kept, B::counted(static_cast<std::int32_t>(firstIndex))));
   return __builtin_popcount(bits);
-}
-
-/// The pixels [first, first + size) whose centres lie within `half` of `centre`, at least one; and where
-/// `centre` lies in them, eighths of a pixel.
-template <class B>
-inline void span(typename B::F centre, typename B::F half, typename B::I& first, typename B::I& size,
-                 typename B::I& place) {
-  const typename B::F middle = centre - B::set(0.5f);
-  first = B::ceil(middle - half);
-  size = B::maxi(B::ceil(middle + half) - first, B::seti(1));
-  const typename B::I eighths = B::floor((centre - B::toFloat(first)) * B::set(8) + B::set(0.5f));
-  place = B::mini(B::maxi(eighths, B::seti(0)), B::seti(255));
-}
-
-/// Slant.
-template <class B>
-inline typename B::F slantTangent(typename B::I code) {
-  const typename B::F size = B::toFloat(code);
-  return size / (B::set(127) - B::abs(size));
-}
-
-/// Rectangles around the picture of the piece of surface that a sample stands for: a parallelogram, whose
-/// sides are the derivatives of (u, v) along a row and a column of the capture, the sample's slant included.
-template <class B, class C>
-inline int appendRectangles(const C& c, typename B::M accepted, typename B::F t, typename B::F w,
-                            typename B::F u, typename B::F v, typename B::F perDepth,
-                            typename B::I rowAndSlant, typename B::I colour, std::uint32_t firstIndex,
-                            const SplatArrays& out, int written) {
-  using F = typename B::F;
-  using I = typename B::I;
-  const F across = slantTangent<B>(B::template shiftSigned<24>(B::template shiftLeft<8>(rowAndSlant)));
-  const F down = slantTangent<B>(B::template shiftSigned<24>(rowAndSlant));
-  const F acrossW = w * across * B::set(c.acrossStep), downW = w * down * B::set(c.downStep);
-  const F rise = (B::set(1) + t * t) * B::set(c.downStep);
-  const F acrossZ = B::set(c.across[2]) + acrossW * B::set(c.b[2]);
-  const F downZ = downW * B::set(c.b[2]) - rise * B::set(c.z[2]);
-  const auto half = [&](int axis, F at) {
-    const F a = B::set(c.across[axis]) + acrossW * B::set(c.b[axis]) - at * acrossZ;
-    const F d = downW * B::set(c.b[axis]) - rise * B::set(c.z[axis]) - at * downZ;
-    return B::min(B::max((B::abs(a) + B::abs(d)) * perDepth, B::set(0.5f)), B::set(0.5f) * B::set(c.maxSide));
-  };
-  const F halfX = half(0, u), halfY = half(1, v);
-  I x, y, width, height, placeX, placeY;
-  span<B>(B::select(accepted, u, B::set(0)), halfX, x, width, placeX);
-  span<B>(B::select(accepted, v, B::set(0)), halfY, y, height, placeY);
-  // Its shorter side tells how far apart samples lie; the longer one may be due to the slant.
-  const I spread = B::floor(B::set(8.5f) - B::set(c.perSpread) / B::min(halfX, halfY));
-  return appendSplats<B>(c, accepted & touches<B>(c, x, y, width, height), x, y, width, height, placeX,
-                         placeY, B::mini(B::maxi(spread, B::seti(0)), B::seti(7)), w * perDepth, colour,
-                         firstIndex, out, written);
 }
 
 /// Samples of no role are dropped.
@@ -140,10 +70,10 @@ template <class B, class C, class T>
   using F = typename B::F;
   using I = typename B::I;
   using M = typename B::M;
-  I inverseAndRoles, rowAndSlant;
-  B::load(samples, inverseAndRoles, rowAndSlant);
+  I inverseAndRoles, row;
+  B::load(samples, inverseAndRoles, row);
   const F w = B::asFloat(B::both(inverseAndRoles, B::seti(~0xff)));
-  const F t = B::tangents(rowTangent, samples, rowAndSlant);
+  const F t = B::tangents(rowTangent, samples, row);
   const F qz = B::set(c.a[2]) + t * B::set(c.z[2]) + w * B::set(c.b[2]);
   M accepted = B::needed(inverseAndRoles, c.roles) & B::less(B::set(0), qz) &
                B::notLess(B::set(c.maxInverseDistance), w);
@@ -158,9 +88,6 @@ template <class B, class C, class T>
   const F v = qy * perDepth;
   accepted = accepted & B::less(B::abs(u), B::set(kFarPixel)) & B::less(B::abs(v), B::set(kFarPixel));
 
-  if (c.slanted)
-    return appendRectangles<B>(c, accepted, t, w, u, v, perDepth, rowAndSlant, colour, firstIndex, out,
-                               written);
   // A sample stands for pitch * distance across; seen under an angle off the view axis the picture stretches
   // it.
   const F offX = (u - B::set(c.centreX)) * B::set(c.inverseFocal);
@@ -172,10 +99,8 @@ template <class B, class C, class T>
   // The pixels whose centres lie in the square around (u, v).
   const I x = B::floor(B::select(accepted, u, B::set(0)) + half);
   const I y = B::floor(B::select(accepted, v, B::set(0)) + half);
-  accepted = accepted & touches<B>(c, x, y, side, side);
-  const I none = B::seti(0);
-  return appendSplats<B>(c, accepted, x, y, side, side, none, none, none, w * perDepth, colour, firstIndex,
-                         out, written);
+  accepted = accepted & touches<B>(c, x, y, side);
+  return appendSplats<B>(c, accepted, x, y, side, w * perDepth, colour, firstIndex, out, written);
 }
 
 /// Samples are asked for so many ahead of their use.
@@ -240,12 +165,9 @@ inline typename B::M reachesOpenTile(const ProjectColumn& c, const BlockTest& te
         B::max(B::abs(least(p) - B::set(centre)), B::abs(most(p) - B::set(centre))) * B::set(c.inverseFocal);
     return far * far;
   };
-  F side = B::set(c.maxSide);
-  if (!c.slanted) {
-    const F stretch = B::sqrt((B::set(1) + steepest * steepest) *
-                              (B::set(1) + off(place[0], c.centreX) + off(place[1], c.centreY)));
-    side = B::min(stretch * most(perDepth) * B::set(c.footprint), side);
-  }
+  const F stretch = B::sqrt((B::set(1) + steepest * steepest) *
+                            (B::set(1) + off(place[0], c.centreX) + off(place[1], c.centreY)));
+  const F side = B::min(stretch * most(perDepth) * B::set(c.footprint), B::set(c.maxSide));
   const F margin = B::set(0.5f) * side + B::set(kSplatSlack);
   // Tiles [first, end) along an axis, at least one.
   const auto tiles = [&](const F* p, std::int32_t from, int sideBits, std::int32_t count, I& first, I& end) {

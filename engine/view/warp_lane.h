@@ -9,10 +9,9 @@ namespace {
 
 struct WarpLane : OneLane {
   using OneLane::load;
-  static void load(const PackedSample* p, I& inverseAndRoles, I& rowAndSlant) {
+  static void load(const PackedSample* p, I& inverseAndRoles, I& row) {
     inverseAndRoles = static_cast<I>(p->inverseDistanceAndRoles);
-    rowAndSlant = p->row | static_cast<std::uint8_t>(p->slant.across) << 16 |
-                  static_cast<I>(static_cast<std::uint32_t>(p->slant.down) << 24);
+    row = static_cast<I>(p->row);
   }
   static I words(const unsigned char* p, int) {
     I word = 0;

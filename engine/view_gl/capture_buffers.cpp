@@ -12,7 +12,6 @@ CaptureUpload::CaptureUpload(CaptureTask task, PackedCapture capture) : task_(st
     chunk.samples = sending_.add(std::move(packed.samples));
     chunk.mirrors = sending_.add(std::move(packed.mirrors));
     chunk.layers = sending_.add(std::move(packed.layers));
-    chunk.slants = sending_.add(std::move(packed.slants));
   }
   buffers_.rowTangents = sending_.add(std::move(capture.rowTangents));
   buffers_.background = sending_.add(std::move(capture.background));

@@ -18,7 +18,6 @@ struct CaptureChunk {  ///< as PackedColumns
   GlBuffer samples;
   GlBuffer mirrors;
   GlBuffer layers;
-  GlBuffer slants;
 };
 
 struct CaptureBuffers {  ///< as PackedCapture

@@ -4,8 +4,8 @@
 
 namespace acentric {
 
-CapturePass::CapturePass(ProgramCache& programs, CaptureResidency& captures, MeshResidency& meshes)
-    : residency_(meshes), points_(programs, captures), meshes_(programs), cracks_(programs) {}
+CapturePass::CapturePass(ProgramCache& programs, CaptureResidency& captures)
+    : points_(programs, captures), cracks_(programs) {}
 
 Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                          const ViewSettings& settings, FrameTarget& target, FrameStats& stats) {
@@ -14,10 +14,7 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
     return sharedOf(piece) && sharedOf(piece)->blended;
   });
   const bool anyMirror = !plan.reflections.empty();
-  const bool filtered = isFiltered(settings.reconstruction);
-  if (Status ready = target.beginPieces(anyMirror, filtered); !ready) return ready;
-  Cameras cameras;
-  for (const PieceDraw& piece : plan.backgrounds) cameras.all.insert(piece.camera);
+  if (Status ready = target.beginPieces(anyMirror); !ready) return ready;
   const bool depthTest = depthTested(settings.renderer);
   struct Step {
     const PieceDraw& piece;
@@ -52,29 +49,11 @@ Status CapturePass::draw(const WalkScene& scene, const ViewPlan& plan, const Per
     target.bindForPieces();
     const CapturePiece piece{planned,    capture, view, settings, anyMirror ? Mirrors::mark : Mirrors::none,
                              leastDepths};
-    cameras.all.insert(planned.camera);
-    const bool asMesh = settings.renderer == Renderer::glMesh && samples == Samples::opaque;
-    const Status drawn = asMesh ? drawAsMesh(piece, *scene.layout, target, cameras, stats)
-                                : points_.draw(piece, samples, target, stats);
-    if (!drawn) return drawn;
+    if (Status drawn = points_.draw(piece, samples, target, stats); !drawn) return drawn;
   }
-  stats.images = int(cameras.all.size());
-  stats.meshesAwaited = int(cameras.awaited.size());
-  stats.pointsForMeshes = int(cameras.points.size());
+  stats.images = imagesOf(plan);
   target.endPainting();
   return {};
-}
-
-Status CapturePass::drawAsMesh(const CapturePiece& piece, const Layout& layout, FrameTarget& target,
-                               Cameras& cameras, FrameStats& stats) {
-  const int camera = piece.plan.camera;
-  const Result<MeshBuffers*> mesh =
-      residency_.get(piece.capture, piece.name(), layout, camera, piece.settings);
-  if (!mesh) return tl::unexpected(mesh.error());
-  if (*mesh == nullptr || !(*mesh)->task.isFor(piece.settings)) cameras.awaited.insert(camera);
-  if (*mesh != nullptr) return meshes_.draw(piece, **mesh, stats);
-  cameras.points.insert(camera);
-  return points_.draw(piece, Samples::opaque, target, stats);
 }
 
 Status CapturePass::drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,

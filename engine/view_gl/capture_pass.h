@@ -1,24 +1,19 @@
 #pragma once
 /// Draws what a view plan takes from captures: the pieces of the first cover, those of the second where
-/// nothing of the first lies, and in its cracks; then what mirrors show. As points in order, as points with a
-/// depth test, or opaque samples as meshes with one; samples that blend, and what mirrors show, are points
-/// always, and so are captures whose meshes are not ready.
-
-#include <set>
+/// nothing of the first lies, and in its cracks; then what mirrors show. As points in order, or with a depth
+/// test.
 
 #include "engine/view_gl/crack_pass.h"
 #include "engine/view_gl/frame_target.h"
-#include "engine/view_gl/mesh_pass.h"
-#include "engine/view_gl/mesh_residency.h"
 #include "engine/view_gl/point_pass.h"
 
 namespace acentric {
 
 class CapturePass {
  public:
-  CapturePass(ProgramCache& programs, CaptureResidency& captures, MeshResidency& meshes);
-  /// Into `target`, which begin() has cleared. Writes depth only where a later pass reads it. Counts images,
-  /// samples and meshes in `stats`.
+  CapturePass(ProgramCache& programs, CaptureResidency& captures);
+  /// Into `target`, which begin() has cleared. Writes depth only where a later pass reads it. Counts images
+  /// and samples in `stats`.
   Status draw(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
               const ViewSettings& settings, FrameTarget& target, FrameStats& stats);
   /// What mirrors show, onto the pixels that `target` says belong to them. `localMirrors`: some are local
@@ -28,15 +23,7 @@ class CapturePass {
                          FrameStats& stats);
 
  private:
-  struct Cameras {  ///< of the captures drawn
-    std::set<int> all, awaited, points;
-  };
-  Status drawAsMesh(const CapturePiece& piece, const Layout& layout, FrameTarget& target, Cameras& cameras,
-                    FrameStats& stats);
-
-  MeshResidency& residency_;
   PointPass points_;
-  MeshPass meshes_;
   CrackPass cracks_;
 };
 

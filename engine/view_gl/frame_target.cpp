@@ -47,7 +47,6 @@ Status FrameTarget::resize(int width, int height) {
   pieces_.reset();
   reflections_.reset();
   mirrors_.reset();
-  places_.reset();
   glActiveTexture(GL_TEXTURE0);
   colour_ = pictureTexture(GL_RGBA8, width, height);
   colourSrgb_ = GlTexture::make();
@@ -95,34 +94,27 @@ void FrameTarget::bindForReflections() const {
   glViewport(0, 0, width_, height_);
 }
 
-Status FrameTarget::makePieces(bool mirrors, bool places, GlFramebuffer& framebuffer) const {
+Status FrameTarget::makePieces(bool mirrors, GlFramebuffer& framebuffer) const {
   framebuffer = GlFramebuffer::make();
   attachPicture(framebuffer);
-  std::array<GLenum, 4> targets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_NONE, GL_NONE};
-  const auto attach = [&](std::size_t at, const GlTexture& texture) {
-    targets[at] = GL_COLOR_ATTACHMENT0 + GLenum(at);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, targets[at], GL_TEXTURE_2D, texture.name(), 0);
-  };
-  if (mirrors) attach(2, mirrors_);
-  if (places) attach(3, places_);
-  glDrawBuffers(GLsizei(targets.size()), targets.data());
+  constexpr std::array<GLenum, 3> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                              GL_COLOR_ATTACHMENT2};
+  if (mirrors) glFramebufferTexture2D(GL_FRAMEBUFFER, kTargets[2], GL_TEXTURE_2D, mirrors_.name(), 0);
+  glDrawBuffers(mirrors ? 3 : 2, kTargets.data());
   return complete();
 }
 
-Status FrameTarget::beginPieces(bool mirrors, bool places) {
+Status FrameTarget::beginPieces(bool mirrors) {
   glActiveTexture(GL_TEXTURE0);
   if (mirrors && !mirrors_) mirrors_ = pictureTexture(GL_R8UI, width_, height_);
-  if (places && !places_) places_ = pictureTexture(GL_R16UI, width_, height_);
-  if (!pieces_ || withMirrors_ != mirrors || withPlaces_ != places) {
-    if (Status made = makePieces(mirrors, places, pieces_); !made) return made;
-    if (Status made = makePieces(false, places, reflections_); !made) return made;
+  if (!pieces_ || withMirrors_ != mirrors) {
+    if (Status made = makePieces(mirrors, pieces_); !made) return made;
+    if (Status made = makePieces(false, reflections_); !made) return made;
     withMirrors_ = mirrors;
-    withPlaces_ = places;
   }
   bindForPieces();
-  constexpr std::array<GLuint, 4> kNothing = {0, 0, 0, 0};  // no mirror; a sample in the pixel's middle
+  constexpr std::array<GLuint, 4> kNothing = {0, 0, 0, 0};
   if (mirrors) glClearBufferuiv(GL_COLOR, 2, kNothing.data());
-  if (places) glClearBufferuiv(GL_COLOR, 3, kNothing.data());
   return checkGl("making what pieces are drawn into");
 }
 

@@ -30,9 +30,8 @@ class FrameTarget {
   enum class Depth { ignore, keep, test };
   void beginPainting(Depth depth, Cover cover) const;
   void endPainting() const;
-  /// Pieces may write two more things: which mirror each pixel shows, and where in it its sample lies (the
-  /// bits of canvas.h). `beginPieces` clears what is asked for.
-  Status beginPieces(bool mirrors, bool places);
+  /// With `mirrors` pieces write one thing more, which is cleared: which mirror each pixel shows.
+  Status beginPieces(bool mirrors);
   void bindForPieces() const;
   void bindForReflections() const;  ///< without the mirrors, which these read
   /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
@@ -47,11 +46,10 @@ class FrameTarget {
   GLuint clearLayer() const { return clearLayer_.name(); }
   GLuint sources() const { return source_.name(); }   ///< R16UI
   GLuint mirrors() const { return mirrors_.name(); }  ///< R8UI, 0 = no mirror
-  GLuint places() const { return places_.name(); }    ///< R16UI
 
  private:
   void attachPicture(const GlFramebuffer& framebuffer) const;
-  Status makePieces(bool mirrors, bool places, GlFramebuffer& framebuffer) const;
+  Status makePieces(bool mirrors, GlFramebuffer& framebuffer) const;
 
   int width_ = 0;
   int height_ = 0;
@@ -63,9 +61,8 @@ class FrameTarget {
   GlFramebuffer read_;
   GlTexture clearLayer_;  ///< made when first used
   GlFramebuffer clear_;
-  GlTexture mirrors_;  ///< made when first used, as places are
-  GlTexture places_;
-  bool withMirrors_ = false, withPlaces_ = false;  ///< what pieces_ draws into
+  GlTexture mirrors_;         ///< made when first used
+  bool withMirrors_ = false;  ///< does pieces_ draw into them?
   GlFramebuffer pieces_;
   GlFramebuffer reflections_;
 };

@@ -14,7 +14,6 @@
 #include "engine/view_gl/background_pass.h"
 #include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/fill_pass.h"
-#include "engine/view_gl/filter_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/gl_program.h"
@@ -26,7 +25,7 @@
 namespace acentric {
 namespace {
 
-/// Captures beyond this leave graphics memory, those unused for longest first; of meshes the same.
+/// Captures beyond this leave graphics memory, those unused for longest first.
 constexpr std::size_t kCaptureBudgetBytes = std::size_t(2) << 30;
 
 /// ViewSettings::maxSplatPixels at most.
@@ -61,10 +60,8 @@ struct GlRenderer::Impl {
       : waits(options.waitForCaptures),
         bytesPerFrame(options.bytesPerFrame),
         secondsPerFrame(options.secondsPerFrame),
-        captures(own, waits ? nullptr : CaptureResidency::makeBuilder(options.wake)),
-        runner(options.runner != nullptr ? *options.runner : own),
-        meshes(runner,
-               waits ? nullptr : MeshResidency::makeBuilder(options.backgroundThreads, options.wake)) {}
+        captures(waits ? nullptr : std::make_unique<CaptureBuilder>(options.wake)),
+        runner(options.runner != nullptr ? *options.runner : own) {}
 
   const bool waits;
   const std::size_t bytesPerFrame;
@@ -73,14 +70,12 @@ struct GlRenderer::Impl {
   ProgramCache programs;
   CaptureResidency captures;
   TaskRunner& runner;
-  MeshResidency meshes;
-  LiveCaptures live{captures, meshes, kCaptureBudgetBytes};
+  LiveCaptures live{captures, kCaptureBudgetBytes};
   FrameTarget target;
   LocalResidency locals;
   TextureCache textures;
   BackgroundPass background{programs, captures};
-  CapturePass capturePass{programs, captures, meshes};
-  FilterPass filter{programs};
+  CapturePass capturePass{programs, captures};
   PatchPass patchPass{programs, captures, runner};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
@@ -118,7 +113,6 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   CaptureSet inScene;
   addTo(inScene, scene.captures);
   captures.begin(inScene);
-  meshes.begin(inScene, settings);
   const WalkScene* ready = &scene;
   if (!waits) {
     const Result<const WalkScene*> chosen = live.choose(scene, view, settings, limit, stats);
@@ -128,19 +122,16 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
   CaptureSet kept = inScene;
   live.addKept(kept);
   captures.dropGone(kept);
-  meshes.dropGone(kept);
   locals.dropGone(scene);
   textures.dropGone();
   const Status drawn = drawReady(*ready, view, settings);
   live.end();
   captures.end();
-  meshes.end(inScene);
   if (!drawn) return tl::unexpected(drawn.error());
   captures.trim(kCaptureBudgetBytes);
-  meshes.trim(kCaptureBudgetBytes);
-  const Sent points = captures.takeSent(), built = meshes.takeSent();
-  stats.bytesSent = points.bytes + built.bytes;
-  stats.sendSeconds = points.seconds + built.seconds;
+  const Sent sent = captures.takeSent();
+  stats.bytesSent = sent.bytes;
+  stats.sendSeconds = sent.seconds;
   stats.totalSeconds = secondsOfDrawing(start);
   cardSeconds = secondsBetween(begun, done);
   return stats;
@@ -178,22 +169,13 @@ Result<bool> GlRenderer::Impl::drawCaptures(const WalkScene& scene, const ViewPl
                                             LocalBuffers* local) {
   if (Status drawn = capturePass.draw(scene, plan, view, settings, target, stats); !drawn)
     return tl::unexpected(drawn.error());
-  bool mirrorsMarked = false;
-  if (!plan.reflections.empty()) {
-    const Result<bool> marked = drawReflections(scene, plan, view, settings, local);
-    if (!marked) return marked;
-    mirrorsMarked = *marked;
-  }
-  if (isFiltered(settings.reconstruction))
-    if (Status filtered = filter.draw(target, mirrorsMarked); !filtered)
-      return tl::unexpected(filtered.error());
-  return mirrorsMarked;
+  return plan.reflections.empty() ? false : drawReflections(scene, plan, view, settings, local);
 }
 
 Result<bool> GlRenderer::Impl::drawPatches(const WalkScene& scene, const ViewPlan& plan,
                                            const PerspectiveView& view, LocalBuffers* local) {
   const bool mirrors = !plan.reflections.empty();
-  if (Status ready = target.beginPieces(mirrors, false); !ready) return tl::unexpected(ready.error());
+  if (Status ready = target.beginPieces(mirrors); !ready) return tl::unexpected(ready.error());
   Result<bool> marked = mirrors ? markLocalMirrors(scene, view, local) : false;
   if (!marked) return marked;
   if (Status drawn = patchPass.draw(scene, plan, view, *marked, target, stats); !drawn)
@@ -305,13 +287,10 @@ Result<bool> GlRenderer::receive() {
   return impl_->live.receive(limit);
 }
 
-bool GlRenderer::anyToReceive() const {
-  return impl_->captures.anyToReceive() || impl_->meshes.anyToReceive();
-}
+bool GlRenderer::anyToReceive() const { return impl_->captures.anyToReceive(); }
 
 void GlRenderer::stopBuilding() {
   impl_->captures.stopBuilding();
-  impl_->meshes.stopBuilding();
   impl_->live.clear();
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 /// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
 /// as buffers. Draws the pieces of the same ViewPlan as patches, front to back, or as points, back to front
-/// without depth test (or, for comparison, with one; or as adaptive meshes with one, built when a capture is
-/// first drawn), then local geometry with one.
+/// without depth test (or, for comparison, with one), then local geometry with one.
 
 #include <cstddef>
 #include <functional>
@@ -21,14 +20,10 @@ namespace acentric {
 
 struct GlRendererOptions {
   /// Does a frame wait until all that it lacks is on the graphics card? Otherwise no frame does: captures are
-  /// packed, and meshes built, in the background and sent piece by piece. Until a capture is there its camera
-  /// shows what it had before (the coarse copy, say) or, without that, counts as missing; until its mesh is
-  /// ready a capture is drawn as points with a depth test or, where settings have changed, as the mesh that
-  /// it had.
+  /// packed in the background and sent piece by piece. Until a capture is there its camera shows what it had
+  /// before (the coarse copy, say) or, without that, counts as missing.
   bool waitForCaptures = true;
-  /// Plans patches, and builds the meshes waited for; outlives the renderer; null: this thread.
-  TaskRunner* runner = nullptr;
-  int backgroundThreads = 1;  ///< that build those not waited for; one more packs captures
+  TaskRunner* runner = nullptr;  ///< plans patches; outlives the renderer; null: this thread
   std::size_t bytesPerFrame = std::size_t(32) << 20;  ///< sent at most by a frame that does not wait
   /// It sends no longer than this, or than a tenth of what the frame before it took; a megabyte always.
   double secondsPerFrame = 0.004;
@@ -49,13 +44,12 @@ class GlRenderer {
   /// was, whatever it was. Waits until all is drawn, so that the times in the statistics are true;
   /// samplesDrawn counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
-  /// Of what is packed and built in the background: sends a piece to the graphics card, as each draw does.
+  /// Of what is packed in the background: sends a piece to the graphics card, as each draw does.
   /// True if a picture drawn now would show something that the last could not.
   Result<bool> receive();
   /// Is there more for receive() to do at once?
   bool anyToReceive() const;
-  /// For when other renderers draw: what is packed and built in the background is given up until the next
-  /// draw.
+  /// For when other renderers draw: what is packed in the background is given up until the next draw.
   void stopBuilding();
   /// Seconds from the first to the last command of the last draw by the graphics card's own clock; 0 before
   /// it.

@@ -36,14 +36,11 @@ bool sameView(const ColumnCamera& a, const ColumnCamera& b) {
 
 }  // namespace
 
-/// That must be there before the camera is drawn. Of a mesh only what blends is points. The runs of its
-/// background are sent when they are drawn: at most 0.2 MB where the samples of a capture are 43 to 85 MB
-/// (the sample at 20 per degree), and where these are there the runs are too.
-std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture,
-                                                      const ViewSettings& settings) {
-  std::vector<Part> parts;
-  if (settings.renderer != Renderer::glMesh || capture->blended || meshes_.find(capture) == nullptr)
-    parts.push_back({capture, Mirrors::none, partsDrawn(*capture)});
+/// That must be there before the camera is drawn. The runs of its background are sent when they are drawn: at
+/// most 0.2 MB where the samples of a capture are 43 to 85 MB (the sample at 20 per degree), and where these
+/// are there the runs are too.
+std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture) {
+  std::vector<Part> parts{{capture, Mirrors::none, partsDrawn(*capture)}};
   if (capture->reflections)
     parts.push_back({capture->reflections, Mirrors::reflect, partsDrawn(*capture->reflections)});
   return parts;
@@ -54,13 +51,13 @@ std::size_t LiveCaptures::bytesOfAll(const DisplayCapture& capture) const {
          (capture.reflections ? packedBytes(*capture.reflections, partsDrawn(*capture.reflections)) : 0);
 }
 
-bool LiveCaptures::ready(const CapturePtr& capture, const ViewSettings& settings) {
-  return std::ranges::all_of(partsOf(capture, settings),
+bool LiveCaptures::ready(const CapturePtr& capture) {
+  return std::ranges::all_of(partsOf(capture),
                              [&](const Part& part) { return captures_.ready(part.capture, part.parts); });
 }
 
-Status LiveCaptures::ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked) {
-  for (const Part& part : partsOf(capture, settings))
+Status LiveCaptures::ask(const CapturePtr& capture, int camera, bool lacked) {
+  for (const Part& part : partsOf(capture))
     if (!captures_.ready(part.capture, part.parts))
       if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), part.parts, lacked);
           !asked)
@@ -70,8 +67,7 @@ Status LiveCaptures::ask(const CapturePtr& capture, int camera, const ViewSettin
 
 /// The nearest first, as many as there is memory for beside those in view; those that are there are used, so
 /// that they stay.
-void LiveCaptures::askAhead(const WalkScene& scene, const glm::dvec3& eye, const ViewSettings& settings,
-                            const std::vector<int>& inView) {
+void LiveCaptures::askAhead(const WalkScene& scene, const glm::dvec3& eye, const std::vector<int>& inView) {
   std::size_t bytes = 0;
   for (const int camera : inView) bytes += bytesOfAll(*scene.captures[std::size_t(camera)]);
   std::vector<std::pair<double, int>> others;
@@ -85,10 +81,10 @@ void LiveCaptures::askAhead(const WalkScene& scene, const glm::dvec3& eye, const
     const CapturePtr& now = scene.captures[std::size_t(camera)];
     bytes += bytesOfAll(*now);
     if (bytes > memoryBytes_) return;
-    if (ready(now, settings))
+    if (ready(now))
       drawn_[std::size_t(camera)] = now;
     else
-      (void)ask(now, camera, settings, false);  // what is wrong with it is told when it is seen
+      (void)ask(now, camera, false);  // what is wrong with it is told when it is seen
   }
 }
 
@@ -107,12 +103,11 @@ void LiveCaptures::letGo(const WalkScene& scene, const std::vector<int>& inView)
   }
 }
 
-Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const ViewSettings& settings,
-                               SendLimit& limit) {
+Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, SendLimit& limit) {
   const std::size_t bytes = bytesOfAll(*capture);
   if (bytes > limit.left()) return {};
   limit.sent(bytes);
-  for (const Part& part : partsOf(capture, settings))
+  for (const Part& part : partsOf(capture))
     if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors), part.parts); !sent)
       return tl::unexpected(sent.error());
   return {};
@@ -121,11 +116,9 @@ Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, const View
 Result<bool> LiveCaptures::receive(SendLimit& limit) {
   const Result<bool> lacked = captures_.receive(limit, Which::lacked);
   if (!lacked) return lacked;
-  const Result<bool> meshes = meshes_.receive(limit);
-  if (!meshes) return meshes;
   const Result<bool> ahead = captures_.receive(limit);
   if (!ahead) return ahead;
-  return *lacked || *meshes || *ahead;
+  return *lacked || *ahead;
 }
 
 Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const PerspectiveView& view,
@@ -141,9 +134,9 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];
     CapturePtr& drawn = drawn_[std::size_t(camera)];
-    if (drawn && !ready(drawn, settings)) drawn.reset();  // it had to leave the graphics card
-    if (!drawn && !ready(now, settings))
-      if (Status sent = sendSmall(now, camera, settings, limit); !sent) return tl::unexpected(sent.error());
+    if (drawn && !ready(drawn)) drawn.reset();  // it had to leave the graphics card
+    if (!drawn && !ready(now))
+      if (Status sent = sendSmall(now, camera, limit); !sent) return tl::unexpected(sent.error());
   }
   if (const auto received = receive(limit); !received) return tl::unexpected(received.error());
 
@@ -151,16 +144,16 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];
     CapturePtr& drawn = drawn_[std::size_t(camera)];
-    if (ready(now, settings)) {
+    if (ready(now)) {
       drawn = now;
       continue;
     }
-    if (Status asked = ask(now, camera, settings, true); !asked) return tl::unexpected(asked.error());
+    if (Status asked = ask(now, camera, true); !asked) return tl::unexpected(asked.error());
     instead.emplace_back(camera, drawn);
     ++stats.capturesAwaited;
     stats.standIns += drawn ? 1 : 0;
   }
-  askAhead(scene, view.eye, settings, cameras);
+  askAhead(scene, view.eye, cameras);
   if (instead.empty()) return &scene;
   planned_ = scene;
   for (auto& [camera, capture] : instead) planned_.captures[std::size_t(camera)] = std::move(capture);

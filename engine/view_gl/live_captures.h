@@ -11,22 +11,21 @@
 #include "engine/view/frame.h"
 #include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/capture_residency.h"
-#include "engine/view_gl/mesh_residency.h"
 
 namespace acentric {
 
 class LiveCaptures {
  public:
   /// `memoryBytes`: on the graphics card, that captures to come may take with those in view.
-  LiveCaptures(CaptureResidency& captures, MeshResidency& meshes, std::size_t memoryBytes)
-      : captures_(captures), meshes_(meshes), memoryBytes_(memoryBytes) {}
+  LiveCaptures(CaptureResidency& captures, std::size_t memoryBytes)
+      : captures_(captures), memoryBytes_(memoryBytes) {}
 
   /// Before a frame is planned: sends, within the limit, what is packed and what is small enough to be packed
   /// here and now, and asks for the rest. Returns the walk to plan with: in place of captures that
   /// are not ready others of their cameras, or none. Valid until end(). Counts in `stats`.
   Result<const WalkScene*> choose(const WalkScene& scene, const PerspectiveView& view,
                                   const ViewSettings& settings, SendLimit limit, FrameStats& stats);
-  /// Sends what is packed and built, within the limit. True if a picture drawn now would show something that
+  /// Sends what is packed, within the limit. True if a picture drawn now would show something that
   /// the last could not.
   Result<bool> receive(SendLimit& limit);
   /// After the frame.
@@ -47,16 +46,14 @@ class LiveCaptures {
     return asPatches_ && capture.patches ? CaptureParts::patches : CaptureParts::samples;
   }
   std::size_t bytesOfAll(const DisplayCapture& capture) const;
-  std::vector<Part> partsOf(const CapturePtr& capture, const ViewSettings& settings);
-  bool ready(const CapturePtr& capture, const ViewSettings& settings);
-  Status ask(const CapturePtr& capture, int camera, const ViewSettings& settings, bool lacked);
-  void askAhead(const WalkScene& scene, const glm::dvec3& eye, const ViewSettings& settings,
-                const std::vector<int>& inView);
+  std::vector<Part> partsOf(const CapturePtr& capture);
+  bool ready(const CapturePtr& capture);
+  Status ask(const CapturePtr& capture, int camera, bool lacked);
+  void askAhead(const WalkScene& scene, const glm::dvec3& eye, const std::vector<int>& inView);
   void letGo(const WalkScene& scene, const std::vector<int>& inView);
-  Status sendSmall(const CapturePtr& capture, int camera, const ViewSettings& settings, SendLimit& limit);
+  Status sendSmall(const CapturePtr& capture, int camera, SendLimit& limit);
 
   CaptureResidency& captures_;
-  MeshResidency& meshes_;
   std::size_t memoryBytes_;
   bool asPatches_ = false;         ///< is this frame?
   std::vector<CapturePtr> drawn_;  ///< by camera: that which was ready last; null = none

@@ -54,7 +54,6 @@ PackedColumns packColumns(const DisplayCapture& capture, int first, int last, co
   packed.firstSample = capture.columnStart[std::size_t(first)];
   const std::size_t count = capture.columnStart[std::size_t(last)] - packed.firstSample;
   packed.samples.reserve(count);
-  packed.slants.reserve(inWords<Slant>(count));
   if (capture.layered) packed.layers.reserve(inWords<LayerPlace>(count));
   for (int column = first; column < last && !stop.stop_requested(); ++column) {
     const std::size_t begin = capture.columnStart[std::size_t(column)];
@@ -63,7 +62,6 @@ PackedColumns packColumns(const DisplayCapture& capture, int first, int last, co
       const PackedSample& sample = capture.samples[s];
       packed.samples.push_back({sample.inverseDistanceAndRoles, sample.row | std::uint32_t(column) << 16,
                                 std::bit_cast<std::uint32_t>(capture.colour[s])});
-      packed.slants.push_back(sample.slant);
     }
     if (capture.layered) addLayers(capture, begin, end, packed.layers);
   }
@@ -72,7 +70,6 @@ PackedColumns packColumns(const DisplayCapture& capture, int first, int last, co
     packed.mirrors.reserve(inWords<std::uint8_t>(count));
     packed.mirrors.assign(mirrors, mirrors + std::ptrdiff_t(count));
   }
-  packed.slants.resize(inWords<Slant>(packed.slants.size()));
   packed.layers.resize(inWords<LayerPlace>(packed.layers.size()));
   packed.mirrors.resize(inWords<std::uint8_t>(packed.mirrors.size()));
   return packed;
@@ -133,7 +130,7 @@ bool CaptureTask::sameAs(const CaptureTask& other) const {
 std::size_t PackedCapture::bytes() const {
   std::size_t sum = bytesOf(rowTangents) + bytesOf(background);
   for (const PackedColumns& chunk : chunks)
-    sum += bytesOf(chunk.samples) + bytesOf(chunk.mirrors) + bytesOf(chunk.layers) + bytesOf(chunk.slants);
+    sum += bytesOf(chunk.samples) + bytesOf(chunk.mirrors) + bytesOf(chunk.layers);
   return sum + (patches ? bytesOfTexels(*patches) : 0);
 }
 
@@ -142,7 +139,7 @@ std::size_t packedBytes(const DisplayCapture& capture, CaptureParts parts) {
   if (parts == CaptureParts::patches) return background + bytesOfTexels(*capture.patches);
   if (parts == CaptureParts::background) return background;
   const std::size_t samples = capture.samples.size();
-  std::size_t bytes = samples * sizeof(GlSample) + inWords<Slant>(samples) * sizeof(Slant);
+  std::size_t bytes = samples * sizeof(GlSample);
   if (capture.layered) bytes += inWords<LayerPlace>(samples) * sizeof(LayerPlace);
   if (!capture.mirror.empty()) bytes += inWords<std::uint8_t>(samples);
   return background + bytes + bytesOf(capture.rowTangent);

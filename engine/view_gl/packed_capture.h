@@ -54,7 +54,6 @@ struct PackedColumns {
   std::vector<GlSample> samples;
   std::vector<std::uint8_t> mirrors;  ///< a byte each; none without mirrors
   std::vector<LayerPlace> layers;     ///< of each; none where no pixel has more than one sample
-  std::vector<Slant> slants;          ///< of each
 };
 
 struct PackedCapture {

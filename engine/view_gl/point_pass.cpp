@@ -89,11 +89,10 @@ struct PointPass::Piece : CapturePiece {
 
   /// What mirrors show is laid over their pixels in order, whatever the rest is drawn by.
   bool depthTest() const { return depthTested(settings.renderer) && mirrors != Mirrors::reflect; }
-  bool splat() const { return settings.reconstruction == Reconstruction::splat; }
-  bool rectangles() const { return followsSlant(settings.reconstruction); }
+  bool splat() const { return settings.reconstruction != Reconstruction::point; }
   /// A point whose centre is clipped is gone, splat and all: so the clip volume is larger than the picture by
   /// the largest splat, and the framebuffer's border cuts.
-  int margin() const { return splat() || rectangles() ? settings.maxSplatPixels / 2 + 1 : 0; }
+  int margin() const { return splat() ? settings.maxSplatPixels / 2 + 1 : 0; }
 };
 
 PointPass::PointPass(ProgramCache& programs, CaptureResidency& captures)
@@ -112,7 +111,6 @@ Status PointPass::draw(const CapturePiece& what, Samples samples, FrameTarget& t
 Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
   Defines defines;
   if (piece.splat()) defines.push_back("SPLAT");
-  if (piece.rectangles()) defines.push_back("RECTANGLE");
   if (piece.plan.clipToPart) defines.push_back("CLIP_TO_PART");
   if (!piece.plan.minInverseDistance.empty()) defines.push_back("CLIP_TO_PIECE");
   if (piece.leastDepths != 0) defines.push_back("IN_CRACKS");
@@ -142,15 +140,6 @@ Result<GlProgram*> PointPass::program(const Piece& piece, Samples samples) {
     const double pitch = std::max(piece.capture->camera.columnPitch(), piece.capture->camera.rowPitch());
     glUniform1f(program.location("footprint"), float(focal * pitch * kSlantAllowance));
     glUniform1f(program.location("inverseFocal"), float(1 / focal));
-  }
-  if (piece.rectangles()) {  // as in view/warp.cpp
-    const double half = 0.5 * kOverlap;
-    setUniform(program, "eastInPicture", glm::vec3(pictureFromWorld[0]));
-    setUniform(program, "northInPicture", glm::vec3(pictureFromWorld[1]));
-    setUniform(
-        program, "steps",
-        glm::vec2(half * piece.capture->camera.columnPitch(), half * piece.capture->camera.rowPitch()));
-    glUniform1f(program.location("perSpread"), float(8 * half));
   }
   if (piece.leastDepths != 0) setCracks(program, piece.leastDepths);
   if (piece.plan.clipToPart) {
@@ -226,8 +215,8 @@ Status PointPass::drawClearRanks(Piece& piece, FrameTarget& target, FrameStats& 
     glEnable(GL_FRAMEBUFFER_SRGB);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    // Source and place stay those of what shows through.
-    for (const GLuint kept : {1u, 3u}) glColorMaski(kept, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    // The source stays that of what shows through.
+    glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     drawWholePicture(**lay, noAttributes_, {{"layer", target.clearLayer()}});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glStencilMask(0xff);
@@ -250,7 +239,6 @@ void PointPass::drawColumns(const Piece& piece, int clearRank, FrameStats& stats
       if (clearRank < 0) stats.samplesRead += parts.z - parts.x;
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk->samples.name());
-    if (piece.rectangles()) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, chunk->slants.name());
     if (chunk->layers) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, chunk->layers.name());
     if (chunk->mirrors) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, chunk->mirrors.name());
     glMultiDrawArrays(GL_POINTS, firsts_.data(), counts_.data(), GLsizei(firsts_.size()));

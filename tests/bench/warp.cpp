@@ -49,45 +49,41 @@ void timeProjecting(Figures& figures) {
     const LargeVector<Rgba8> colour(samples + kRoom, Rgba8{10, 20, 30, 255});
     for (std::size_t i = 0; i < samples; ++i)
       packed[i] = packSample(0.2f + 0.001f * static_cast<float>(i * 7 % 10), 0xff,
-                             static_cast<std::uint16_t>(300 + i % kPerColumn * 840 / kPerColumn), {3, -4});
+                             static_cast<std::uint16_t>(300 + i % kPerColumn * 840 / kPerColumn));
     const double read = readRate(two, packed);
     ProjectColumn column{};
     column.a[0] = 640, column.a[1] = 360, column.a[2] = 1;
     column.z[1] = -1108;
     column.b[0] = 100, column.b[1] = 50, column.b[2] = 0.2f;
     column.maxInverseDistance = 10, column.footprint = 1.21f, column.maxSide = 16, column.roles = 4;
-    column.across[0] = 0.5f, column.acrossStep = column.downStep = 0.0005f, column.perSpread = 4.4f;
     column.centreX = 640, column.centreY = 360, column.inverseFocal = 1 / 1108.0f;
     column.x1 = 1280, column.y1 = 720, column.slot = 1;
     SplatMemory memory[2];
     for (const Kernels& kernels : supportedKernels())
-      for (const bool slanted : {false, true})
-        for (const std::size_t threads : {std::size_t(1), std::size_t(2)}) {
-          if (threads > 1 && columns < 100) continue;  // over before a second thread has woken
-          column.slanted = slanted;
-          std::size_t kept[2] = {};
-          const SampleRun run{0, kPerColumn};
-          const auto project = [&](std::size_t thread) {
-            kept[thread] = 0;
-            for (std::size_t c = thread * columns / threads; c < (thread + 1) * columns / threads; ++c) {
-              const std::size_t first = c * kPerColumn;
-              const SampleColumn from = sampleColumn(tangents.data(), &packed[first], &colour[first]);
-              kept[thread] += static_cast<std::size_t>(
-                  kernels.project(column, from, &run, 1, memory[thread].room(kPerColumn)));
-            }
-          };
-          const int repeats = static_cast<int>(std::min<std::size_t>(200, 40000 / columns));
-          std::vector<double> rates;
-          for (const double seconds :
-               secondsOf(repeats, [&] { threads == 1 ? project(0) : two.parallelFor(2, project); }))
-            rates.push_back(1e-6 * static_cast<double>(samples) / seconds);
-          const std::string what =
-              fmt::format("project {} samples, {}, {}, {} thread{}", samples, kernels.name,
-                          slanted ? "rectangles" : "squares", threads, threads > 1 ? "s" : "");
-          figures.add(what, "M/s", rates);
-          figures.fact(what + ": share of what two threads read",
-                       *std::ranges::max_element(rates) * 1e6 * kBytes / read);
-        }
+      for (const std::size_t threads : {std::size_t(1), std::size_t(2)}) {
+        if (threads > 1 && columns < 100) continue;  // over before a second thread has woken
+        std::size_t kept[2] = {};
+        const SampleRun run{0, kPerColumn};
+        const auto project = [&](std::size_t thread) {
+          kept[thread] = 0;
+          for (std::size_t c = thread * columns / threads; c < (thread + 1) * columns / threads; ++c) {
+            const std::size_t first = c * kPerColumn;
+            const SampleColumn from = sampleColumn(tangents.data(), &packed[first], &colour[first]);
+            kept[thread] += static_cast<std::size_t>(
+                kernels.project(column, from, &run, 1, memory[thread].room(kPerColumn)));
+          }
+        };
+        const int repeats = static_cast<int>(std::min<std::size_t>(200, 40000 / columns));
+        std::vector<double> rates;
+        for (const double seconds :
+             secondsOf(repeats, [&] { threads == 1 ? project(0) : two.parallelFor(2, project); }))
+          rates.push_back(1e-6 * static_cast<double>(samples) / seconds);
+        const std::string what = fmt::format("project {} samples, {}, {} thread{}", samples, kernels.name,
+                                             threads, threads > 1 ? "s" : "");
+        figures.add(what, "M/s", rates);
+        figures.fact(what + ": share of what two threads read",
+                     *std::ranges::max_element(rates) * 1e6 * kBytes / read);
+      }
   }
 }
 
@@ -123,7 +119,7 @@ Status timeFrames(double perDegree, int layers, int width, int height, Figures& 
       options.findBlocks = c.kernels.findBlocks;
       options.depthTest = c.depthTest;
       Canvas canvas;
-      clearCanvas(scene, view, settings, *plan, 0, view.width, canvas);
+      clearCanvas(scene, view, *plan, 0, view.width, canvas);
       WarpCounts counts;
       figures.add(work + "warp by " + c.name + ", 1 thread", "ms",
                   scaled(secondsOf(20,
@@ -144,15 +140,12 @@ Status timeFrames(double perDegree, int layers, int width, int height, Figures& 
       auto frame = renderFrame(scene, view, settings, two, memory);
       memory.frame = std::move(*frame);
     };
-    const std::pair<Renderer, Reconstruction> ways[] = {{Renderer::scalar, Reconstruction::splat},
-                                                        {Renderer::zbuffer, Reconstruction::splat},
-                                                        {Renderer::scalar, Reconstruction::filtered},
-                                                        {Renderer::zbuffer, Reconstruction::filtered}};
-    for (const auto& [other, reconstruction] : ways) {
+    for (const Renderer other : {Renderer::scalar, Renderer::zbuffer}) {
       const Turns turns = secondsByTurns(
-          10, [&] { draw(Renderer::list, reconstruction); }, [&] { draw(other, reconstruction); });
-      figures.add(fmt::format("{}frame, list {}, against {}", work, nameOf(reconstruction), nameOf(other)),
-                  "ms", scaled(turns.one, 1e3), nameOf(other), scaled(turns.other, 1e3));
+          10, [&] { draw(Renderer::list, Reconstruction::splat); },
+          [&] { draw(other, Reconstruction::splat); });
+      figures.add(fmt::format("{}frame, list splat, against {}", work, nameOf(other)), "ms",
+                  scaled(turns.one, 1e3), nameOf(other), scaled(turns.other, 1e3));
     }
     figures.add(work + "frame, list point", "ms",
                 scaled(secondsOf(10, [&] { draw(Renderer::list, Reconstruction::point); }), 1e3));

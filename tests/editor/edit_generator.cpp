@@ -102,7 +102,6 @@ ViewSettings viewSettings(const Project& project, Random& random) {
   view.renderer = kRenderers[whole(random, 0, int(std::size(kRenderers)) - 1)];
   view.reconstruction = kReconstructions[whole(random, 0, int(std::size(kReconstructions)) - 1)];
   view.maxSplatPixels = int(between(random, 1, 64));
-  view.meshError = between(random, 0.01, 8);
   view.localGeometry = coin(random);
   view.secondaryCover = coin(random);
   view.fillHoles = coin(random);

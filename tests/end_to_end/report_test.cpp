@@ -40,6 +40,25 @@ TEST(ReportTest, TellsOfEachCameraWhatWasKeptAlsoOfThoseBakedBefore) {
   EXPECT_NE(listed.output.find("dropped"), std::string::npos) << listed.output;
 }
 
+TEST(ReportTest, BakesWhatAPathNeedsAndNoMore) {
+  const SampleProject project("along");
+  ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
+  const std::string path = (project.folder() / "tour.json").string();
+  ASSERT_EQ(acentric({"tour", project.file(), "-o", path, "--frames", "8"}).exitCode, 0);
+  const auto bake = [&](const std::string& frames) {
+    const auto ran = acentric({"bake", project.file(), "--along", path, "--frames", frames, "--json"});
+    EXPECT_EQ(ran.exitCode, 0) << ran.errors;
+    return Json::parse(ran.output, nullptr, false)["cameras"].size();
+  };
+  const std::size_t two = bake("2"), all = bake("0");
+  EXPECT_GT(two, 0u);
+  EXPECT_LT(two, all);
+  const auto walked = acentric({"measure", project.file(), "--path", path, "--size", "160x90", "--json"});
+  ASSERT_EQ(walked.exitCode, 0) << walked.errors;
+  EXPECT_TRUE(Json::parse(walked.output)["warnings"].empty()) << "nothing that the path needs is missing";
+  EXPECT_NE(acentric({"bake", project.file(), "--along", path, "--only", "0"}).exitCode, 0);
+}
+
 TEST(ReportTest, RefusesToMixQualitiesWithWhatIsAboutFinalCaptures) {
   const SampleProject project("mixed");
   for (const char* option : {"--prune", "--dry-run"}) {

@@ -92,7 +92,7 @@ class BundleTest : public testing::Test {
     std::set<PixelSource> sources;
     std::uint64_t drawn = 0, triangles = 0;
     for (const Renderer renderer : {Renderer::list, Renderer::scalar, Renderer::zbuffer})
-      for (const Reconstruction reconstruction : {Reconstruction::filtered, Reconstruction::splat})
+      for (const Reconstruction reconstruction : {Reconstruction::patches, Reconstruction::splat})
         for (const PerspectiveView& view : test::everyView(*open.layout)) {
           ViewSettings settings = open.project.view;
           settings.renderer = renderer, settings.reconstruction = reconstruction;

@@ -39,8 +39,6 @@ Project everythingSet() {
   project.view.renderer = Renderer::zbuffer;
   project.view.reconstruction = Reconstruction::point;
   project.view.maxSplatPixels = 7;
-  project.view.meshError = 0.75;
-  project.view.maxMeshTriangles = 12345;
   project.view.localGeometry = false;
   project.view.secondaryCover = false;
   project.view.fillHoles = false;

@@ -63,7 +63,7 @@ class SeamWalk : public testing::Test {
   static Frame frameOf(const WalkScene& walk, const PerspectiveView& view) {
     TaskRunner runner(0);
     ViewSettings settings;
-    settings.reconstruction = Reconstruction::filtered;  // of the samples, whose colours are changed here
+    settings.reconstruction = Reconstruction::splat;  // of the samples, whose colours are changed here
     auto frame = renderFrame(walk, view, settings, runner);
     EXPECT_TRUE(frame) << frame.error().describe();
     return frame ? std::move(*frame) : Frame();

@@ -34,7 +34,6 @@ TEST(ViewHoles, AreNoneInAnEmptyRoomAndFindNothingBehindWalls) {
     ASSERT_TRUE(holes);
     EXPECT_EQ(holes->missed, 0);
     EXPECT_EQ(holes->open, 0);
-    EXPECT_LT(holes->expected, 0.02) << "splats part at the far ends of floor and ceiling alone";
     for (const float distance : holes->rayDistance.pixels) EXPECT_TRUE(std::isfinite(distance));
   }
 }
@@ -71,7 +70,6 @@ TEST(ViewHoles, AreTheSharesOfPixelsWhoseSurfaceNoDrawnCoverHolds) {
     ASSERT_TRUE(all && chosen);
     EXPECT_NEAR(all->missed, double(missed) / (view.width * view.height), 1e-9);
     EXPECT_LE(all->open, all->missed + 1e-12);
-    EXPECT_NEAR(all->expected, all->open, 0.004) << "splats reach over the edges of holes";
     EXPECT_GE(chosen->missed, all->missed);
     sum += all->missed, less += chosen->missed;
   }
@@ -85,7 +83,7 @@ TEST(ViewHoles, RefuseAnEyeOutsideEveryRegion) {
   EXPECT_FALSE(predictHoles(world.reach(), viewFrom(world.layout, {100, 0}, 0), {}, runner));
 }
 
-/// Pixel by pixel, in every way of drawing samples.
+/// Pixel by pixel.
 TEST(ViewHoles, AreThoseOfRenderedFrames) {
   test::SceneBuilder builder;
   Material grey = test::matte({0.4f, 0.35f, 0.3f});
@@ -99,29 +97,25 @@ TEST(ViewHoles, AreThoseOfRenderedFrames) {
   const test::BakedRoom room(builder.rays(), project);
   const ProjectReach reach(room.open);
   TaskRunner runner(1);
-  for (const Reconstruction reconstruction :
-       {Reconstruction::point, Reconstruction::splat, Reconstruction::surface}) {
-    ViewSettings settings;
-    settings.reconstruction = reconstruction;
-    settings.secondaryCover = false;
-    int open = 0, foretold = 0, both = 0;
-    for (int n = 0; n < 12; ++n) {
-      PerspectiveView view;
-      view.eye = {0.9 * std::cos(2.4 * n), 0.9 * std::sin(2.4 * n), room.open.layout->eyeZ()};
-      view.yawRadians = 0.53 * n;
-      view.width = 160, view.height = 90;
-      const auto frame = renderFrame(room.walk, view, settings, runner);
-      const auto holes = predictHoles(*reach, view, settings, runner);
-      ASSERT_TRUE(frame && holes);
-      for (std::size_t i = 0; i < holes->bare.pixels.size(); ++i) {
-        const bool isOpen = test::isOpen(frame->source.pixels[i]), isBare = holes->bare.pixels[i] != 0;
-        open += isOpen ? 1 : 0, foretold += isBare ? 1 : 0, both += isOpen && isBare ? 1 : 0;
-      }
+  ViewSettings settings;
+  settings.secondaryCover = false;
+  int open = 0, predicted = 0, both = 0;
+  for (int n = 0; n < 12; ++n) {
+    PerspectiveView view;
+    view.eye = {0.9 * std::cos(2.4 * n), 0.9 * std::sin(2.4 * n), room.open.layout->eyeZ()};
+    view.yawRadians = 0.53 * n;
+    view.width = 160, view.height = 90;
+    const auto frame = renderFrame(room.walk, view, settings, runner);
+    const auto holes = predictHoles(*reach, view, settings, runner);
+    ASSERT_TRUE(frame && holes);
+    for (std::size_t i = 0; i < holes->openPixels.pixels.size(); ++i) {
+      const bool isOpen = test::isOpen(frame->source.pixels[i]),
+                 isPredicted = holes->openPixels.pixels[i] != 0;
+      open += isOpen ? 1 : 0, predicted += isPredicted ? 1 : 0, both += isOpen && isPredicted ? 1 : 0;
     }
-    EXPECT_GT(open, 20) << nameOf(reconstruction);
-    EXPECT_GT(both, 0.8 * std::max(open, foretold))
-        << nameOf(reconstruction) << ": " << open << " open, " << foretold << " foretold";
   }
+  EXPECT_GT(open, 20);
+  EXPECT_GT(both, 0.8 * std::max(open, predicted)) << open << " open, " << predicted << " predicted";
 }
 
 }  // namespace

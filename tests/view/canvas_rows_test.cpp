@@ -14,16 +14,13 @@ namespace {
 struct Block {
   static constexpr std::ptrdiff_t kColumnPitch = 37, kRowPitch = 53, kSize = kBlockSide * kRowPitch;
   std::vector<CanvasPixel> pixels = std::vector<CanvasPixel>(kBlockSide * kColumnPitch);
-  std::vector<std::uint32_t> filtered = std::vector<std::uint32_t>(kBlockSide * kBlockSide);
   std::vector<std::uint32_t> sources = std::vector<std::uint32_t>(256);
-  bool places = false;
 
-  explicit Block(std::mt19937& random) : places(random() % 2 == 0) {
+  explicit Block(std::mt19937& random) {
     for (CanvasPixel& pixel : pixels) {
       pixel = (CanvasPixel(random()) << 32) | random();
       if (random() % 3 == 0) pixel = kEmptyPixel;
     }
-    for (std::uint32_t& colour : filtered) colour = random() | 0xff000000u;
     for (std::uint32_t& source : sources) source = random() & 0xffffu;
     sources[0] = kSourceHole;
   }
@@ -39,8 +36,7 @@ struct Block {
   Rows rows(const Write& write) const {
     Rows rows;
     std::vector<float> depth(kSize, std::bit_cast<float>(0xdeadbeefu));
-    write(CanvasBlock{pixels.data(), kColumnPitch, places ? filtered.data() : nullptr, sources.data(),
-                      places ? 0xfffff800u : 0xffffffffu, rows.colour.data(), rows.source.data(),
+    write(CanvasBlock{pixels.data(), kColumnPitch, sources.data(), rows.colour.data(), rows.source.data(),
                       depth.data(), kRowPitch});
     for (std::size_t i = 0; i < depth.size(); ++i) rows.depth[i] = std::bit_cast<std::uint32_t>(depth[i]);
     return rows;
@@ -63,12 +59,10 @@ TEST(CanvasRows, AreThePixelsOfTheColumns) {
         }
         const CanvasPixel pixel = block.pixels[std::size_t(x * Block::kColumnPitch + y)];
         const std::uint32_t slot = slotOf(pixel);
-        const std::uint32_t colour = block.places ? block.filtered[std::size_t(x * kBlockSide + y)]
-                                                  : static_cast<std::uint32_t>(pixel);
-        ASSERT_EQ(rows.colour[at], slot == 0 ? static_cast<std::uint32_t>(pixel) : colour | 0xff000000u);
+        const std::uint32_t colour = static_cast<std::uint32_t>(pixel);
+        ASSERT_EQ(rows.colour[at], slot == 0 ? colour : colour | 0xff000000u);
         ASSERT_EQ(rows.source[at], block.sources[slot]);
-        const CanvasPixel depth = block.places ? pixel & ~kPlaceBits : pixel;
-        ASSERT_EQ(rows.depth[at], slot == 0 ? 0u : static_cast<std::uint32_t>(depth >> 32));
+        ASSERT_EQ(rows.depth[at], slot == 0 ? 0u : static_cast<std::uint32_t>(pixel >> 32));
       }
   }
 }

@@ -72,12 +72,11 @@ inline Canvas paint(const WalkScene& scene, const PerspectiveView& view, const V
   options.depthTest = depthTest;
   const CapturedBackground background(scene, plan);
   Canvas canvas, part;
-  clearCanvas(scene, view, settings, plan, 0, view.width, canvas);
+  clearCanvas(scene, view, plan, 0, view.width, canvas);
   for (int strip = 0; strip < strips; ++strip) {
     const int x0 = strip * view.width / strips, x1 = (strip + 1) * view.width / strips;
-    const int beside = pixelsReadBeside(plan, settings);
-    clearCanvas(scene, view, settings, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width),
-                part);
+    const int beside = pixelsReadBeside(plan);
+    clearCanvas(scene, view, plan, std::max(x0 - beside, 0), std::min(x1 + beside, view.width), part);
     background.paint(view, part);
     warpPieces(scene, view, settings, plan, options, x0, x1, part);
     const auto copy = [&](const auto& from, auto& to) {

@@ -26,9 +26,7 @@ Canvas canvasOf(int width, int height, const std::function<float(int x, int y)>&
 bool isCrack(const Canvas& canvas, int x, int y) {
   const auto depth = [&](int i, int j) {
     if (i < 0 || i >= canvas.width || j < 0 || j >= canvas.height) return -1.0f;
-    CanvasPixel pixel = canvas.column(canvas.x0 + i)[j];
-    if (canvas.places) pixel &= ~kPlaceBits;
-    return inverseZDepthOf(pixel);
+    return inverseZDepthOf(canvas.column(canvas.x0 + i)[j]);
   };
   if (slotOf(canvas.column(canvas.x0 + x)[y]) < kFirstSlot) return false;
   const auto nearerOn = [&](int dx, int dy) {
@@ -53,11 +51,9 @@ TEST(Cracks, AreWhereNearerPixelsLieOnBothSides) {
       const unsigned kind = random() % 8;
       return kind == 0 ? 0.0f : kind < 4 ? 0.2f : 0.2f * (1 + 0.015f * float(random() % 6));
     });
-    canvas.places = round % 2 == 0;
     for (CanvasPixel& pixel : canvas.pixels) {
       if (random() % 9 == 0) pixel = kEmptyPixel;
       if (random() % 9 == 0) pixel = canvasPixel(2u << 24, 0.1f);  // of the background
-      if (canvas.places) pixel |= placeBits(int(random() % 16), int(random() % 16), random() % 8);
     }
     std::vector<bool> expected;
     for (int x = 0; x < canvas.width; ++x)
@@ -102,7 +98,7 @@ WalkScene withSlits(const WalkScene& whole, const ViewPlan& plan, const Rgba8& r
     for (std::size_t k = 0; k + 1 < capture.columnStart.size(); k += 9)
       for (std::uint32_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i) {
         PackedSample& sample = capture.samples[i];
-        sample = packSample(1 / 40.0f, rolesOf(sample), sample.row, sample.slant);
+        sample = packSample(1 / 40.0f, rolesOf(sample), sample.row);
         capture.colour[i] = red;
       }
     std::ranges::fill(capture.blocks.leastInverse, 1 / 41.0f);

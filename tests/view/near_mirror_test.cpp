@@ -39,17 +39,15 @@ class NearMirrors : public testing::Test {
 
 TEST_F(NearMirrors, ShowWhatTheEyeSeesInThem) {
   const WalkScene scene = walk(), still = poster(scene);
-  for (const glm::dvec3& offset : {glm::dvec3(0), glm::dvec3(0.3, -0.6, 0.1), glm::dvec3(-0.5, 0.5, -0.2)})
-    for (const Reconstruction reconstruction : {Reconstruction::splat, Reconstruction::filtered}) {
-      const PerspectiveView from = view(offset);
-      ViewSettings settings;
-      settings.reconstruction = reconstruction;
-      const double with = psnrInMirrors(scene_, from, frameOf(scene, from, settings)),
-                   without = psnrInMirrors(scene_, from, frameOf(still, from, settings));
-      RecordProperty("psnr", std::to_string(with) + " instead of " + std::to_string(without));
-      EXPECT_GT(with, without + 6);
-      EXPECT_GT(with, 20);
-    }
+  for (const glm::dvec3& offset : {glm::dvec3(0), glm::dvec3(0.3, -0.6, 0.1), glm::dvec3(-0.5, 0.5, -0.2)}) {
+    const PerspectiveView from = view(offset);
+    const ViewSettings settings = test::splatSettings();
+    const double with = psnrInMirrors(scene_, from, frameOf(scene, from, settings)),
+                 without = psnrInMirrors(scene_, from, frameOf(still, from, settings));
+    RecordProperty("psnr", std::to_string(with) + " instead of " + std::to_string(without));
+    EXPECT_GT(with, without + 6);
+    EXPECT_GT(with, 20);
+  }
 }
 
 TEST_F(NearMirrors, StayLocalGeometryAndNothingElseOfThePictureChanges) {
@@ -106,17 +104,14 @@ TEST_F(NearMirrors, AreTintedByGlassBeforeThemAndNotByGlassBehind) {
 TEST_F(NearMirrors, AreTheSameForAnyThreadCountAndRenderer) {
   const WalkScene scene = walk({{{2.5, -0.5, 0.9}, {2.6, 0.4, 1.9}, {0.1f, 0.7f, 0.2f, 1}}});
   const PerspectiveView from = view({0.2, -0.4, 0});
-  ViewSettings settings;
-  for (const Reconstruction reconstruction : {Reconstruction::filtered, Reconstruction::splat}) {
-    settings.reconstruction = reconstruction;
-    settings.renderer = Renderer::scalar;
-    const Frame truth = frameOf(scene, from, settings);
-    settings.renderer = Renderer::list;
-    for (const int workers : {0, 1, 3}) {
-      const Frame frame = frameOf(scene, from, settings, workers);
-      EXPECT_EQ(frame.colour.pixels, truth.colour.pixels) << workers;
-      EXPECT_EQ(frame.source.pixels, truth.source.pixels);
-    }
+  ViewSettings settings = test::splatSettings();
+  settings.renderer = Renderer::scalar;
+  const Frame truth = frameOf(scene, from, settings);
+  settings.renderer = Renderer::list;
+  for (const int workers : {0, 1, 3}) {
+    const Frame frame = frameOf(scene, from, settings, workers);
+    EXPECT_EQ(frame.colour.pixels, truth.colour.pixels) << workers;
+    EXPECT_EQ(frame.source.pixels, truth.source.pixels);
   }
   const Frame list = frameOf(scene, from, settings);
   settings.renderer = Renderer::zbuffer;

@@ -34,15 +34,10 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     column.maxInverseDistance = round % 3 == 0 ? 0.5f : std::numeric_limits<float>::infinity();
     column.footprint = round % 5 == 0 ? 0 : uniform(0, 20);
     column.maxSide = 16;
-    column.slanted = round % 2 == 0;
-    for (float& a : column.across) a = uniform(-3, 3);
-    column.across[2] /= 300;
-    column.acrossStep = uniform(0, 0.02f), column.downStep = uniform(0, 0.02f), column.perSpread = 4.4f;
     column.roles = round % 4 == 0 ? 0xffu : std::uint32_t(random() % 256);
     column.centreX = 320, column.centreY = 200, column.inverseFocal = 1 / uniform(100, 500);
     column.x0 = 0, column.y0 = 50, column.x1 = 640, column.y1 = 300;
     column.slot = 1 + random() % kMaxSlots;
-    column.places = round % 8 == 0;
     column.partTest = static_cast<PartTest>(round % 3);
     for (float* p : {column.direction, column.baseline, column.low, column.high})
       p[0] = uniform(-1, 1), p[1] = uniform(-1, 1);
@@ -50,13 +45,11 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
     std::vector<PackedSample> samples;
     const std::size_t rowStep = 1 + random() % 6;
     for (int i = 0; i < count; ++i) {
-      const auto slantCode = [&] { return static_cast<std::int8_t>(static_cast<int>(random() % 251) - 125); };
-      const Slant slant{slantCode(), slantCode()};
       const std::size_t next = samples.empty() ? random() % 50 : samples.back().row + random() % rowStep;
       const float specials[] = {0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf(""), 1e-40f};
       const auto roles = static_cast<std::uint8_t>(random());
       samples.push_back(packSample(random() % 8 == 0 ? specials[random() % 5] : uniform(0, 1), roles,
-                                   static_cast<std::uint16_t>(std::min(next, tangents.size() - 1)), slant));
+                                   std::uint32_t(std::min(next, tangents.size() - 1))));
     }
     std::vector<SampleRun> runs{{0, std::uint32_t(count)}};
     if (count > 20) runs = {{1, 18}, {19, std::uint32_t(count)}};
@@ -76,15 +69,12 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
       const Splat a = splatAt(e, i);
       ASSERT_NE(rolesOf(samples[a.index]) & column.roles, 0u);
       ASSERT_TRUE(count <= 20 || (a.index != 0 && a.index != 18)) << "in no run";
-      for (int side : {a.width, a.height}) {
-        EXPECT_GE(side, 1);
-        EXPECT_LE(side, 17);  // a rectangle is as long as it is: it may hold one centre more
-      }
+      EXPECT_GE(a.side, 1);
+      EXPECT_LE(a.side, 16);
       EXPECT_EQ(static_cast<std::uint32_t>(a.pixel),
                 (wordOf(colour[a.index]) & 0xffffffu) | column.slot << 24);
-      const bool whole = a.width <= 2 && a.height <= 2 && a.x >= column.x0 && a.y >= column.y0 &&
-                         a.x + a.width <= column.x1 && a.y + a.height <= column.y1 &&
-                         colour[a.index].a == 255;
+      const bool whole = a.side <= 2 && a.x >= column.x0 && a.y >= column.y0 && a.x + a.side <= column.x1 &&
+                         a.y + a.side <= column.y1 && colour[a.index].a == 255;
       ASSERT_EQ(e.steps[i] != 0, whole);
       wholes += whole;
       others += !whole;
@@ -95,7 +85,7 @@ TEST(ProjectSamples, GivesTheSameBitsWhateverTheProcessor) {
       const SplatArrays& got = memory.room(0);
       const auto same = [&](const auto* a, const auto* b) { return std::equal(a, a + expected, b); };
       EXPECT_TRUE(same(got.pixels, e.pixels) && same(got.steps, e.steps) && same(got.firsts, e.firsts) &&
-                  same(got.corners, e.corners) && same(got.sizes, e.sizes) && same(got.indices, e.indices))
+                  same(got.corners, e.corners) && same(got.sides, e.sides) && same(got.indices, e.indices))
           << kernels.name << ", round " << round;
     }
   }
@@ -135,8 +125,6 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
     column.maxInverseDistance = round % 2 == 0 ? std::numeric_limits<float>::infinity() : 0.7f;
     column.minInverseDistance = round % 5 == 0 ? 0.1f : 0;
-    column.slanted = round % 7 == 0;
-    column.acrossStep = column.downStep = 0.01f, column.perSpread = 4.4f;
 
     std::vector<PackedSample> samples;
     SampleBlocks blocks;
@@ -144,7 +132,7 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
       const double near = uniform(0, 2), spread = b % 3 == 0 ? uniform(0, 2) : 0.02;
       for (std::size_t i = b * kPerBlock; i < (b + 1) * kPerBlock; ++i)
         samples.push_back(packSample(float(near + uniform(0, spread)),
-                                     b % 11 == 0 ? 1 : std::uint8_t(1 + random() % 3), std::uint16_t(i), {}));
+                                     b % 11 == 0 ? 1 : std::uint8_t(1 + random() % 3), std::uint32_t(i)));
       const auto own = std::span(samples).last(kPerBlock);
       const auto [least, most] = std::ranges::minmax(own | std::views::transform(inverseDistanceOf));
       blocks.leastInverse.push_back(least), blocks.mostInverse.push_back(most);
@@ -189,8 +177,8 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     for (int i = 0; i < count; ++i) {
       const Splat splat = splatAt(splats, i);
       bool reaches = test.openTiles == nullptr;
-      for (int x = std::max(splat.x, rect.x0); !reaches && x < std::min(splat.x + splat.width, rect.x1); ++x)
-        for (int y = std::max(splat.y, 0); y < std::min(splat.y + splat.height, rect.y1); ++y)
+      for (int x = std::max(splat.x, rect.x0); !reaches && x < std::min(splat.x + splat.side, rect.x1); ++x)
+        for (int y = std::max(splat.y, 0); y < std::min(splat.y + splat.side, rect.y1); ++y)
           reaches = reaches || cover.at(x, y) == kUncovered;
       const bool kept = std::ranges::binary_search(got, std::uint16_t(splat.index / kPerBlock));
       reached += reaches;

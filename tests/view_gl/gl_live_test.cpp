@@ -35,7 +35,7 @@ class LiveRenderer {
   /// As the editor does: a new frame when there is something new to be shown, none while there is not.
   Frame drawWhenReady(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings) {
     Frame frame = draw(scene, view, settings);
-    while (frame.stats.capturesAwaited + frame.stats.meshesAwaited > 0) {
+    while (frame.stats.capturesAwaited > 0) {
       const auto news = renderer_->receive();
       EXPECT_TRUE(news);
       if (news && *news)
@@ -152,7 +152,7 @@ TEST_F(GlLive, EndsWithThePictureOfThoseWhoWaitedInEveryWayOfDrawing) {
   const WalkScene coarse = test::walkScene(room, layout, region, 0.5),
                   fine = test::walkScene(room, layout, region, 3);
   const PerspectiveView view = test::viewIntoMirror(*layout, {}, 161, 99);
-  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer, Renderer::glMesh}) {
+  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer}) {
     settings_.renderer = renderer;
     LiveRenderer live;
     const Frame waited = onGl(coarse, view, settings_);
@@ -304,8 +304,7 @@ TEST_F(GlLive, WhatIsOnItsWayCountsAsGraphicsMemory) {
                        [](const auto& c) { return c != nullptr; });
   ASSERT_GE(captures.size(), 2u);
   std::counting_semaphore<> wakes{0};
-  TaskRunner runner(0);
-  CaptureResidency residency(runner, CaptureResidency::makeBuilder([&] { wakes.release(); }));
+  CaptureResidency residency(std::make_unique<CaptureBuilder>([&] { wakes.release(); }));
   ASSERT_TRUE(residency.get(captures[0], "there"));
   const std::size_t there = residency.bytes();
   const std::size_t coming = packedBytes(*captures[1], CaptureParts::samples);

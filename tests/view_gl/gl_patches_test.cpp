@@ -109,7 +109,7 @@ TEST_F(GlPatches, AreDrawnOfNoCaptureThatHasNone) {
   }
   const Frame asPatches = onGl(walk, view, settings);
   EXPECT_FALSE(hasVariant("patches.frag"));
-  settings.reconstruction = Reconstruction::filtered;
+  settings.reconstruction = Reconstruction::splat;
   EXPECT_EQ(asPatches.colour.pixels, onGl(walk, view, settings).colour.pixels);
 }
 

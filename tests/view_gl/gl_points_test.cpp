@@ -50,8 +50,7 @@ TEST_F(GlPoints, PaintsWhatTheCpuPaintsFromAnyEyeInARing) {
     const int region = *layout->regionAt({0.1, 0.05});
     const WalkScene scene = test::walkScene(test::randomBoxes(3, 60, 3.4), layout, region, 2.5);
     for (bool secondary : {false, true})
-      for (Reconstruction reconstruction :
-           {Reconstruction::splat, Reconstruction::point, Reconstruction::surface})
+      for (Reconstruction reconstruction : {Reconstruction::splat, Reconstruction::point})
         for (int i = 0; i < 4; ++i) {
           ViewSettings settings = withoutFill();
           settings.secondaryCover = secondary;
@@ -85,34 +84,12 @@ TEST_F(GlPoints, DrawsTheLayersOfAPixelInTheCpusOrder) {
   for (int i = 0; i < 5; ++i) expectLikeCpu(scene, nextView(*layout, region, 60), withoutFill());
 }
 
-TEST_F(GlPoints, FiltersAsTheCpuDoes) {
-  const auto layout = test::layoutAroundOrigin(Configuration::b);
-  const int region = *layout->regionAt({0.1, 0.05});
-  const WalkScene scene = test::walkScene(test::randomBoxes(3, 60, 3.4), layout, region, 3, 2);
-  ViewSettings settings = withoutFill(), plain = withoutFill();
-  settings.reconstruction = Reconstruction::filtered;
-  double unlikeSplats = 0;
-  for (const Renderer renderer : {Renderer::gl, Renderer::glZbuffer})
-    for (const int side : {2, 16}) {
-      settings.renderer = plain.renderer = renderer;
-      settings.maxSplatPixels = plain.maxSplatPixels = side;
-      for (const double fov : {60, 60, 120}) {
-        const PerspectiveView view = nextView(*layout, region, fov);
-        expectLikeCpu(scene, view, settings);
-        unlikeSplats +=
-            differingShare(onGl(scene, view, plain).colour, onGl(scene, view, settings).colour, 8);
-      }
-    }
-  EXPECT_GT(unlikeSplats, 0.05) << "nothing is filtered";
-}
-
-TEST_F(GlPoints, FiltersMirrorsAndWhatPanesTintAsTheCpuDoes) {
+TEST_F(GlPoints, PaintsMirrorsAndWhatPanesTintAsTheCpuDoes) {
   test::MirrorScene mirrors{test::randomBoxes(12, 50, 3.4), {}};
   mirrors.mirrors.push_back({0, 4, {-2, 0.4}, {2.5, 2.8}, {0.9f, 0.8f, 0.7f}, 1});
   const auto layout = test::layoutAroundOrigin(Configuration::b);
   const int region = *layout->regionAt({0.1, 0.05});
-  ViewSettings settings = withoutFill();
-  settings.reconstruction = Reconstruction::filtered;
+  const ViewSettings settings = withoutFill();
   for (const bool glass : {false, true}) {
     if (glass) mirrors.surfaces.boxes.push_back({{3.5, -1, 0.8}, {3.51, 1, 1.9}, {0.1f, 0.2f, 0.6f, 0.4f}});
     const WalkScene scene = test::walkScene(mirrors, layout, region, 3);

@@ -34,8 +34,7 @@ TEST_F(GlResources, TheContextNamesItsDriverAndVersion) {
 }
 
 TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
-  TaskRunner runner(0);
-  CaptureResidency residency(runner);
+  CaptureResidency residency;
   const auto dropGone = [&](const WalkScene& scene) {
     CaptureSet inScene;
     addTo(inScene, scene.captures);
@@ -54,10 +53,9 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
       scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
   std::size_t expected = 8 * runs + 2 * 16 * sizeof(float);
-  for (const auto& capture : scene.captures)  // whole words
-    expected += 12 * capture->samples.size() + (2 * capture->samples.size() + 3) / 4 * 4;
+  for (const auto& capture : scene.captures) expected += 12 * capture->samples.size();
   EXPECT_EQ(residency.bytes(), expected);
-  CaptureResidency forBackgrounds(runner);
+  CaptureResidency forBackgrounds;
   for (const auto& capture : scene.captures)
     ASSERT_TRUE(forBackgrounds.get(capture, "its background", CaptureParts::background));
   EXPECT_EQ(forBackgrounds.bytes(), 8 * runs);
@@ -82,8 +80,7 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
 }
 
 TEST_F(GlResources, TrimmingDropsWhatWasUnusedLongest) {
-  TaskRunner runner(0);
-  CaptureResidency residency(runner);
+  CaptureResidency residency;
   const auto a = smallCapture(), b = smallCapture(), c = smallCapture();
   ASSERT_TRUE(residency.get(a, "a"));
   residency.trim(std::size_t(1) << 30);
@@ -109,17 +106,15 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   view.width = 200, view.height = 120;
   const auto plan = planView(scene, view, {});
   ASSERT_TRUE(plan);
-  const auto drawnWith = [&](std::size_t largestBuffer, Renderer renderer) {
+  const auto drawnWith = [&](std::size_t largestBuffer) {
     const GlStateGuard guard;
     ProgramCache programs;
-    TaskRunner runner(0);
-    CaptureResidency captures(runner, nullptr, largestBuffer);
-    MeshResidency meshes(runner, nullptr, largestBuffer);
-    CapturePass pass(programs, captures, meshes);
+    CaptureResidency captures(nullptr, largestBuffer);
+    CapturePass pass(programs, captures);
     FrameTarget target;
     FrameStats stats;
     ViewSettings settings;
-    settings.renderer = renderer;
+    settings.renderer = Renderer::gl;
     EXPECT_TRUE(target.resize(view.width, view.height));
     target.begin();
     EXPECT_TRUE(pass.draw(scene, *plan, view, settings, target, stats));
@@ -128,15 +123,11 @@ TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
   const std::size_t someColumns = 12 * 5000;
   EXPECT_FALSE(plan->reflections.empty());
   const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
-  TaskRunner runner(0);
-  CaptureResidency cut(runner, nullptr, someColumns);
+  CaptureResidency cut(nullptr, someColumns);
   EXPECT_GT((*cut.get(first, "cut"))->chunks.size(), 4u);
-  MeshResidency meshes(runner, nullptr, someColumns);
-  EXPECT_GT((*meshes.get(first, "cut", *layout, plan->pieces[0].camera, {}))->chunks.size(), 2u);
-  for (const Renderer renderer : {Renderer::gl, Renderer::glMesh})
-    EXPECT_EQ(drawnWith(someColumns, renderer).colour.pixels, drawnWith(0, renderer).colour.pixels);
+  EXPECT_EQ(drawnWith(someColumns).colour.pixels, drawnWith(0).colour.pixels);
 
-  CaptureResidency narrow(runner, nullptr, 120);
+  CaptureResidency narrow(nullptr, 120);
   const auto tooSmall = narrow.get(first, "capture of camera 3");
   ASSERT_FALSE(tooSmall);
   EXPECT_EQ(tooSmall.error().kind, ErrorKind::tooLarge);
@@ -171,7 +162,7 @@ TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {
   ViewSettings settings;
   onGl(scene, view, settings);
   view.width = 80;  // makes the framebuffer anew
-  settings.renderer = Renderer::glMesh;
+  settings.renderer = Renderer::glZbuffer;
   onGl(scene, view, settings);
   EXPECT_EQ(glIsTexture(renderer_->colourTexture()), GL_TRUE);
   renderer_.reset();

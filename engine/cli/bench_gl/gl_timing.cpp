@@ -19,7 +19,7 @@ constexpr const char* kMeasured =
 
 struct Times {
   std::vector<double> frame, card, readBack;  // milliseconds
-  std::uint64_t samples = 0, meshTriangles = 0;
+  std::uint64_t samples = 0;
   FrameStats last;
 };
 
@@ -37,7 +37,7 @@ std::vector<PerspectiveView> viewsOf(const PackedWalk& packed, const GlTimingOpt
 Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options) {
   auto context = HeadlessContext::create();
   if (!context) return tl::unexpected(context.error());
-  TaskRunner runner(int(std::max(1U, std::thread::hardware_concurrency())) - 1);  // for building meshes
+  TaskRunner runner(int(std::max(1U, std::thread::hardware_concurrency())) - 1);  // for planning
   const auto renderer = GlRenderer::create({.runner = &runner});
   if (!renderer) return tl::unexpected(renderer.error());
   const std::vector<PerspectiveView> views = viewsOf(packed, options);
@@ -57,7 +57,6 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
         times[m].card.push_back((*renderer)->cardSeconds() * 1e3);
         times[m].readBack.push_back(reading.seconds() * 1e3);
         times[m].samples += stats->samplesRead;
-        times[m].meshTriangles += stats->meshTriangles;
         times[m].last = *stats;
       }
 
@@ -79,8 +78,7 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
     const std::string name = nameOf(options.modes[m].renderer),
                       reconstruction = nameOf(options.modes[m].reconstruction);
     const double frames = double(std::max<std::size_t>(times[m].frame.size(), 1));
-    const double samples = double(times[m].samples) / frames,
-                 triangles = double(times[m].meshTriangles) / frames;
+    const double samples = double(times[m].samples) / frames;
     out.json["renderers"].push_back({{"renderer", name},
                                      {"reconstruction", reconstruction},
                                      {"frameMsMedian", frame.median},
@@ -90,13 +88,11 @@ Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options
                                      {"readBackMsMedian", readBack.median},
                                      {"framesPerSecond", frame.median > 0 ? 1e3 / frame.median : 0},
                                      {"samplesPerFrame", samples},
-                                     {"meshTrianglesPerFrame", triangles},
                                      {"localTriangles", times[m].last.localTriangles}});
     out.text += fmt::format(
         "  {:<10} {:<8} frame {:8.3f} ms median, {:8.3f} ms p99; card {:8.3f} ms; read back {:7.3f} ms; "
-        "{:.2f} M samples, {:.2f} M mesh triangles\n",
-        name, reconstruction, frame.median, frame.p99, card.median, readBack.median, 1e-6 * samples,
-        1e-6 * triangles);
+        "{:.2f} M samples\n",
+        name, reconstruction, frame.median, frame.p99, card.median, readBack.median, 1e-6 * samples);
   }
   out.text += fmt::format("{}\n", kMeasured);
   return out;

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", ACENTRIC_VERSION);
   GlTimingOptions options;
   std::filesystem::path walk, jsonFile;
-  std::vector<std::string> renderers, reconstructions = {"splat", "filtered"};
+  std::vector<std::string> renderers, reconstructions = {"splat", "patches"};
   std::vector<std::string> onGl, ways;
   for (const Reconstruction reconstruction : kReconstructions) ways.emplace_back(nameOf(reconstruction));
   for (const Renderer renderer : kRenderers)

@@ -1,4 +1,4 @@
-#include "engine/view/capture_mesh.h"
+#include "engine/export/capture_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ Meshed meshed(const AnalyticScene& scene, int layers, double error, int columns 
       test::capture(scene, test::cameraAt({0, 0, 1.6}, 20, columns, rows), nullptr, layers), 1);
   for (std::size_t i = 0; i < m.capture.samples.size(); ++i) {  // needed by one region here, by another there
     PackedSample& sample = m.capture.samples[i];
-    sample = packSample(inverseDistanceOf(sample), std::uint8_t(1u << (i / 7 % 8)), sample.row, sample.slant);
+    sample = packSample(inverseDistanceOf(sample), std::uint8_t(1u << (i / 7 % 8)), sample.row);
   }
   m.bound = meshBound(m.capture.camera, error, 2);
   TaskRunner runner(0);
@@ -177,7 +177,7 @@ TEST(CaptureMesh, IsTheSameAtAnyScale) {
   for (const float scale : {0x1p-10f, 0x1p13f}) {
     DisplayCapture capture = metres.capture;
     for (PackedSample& sample : capture.samples)
-      sample = packSample(inverseDistanceOf(sample) / scale, rolesOf(sample), sample.row, sample.slant);
+      sample = packSample(inverseDistanceOf(sample) / scale, rolesOf(sample), sample.row);
     TaskRunner runner(0);
     const CaptureMesh mesh =
         buildCaptureMesh(capture, meshBound(capture.camera, 0.25, 2 * double(scale)), runner);

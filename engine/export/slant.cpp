@@ -1,4 +1,4 @@
-#include "engine/view/slant.h"
+#include "engine/export/slant.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,23 @@
 #pragma once
-/// Finds how the surfaces of a capture are turned, from the samples beside each sample. A surface that a
-/// camera sees at a slant and the eye does not is sampled farther apart on the picture: splats that know it
-/// leave no cracks there, and need not be larger everywhere for fear of it.
+/// Finds how the surfaces of a capture are turned, from the samples beside each sample.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/geometry/column_camera.h"
-#include "engine/view/slant_code.h"
 
 namespace acentric {
+
+/// Tangents of the angles by which the surface leans, along a row and along a column of the capture: the
+/// change of the inverse distance from one sample to the next, by the inverse distance and the pitch. Each is
+/// code / (127 - |code|), from -62.5 to 62.5, in steps that grow with it.
+struct Slant {
+  std::int8_t across = 0;  ///< towards rising columns
+  std::int8_t down = 0;    ///< towards rising rows
+  bool operator==(const Slant&) const = default;
+};
+inline constexpr int kLargestSlantCode = 125;
 
 /// The code nearest to a tangent; those beyond the largest are cut off.
 std::int8_t slantCode(double tangent);

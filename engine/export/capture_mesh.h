@@ -28,7 +28,7 @@
 
 namespace acentric {
 
-/// Beyond a side where the surface ends; half of what rectangles reach beyond their samples (kOverlap).
+/// Beyond a side where the surface ends; half of what splats reach beyond their samples.
 inline constexpr double kOpenFringe = 0.05;
 
 /// Where the two bits of a side's fringe lie, 0..kMostFringe.
@@ -36,7 +36,6 @@ enum MeshSide { kLowColumn = 0, kHighColumn = 2, kTopRow = 4, kBottomRow = 6 };
 inline constexpr MeshSide kMeshSides[] = {kLowColumn, kHighColumn, kTopRow, kBottomRow};
 inline constexpr int kMostFringe = 3;
 
-/// As shaders/mesh.vert reads it.
 struct MeshPatch {
   std::uint16_t column = 0, row = 0;     ///< the first of its samples
   std::uint8_t columns = 0, rows = 0;    ///< of samples, 1..kMostPatchSide
@@ -48,12 +47,14 @@ struct MeshPatch {
 static_assert(sizeof(MeshPatch) == 28);
 inline constexpr int kMostPatchSide = 64;
 
+inline constexpr double kLargestMeshError = 64;  ///< samples
+
 struct MeshBound {
   double inverseDistance = 0;  ///< 1/m; by which the mesh may differ from a sample
   double error = 0;            ///< the same in samples
   double fringeStep = 0;       ///< samples; fringes are kOpenFringe and so many of these
 };
-/// Of a camera for eyes within `reach` metres; `error` in samples (ViewSettings::meshError).
+/// Of a camera for eyes within `reach` metres; `error` in samples.
 MeshBound meshBound(const ColumnCamera& camera, double error, double reach);
 /// How far from a camera the eye may stand in the regions that it has roles for, in plan, metres.
 double eyeReach(const Layout& layout, int camera);

@@ -1,11 +1,10 @@
-#include "engine/view/capture_mesh.h"
+#include "engine/export/capture_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/export/slant.h"
 #include "engine/geometry/conventions.h"
-#include "engine/view/slant.h"
-#include "engine/view/view_settings.h"
 
 namespace acentric {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 /// The sides of a patch along rows are straight, rows are not: they part by less than this in between,
 /// samples.
 constexpr double kSagitta = 0.1;
-/// Widest angle of a patch, radians: so far the shader's arc tangent of three terms is exact.
+/// Widest angle of a patch, radians.
 constexpr double kWidestPatch = 0.16;
 /// Columns that are meshed together.
 constexpr int kBandColumns = 128;
@@ -24,6 +23,16 @@ constexpr double kCandidate = 2;
 constexpr double kWidestGap = 1;
 /// Within so many bounds the sample beside a patch continues its surface.
 constexpr double kContinues = 2;
+
+std::vector<Slant> slantsOf(const DisplayCapture& capture) {
+  std::vector<std::uint16_t> rows;
+  std::vector<float> inverseDistances;
+  for (const PackedSample& sample : capture.samples) {
+    rows.push_back(std::uint16_t(sample.row));
+    inverseDistances.push_back(inverseDistanceOf(sample));
+  }
+  return acentric::slantsOf(capture.camera, capture.columnStart, rows, inverseDistances);
+}
 
 int mostSamples(double pitch, double angle) { return std::clamp(int(angle / pitch), 1, kMostPatchSide); }
 /// A side of n columns at tangent t rises by t (n pitch)^2 / 8 in between, at most half of that as an angle.
@@ -45,7 +54,8 @@ struct Plane {
 class BandMesher {
  public:
   /// Columns [first, last).
-  BandMesher(const DisplayCapture& capture, const MeshBound& bound, int first, int last);
+  BandMesher(const DisplayCapture& capture, std::span<const Slant> slants, const MeshBound& bound, int first,
+             int last);
   CaptureMesh run(const std::stop_token& stop);
 
  private:
@@ -79,6 +89,7 @@ class BandMesher {
   void finish(CaptureMesh& out);
 
   const DisplayCapture& capture_;
+  std::span<const Slant> slants_;  // of its samples
   MeshBound bound_;
   int first_, last_;
   int rows_, mostColumns_, mostRows_;
@@ -94,8 +105,10 @@ class BandMesher {
   std::vector<float> inverse_;            // their inverse distances
 };
 
-BandMesher::BandMesher(const DisplayCapture& capture, const MeshBound& bound, int first, int last)
+BandMesher::BandMesher(const DisplayCapture& capture, std::span<const Slant> slants, const MeshBound& bound,
+                       int first, int last)
     : capture_(capture),
+      slants_(slants),
       bound_(bound),
       first_(first),
       last_(last),
@@ -113,7 +126,7 @@ BandMesher::BandMesher(const DisplayCapture& capture, const MeshBound& bound, in
     std::uint32_t sample = capture.columnStart[std::size_t(k)];
     const std::uint32_t end = capture.columnStart[std::size_t(k) + 1];
     for (int r = 0; r <= rows_; ++r) {
-      while (sample < end && capture.samples[sample].row < r) ++sample;
+      while (sample < end && int(capture.samples[sample].row) < r) ++sample;
       pixelStart_.push_back(sample);
     }
   }
@@ -139,12 +152,13 @@ CaptureMesh BandMesher::run(const std::stop_token& stop) {
 /// is too much, by less.
 void BandMesher::grow(int column, std::uint32_t seed) {
   const PackedSample& sample = capture_.samples[seed];
-  rect_ = {column, sample.row, 1, 1};
+  const Slant& slant = slants_[seed];
+  rect_ = {column, int(sample.row), 1, 1};
   gridAt(0, 0) = seed;
   const double w = double(inverseAt(0, 0) = inverseOf(seed));
   const double t = double(capture_.rowTangent[sample.row]);
-  seedAcross_ = w * slantTangent(sample.slant.across);
-  seedDown_ = -w * slantTangent(sample.slant.down) / (1 + t * t);
+  seedAcross_ = w * slantTangent(slant.across);
+  seedDown_ = -w * slantTangent(slant.down) / (1 + t * t);
   plane_ = {w, seedAcross_, seedDown_, t};
   int columns = 1, rows = 1;  // to add next; 0: no more
   while (columns > 0 || rows > 0) {
@@ -236,7 +250,7 @@ double BandMesher::gapBeside(int column, int row, int insideColumn, int insideRo
   for (std::uint32_t i = pixel(column, row)[0]; i < pixel(column, row)[1]; ++i) {
     if (!opaque(i)) continue;
     const double w = double(inverseOf(i));
-    const Slant slant = capture_.samples[i].slant;
+    const Slant& slant = slants_[i];
     // From the sample to the patch, as its own slant foretells it.
     const double back = w * (slantTangent(slant.across) * columnPitch * (insideColumn - column) +
                              slantTangent(slant.down) * rowPitch * (insideRow - row));
@@ -329,11 +343,13 @@ std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch&
 CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner,
                              const std::stop_token& stop) {
   const int columns = capture.camera.columns;
+  const std::vector<Slant> slants = slantsOf(capture);
   std::vector<CaptureMesh> bands(std::size_t((columns + kBandColumns - 1) / kBandColumns));
   runner.parallelFor(bands.size(), [&](std::size_t band) {
     if (stop.stop_requested()) return;
     const int first = int(band) * kBandColumns;
-    bands[band] = BandMesher(capture, bound, first, std::min(first + kBandColumns, columns)).run(stop);
+    bands[band] =
+        BandMesher(capture, slants, bound, first, std::min(first + kBandColumns, columns)).run(stop);
   });
   CaptureMesh mesh;
   for (CaptureMesh& band : bands) {
