@@ -1,6 +1,7 @@
 #include "engine/view/display_patches.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -95,52 +96,88 @@ class TexelWriter {
       }
   }
 
-  /// Where another surface touches this one, as at a bend, this one reaches one part of a pixel under it:
-  /// eyes that look from the side would see in between them, since both are known to a part only. Not beyond
-  /// the strip: what lies there may be painted later.
+  /// Where the surface goes on in another patch, or meets another surface as at a bend, this one reaches one
+  /// part of a pixel under it: eyes that look from the side would see in between them, since both are known
+  /// to a part only. Two parts where it goes on nearly straight: both are then drawn on planes that are up to
+  /// the tolerance off their samples' own.
   void reachUnder(const Patch& patch) {
     parts_.assign(known_.size(), 0);
     for (std::size_t at = 0; at < parts_.size(); ++at) parts_[at] = std::uint16_t(cover_[at] & kTexelParts);
+    near_ = parts_;
+    for (int i = -1; i <= patch.columns; ++i)
+      for (int j = -1; j <= patch.rows; ++j) near_[texel(i, j)] |= std::uint16_t(partsBeside(parts_, i, j));
     for (int i = -1; i <= patch.columns; ++i)
       for (int j = -1; j <= patch.rows; ++j) {
         const std::size_t at = texel(i, j);
         const int column = patch.column + i, row = patch.row + j;
-        if (parts_[at] == kTexelParts || !pixels_->holds(column, row))
-          continue;
-        const std::uint32_t beside = partsBeside(i, j) & ~std::uint32_t(parts_[at]);
-        if (beside == 0) continue;
-        std::uint32_t touched = 0;
-        for (const std::uint32_t sample : pixels_->at(column, row))
-          if (sample != own_[at] && colours_[sample].a == 255 && (samples_.coverage[sample] & beside) != 0)
-            touched |= partsTouching(patch.plane, samples_.planes[samples_.plane[sample]], column, row) &
-                       samples_.coverage[sample];
-        if ((beside & touched) == 0) continue;
+        if (parts_[at] == kTexelParts || !pixels_->holds(column, row)) continue;
+        const std::uint32_t first = near_[at] & ~std::uint32_t(parts_[at]);
+        const std::uint32_t second = partsBeside(near_, i, j) & ~std::uint32_t(near_[at]);
+        if ((first | second) == 0) continue;
+        std::uint32_t reached = 0;
+        for (const std::uint32_t sample : pixels_->at(column, row)) {
+          if (sample == own_[at] || colours_[sample].a < 255) continue;
+          const Meeting meeting = meetingOf(patch, i, j, samples_.plane[sample]);
+          reached |= ((first & meeting.any) | (second & meeting.off)) & samples_.coverage[sample];
+        }
+        if (reached == 0) continue;
         if (cover_[at] == 0) cover_[at] = std::uint32_t(patch.roles) << kTexelRoles;
-        cover_[at] |= beside & touched;
+        cover_[at] |= reached;
       }
   }
-  /// Parts of a pixel in which two planes are as near to each other as the tolerance, or meet within a part.
-  std::uint32_t partsTouching(const SurfacePlane& a, const SurfacePlane& b, int column, int row) const {
-    const glm::dvec3 difference = glm::dvec3(a.normal) - glm::dvec3(b.normal);
-    const glm::dvec2& direction = direction_[std::size_t(column)];
-    const double tangent = tangent_[std::size_t(row)];
-    const double middle = glm::dot(difference, glm::dvec3(direction, tangent));
-    const double across = camera_.columnPitch() * (difference.y * direction.x - difference.x * direction.y);
-    const double down = -camera_.rowPitch() * (1 + tangent * tangent) * difference.z;
-    const double most = tolerance_ + kMeetWithin * (std::abs(across) + std::abs(down));
-    std::uint32_t parts = 0;
-    for (int part = 0; part < 16; ++part) {
-      const double x = (part % 4 + 0.5) / 4 - 0.5, y = (part / 4 + 0.5) / 4 - 0.5;
-      parts |= std::uint32_t(std::abs(middle + x * across + y * down) <= most) << part;
+  /// How much nearer one plane is than another around the middle of a pixel, in inverse distance.
+  struct Difference {
+    double middle, across, down;  ///< there, and per sample
+
+    Difference(const TexelWriter& of, const SurfacePlane& a, const SurfacePlane& b, int column, int row) {
+      const glm::dvec3 normal = glm::dvec3(a.normal) - glm::dvec3(b.normal);
+      const glm::dvec2& direction = of.direction_[std::size_t(column)];
+      const double tangent = of.tangent_[std::size_t(row)];
+      middle = glm::dot(normal, glm::dvec3(direction, tangent));
+      across = of.camera_.columnPitch() * (normal.y * direction.x - normal.x * direction.y);
+      down = -of.camera_.rowPitch() * (1 + tangent * tangent) * normal.z;
     }
-    return parts;
+    double perSample() const { return std::abs(across) + std::abs(down); }
+    double at(int part) const {
+      return middle + (0.25 * (part % 4) - 0.375) * across + (0.25 * (part / 4) - 0.375) * down;
+    }
+  };
+  /// In which parts of a pixel (texel i, j of the patch) the patch's own samples there and beside it meet
+  /// another surface; and in which of these that goes on where the patch's plane does not.
+  struct Meeting {
+    std::uint32_t any = 0, off = 0;
+  };
+  Meeting meetingOf(const Patch& patch, int i, int j, std::uint32_t plane) const {
+    constexpr std::array<glm::ivec2, 5> kAround{{{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    constexpr double kSame = 0.5, kOff = 0.5;  // tolerances
+    constexpr double kMeetWithin = 0.06;       // samples
+    const int column = patch.column + i, row = patch.row + j;
+    const Difference drawn(*this, patch.plane, samples_.planes[plane], column, row);
+    Meeting meeting;
+    std::uint32_t last = kNoSample;
+    for (const glm::ivec2& step : kAround) {
+      const int x = i + step.x, y = j + step.y;
+      if (x < -1 || y < -1 || x + 1 >= width_ || y + 1 >= height_) continue;
+      const std::uint32_t own = own_[texel(x, y)];
+      if (own == kNoSample || samples_.plane[own] == last) continue;
+      last = samples_.plane[own];
+      const Difference d(*this, samples_.planes[last], samples_.planes[plane], column, row);
+      const double most = kSame * tolerance_ + kMeetWithin * d.perSample();
+      const bool goesOn = 0.5 * d.perSample() <= tolerance_;
+      for (int part = 0; part < 16; ++part) {
+        if (std::abs(d.at(part)) > most) continue;
+        meeting.any |= 1u << part;
+        if (goesOn && std::abs(drawn.at(part)) > kOff * tolerance_) meeting.off |= 1u << part;
+      }
+    }
+    return meeting;
   }
   /// Parts of a texel that lie beside one that the patch covers, in it or next to it.
-  std::uint32_t partsBeside(int i, int j) const {
+  std::uint32_t partsBeside(const std::vector<std::uint16_t>& parts, int i, int j) const {
     const auto at = [&](int x, int y) -> std::uint32_t {
       return x < 0 || y < 0 || x >= width_ || y >= height_
                  ? 0u
-                 : parts_[std::size_t(x) * std::size_t(height_) + std::size_t(y)];
+                 : parts[std::size_t(x) * std::size_t(height_) + std::size_t(y)];
     };
     constexpr std::uint32_t kFirstColumn = 0x1111, kLastColumn = 0x8888;
     const int x = i + 1, y = j + 1;
@@ -200,14 +237,14 @@ class TexelWriter {
   std::vector<double> tangent_;
   std::vector<std::uint16_t> columnOf_;
   std::optional<PixelSamples> pixels_;
-  int width_ = 0, height_ = 0;                  ///< of the patch, with its border
-  std::uint32_t* cover_ = nullptr;              ///< of the patch
-  Rgba8* colour_ = nullptr;                     ///< of the patch
-  static constexpr double kMeetWithin = 0.125;  ///< samples
+  int width_ = 0, height_ = 0;      ///< of the patch, with its border
+  std::uint32_t* cover_ = nullptr;  ///< of the patch
+  Rgba8* colour_ = nullptr;         ///< of the patch
   static constexpr std::uint32_t kNoSample = 0xffffffff;
   std::vector<std::uint8_t> known_;   ///< of the patch's texels: do they have a colour?
   std::vector<std::uint32_t> own_;    ///< their samples
   std::vector<std::uint16_t> parts_;  ///< that those cover
+  std::vector<std::uint16_t> near_;   ///< those and the parts beside them
 };
 
 }  // namespace

@@ -17,8 +17,10 @@ Result<PackedCapture> packOrTell(const DisplayCapture& capture, const CaptureTas
 
 }  // namespace
 
-CaptureBuilder::CaptureBuilder(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { loop(stop); }) {}
+CaptureBuilder::CaptureBuilder(std::function<void()> wake, std::size_t mostBytesBuilt)
+    : wake_(std::move(wake)),
+      mostBytesBuilt_(mostBytesBuilt),
+      thread_([this](const std::stop_token& stop) { loop(stop); }) {}
 
 CaptureBuilder::~CaptureBuilder() {
   thread_.request_stop();
@@ -50,7 +52,7 @@ bool CaptureBuilder::anyBuilt() const {
 bool CaptureBuilder::room() const {
   std::size_t bytes = 0;
   for (const Built& built : built_) bytes += built.packed ? built.packed->bytes() : 0;
-  return bytes <= kMostBytesBuilt;
+  return bytes <= mostBytesBuilt_;
 }
 
 std::optional<CaptureTask> CaptureBuilder::next(const std::stop_token& stop,

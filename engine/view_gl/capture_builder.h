@@ -23,12 +23,9 @@ class CaptureBuilder {
     CaptureTask task;
     Result<PackedCapture> packed;
   };
-  /// While more than this is built and not taken, nothing else begins.
-  static constexpr std::size_t kMostBytesBuilt = std::size_t(64) << 20;
-
   /// Of the usual priority: what is drawn waits for it. `wake` is called from another thread whenever
-  /// something is built.
-  explicit CaptureBuilder(std::function<void()> wake);
+  /// something is built. While more than `mostBytesBuilt` are built and not taken, nothing else begins.
+  explicit CaptureBuilder(std::function<void()> wake, std::size_t mostBytesBuilt = std::size_t(64) << 20);
   /// What is being built is given up within milliseconds.
   ~CaptureBuilder();
   CaptureBuilder(const CaptureBuilder&) = delete;
@@ -71,6 +68,7 @@ class CaptureBuilder {
   void loop(const std::stop_token& stop);
 
   const std::function<void()> wake_;
+  const std::size_t mostBytesBuilt_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<CaptureTask> waiting_;

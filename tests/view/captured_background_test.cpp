@@ -89,7 +89,7 @@ TEST(CapturedBackground, IsWhatEachPixelsOwnDirectionFindsInTheRuns) {
     view.fovRadians = radians(views.between(20, 110));
     view.width = 61 + round % 2, view.height = 47;
     Canvas canvas;
-    clearCanvas(scene, view, {}, plan, 0, view.width, canvas);
+    clearCanvas(scene, view, plan, 0, view.width, canvas);
     CapturedBackground(scene, plan).paint(view, canvas);
     for (int x = 0; x < view.width; ++x)
       for (int y = 0; y < view.height; ++y) {

@@ -98,10 +98,11 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  constexpr int kBlocks = 37, kPerBlock = 6, kRows = kBlocks * kPerBlock;
-  const std::vector<Rgba8> colour(kRows);
-  std::vector<float> tangents(kRows);
-  for (int row = 0; row < kRows; ++row) tangents[std::size_t(row)] = float(std::tan(1.3 - row * 2.6 / kRows));
+  constexpr int kBlocks = 37, kPerBlock = 6, kTableRows = kBlocks * kPerBlock;
+  const std::vector<Rgba8> colour(kTableRows);
+  std::vector<float> tangents(kTableRows);
+  for (int row = 0; row < kTableRows; ++row)
+    tangents[std::size_t(row)] = float(std::tan(1.3 - row * 2.6 / kTableRows));
   int reached = 0, found = 0, hidden = 0;
   for (int round = 0; round < 1500; ++round) {
     PerspectiveView view;
@@ -169,9 +170,9 @@ TEST(FindBlocks, LeavesOutNoneThatReachesAnOpenPixelAndIsTheSameWhateverTheProce
     const std::vector<std::uint16_t> got = blocksOf(supportedKernels().front());
     for (const Kernels& kernels : supportedKernels()) EXPECT_EQ(blocksOf(kernels), got) << kernels.name;
     found += int(got.size());
-    const SampleRun all{0, kRows};
+    const SampleRun all{0, kTableRows};
     SplatMemory memory;
-    const SplatArrays& splats = memory.room(kRows);
+    const SplatArrays& splats = memory.room(kTableRows);
     const int count = projectSamplesScalar(
         column, sampleColumn(tangents.data(), samples.data(), colour.data()), &all, 1, splats);
     for (int i = 0; i < count; ++i) {
