@@ -40,6 +40,10 @@ inline Rgba8 colourOf(std::uint32_t word) {
   return colour;
 }
 
+/// By pixel of the picture, row by row: what covers it once all captures are drawn.
+using CoverImage = Image<std::uint32_t>;
+inline constexpr std::uint32_t kUncovered = 0xffffffff;
+
 /// Of a picture, or of some of its columns.
 struct Canvas {
   int x0 = 0;  ///< its first column's place in the picture

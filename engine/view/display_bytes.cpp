@@ -8,19 +8,14 @@ std::size_t bytesOf(const std::vector<T, Allocator>& values) {
   return values.size() * sizeof(T);
 }
 
-std::size_t bytesOf(const SampleBlocks& b) {
-  return bytesOf(b.leastInverse) + bytesOf(b.mostInverse) + bytesOf(b.lowTangent) + bytesOf(b.highTangent) +
-         bytesOf(b.roles);
-}
-
 }  // namespace
 
 std::size_t bytesOf(const DisplayCapture& c) {
   const DisplayBackground& b = c.background;
   return sizeof c + bytesOf(c.columnStart) + bytesOf(c.samples) + bytesOf(c.colour) +
-         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.blocks) +
-         bytesOf(c.columnBlock) + bytesOf(c.mirror) + (c.patches ? c.patches->bytes() : 0) + b.runs.bytes() +
-         bytesOf(b.columnBorder) + bytesOf(b.rowBorder) + (c.reflections ? bytesOf(*c.reflections) : 0);
+         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.mirror) +
+         (c.patches ? c.patches->bytes() : 0) + b.runs.bytes() + bytesOf(b.columnBorder) +
+         bytesOf(b.rowBorder) + (c.reflections ? bytesOf(*c.reflections) : 0);
 }
 
 }  // namespace acentric

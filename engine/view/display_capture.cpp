@@ -47,33 +47,15 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   for (std::size_t r = 0; r < rows; ++r)
     display.rowTangent[r] = static_cast<float>(camera.tangentAt(static_cast<double>(r) + 0.5));
 
-  SampleBlocks& blocks = display.blocks;
   display.columnDirection.resize(columns);
   display.columnRange.resize(columns);
-  display.columnBlock.resize(columns + 1);
   for (std::size_t k = 0; k < columns; ++k) {
     display.columnDirection[k] = glm::vec2(camera.directionAt(static_cast<double>(k) + 0.5));
     const std::uint32_t begin = capture.columnStart[k], end = capture.columnStart[k + 1];
-    const std::span column = std::span(display.samples).subspan(begin, end - begin);
-    display.columnRange[k] = rangeOf(column);
-    display.columnBlock[k] = static_cast<std::uint32_t>(blocks.roles.size());
-    for (std::size_t i = 0; i < column.size(); i += kSamplesPerBlock) {
-      const std::span block = column.subspan(i, std::min<std::size_t>(kSamplesPerBlock, column.size() - i));
-      const glm::vec2 range = rangeOf(block);
-      blocks.leastInverse.push_back(range.x), blocks.mostInverse.push_back(range.y);
-      blocks.lowTangent.push_back(display.rowTangent[block.back().row]);
-      blocks.highTangent.push_back(display.rowTangent[block.front().row]);
-      std::uint8_t roles = 0;
-      for (const PackedSample& sample : block) roles |= rolesOf(sample);
-      blocks.roles.push_back(roles);
-    }
+    display.columnRange[k] = rangeOf(std::span(display.samples).subspan(begin, end - begin));
     for (std::uint32_t i = begin + 1; i < end && !display.layered; ++i)
       display.layered = capture.row[i] == capture.row[i - 1];
   }
-  display.columnBlock[columns] = static_cast<std::uint32_t>(blocks.roles.size());
-  for (auto* values : {&blocks.leastInverse, &blocks.mostInverse, &blocks.lowTangent, &blocks.highTangent})
-    values->resize(values->size() + kSampleRoom);
-  blocks.roles.resize(blocks.roles.size() + kSampleRoom);
   return display;
 }
 

@@ -8,13 +8,12 @@ namespace acentric {
 namespace {
 
 constexpr Kernels kKernels[] = {
-    {"scalar", projectSamplesScalar, findBlocksScalar, writeRowsScalar, shadeRunScalar, coverRowScalar,
-     blendRowScalar, &kPatchKernelScalar},
+    {"scalar", projectSamplesScalar, writeRowsScalar, shadeRunScalar, coverRowScalar, blendRowScalar,
+     &kPatchKernelScalar},
 #if defined(__x86_64__)
-    {"AVX2", projectSamplesAvx2, findBlocksAvx2, writeRowsAvx2, shadeRunAvx2, coverRowAvx2, blendRowAvx2,
-     &kPatchKernelAvx2},
-    {"AVX-512", projectSamplesAvx512, findBlocksAvx512, writeRowsAvx512, shadeRunAvx512, coverRowAvx512,
-     blendRowAvx512, &kPatchKernelAvx512},
+    {"AVX2", projectSamplesAvx2, writeRowsAvx2, shadeRunAvx2, coverRowAvx2, blendRowAvx2, &kPatchKernelAvx2},
+    {"AVX-512", projectSamplesAvx512, writeRowsAvx512, shadeRunAvx512, coverRowAvx512, blendRowAvx512,
+     &kPatchKernelAvx512},
 #endif
 };
 

@@ -13,7 +13,6 @@ namespace acentric {
 struct Kernels {
   const char* name;
   ProjectSamples project;
-  FindBlocks findBlocks;
   WriteRows writeRows;
   ShadeRun shadeRun;
   CoverRow coverRow;

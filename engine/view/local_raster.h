@@ -11,10 +11,10 @@
 /// Bands of rows run in parallel; pixels do not depend on the bands.
 
 #include "engine/base/task_runner.h"
+#include "engine/view/canvas.h"
 #include "engine/view/column_culling.h"
 #include "engine/view/frame.h"
 #include "engine/view/local_shading.h"
-#include "engine/view/open_tiles.h"
 
 namespace acentric {
 

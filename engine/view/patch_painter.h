@@ -2,7 +2,7 @@
 /// Paints patches front to back: the first that covers a part of a pixel is what the eye sees there, no depth
 /// is compared, and nothing is done where all is covered.
 
-#include "engine/view/open_tiles.h"
+#include "engine/view/canvas.h"
 #include "engine/view/patch_plan.h"
 #include "engine/view/warp.h"
 

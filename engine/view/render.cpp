@@ -80,10 +80,8 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   const Kernels& kernels = kernelsFor(settings);
   WarpOptions options;
   options.project = kernels.project;
-  options.findBlocks = kernels.findBlocks;
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.precise = settings.renderer == Renderer::precise;
-  options.cull = !isReference(settings);
   options.cover = cover;
   options.coverMirrors = coverMirrors;
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);

@@ -6,7 +6,6 @@
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/canvas.h"
 #include "engine/view/frame.h"
-#include "engine/view/open_tiles.h"
 #include "engine/view/patch_painter.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/view_settings.h"

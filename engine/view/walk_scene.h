@@ -20,16 +20,6 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSamplesPerBlock = 32;
-
-/// What is known of each block: of that many successive samples of a column, or of the fewer at its end. The
-/// arrays have room for kSampleRoom more.
-struct SampleBlocks {
-  std::vector<float> leastInverse, mostInverse;  ///< smallest and largest inverse distance
-  std::vector<float> lowTangent, highTangent;    ///< of its rows
-  std::vector<std::uint8_t> roles;               ///< that need any of them
-};
-
 /// Where a capture shows the background, and the borders of its columns and rows.
 struct DisplayBackground {
   CaptureBackground runs;
@@ -57,8 +47,6 @@ struct DisplayCapture {
   std::vector<glm::vec2> columnDirection;  ///< unit, at column centres
   std::vector<float> rowTangent;           ///< at row centres
   std::vector<glm::vec2> columnRange;  ///< per column: smallest and largest inverse distance (for culling)
-  SampleBlocks blocks;
-  std::vector<std::uint32_t> columnBlock;  ///< columns + 1: where each column's blocks start
   DisplayBackground background;
   bool layered = false;                           ///< some pixel has more than one sample
   bool blended = false;                           ///< some sample has alpha < 255

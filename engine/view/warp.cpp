@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "engine/base/contract.h"
 #include "engine/geometry/conventions.h"
@@ -14,9 +13,6 @@
 
 namespace acentric {
 namespace {
-
-/// Planes and directions are of unit length, what kernels compute of float precision.
-constexpr double kPlaneSlack = 2e-6;
 
 /// Of a piece; rounded where the kernels compute in floats.
 glm::dvec3 baselineOf(const PieceDraw& piece, const DisplayCapture&, const PerspectiveView&, float) {
@@ -72,20 +68,13 @@ class CanvasWarp {
         rect_(canvas.rect()),
         countedFrom_(x0),
         countedTo_(x1),
-        axes_(view),
-        planes_(frustumPlanes(view, rect_, splatMargin(settings.maxSplatPixels))) {
-    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
-      blockTest_.z[i] = static_cast<float>(planes_.normals[i].z);
-  }
+        axes_(view) {}
 
   WarpCounts run() {
-    const OpenTiles uncovered(rect_, options_.cull ? options_.cover : nullptr, pixelsReadBeside(plan_));
-    if (!uncovered.none()) drawAllPieces(uncovered);
+    drawAllPieces();
     if (plan_.reflections.empty()) return counts_;
     canvas_.settleMirrors();
-    const bool local = !options_.coverMirrors.empty() && openCoverMirrors();
-    open_ = OpenTiles::withMirrors(local ? OpenTiles(rect_, nullptr, 0) : uncovered, canvas_);
-    if (open_->none()) return counts_;
+    if (!options_.coverMirrors.empty()) openCoverMirrors();
     for (std::size_t i = 0; i < plan_.reflections.size(); ++i) {
       const PieceDraw& piece = plan_.reflections[i];
       const DisplayCapture& capture = *scene_.captures[static_cast<std::size_t>(piece.camera)];
@@ -95,8 +84,7 @@ class CanvasWarp {
   }
 
  private:
-  void drawAllPieces(const OpenTiles& uncovered) {
-    if (!uncovered.all()) open_ = uncovered;
+  void drawAllPieces() {
     const auto first = std::ranges::find(plan_.pieces, false, &PieceDraw::secondary);
     const std::size_t firstInFront = static_cast<std::size_t>(first - plan_.pieces.begin());
     drawPieces(firstInFront, plan_.pieces.size());
@@ -104,11 +92,9 @@ class CanvasWarp {
       openBelow_ = pieceSlot(plan_, firstInFront);
       Cracks cracks;
       cracks.open(canvas_, openBelow_);
-      if (options_.cull) open_.emplace(uncovered, canvas_, openBelow_);
-      if (!open_ || !open_->none()) drawPieces(0, firstInFront);
+      drawPieces(0, firstInFront);
       cracks.close(canvas_);
       openBelow_ = 0;
-      open_.reset();
     }
   }
 
@@ -128,45 +114,27 @@ class CanvasWarp {
     if (blended) pass(PaintMode::blendOnNearest, PaintMode::blendOnNearest, true);
   }
 
-  /// Which mirror local geometry shows at a pixel that it covers; else nothing.
-  std::optional<std::uint8_t> coverMirrorAt(int x, int y) const {
-    if (x < 0 || x >= view_.width || y < 0 || y >= view_.height) return {};
-    const std::uint32_t cover = options_.cover->at(x, y);
-    return cover == kUncovered ? std::nullopt : std::optional(options_.coverMirrors[cover]);
-  }
-
   /// Makes holes of the pixels that mirrors among the local geometry cover, and says on the canvas whose they
-  /// are. Are there any?
-  bool openCoverMirrors() {
-    bool any = false;
+  /// are.
+  void openCoverMirrors() {
     for (int y = 0; y < view_.height; ++y)
       for (int x = rect_.x0; x < rect_.x1; ++x) {
-        const auto mirror = coverMirrorAt(x, y);
-        if (!mirror) continue;
+        const std::uint32_t cover = options_.cover->at(x, y);
+        if (cover == kUncovered) continue;
+        const std::uint8_t mirror = options_.coverMirrors[cover];
         const std::size_t at = canvas_.indexOf(x) + static_cast<std::size_t>(y);
-        canvas_.mirrors[at] = *mirror;
-        any = any || *mirror != 0;
-        if (*mirror != 0) canvas_.pixels[at] = kEmptyPixel;
+        canvas_.mirrors[at] = mirror;
+        if (mirror != 0) canvas_.pixels[at] = kEmptyPixel;
       }
-    return any;
   }
 
   void drawPiece(const PieceDraw& piece, const DisplayCapture& capture, PaintMode mode, std::uint32_t slot) {
     constants_ = columnTemplate<float>(axes_, view_, settings_, piece, capture, rect_, slot);
     if (options_.precise) beginPrecisely(piece, capture, slot);
-    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
-      blockTest_.b[i] = static_cast<float>(glm::dot(planes_.normals[i], glm::dvec3(piece.baseline)));
-    blockTest_.slack = static_cast<float>(kPlaneSlack * glm::length(piece.baseline));
-    blockTest_.openTiles = nullptr;
-    if (open_) open_->tell(blockTest_);
-    directionSlack_ =
-        kPlaneSlack *
-        (1 + double(std::max(std::abs(capture.rowTangent.front()), std::abs(capture.rowTangent.back()))));
     for (const ColumnRun& run : piece.runs)
       for (int n = 0; n < run.last - run.first; ++n) {
         const auto k = static_cast<std::size_t>(run.ascending ? run.first + n : run.last - 1 - n);
-        if (const std::uint32_t samples = choose(piece, capture, k); samples > 0)
-          drawColumn(piece, capture, k, samples, mode, slot);
+        if (begin(piece, capture, k)) drawColumn(piece, capture, k, mode, slot);
       }
   }
 
@@ -184,64 +152,38 @@ class CanvasWarp {
     precise_.maxInverseDistance = double(constants_.maxInverseDistance);
     precise_.minInverseDistance = double(constants_.minInverseDistance);
     precise_.direction[0] = direction.x, precise_.direction[1] = direction.y;
-    return projectSamplesDouble(precise_, {rowTangent_.data(), column.samples, column.colour}, runs_.data(),
-                                static_cast<int>(runs_.size()), splats);
+    return projectSamplesDouble(precise_, {rowTangent_.data(), column.samples, column.colour},
+                                sizeOf(capture, k), splats);
   }
 
-  /// Finds the runs of samples of column k that may be seen; returns how many samples those are.
-  std::uint32_t choose(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k) {
-    if (options_.cull && !piece.sight.empty() &&
-        (piece.sight[k].x1 <= rect_.x0 || piece.sight[k].x0 >= rect_.x1))
-      return 0;
-    const glm::dvec2 direction(capture.columnDirection[k]);
-    axes_.project(glm::dvec3(direction, 0), constants_.a);
+  static std::uint32_t sizeOf(const DisplayCapture& capture, std::size_t k) {
+    return capture.columnStart[k + 1] - capture.columnStart[k];
+  }
+
+  /// What is constant over column k. May any of it be seen?
+  bool begin(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k) {
+    const std::uint32_t size = sizeOf(capture, k);
+    if (size == 0 ||
+        (!piece.sight.empty() && (piece.sight[k].x1 <= rect_.x0 || piece.sight[k].x0 >= rect_.x1)))
+      return false;
+    axes_.project(glm::dvec3(capture.columnDirection[k], 0), constants_.a);
     constants_.maxInverseDistance = piece.maxInverseDistance[k];
     constants_.minInverseDistance = piece.minInverseDistance.empty() ? 0 : piece.minInverseDistance[k];
     constants_.direction[0] = capture.columnDirection[k].x,
     constants_.direction[1] = capture.columnDirection[k].y;
-
-    const std::uint32_t start = capture.columnStart[k], size = capture.columnStart[k + 1] - start;
-    runs_.clear();
-    if (options_.cull)
-      findRuns(capture, k, size);
-    else if (size > 0)
-      runs_.push_back({0, size});
-    std::uint32_t samples = 0;
-    for (const SampleRun& run : runs_) samples += run.end - run.first;
-    counts_.samplesRead += samples;
-    return samples;
+    counts_.samplesRead += size;
+    return true;
   }
 
-  /// Runs of blocks that may be seen, of column k of `size` samples.
-  void findRuns(const DisplayCapture& capture, std::size_t k, std::uint32_t size) {
-    const std::size_t first = capture.columnBlock[k], blocks = capture.columnBlock[k + 1] - first;
-    const SampleBlocks& all = capture.blocks;
-    const BlockColumn own{&all.leastInverse[first], &all.mostInverse[first], &all.lowTangent[first],
-                          &all.highTangent[first], &all.roles[first]};
-    for (std::size_t i = 0; i < planes_.normals.size(); ++i)
-      blockTest_.a[i] = static_cast<float>(
-          glm::dot(glm::dvec2(planes_.normals[i]), glm::dvec2(capture.columnDirection[k])) + directionSlack_);
-    visibleBlocks_.resize(std::max(visibleBlocks_.size(), blocks));
-    const int found =
-        options_.findBlocks(constants_, blockTest_, own, static_cast<int>(blocks), visibleBlocks_.data());
-    for (int i = 0; i < found; ++i) {
-      const std::uint32_t from = visibleBlocks_[static_cast<std::size_t>(i)] * kSamplesPerBlock;
-      if (runs_.empty() || runs_.back().end != from) runs_.push_back({from, from});
-      runs_.back().end = std::min(from + kSamplesPerBlock, size);
-    }
-  }
-
-  /// What `choose` found of column k.
-  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k, std::uint32_t chosen,
-                  PaintMode mode, std::uint32_t slot) {
+  void drawColumn(const PieceDraw& piece, const DisplayCapture& capture, std::size_t k, PaintMode mode,
+                  std::uint32_t slot) {
     const std::size_t start = capture.columnStart[k];
     const PackedSample* const samples = capture.samples.data() + start;
-    const SplatArrays& splats = splats_.room(chosen);
+    const SplatArrays& splats = splats_.room(sizeOf(capture, k));
     const SampleColumn column =
         sampleColumn(capture.rowTangent.data(), samples, capture.colour.data() + start);
     const int count = options_.precise ? projectPrecisely(capture, k, column, splats)
-                                       : options_.project(constants_, column, runs_.data(),
-                                                          static_cast<int>(runs_.size()), splats);
+                                       : options_.project(constants_, column, sizeOf(capture, k), splats);
     if (count == 0) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
@@ -275,17 +217,10 @@ class CanvasWarp {
   PixelRect rect_;
   int countedFrom_, countedTo_;
   PictureAxes axes_;
-  FrustumPlanes planes_;
-  std::uint32_t openBelow_ = 0;  ///< PaintTarget::openBelow
-  std::optional<OpenTiles>
-      open_;  ///< what is drawn at the moment need not reach elsewhere; none: all is open
-  BlockTest blockTest_{};
-  std::vector<std::uint16_t> visibleBlocks_;
-  double directionSlack_ = 0;          ///< of a column's direction against a plane, in BlockTest::a
+  std::uint32_t openBelow_ = 0;        ///< PaintTarget::openBelow
   ProjectColumn constants_{};          ///< of the column that is being drawn
   ProjectColumnOf<double> precise_{};  ///< the same, if WarpOptions::precise
   std::vector<double> rowTangent_;     ///< of the capture, then
-  std::vector<SampleRun> runs_;        ///< of its samples that may be seen
   SplatMemory splats_;
   WarpCounts counts_;
 };

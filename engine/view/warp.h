@@ -4,7 +4,6 @@
 #include <span>
 
 #include "engine/view/canvas.h"
-#include "engine/view/open_tiles.h"
 #include "engine/view/view_plan.h"
 #include "engine/view/warp_kernel.h"
 
@@ -17,11 +16,9 @@ inline constexpr double kSlantAllowance = 1.25;
 
 struct WarpOptions {
   ProjectSamples project = projectSamplesScalar;
-  FindBlocks findBlocks = findBlocksScalar;
-  bool precise = false;    ///< projectSamplesDouble instead of `project`
-  bool depthTest = false;  ///< nearest sample wins instead of the last one
-  bool cull = true;        ///< what cannot be seen is left out block by block: same picture, sooner
-  const CoverImage* cover = nullptr;  ///< what hides the captures in the end: nothing is drawn there
+  bool precise = false;               ///< projectSamplesDouble instead of `project`
+  bool depthTest = false;             ///< nearest sample wins instead of the last one
+  const CoverImage* cover = nullptr;  ///< what hides the captures in the end
   /// By what covers a pixel: the mirror that it is, 0 = none. There reflections are drawn, over nothing.
   std::span<const std::uint8_t> coverMirrors = {};
 };

@@ -16,8 +16,8 @@
 
 namespace acentric {
 
-/// The splats of a column, an array for each thing that is known of them, with room for all samples of the
-/// runs and kSampleRoom more. A splat is a square of whole pixels.
+/// The splats of a column, an array for each thing that is known of them, with room for all its samples and
+/// kSampleRoom more. A splat is a square of whole pixels.
 struct SplatArrays {
   /// What its pixels become: CanvasPixel, of the colour without its alpha.
   std::uint64_t* pixels = nullptr;
@@ -72,55 +72,20 @@ struct SampleColumnOf {
 };
 using SampleColumn = SampleColumnOf<float>;
 
-/// Samples [first, end) of a column.
-struct SampleRun {
-  std::uint32_t first = 0, end = 0;
-};
+/// Writes the splats of the column's first `count` samples that touch the canvas to `out`, in the order of
+/// the samples, and returns how many.
+using ProjectSamples = int (*)(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                               const SplatArrays& out);
 
-/// Writes the splats of these runs that touch the canvas to `out`, in the order of the samples, and returns
-/// how many.
-using ProjectSamples = int (*)(const ProjectColumn& column, const SampleColumn& samples,
-                               const SampleRun* runs, int runCount, const SplatArrays& out);
-
-/// The blocks of a column (SampleBlocks), with room for kSampleRoom more.
-struct BlockColumn {
-  const float *leastInverse = nullptr, *mostInverse = nullptr;
-  const float *lowTangent = nullptr, *highTangent = nullptr;
-  const std::uint8_t* roles = nullptr;
-};
-
-/// Which blocks of a column may show something.
-struct BlockTest {
-  /// Of five planes through the eye (FrustumPlanes): a sample lies on their inner sides where
-  /// a + t * z + w * b >= 0, slack for rounding included; `slack` more for each 1/m.
-  float a[5], z[5], b[5], slack;
-  /// Open tiles left of and above each corner, tile column by tile column (OpenTiles); null: all is open.
-  const std::uint32_t* openTiles;
-  std::int32_t tileColumns, tileRows;
-};
-/// Tiles are 2 pixels wide and 8 high, as samples of a column lie one below the other.
-inline constexpr int kTileWidthBits = 1, kTileHeightBits = 3;
-
-/// Writes the numbers of the blocks that may have a splat on an open pixel of the rectangle, rising, to `out`
-/// (room for `count`), and returns how many.
-using FindBlocks = int (*)(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks,
-                           int count, std::uint16_t* out);
-
-int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, const SplatArrays& out);
-int findBlocksScalar(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
-                     std::uint16_t* out);
+int projectSamplesScalar(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                         const SplatArrays& out);
 /// The same in double precision, from constants and tangents that were never rounded to floats: what the
 /// others are measured against. Distances are those of the samples, the depths of pixels are floats.
 int projectSamplesDouble(const ProjectColumnOf<double>& column, const SampleColumnOf<double>& samples,
-                         const SampleRun* runs, int runCount, const SplatArrays& out);
-int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                       int runCount, const SplatArrays& out);
-int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
-                   std::uint16_t* out);
-int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, const SplatArrays& out);
-int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
-                     std::uint16_t* out);
+                         std::uint32_t count, const SplatArrays& out);
+int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                       const SplatArrays& out);
+int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                         const SplatArrays& out);
 
 }  // namespace acentric

@@ -37,10 +37,6 @@ struct WarpLanes : EightLanes {
     const __m256 near = _mm256_maskload_ps(table + first, firstLanes(span + 1));
     return {_mm256_permutevar8x32_ps(near, (row - seti(first)).v)};
   }
-  static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
-    const __m128i narrow = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(roles));
-    return needed(I{_mm256_cvtepu8_epi32(narrow)}, wanted);
-  }
   static M needed(I roles, std::uint32_t wanted) {
     return greater(both(roles, seti(static_cast<int>(wanted))), seti(0));
   }
@@ -56,14 +52,9 @@ struct WarpLanes : EightLanes {
 
 }  // namespace
 
-int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                       int runCount, const SplatArrays& out) {
-  return warp_kernel::projectColumn<WarpLanes>(column, samples, runs, runCount, out);
-}
-
-int findBlocksAvx2(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
-                   std::uint16_t* out) {
-  return warp_kernel::findBlocks<WarpLanes>(column, test, blocks, count, out);
+int projectSamplesAvx2(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                       const SplatArrays& out) {
+  return warp_kernel::projectColumn<WarpLanes>(column, samples, count, out);
 }
 
 }  // namespace acentric

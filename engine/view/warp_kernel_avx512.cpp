@@ -22,10 +22,6 @@ struct WarpLanes : SixteenLanes {
     const __m512 near = _mm512_maskz_loadu_ps(static_cast<__mmask16>((2u << span) - 1), table + first);
     return {_mm512_permutexvar_ps((row - seti(static_cast<int>(first))).v, near)};
   }
-  static M needed(const std::uint8_t* roles, std::uint32_t wanted) {
-    const __m128i narrow = _mm_loadu_si128(reinterpret_cast<const __m128i*>(roles));
-    return {_mm_test_epi8_mask(narrow, _mm_set1_epi8(static_cast<char>(wanted)))};
-  }
   static M needed(I roles, std::uint32_t wanted) {
     return {_mm512_test_epi32_mask(roles.v, seti(static_cast<int>(wanted)).v)};
   }
@@ -37,14 +33,9 @@ struct WarpLanes : SixteenLanes {
 
 }  // namespace
 
-int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, const SampleRun* runs,
-                         int runCount, const SplatArrays& out) {
-  return warp_kernel::projectColumn<WarpLanes>(column, samples, runs, runCount, out);
-}
-
-int findBlocksAvx512(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks, int count,
-                     std::uint16_t* out) {
-  return warp_kernel::findBlocks<WarpLanes>(column, test, blocks, count, out);
+int projectSamplesAvx512(const ProjectColumn& column, const SampleColumn& samples, std::uint32_t count,
+                         const SplatArrays& out) {
+  return warp_kernel::projectColumn<WarpLanes>(column, samples, count, out);
 }
 
 }  // namespace acentric

@@ -12,10 +12,6 @@ namespace acentric::warp_kernel {
 /// safe.
 inline constexpr float kFarPixel = 30000.0f;
 
-/// A splat reaches this far beyond half its side: half a pixel for its size and half a one for its place,
-/// both rounded to pixels, and rounding errors.
-inline constexpr float kSplatSlack = 1.25f;
-
 template <class B, class C>
 inline typename B::M insidePart(const C& c, typename B::F w) {
   const typename B::F x = B::set(c.direction[0]) + w * B::set(c.baseline[0]);
@@ -108,114 +104,28 @@ inline constexpr std::uint32_t kAhead = 160;
 
 template <class B, class T>
 inline int projectColumn(const ProjectColumnOf<T>& constants, const SampleColumnOf<T>& samples,
-                         const SampleRun* runs, int runCount, const SplatArrays& out) {
+                         std::uint32_t count, const SplatArrays& out) {
   const ProjectColumnOf<T> column = constants;  // a copy that no splat is written over, for registers
   const SplatArrays to = out;
   const SampleColumnOf<T> from = samples;
   int written = 0;
-  for (int r = 0; r < runCount; ++r) {
-    std::uint32_t i = runs[r].first;
-    const std::uint32_t end = runs[r].end;
-    for (; i + B::kWidth <= end; i += B::kWidth) {
-      __builtin_prefetch(from.samples + i + kAhead);
-      __builtin_prefetch(from.samples + i + kAhead + 8);
-      __builtin_prefetch(from.colour + 4 * std::size_t(i + kAhead));
-      written += projectBatch<B>(column, from.rowTangent, from.samples + i,
-                                 B::words(from.colour + 4 * std::size_t(i), B::kWidth), i, to, written);
-    }
-    if (i == end) continue;
-    PackedSample last[B::kWidth];
-    for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
-      last[lane] = from.samples[i + lane < end ? i + lane : end - 1];
-      if (i + lane >= end) last[lane].inverseDistanceAndRoles = 0;
-    }
-    written += projectBatch<B>(column, from.rowTangent, last,
-                               B::words(from.colour + 4 * std::size_t(i), static_cast<int>(end - i)), i, to,
-                               written);
+  std::uint32_t i = 0;
+  for (; i + B::kWidth <= count; i += B::kWidth) {
+    __builtin_prefetch(from.samples + i + kAhead);
+    __builtin_prefetch(from.samples + i + kAhead + 8);
+    __builtin_prefetch(from.colour + 4 * std::size_t(i + kAhead));
+    written += projectBatch<B>(column, from.rowTangent, from.samples + i,
+                               B::words(from.colour + 4 * std::size_t(i), B::kWidth), i, to, written);
   }
-  return written;
-}
-
-/// May samples between these tangents and inverse distances put a splat on an open tile? Image positions are
-/// quotients of functions that are linear in tangent and inverse distance each, so the corners are extremes;
-/// of the size of squares too, but for a factor that grows away from the middle of the picture.
-template <class B>
-inline typename B::M reachesOpenTile(const ProjectColumn& c, const BlockTest& test, typename B::F lowT,
-                                     typename B::F highT, typename B::F lowW, typename B::F highW) {
-  using F = typename B::F;
-  using I = typename B::I;
-  const F steepest = B::max(B::abs(lowT), B::abs(highT));
-  F perDepth[4], place[2][4];
-  const auto corner = [&](int i, F t, F w) {
-    const auto at = [&](int axis) {
-      return B::set(c.a[axis]) + t * B::set(c.z[axis]) + w * B::set(c.b[axis]);
-    };
-    // Beside or behind the eye: as far away as can be.
-    const F depth = B::max(at(2), B::set(1e-6f));
-    perDepth[i] = B::set(1) / depth;
-    place[0][i] = at(0) * perDepth[i], place[1][i] = at(1) * perDepth[i];
-    return B::less(B::set(1e-3f) * (B::set(1) + steepest), at(2));
-  };
-  const typename B::M before =
-      corner(0, lowT, lowW) & corner(1, lowT, highW) & corner(2, highT, lowW) & corner(3, highT, highW);
-  const auto least = [](const F* p) { return B::min(B::min(p[0], p[1]), B::min(p[2], p[3])); };
-  const auto most = [](const F* p) { return B::max(B::max(p[0], p[1]), B::max(p[2], p[3])); };
-  const auto off = [&](const F* p, float centre) {
-    const F far =
-        B::max(B::abs(least(p) - B::set(centre)), B::abs(most(p) - B::set(centre))) * B::set(c.inverseFocal);
-    return far * far;
-  };
-  const F stretch = B::sqrt((B::set(1) + steepest * steepest) *
-                            (B::set(1) + off(place[0], c.centreX) + off(place[1], c.centreY)));
-  const F side = B::min(stretch * most(perDepth) * B::set(c.footprint), B::set(c.maxSide));
-  const F margin = B::set(0.5f) * side + B::set(kSplatSlack);
-  // Tiles [first, end) along an axis, at least one.
-  const auto tiles = [&](const F* p, std::int32_t from, int sideBits, std::int32_t count, I& first, I& end) {
-    const F toTile = B::set(1.0f / static_cast<float>(1 << sideBits)),
-            last = B::set(static_cast<float>(count - 1));
-    const auto tile = [&](F x) {
-      const F t = (x - B::set(static_cast<float>(from))) * toTile;
-      return B::floor(B::max(B::min(t, last), B::set(0)));
-    };
-    first = tile(least(p) - margin), end = tile(most(p) + margin) + B::seti(1);
-  };
-  I left, right, top, bottom;
-  tiles(place[0], c.x0, kTileWidthBits, test.tileColumns, left, right);
-  tiles(place[1], c.y0, kTileHeightBits, test.tileRows, top, bottom);
-  const auto sum = [&](I column, I row) {
-    return B::gather(test.openTiles, B::times(column, B::seti(test.tileRows + 1)) + row);
-  };
-  const I open = sum(right, bottom) - sum(left, bottom) - sum(right, top) + sum(left, top);
-  return B::either(B::greater(open, B::seti(0)), before);
-}
-
-template <class B>
-inline int findBlocks(const ProjectColumn& column, const BlockTest& test, const BlockColumn& blocks,
-                      int count, std::uint16_t* out) {
-  using F = typename B::F;
-  using M = typename B::M;
-  int found = 0;
-  for (int first = 0; first < count; first += B::kWidth) {
-    const F lowT = B::load(blocks.lowTangent + first), highT = B::load(blocks.highTangent + first);
-    const F lowW = B::max(B::load(blocks.leastInverse + first), B::set(column.minInverseDistance));
-    const F highW = B::min(B::load(blocks.mostInverse + first), B::set(column.maxInverseDistance));
-    M kept = B::needed(blocks.roles + first, column.roles) & B::notLess(highW, lowW);
-    const F slack = highW * B::set(test.slack);
-    for (int i = 0; i < 5; ++i) {
-      const F z = B::set(test.z[i]), b = B::set(test.b[i]);
-      kept = kept &
-             B::notLess(B::set(test.a[i]) + B::max(lowT * z, highT * z) + B::max(lowW * b, highW * b) + slack,
-                        B::set(0));
-    }
-    if (!B::any(kept)) continue;
-    if (test.openTiles != nullptr) kept = kept & reachesOpenTile<B>(column, test, lowT, highT, lowW, highW);
-    const int left = count - first;
-    unsigned bits = B::bits(kept);
-    if (left < B::kWidth) bits &= (1u << left) - 1;
-    for (; bits != 0; bits &= bits - 1)
-      out[found++] = static_cast<std::uint16_t>(first + __builtin_ctz(bits));
+  if (i == count) return written;
+  PackedSample last[B::kWidth];
+  for (std::uint32_t lane = 0; lane < B::kWidth; ++lane) {
+    last[lane] = from.samples[i + lane < count ? i + lane : count - 1];
+    if (i + lane >= count) last[lane].inverseDistanceAndRoles = 0;
   }
-  return found;
+  return written + projectBatch<B>(column, from.rowTangent, last,
+                                   B::words(from.colour + 4 * std::size_t(i), static_cast<int>(count - i)), i,
+                                   to, written);
 }
 
 }  // namespace acentric::warp_kernel

@@ -25,8 +25,8 @@ struct DoubleLane : WarpLane {
 }  // namespace
 
 int projectSamplesDouble(const ProjectColumnOf<double>& column, const SampleColumnOf<double>& samples,
-                         const SampleRun* runs, int runCount, const SplatArrays& out) {
-  return warp_kernel::projectColumn<DoubleLane>(column, samples, runs, runCount, out);
+                         std::uint32_t count, const SplatArrays& out) {
+  return warp_kernel::projectColumn<DoubleLane>(column, samples, count, out);
 }
 
 }  // namespace acentric

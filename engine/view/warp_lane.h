@@ -19,8 +19,6 @@ struct WarpLane : OneLane {
     return word;
   }
   static F tangents(const float* table, const PackedSample* rising, I) { return table[rising->row]; }
-  /// Of blocks, and of samples.
-  static M needed(const std::uint8_t* roles, std::uint32_t wanted) { return (*roles & wanted) != 0; }
   static M needed(I roles, std::uint32_t wanted) { return (static_cast<std::uint32_t>(roles) & wanted) != 0; }
   static M kept(M accepted) { return accepted; }
   static I together(M, I lane) { return lane; }

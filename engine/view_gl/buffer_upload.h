@@ -11,7 +11,7 @@
 
 namespace acentric {
 
-/// Captures and meshes are cut into buffers of about this many bytes: to make a buffer takes as long as it is
+/// Captures are cut into buffers of about this many bytes: to make a buffer takes as long as it is
 /// large, because drivers clear it.
 inline constexpr std::size_t kUsualBuffer = std::size_t(4) << 20;
 /// What storage buffers may hold, bytes; at most `largestBuffer` unless that is 0.
@@ -30,11 +30,6 @@ class BufferUpload {
   template <class Value>
   GlBuffer add(std::span<const Value> values, std::shared_ptr<const void> owner) {
     return add(std::as_bytes(values), std::move(owner));
-  }
-  /// Of values that live until they are sent.
-  template <class Value>
-  GlBuffer add(const std::vector<Value>& values) {
-    return add(std::as_bytes(std::span(values)), nullptr);
   }
   /// Sends at most so many bytes more, or all that are left; returns how many.
   std::size_t send(std::size_t most);

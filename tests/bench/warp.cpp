@@ -63,14 +63,13 @@ void timeProjecting(Figures& figures) {
       for (const std::size_t threads : {std::size_t(1), std::size_t(2)}) {
         if (threads > 1 && columns < 100) continue;  // over before a second thread has woken
         std::size_t kept[2] = {};
-        const SampleRun run{0, kPerColumn};
         const auto project = [&](std::size_t thread) {
           kept[thread] = 0;
           for (std::size_t c = thread * columns / threads; c < (thread + 1) * columns / threads; ++c) {
             const std::size_t first = c * kPerColumn;
             const SampleColumn from = sampleColumn(tangents.data(), &packed[first], &colour[first]);
             kept[thread] += static_cast<std::size_t>(
-                kernels.project(column, from, &run, 1, memory[thread].room(kPerColumn)));
+                kernels.project(column, from, kPerColumn, memory[thread].room(kPerColumn)));
           }
         };
         const int repeats = static_cast<int>(std::min<std::size_t>(200, 40000 / columns));
@@ -116,7 +115,6 @@ Status timeFrames(double perDegree, int layers, int width, int height, Figures& 
     for (const Case& c : cases) {
       WarpOptions options;
       options.project = c.kernels.project;
-      options.findBlocks = c.kernels.findBlocks;
       options.depthTest = c.depthTest;
       Canvas canvas;
       clearCanvas(scene, view, *plan, 0, view.width, canvas);

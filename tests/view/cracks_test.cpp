@@ -101,7 +101,6 @@ WalkScene withSlits(const WalkScene& whole, const ViewPlan& plan, const Rgba8& r
         sample = packSample(1 / 40.0f, rolesOf(sample), sample.row);
         capture.colour[i] = red;
       }
-    std::ranges::fill(capture.blocks.leastInverse, 1 / 41.0f);
     for (glm::vec2& range : capture.columnRange) range.x = std::min(range.x, 1 / 41.0f);
     slit.captures[std::size_t(piece.camera)] = std::make_shared<const DisplayCapture>(std::move(capture));
   }

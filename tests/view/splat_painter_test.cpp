@@ -54,9 +54,9 @@ TEST(PaintSplats, PaintsByCornersWhatItPaintsPixelByPixel) {
         }
         SplatMemory memory;
         SplatArrays splats = memory.room(samples.size());
-        const SampleRun all{0, std::uint32_t(samples.size())};
-        const int count = projectSamplesScalar(
-            column, sampleColumn(tangents.data(), samples.data(), colour.data()), &all, 1, splats);
+        const int count =
+            projectSamplesScalar(column, sampleColumn(tangents.data(), samples.data(), colour.data()),
+                                 std::uint32_t(samples.size()), splats);
         wholes += int(count - std::count(splats.steps, splats.steps + count, 0u));
         const bool reversed = round % 2 == 0, pixelByPixel = round % 4 < 2;
         const auto paint = [&](Canvas& canvas) {

@@ -289,17 +289,6 @@ TEST(DisplayCapture, KnowsItsRangesLayersAndColours) {
   EXPECT_EQ(display.columnRange[0], glm::vec2(0, 0.5f));
   EXPECT_GT(display.columnRange[1].x, display.columnRange[1].y);
   EXPECT_EQ(display.columnRange[2], glm::vec2(0.25f, 2));
-  EXPECT_EQ(display.columnBlock, (std::vector<std::uint32_t>{0, 1, 1, 2}));
-  const SampleBlocks& blocks = display.blocks;
-  ASSERT_EQ(blocks.roles.size(), 2u + kSampleRoom);
-  EXPECT_EQ(blocks.leastInverse[0], 0);
-  EXPECT_EQ(blocks.mostInverse[0], 0.5f);
-  EXPECT_EQ(blocks.highTangent[0], display.rowTangent[0]);
-  EXPECT_EQ(blocks.lowTangent[0], display.rowTangent[1]);
-  EXPECT_EQ(blocks.roles[0], 1 | 2);
-  EXPECT_EQ(blocks.leastInverse[1], 0.25f);
-  EXPECT_EQ(blocks.mostInverse[1], 2);
-  EXPECT_EQ(blocks.roles[1], 4 | 1);
   EXPECT_EQ(display.colour[0], encodeForDisplay({0.5f, 0.25f, 0.125f}, 2));
   EXPECT_EQ(display.colour[2].a, 128);
   EXPECT_NEAR(display.rowTangent[0], std::tan(0.2), 1e-6);

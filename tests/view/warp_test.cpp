@@ -6,7 +6,6 @@
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/kernels.h"
-#include "engine/view/open_tiles.h"
 #include "engine/view/picture_axes.h"
 #include "engine/view/splat_painter.h"
 #include "tests/support/print_configuration.h"
