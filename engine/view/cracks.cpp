@@ -81,8 +81,7 @@ void Cracks::open(Canvas& canvas, std::uint32_t openBelow) {
 void Cracks::close(Canvas& canvas) {
   for (const Crack& crack : cracks_) {
     CanvasPixel& pixel = canvas.pixels[crack.at];
-    if (slotOf(pixel) == 0 ||
-        !(inverseZDepthOf(pixel) > kBefore * inverseZDepthOf(crack.pixel)))
+    if (slotOf(pixel) == 0 || !(inverseZDepthOf(pixel) > kBefore * inverseZDepthOf(crack.pixel)))
       pixel = crack.pixel;
   }
 }

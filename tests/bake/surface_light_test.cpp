@@ -59,7 +59,7 @@ TEST(SurfaceLight, TimesBaseColourPlusEmissionIsWhatARaySees) {
         glm::vec3(material.baseColour) *
             glm::vec3(unpackColour(light->light[light->firstSample[number] + surfaceSampleIndex(r, i, j)])) +
         material.emissive;
-    test::expectNear(baked, seen.radiance, 2e-3f);
+    test::expectNear(baked, seen.radiance, 0.009f);  // light is rounded to six bits behind the first
     ++compared;
   }
   EXPECT_GT(compared, 300);
@@ -97,7 +97,7 @@ TEST(SurfaceLight, TheTwoSidesOfALeafAreLitApart) {
   builder.floor(builder.material(leaf), 1).sun({0, 0, -1}, 100).sky(glm::vec3(1e-3f));
   const auto light = bakeAll(*builder.rays(), texel(0.5));
   ASSERT_TRUE(light.has_value());
-  EXPECT_NEAR(light->at(0, {0.3f, 0.3f}, false).x, 100 / 3.14159f, 0.05f);
+  EXPECT_NEAR(light->at(0, {0.3f, 0.3f}, false).x, 100 / 3.14159f, 0.25f);
   EXPECT_LT(light->at(0, {0.3f, 0.3f}, true).x, 2e-3f);
 }
 
