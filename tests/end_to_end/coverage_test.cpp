@@ -110,7 +110,7 @@ TEST_P(ForeseenHoles, AreThoseOfRenderedFramesAtTheUsualSettings) {
   const auto baked = acentric({"bake", file, "--light", "without"});
   ASSERT_EQ(baked.exitCode, 0) << baked.errors;
   const auto run =
-      acentric({"coverage", file, "--correlate", "--frames", "20", "--size", "160x90", "--json"});
+      acentric({"coverage", file, "--correlate", "--frames", "20", "--size", "320x180", "--json"});
   ASSERT_EQ(run.exitCode, 0) << run.errors;
   const Json report = Json::parse(run.output);
   EXPECT_GT(report["pixels"]["holes"].get<int>(), 100) << "else there is nothing to foretell";
