@@ -98,8 +98,7 @@ class TexelWriter {
 
   /// Where the surface goes on in another patch, or meets another surface as at a bend, this one reaches one
   /// part of a pixel under it: eyes that look from the side would see in between them, since both are known
-  /// to a part only. Two parts where it goes on nearly straight: both are then drawn on planes that are up to
-  /// the tolerance off their samples' own.
+  /// to a part only. Two parts where the surface goes on and is drawn on a plane that is off its own.
   void reachUnder(const Patch& patch) {
     parts_.assign(known_.size(), 0);
     for (std::size_t at = 0; at < parts_.size(); ++at) parts_[at] = std::uint16_t(cover_[at] & kTexelParts);
