@@ -363,18 +363,4 @@ CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bou
   return mesh;
 }
 
-LimitedMesh buildLimitedMesh(const DisplayCapture& capture, double error, double reach, int maxTriangles,
-                             TaskRunner& runner, const std::stop_token& stop) {
-  LimitedMesh built;
-  const auto build = [&](double within) {
-    built.bound = meshBound(capture.camera, within, reach);
-    built.mesh = buildCaptureMesh(capture, built.bound, runner, stop);
-  };
-  build(error);
-  while (maxTriangles > 0 && built.mesh.triangleCount() > std::size_t(maxTriangles) &&
-         built.bound.error < kLargestMeshError && !stop.stop_requested())
-    build(std::min(2 * built.bound.error, kLargestMeshError));
-  return built;
-}
-
 }  // namespace acentric

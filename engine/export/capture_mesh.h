@@ -82,14 +82,4 @@ std::array<glm::dvec3, 4> cornersOf(const ColumnCamera& camera, const MeshPatch&
 CaptureMesh buildCaptureMesh(const DisplayCapture& capture, const MeshBound& bound, TaskRunner& runner,
                              const std::stop_token& stop = {});
 
-struct LimitedMesh {
-  CaptureMesh mesh;
-  MeshBound bound;  ///< that it was built for
-};
-/// Of at most `maxTriangles` (0 = any number): for `error` samples or, where that takes more, for two,
-/// four... times as many, at most kLargestMeshError. `reach` as for meshBound; stopped as buildCaptureMesh
-/// is.
-LimitedMesh buildLimitedMesh(const DisplayCapture& capture, double error, double reach, int maxTriangles,
-                             TaskRunner& runner, const std::stop_token& stop = {});
-
 }  // namespace acentric

@@ -71,7 +71,8 @@ struct Meshed {
   int camera = 0;
   std::uint8_t roles = 0;
   const DisplayCapture* capture = nullptr;
-  LimitedMesh mesh;
+  MeshBound bound;
+  CaptureMesh mesh;
 };
 
 /// A patch that the region needs.
@@ -87,7 +88,7 @@ bool needed(const Meshed& of, std::uint32_t sample) {
 
 std::uint32_t sampleOf(const Shown& shown, int column, int row) {
   const MeshPatch& patch = *shown.patch;
-  return shown.of->mesh.mesh.samples[patch.firstSample + std::size_t(column) * patch.rows + std::size_t(row)];
+  return shown.of->mesh.samples[patch.firstSample + std::size_t(column) * patch.rows + std::size_t(row)];
 }
 
 bool anyNeeded(const Shown& shown) {
@@ -116,7 +117,7 @@ void paint(const Shown& shown, const glm::ivec2& at, ColourImage& page, GltfRegi
 void addPatch(const Shown& shown, const glm::ivec2& at, const glm::ivec2& page, GlbMesh& mesh) {
   const ColumnCamera& camera = shown.of->capture->camera;
   const MeshPatch& patch = *shown.patch;
-  const MeshBound& bound = shown.of->mesh.bound;
+  const MeshBound& bound = shown.of->bound;
   const auto beyond = [&](MeshSide side) { return fringeOf(patch.fringes, side, bound); };
   const glm::dvec2 before(beyond(kLowColumn), beyond(kTopRow));
   PatchPlane plane{cornersOf(camera, patch, bound), {}, {}};
@@ -169,9 +170,8 @@ Status addCaptures(Glb& glb, const WalkScene& walk, int region, const GltfOption
       ++report.missing;
       continue;
     }
-    meshes.push_back(
-        {camera, roles, capture,
-         buildLimitedMesh(*capture, options.meshError, eyeReach(*walk.layout, camera), 0, runner, stop)});
+    const MeshBound bound = meshBound(capture->camera, options.meshError, eyeReach(*walk.layout, camera));
+    meshes.push_back({camera, roles, capture, bound, buildCaptureMesh(*capture, bound, runner, stop)});
     if (stop.stop_requested()) return fail(ErrorKind::cancelled, "writing glTF was stopped");
     for (std::size_t s = 0; s < capture->samples.size(); ++s)
       if ((rolesOf(capture->samples[s]) & roles) != 0 &&
@@ -181,7 +181,7 @@ Status addCaptures(Glb& glb, const WalkScene& walk, int region, const GltfOption
   std::vector<Shown> shown;
   std::vector<glm::ivec2> sizes;
   for (const Meshed& each : meshes)
-    for (const MeshPatch& patch : each.mesh.mesh.patches)
+    for (const MeshPatch& patch : each.mesh.patches)
       if (anyNeeded({&each, &patch})) {
         shown.push_back({&each, &patch});
         sizes.emplace_back(patch.columns, patch.rows);

@@ -116,6 +116,7 @@ class TexelWriter {
         std::uint32_t reached = 0;
         for (const std::uint32_t sample : pixels_->at(column, row)) {
           if (sample == own_[at] || colours_[sample].a < 255) continue;
+          if (((first | second) & samples_.coverage[sample]) == 0) continue;
           const Meeting meeting = meetingOf(patch, i, j, samples_.plane[sample]);
           reached |= ((first & meeting.any) | (second & meeting.off)) & samples_.coverage[sample];
         }

@@ -82,9 +82,6 @@ struct EightLanes {
   static M greater(I a, I b) { return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))}; }
   static bool any(M m) { return _mm256_movemask_ps(m.v) != 0; }
   static unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
-  static M either(M a, M unlessB) {
-    return {_mm256_or_ps(a.v, _mm256_xor_ps(unlessB.v, _mm256_castsi256_ps(_mm256_set1_epi32(-1))))};
-  }
   static F select(M m, F a, F b) { return {_mm256_blendv_ps(b.v, a.v, m.v)}; }
   static I select(M m, I a, I b) { return {_mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v))}; }
   static I when(M m, I a) { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }

@@ -82,7 +82,6 @@ struct SixteenLanes {
   static M greater(I a, I b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
   static bool any(M m) { return m.v != 0; }
   static unsigned bits(M m) { return m.v; }
-  static M either(M a, M unlessB) { return {static_cast<__mmask16>(a.v | ~unlessB.v)}; }
   static F select(M m, F a, F b) { return {_mm512_mask_blend_ps(m.v, b.v, a.v)}; }
   static I select(M m, I a, I b) { return {_mm512_mask_blend_epi32(m.v, b.v, a.v)}; }
   static I when(M m, I a) { return {_mm512_maskz_mov_epi32(m.v, a.v)}; }

@@ -42,7 +42,6 @@ struct OneLane {
   static M greater(I a, I b) { return a > b; }
   static bool any(M m) { return m; }
   static unsigned bits(M m) { return m; }
-  static M either(M a, M unlessB) { return a || !unlessB; }
   static F select(M m, F a, F b) { return m ? a : b; }
   static I select(M m, I a, I b) { return m ? a : b; }
   static I when(M m, I a) { return m ? a : 0; }
