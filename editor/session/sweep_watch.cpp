@@ -63,7 +63,8 @@ void SweepWatch::watch(const fs::path& project) {
   project_ = project;
   folder_ = project.empty() ? fs::path() : sweepFolderFor(project);
   sweep_.reset();
-  trouble_.clear();
+  runTrouble_.clear();
+  fileTrouble_.clear();
   seen_ = {};
   nextLook_ = 0;
 }
@@ -88,7 +89,7 @@ Status SweepWatch::start(const SweepRequest& request) {
   process_ = *started;
   ::setpriority(PRIO_PROCESS, id_t(process_), kNice);
   stopping_ = false;
-  trouble_.clear();
+  runTrouble_.clear();
   nextLook_ = 0;
   return {};
 }
@@ -107,7 +108,7 @@ bool SweepWatch::lookAtProcess() {
   process_ = 0;
   if (got > 0 && !stopping_ && !(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {
     const std::string said = lastLineOf(folder_ / kLogFile);
-    trouble_ = said.empty() ? "The measuring ended without a word" : said;
+    runTrouble_ = said.empty() ? "The measuring ended without a word" : said;
   }
   return true;
 }
@@ -119,13 +120,14 @@ bool SweepWatch::look() {
   if (now == seen_) return false;
   seen_ = now;
   const auto text = readText(file);
+  fileTrouble_.clear();
   auto parsed = text ? parseSweep(*text, file.string()) : Result<Sweep>(tl::unexpected(text.error()));
   if (parsed) {
     sweep_ = std::make_shared<const Sweep>(std::move(*parsed));
   } else {
     sweep_.reset();
     std::error_code error;
-    if (fs::exists(file, error)) trouble_ = parsed.error().describe();
+    if (fs::exists(file, error)) fileTrouble_ = parsed.error().describe();
   }
   return true;
 }

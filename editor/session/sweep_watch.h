@@ -47,7 +47,7 @@ class SweepWatch {
   /// Of its files and pictures.
   const std::filesystem::path& folder() const { return folder_; }
   /// Why the last run failed, or the file cannot be read; empty: nothing did.
-  const std::string& trouble() const { return trouble_; }
+  const std::string& trouble() const { return runTrouble_.empty() ? fileTrouble_ : runTrouble_; }
 
  private:
   bool look();
@@ -60,7 +60,7 @@ class SweepWatch {
   double nextLook_ = 0;
   FileLook seen_;
   std::shared_ptr<const Sweep> sweep_;
-  std::string trouble_;
+  std::string runTrouble_, fileTrouble_;
 };
 
 }  // namespace acentric::editor

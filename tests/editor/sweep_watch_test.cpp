@@ -53,13 +53,16 @@ class SweepWatchTest : public SessionTest {
   }
   void writeSweep(const std::string& text) const {
     fs::create_directories(sweepFolder());
-    std::ofstream(sweepFolder() / "sweep.json") << text;
+    std::ofstream(sweepFolder() / "new") << text;
+    fs::rename(sweepFolder() / "new", sweepFolder() / "sweep.json");
   }
 };
 
 TEST_F(SweepWatchTest, ReadsWhatIsMeasuredAsItGrows) {
   std::ofstream(folder_ / "ready.json") << toJson(smallSweep());
-  SweepWatch watch(program("cp " + (folder_ / "ready.json").string() + " $FOLDER/sweep.json; exec sleep 60"));
+  // A trap: a shell that is interrupted while a command ends well would go on.
+  SweepWatch watch(program("trap 'exit 0' INT; mv " + (folder_ / "ready.json").string() +
+                           " $FOLDER/sweep.json; while true; do sleep 0.1; done"));
   watch.watch(project());
   EXPECT_FALSE(watch.poll(now_ += 2));
   ASSERT_TRUE(watch.start({3, 5, 320, 180, true}));
@@ -98,6 +101,7 @@ TEST_F(SweepWatchTest, NamesAFileThatItCannotRead) {
   EXPECT_NE(watch.trouble().find("sweep.json"), std::string::npos) << watch.trouble();
   writeSweep(toJson(smallSweep()));
   await(watch, [&] { return watch.sweep() != nullptr; });
+  EXPECT_EQ(watch.trouble(), "") << "the file is whole now";
   watch.watch({});
   EXPECT_EQ(watch.sweep(), nullptr) << "of no project";
 }
