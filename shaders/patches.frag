@@ -18,8 +18,8 @@ layout(std430, binding = 3) readonly buffer Covers { uint covers[]; };    // as 
 layout(rgba32f, binding = 0) uniform restrict image2D sums;  // of squared codes; w: what comes through what is clear
 layout(rgba32ui, binding = 1) uniform restrict uimage2D states;
 
-const uint kTexelParts = 0xffffu;
-const uint kTexelInner = 1u << 24;
+const uint kBlockWhole = 1u << 24;
+const uint kBlockInner = 1u << 25;
 
 flat in uvec2 range;
 
@@ -48,41 +48,47 @@ float angle(float tangent) {
   return tangent * (1.0 - square * (1.0 / 3.0 - square * 0.2));
 }
 
-uint texelAt(Patch patch_, ivec2 place) {
-  ivec2 size = ivec2(patch_.texels.y & 0xffffu, patch_.texels.y >> 16);
-  ivec2 at = clamp(place, ivec2(-1), size) + 1;
-  return patch_.texels.x + uint(at.x * (size.y + 2) + at.y);
-}
-
-ivec2 floored(vec2 place) { return ivec2(floor(clamp(place, -1e6, 1e6))); }
+uvec2 sizeOf(Patch patch_) { return uvec2(patch_.texels.y & 0xffffu, patch_.texels.y >> 16); }
 
 // Parts of the pixel that the patch covers, by the part of its texel that each ray meets.
 uint partsOf(Patch patch_, vec2 place, vec2 across, vec2 down) {
+  uvec2 size = sizeOf(patch_);
+  vec2 last = 4.0 * vec2(size) + 7.0;  // from the border's first part on; beyond, the border covers nothing
   uint parts = 0u;
-  vec2 last = 4.0 * vec2(patch_.texels.y & 0xffffu, patch_.texels.y >> 16) + 3.0;  // beyond, the border covers nothing
   for (int part = 0; part < kPixelParts; ++part) {
     vec2 place4 = 4.0 * place + (4.0 * kParts[part].x * across + 4.0 * kParts[part].y * down);
-    ivec2 at = ivec2(floor(clamp(place4, vec2(-4.0), last)));
-    uint cover = covers[texelAt(patch_, at >> 2)];
-    if ((cover & roles) != 0u) parts |= (cover >> ((at.y & 3) * 4 + (at.x & 3)) & 1u) << part;
+    uvec2 at = uvec2(clamp(place4 + 4.0, vec2(0.0), last));
+    uint cover = covers[patch_.texels.x + (at.x >> 2) * (size.y + 2u) + (at.y >> 2)];
+    if ((cover & roles) != 0u) parts |= (cover >> ((at.y & 3u) * 4u + (at.x & 3u)) & 1u) << part;
   }
   return parts;
 }
 
-vec4 colourOf(uint texel) { return unpackUnorm4x8(colours[texel]) * 255.0; }
+// The two texels by two around a place.
+struct Block {
+  uint first;  // the upper left one
+  vec2 share;  // of the place, from that texel's middle
+};
 
-// Bilinear between the four texels around the place.
-vec4 colourAt(Patch patch_, vec2 place) {
-  vec2 size = vec2(patch_.texels.y & 0xffffu, patch_.texels.y >> 16);
+Block blockAt(Patch patch_, vec2 place) {
+  uvec2 size = sizeOf(patch_);
   vec2 at = clamp(place - 0.5, -1e6, 1e6);
-  vec2 first = clamp(floor(at), vec2(-1.0), size - 1.0);
-  vec2 share = clamp(at - first, 0.0, 1.0);
-  uint texel = patch_.texels.x + uint((first.x + 1.0) * (size.y + 2.0) + first.y + 1.0), next = texel + uint(size.y) + 2u;
-  return mix(mix(colourOf(texel), colourOf(texel + 1u), share.y), mix(colourOf(next), colourOf(next + 1u), share.y), share.x);
+  vec2 first = clamp(floor(at), vec2(-1.0), vec2(size) - 1.0);
+  return Block(patch_.texels.x + uint(first.x + 1.0) * (size.y + 2u) + uint(first.y + 1.0), at - first);
 }
 
-void blend(Patch patch_, vec2 place, uint open, uint parts, float inverseDepth) {
-  vec4 colour = colourAt(patch_, place);
+vec4 colourOf(uint texel) { return unpackUnorm4x8(colours[texel]) * 255.0; }
+
+// Bilinear between the block's texels.
+vec4 colourAt(Patch patch_, Block block) {
+  vec2 share = clamp(block.share, 0.0, 1.0);
+  uint next = block.first + sizeOf(patch_).y + 2u;
+  return mix(mix(colourOf(block.first), colourOf(block.first + 1u), share.y), mix(colourOf(next), colourOf(next + 1u), share.y),
+             share.x);
+}
+
+void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth) {
+  vec4 colour = colourAt(patch_, block);
   uint mirror = patch_.texels.z & 0xffu;
   float number = float(bitCount(parts));
   float weight = sum.w * number;
@@ -127,16 +133,18 @@ void paint(Patch patch_, vec2 pixel) {
   vec2 raised = vec2(distance + patch_.places.z * at.z, at.z - patch_.places.z * distance);  // turned down by the middle row
   if (abs(slope) > kFarthest || abs(raised.y) > kFarthest * raised.x) return;
   vec2 place = patch_.places.xy + perRadian * vec2(angle(slope), -angle(raised.y / raised.x));
-  uint cover = covers[texelAt(patch_, floored(place))];
+  vec2 perStep = perRadian / vec2(at.x * stretch * stretch, distance * distance + at.z * at.z);
+  vec4 a = patch_.across, d = patch_.down;
+  vec2 across = perStep * vec2(a.y - slope * a.x, at.z * ((a.x + slope * a.y) / stretch) - a.z * distance);
+  vec2 down = perStep * vec2(d.y - slope * d.x, at.z * ((d.x + slope * d.y) / stretch) - d.z * distance);
+  vec2 most = abs(across) + abs(down);
+  bool within = most.x <= 1.0 && most.y <= 1.0;  // all rays meet the block
+  Block block = blockAt(patch_, place);
+  uint cover = covers[block.first];
   uint parts = open;
-  if ((cover & roles) == 0u || (cover & kTexelInner) == 0u) {
-    vec2 perStep = perRadian / vec2(at.x * stretch * stretch, distance * distance + at.z * at.z);
-    vec4 a = patch_.across, d = patch_.down;
-    vec2 across = perStep * vec2(a.y - slope * a.x, at.z * ((a.x + slope * a.y) / stretch) - a.z * distance);
-    vec2 down = perStep * vec2(d.y - slope * d.x, at.z * ((d.x + slope * d.y) / stretch) - d.z * distance);
+  if ((cover & roles) == 0u || (cover & (within ? kBlockWhole | kBlockInner : kBlockInner)) == 0u)
     parts = partsOf(patch_, place, across, down) & open;
-  }
-  if (parts != 0u) blend(patch_, place, open, parts, at.w);
+  if (parts != 0u) blend(patch_, block, open, parts, at.w);
 }
 
 void main() {

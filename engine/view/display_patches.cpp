@@ -59,7 +59,7 @@ class TexelWriter {
     goOn(patch);
     fill();
     if (!patch.blended) reachUnder(patch);
-    markInner();
+    markWholeBlocks(cover_, patch.columns, patch.rows);
     out_.patches.push_back(display);
   }
 
@@ -216,18 +216,6 @@ class TexelWriter {
     }
   }
 
-  void markInner() {
-    for (int i = 0; i < width_ - 2; ++i)
-      for (int j = 0; j < height_ - 2; ++j) {
-        const std::uint32_t word = cover_[texel(i, j)];
-        bool inner = (word & kTexelParts) == kTexelParts;
-        for (int x = -1; x <= 1 && inner; ++x)
-          for (int y = -1; y <= 1 && inner; ++y)
-            inner = (cover_[texel(i + x, j + y)] & ~kTexelInner) == (word & ~kTexelInner);
-        if (inner) cover_[texel(i, j)] |= kTexelInner;
-      }
-  }
-
   const ColumnCamera& camera_;
   const CaptureSamples& samples_;
   double tolerance_;
@@ -253,6 +241,25 @@ std::size_t DisplayPatches::bytes() const {
   return stripStart.size() * sizeof(std::uint32_t) + patches.size() * sizeof(DisplayPatch) +
          colour.size() * sizeof(Rgba8) + cover.size() * sizeof(std::uint32_t) +
          columnBorder.size() * sizeof(glm::vec2) + rowBorder.size() * sizeof(float);
+}
+
+void markWholeBlocks(std::uint32_t* cover, int columns, int rows) {
+  constexpr std::uint32_t kMarks = kBlockWhole | kBlockInner;
+  const int height = rows + 2;
+  const auto at = [&](int column, int row) -> std::uint32_t& { return cover[column * height + row]; };
+  for (int i = 0; i <= columns; ++i)
+    for (int j = 0; j <= rows; ++j) {
+      const std::uint32_t word = at(i, j) & ~kMarks;
+      const auto isWhole = [&](int from, int to) {
+        if (i + from < 0 || j + from < 0 || i + to > columns + 1 || j + to > rows + 1) return false;
+        for (int x = i + from; x <= i + to; ++x)
+          for (int y = j + from; y <= j + to; ++y)
+            if ((at(x, y) & ~kMarks) != word) return false;
+        return true;
+      };
+      if ((word & kTexelParts) != kTexelParts || !isWhole(0, 1)) continue;
+      at(i, j) |= isWhole(-1, 2) ? kMarks : kBlockWhole;
+    }
 }
 
 DisplayPatches displayPatches(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,

@@ -49,4 +49,8 @@ struct DisplayPatches {
 DisplayPatches displayPatches(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,
                               std::span<const Rgba8> colours);
 
+/// Sets kBlockWhole and kBlockInner in the words of a patch of so many texels and their border
+/// (patch_kernel.h).
+void markWholeBlocks(std::uint32_t* cover, int columns, int rows);
+
 }  // namespace acentric

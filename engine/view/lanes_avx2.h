@@ -53,8 +53,12 @@ struct EightLanes {
   static I counted(std::int32_t first) { return seti(first) + I{_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
   static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
   static __m256i firstLanes(int count) { return _mm256_cmpgt_epi32(seti(count).v, counted(0).v); }
-  static F load(const float* p, int count) { return {_mm256_maskload_ps(p, firstLanes(count))}; }
+  // Of AMD's processors some take twenty times as long to store by a mask.
+  static F load(const float* p, int count) {
+    return {count >= kWidth ? _mm256_loadu_ps(p) : _mm256_maskload_ps(p, firstLanes(count))};
+  }
   static I load(const std::uint32_t* p, int count) {
+    if (count >= kWidth) return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
     return {_mm256_maskload_epi32(reinterpret_cast<const int*>(p), firstLanes(count))};
   }
   static I load(const std::uint16_t* p, int count) {
@@ -62,8 +66,12 @@ struct EightLanes {
     for (int i = 0; i < kWidth && i < count; ++i) lanes[i] = p[i];
     return {_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(lanes)))};
   }
-  static void store(float* p, F a, int count) { _mm256_maskstore_ps(p, firstLanes(count), a.v); }
+  static void store(float* p, F a, int count) {
+    if (count >= kWidth) return _mm256_storeu_ps(p, a.v);
+    _mm256_maskstore_ps(p, firstLanes(count), a.v);
+  }
   static void store(std::uint32_t* p, I a, int count) {
+    if (count >= kWidth) return _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v);
     _mm256_maskstore_epi32(reinterpret_cast<int*>(p), firstLanes(count), a.v);
   }
 
@@ -161,6 +169,7 @@ struct EightLanes {
     _mm256_storeu_si256(to, pairsOf(low, high, false)), _mm256_storeu_si256(to + 1, pairsOf(low, high, true));
   }
   static void storePairs(std::uint64_t* p, I low, I high, int count) {
+    if (count >= kWidth) return storePairs(p, low, high);
     auto* const to = reinterpret_cast<long long*>(p);
     _mm256_maskstore_epi64(to, firstPairs(count), pairsOf(low, high, false));
     _mm256_maskstore_epi64(to + 4, firstPairs(count - 4), pairsOf(low, high, true));

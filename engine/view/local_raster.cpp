@@ -18,8 +18,7 @@ constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr int kBandRows = 32;
 
 /// Pixels whose centres the triangle can cover: the box of its part in front of the near plane.
-PixelRect boundsOf(const std::array<glm::dvec3, 3>& corners, const PerspectiveView& view) {
-  const double focal = view.focalPixels();
+PixelRect boundsOf(const std::array<glm::dvec3, 3>& corners, const PerspectiveView& view, double focal) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   const auto add = [&](const glm::dvec3& q) {
     const glm::dvec2 at(0.5 * view.width + focal * q.x / q.z, 0.5 * view.height + focal * q.y / q.z);
@@ -55,7 +54,11 @@ bool covers(double value, const glm::dvec3& edge) { return value > 0 || (value =
 
 LocalRaster::LocalRaster(const LocalGeometry& local, const LocalShading& shading, const PerspectiveView& view,
                          TaskRunner& runner)
-    : local_(local), shading_(shading), view_(view), inView_(local.vertices.size()) {
+    : local_(local),
+      shading_(shading),
+      view_(view),
+      focal_(view.focalPixels()),
+      inView_(local.vertices.size()) {
   const auto tasks = [](std::size_t count) { return (count + kTrianglesPerTask - 1) / kTrianglesPerTask; };
   const glm::dmat3 viewFromWorld = view.viewFromWorld();
   runner.parallelFor(tasks(inView_.size()), [&](std::size_t task) {
@@ -86,8 +89,7 @@ bool LocalRaster::setUp(std::uint32_t index, Triangle& out) const {
   const LocalTriangle& source = local_.triangles[index];
   const std::array<glm::dvec3, 3> q{inView_[source.vertices.x], inView_[source.vertices.y],
                                     inView_[source.vertices.z]};
-  const double focal = view_.focalPixels();
-  out.box = boundsOf(q, view_);
+  out.box = boundsOf(q, view_, focal_);
   if (out.box.width() <= 0 || out.box.height() <= 0) return false;
   const glm::dvec3 normals[3]{glm::cross(q[1], q[2]), glm::cross(q[2], q[0]), glm::cross(q[0], q[1])};
   const double determinant = glm::dot(q[0], normals[0]);
@@ -97,8 +99,8 @@ bool LocalRaster::setUp(std::uint32_t index, Triangle& out) const {
     const glm::dvec3 n = sign * normals[i];
     // At pixel centre (x + 0.5, y + 0.5), in terms of the whole numbers x and y.
     out.edge[i] = {
-        n.x / focal, n.y / focal,
-        n.z + n.x * ((0.5 - 0.5 * view_.width) / focal) + n.y * ((0.5 - 0.5 * view_.height) / focal)};
+        n.x / focal_, n.y / focal_,
+        n.z + n.x * ((0.5 - 0.5 * view_.width) / focal_) + n.y * ((0.5 - 0.5 * view_.height) / focal_)};
   }
   out.perDepth = 1 / std::abs(determinant);
   out.farthest = std::sqrt(std::max({glm::dot(q[0], q[0]), glm::dot(q[1], q[1]), glm::dot(q[2], q[2])}));

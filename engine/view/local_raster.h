@@ -72,6 +72,7 @@ class LocalRaster {
   const LocalGeometry& local_;
   const LocalShading& shading_;
   PerspectiveView view_;
+  double focal_;                    ///< pixels
   std::vector<glm::dvec3> inView_;  ///< by local vertex
   std::vector<Triangle> opaque_;
   std::vector<std::uint8_t> mirrors_;                     ///< by opaque triangle, or empty

@@ -22,8 +22,10 @@ inline constexpr std::uint32_t kAllParts = (1u << kPixelParts) - 1;
 /// Of a texel's word in DisplayPatches::cover.
 inline constexpr std::uint32_t kTexelParts = 0xffff;  ///< coverage, as in CaptureSamples
 inline constexpr int kTexelRoles = 16;                ///< from this bit on, eight
-/// The texel and all eight around it are whole, for the same roles.
-inline constexpr std::uint32_t kTexelInner = 1u << 24;
+/// The texel, the next ones right and below and the one right of that are whole, for the same roles.
+inline constexpr std::uint32_t kBlockWhole = 1u << 24;
+/// And so are all around these four.
+inline constexpr std::uint32_t kBlockInner = 1u << 25;
 
 /// Of a column of the picture, by row. Arrays have room for kPatchRoom more.
 struct PatchCanvasColumn {
@@ -41,6 +43,8 @@ struct PatchCanvasColumn {
   /// Bit i: something may be open in rows [i << cellShift, (i + 1) << cellShift), or shows a mirror while
   /// reflections are painted. A patch costs nothing where all is covered.
   std::uint64_t* cells = nullptr;
+  /// What that was when patches were painted since pixels were settled: no others need to be.
+  const std::uint64_t* reached = nullptr;
   int cellShift = 0;
 };
 /// The least that does with 64 cells; at least 4.

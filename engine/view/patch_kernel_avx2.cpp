@@ -6,8 +6,20 @@ namespace acentric {
 namespace {
 
 struct PatchLanes : EightLanes {
+  static std::int32_t lowest(I a) { return _mm_cvtsi128_si32(_mm256_castsi256_si128(a.v)); }
   static I shiftRightBy(I a, I bits) { return {_mm256_srlv_epi32(a.v, bits.v)}; }
-  static I shiftLeftBy(I a, int bits) { return {_mm256_sll_epi32(a.v, _mm_cvtsi32_si128(bits))}; }
+  /// Words at the index and behind it: half as many loads as two gathers.
+  static void gatherNext(const std::uint32_t* table, I index, I& at, I& next) {
+    const auto* const pairs = reinterpret_cast<const long long*>(table);
+    const __m256i low = _mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(index.v), 4);
+    const __m256i high = _mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(index.v, 1), 4);
+    const auto half = [&](auto shuffled) {
+      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(shuffled), 0xd8)};
+    };
+    at = half(_mm256_shuffle_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), 0x88));
+    next = half(_mm256_shuffle_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), 0xdd));
+  }
+  static F inHalves(float first, float) { return set(first); }
 };
 
 }  // namespace

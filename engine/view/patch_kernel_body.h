@@ -5,17 +5,27 @@
 
 namespace acentric::patch_kernel {
 
-/// Rays of a pixel, from its centre: no two in one eighth of it across or down.
-inline constexpr float kPartX[kPixelParts] = {0.0625f,  -0.0625f, 0.3125f, -0.1875f,
-                                              -0.3125f, -0.4375f, 0.1875f, 0.4375f};
-inline constexpr float kPartY[kPixelParts] = {-0.1875f, 0.1875f,  0.0625f, -0.3125f,
-                                              0.3125f,  -0.0625f, 0.4375f, -0.4375f};
+/// Rays of a pixel, from its centre, in quarters of a pixel: no two in one eighth of it across or down.
+/// Twice.
+inline constexpr float kPartX4[2 * kPixelParts] = {0.25f,  -0.25f, 1.25f, -0.75f, -1.25f, -1.75f,
+                                                   0.75f,  1.75f,  0.25f, -0.25f, 1.25f,  -0.75f,
+                                                   -1.25f, -1.75f, 0.75f, 1.75f};
+inline constexpr float kPartY4[2 * kPixelParts] = {-0.75f, 0.75f,  0.25f,  -1.25f, 1.25f, -0.25f,
+                                                   1.75f,  -1.75f, -0.75f, 0.75f,  0.25f, -1.25f,
+                                                   1.25f,  -0.25f, 1.75f,  -1.75f};
 
 /// Where pixels' rays meet the patch, in texels from its first one's corner, and how that changes.
 template <class B>
 struct Places {
   typename B::F column, row;
   typename B::F columnAcross, rowAcross, columnDown, rowDown;  ///< to the next pixel right and below
+};
+
+/// Two texels by two.
+template <class B>
+struct Block {
+  typename B::I first;        ///< the upper left one, from the corner of the patch's border
+  typename B::F right, down;  ///< of the place, from that texel's middle
 };
 
 /// Of words whose highest bit is 0.
@@ -72,6 +82,7 @@ void settle(const PatchCanvasColumn& canvas, bool mirrors, std::uint64_t* pixels
   using M = typename B::M;
   const I none = B::seti(0), all = B::seti(std::int32_t(kAllParts)), codes = B::seti(255);
   for (int y = 0; y < canvas.rows; y += B::kWidth) {
+    if ((*canvas.reached >> (y >> canvas.cellShift) & 1) == 0) continue;
     const int count = canvas.rows - y;
     const I mirror = canvas.mirror == nullptr ? none : B::load(canvas.mirror + y, count);
     const M ours = mirrors ? B::greater(mirror, none) : isZero<B>(mirror);
@@ -175,77 +186,76 @@ struct Kernel {
     one(c.step, out.columnDown, out.rowDown);
   }
 
-  I texelAt(I column, I row) const {
-    const I i = B::mini(B::maxi(column, B::seti(-1)), B::seti(c.columns)) + B::seti(1);
-    const I j = B::mini(B::maxi(row, B::seti(-1)), B::seti(c.rows)) + B::seti(1);
-    return B::times(i, B::seti(c.rows + 2)) + j;
-  }
   static F limited(F value) { return B::min(B::max(value, B::set(-1e6f)), B::set(1e6f)); }
-  /// A part of the texels along one side. Whatever lies beyond is the outermost of the border, which covers
-  /// nothing.
-  static I partAt(F place4, std::int32_t texels) {
-    return B::floor(B::min(B::max(place4, B::set(-4)), B::set(4 * float(texels) + 3)));
+
+  /// The two texels by two around the place.
+  Block<B> blockAt(const Places<B>& places) const {
+    const F column = limited(places.column - B::set(0.5f)), row = limited(places.row - B::set(0.5f));
+    const F left = B::min(B::max(B::floorOf(column), B::set(-1)), B::set(float(c.columns) - 1));
+    const F top = B::min(B::max(B::floorOf(row), B::set(-1)), B::set(float(c.rows) - 1));
+    const I first =
+        B::times(B::truncate(left) + B::seti(1), B::seti(c.rows + 2)) + B::truncate(top) + B::seti(1);
+    return {first, column - left, row - top};
+  }
+  /// What is read once covers are known, and for the columns of the picture that come next.
+  void prefetch(std::int32_t texel) const {
+    const int next = c.rows + 2;
+    for (int i = 0; i < 3; ++i) __builtin_prefetch(c.colour + texel + i * next);
+    __builtin_prefetch(c.cover + texel + 2 * next);
+  }
+  /// Do all rays of the pixel meet the block?
+  static M isWithinBlock(const Places<B>& places) {
+    const F columns = B::abs(places.columnAcross) + B::abs(places.columnDown);
+    const F rows = B::abs(places.rowAcross) + B::abs(places.rowDown);
+    return B::notLess(B::set(1), columns) & B::notLess(B::set(1), rows);
   }
 
-  /// Parts of pixels that the patch covers; whether their texels are few is asked of the `wanted` ones alone.
+  /// Parts of pixels that the patch covers, by the part of its texel that each ray meets; of `wanted` pixels.
+  /// So many lanes hold the parts of one pixel.
   I partsOf(const Places<B>& places, M wanted) const {
-    I columns[kPixelParts], rows[kPixelParts];  // in parts of texels
-    for (int part = 0; part < kPixelParts; ++part) {
-      const F dx = B::set(4 * kPartX[part]), dy = B::set(4 * kPartY[part]);
-      const F column = B::set(4) * places.column + (dx * places.columnAcross + dy * places.columnDown);
-      const F row = B::set(4) * places.row + (dx * places.rowAcross + dy * places.rowDown);
-      columns[part] = partAt(column, c.columns), rows[part] = partAt(row, c.rows);
+    constexpr int kWidth = B::kWidth, kStep = kWidth < kPixelParts ? kWidth : kPixelParts;
+    const F four = B::set(4);
+    alignas(64) float column[kWidth], row[kWidth], derivatives[4][kWidth];
+    B::store(column, four * places.column, kWidth), B::store(row, four * places.row, kWidth);
+    B::store(derivatives[0], places.columnAcross, kWidth),
+        B::store(derivatives[1], places.columnDown, kWidth);
+    B::store(derivatives[2], places.rowAcross, kWidth), B::store(derivatives[3], places.rowDown, kWidth);
+    alignas(64) std::uint32_t parts[kWidth] = {};
+    for (unsigned left = B::bits(wanted); left != 0;) {
+      const int first = __builtin_ctz(left);
+      left &= left - 1;
+      const int second = left != 0 ? __builtin_ctz(left) : first;
+      const auto both = [&](const float* values) { return B::inHalves(values[first], values[second]); };
+      const F columnAcross = both(derivatives[0]), columnDown = both(derivatives[1]);
+      const F rowAcross = both(derivatives[2]), rowDown = both(derivatives[3]);
+      const F column0 = both(column), row0 = both(row);
+      unsigned covered = 0;
+      for (int part = 0; part < kPixelParts; part += kStep) {
+        const F dx = B::load(kPartX4 + part), dy = B::load(kPartY4 + part);
+        const I i = partAt(column0 + (dx * columnAcross + dy * columnDown), c.columns);
+        const I j = partAt(row0 + (dx * rowAcross + dy * rowDown), c.rows);
+        const I texel = B::times(B::template shiftRight<2>(i), B::seti(c.rows + 2));
+        const I cover = B::gather(c.cover, texel + B::template shiftRight<2>(j));
+        const I bit = B::template shiftLeft<2>(B::both(j, B::seti(3))) + B::both(i, B::seti(3));
+        const I own = B::both(B::shiftRightBy(cover, bit), B::seti(1));
+        covered |= B::bits(isWanted(cover) & B::greater(own, B::seti(0))) << part;
+      }
+      parts[first] = covered & kAllParts;
+      if constexpr (kWidth > kPixelParts) {
+        parts[second] = covered >> kPixelParts * (second != first);
+        left &= left - 1;
+      }
     }
-    const auto firstOf = [](const I* places4) {
-      I least = places4[0];
-      for (int part = 1; part < kPixelParts; ++part) least = B::mini(least, places4[part]);
-      return B::template shiftSigned<2>(least);
-    };
-    const I left = firstOf(columns), top = firstOf(rows);
-    const I fromLeft = B::template shiftLeft<2>(left), fromTop = B::template shiftLeft<2>(top);
-    I beyond = B::seti(0);
-    for (int part = 0; part < kPixelParts; ++part) {
-      columns[part] = columns[part] - fromLeft, rows[part] = rows[part] - fromTop;
-      beyond = B::maxi(beyond, B::maxi(columns[part], rows[part]));
-    }
-    if (B::any(wanted & B::greater(beyond, B::seti(7)))) return partsOfMany(left, top, columns, rows);
-    // All within two texels by two: a word for the upper two and one for the lower.
-    const auto wordOf = [&](I row) {
-      const I second = B::template shiftLeft<16>(partsAt(left + B::seti(1), row));
-      return partsAt(left, row) + second;
-    };
-    const I upper = wordOf(top), lower = wordOf(top + B::seti(1));
-    I parts = B::seti(0);
-    for (int part = 0; part < kPixelParts; ++part) {
-      const I bit =
-          bitOf(columns[part], rows[part]) + B::template shiftLeft<2>(B::both(columns[part], B::seti(4)));
-      const I word = B::select(B::greater(rows[part], B::seti(3)), lower, upper);
-      parts = parts + B::shiftLeftBy(B::both(B::shiftRightBy(word, bit), B::seti(1)), part);
-    }
-    return parts;
+    return B::load(parts, kWidth);
   }
-  /// The same where texels are small.
-  I partsOfMany(I left, I top, const I* columns, const I* rows) const {
-    I parts = B::seti(0);
-    for (int part = 0; part < kPixelParts; ++part) {
-      const I cover = partsAt(left + B::template shiftSigned<2>(columns[part]),
-                              top + B::template shiftSigned<2>(rows[part]));
-      const I covered = B::both(B::shiftRightBy(cover, bitOf(columns[part], rows[part])), B::seti(1));
-      parts = parts + B::shiftLeftBy(covered, part);
-    }
-    return parts;
+  /// From the border's first part on. Whatever lies beyond is the outermost of the border, which covers
+  /// nothing.
+  static I partAt(F place4, std::int32_t texels) {
+    return B::truncate(B::min(B::max(place4 + B::set(4), B::set(0)), B::set(4 * float(texels) + 7)));
   }
-  /// What a texel covers, if its role is wanted.
-  I partsAt(I column, I row) const {
-    const I cover = B::gather(c.cover, texelAt(column, row));
-    return B::when(isWanted(cover), B::both(cover, B::seti(std::int32_t(kTexelParts))));
-  }
-  /// Of a part of its texel.
-  static I bitOf(I column, I row) {
-    return B::template shiftLeft<2>(B::both(row, B::seti(3))) + B::both(column, B::seti(3));
-  }
-  M isWanted(I cover) const {
-    return B::greater(B::both(cover, B::seti(std::int32_t(c.wantedRoles))), B::seti(0));
+  M isWanted(I cover) const { return has(cover, c.wantedRoles); }
+  static M has(I word, std::uint32_t bits) {
+    return B::greater(B::both(word, B::seti(std::int32_t(bits))), B::seti(0));
   }
 
   template <int kShift>
@@ -253,18 +263,13 @@ struct Kernel {
     return B::toFloat(B::both(B::template shiftRight<kShift>(word), B::seti(255)));
   }
 
-  /// Bilinear between the four texels around the place.
-  void colourAt(const Places<B>& places, F* rgba) const {
-    const F column = limited(places.column - B::set(0.5f)), row = limited(places.row - B::set(0.5f));
-    const F left = B::min(B::max(B::floorOf(column), B::set(-1)), B::set(float(c.columns) - 1));
-    const F top = B::min(B::max(B::floorOf(row), B::set(-1)), B::set(float(c.rows) - 1));
-    const F right = B::min(B::max(column - left, B::set(0)), B::set(1));
-    const F down = B::min(B::max(row - top, B::set(0)), B::set(1));
-    const I first =
-        B::times(B::truncate(left) + B::seti(1), B::seti(c.rows + 2)) + B::truncate(top) + B::seti(1);
-    const I second = first + B::seti(c.rows + 2);
-    const I a = B::gather(c.colour, first), b = B::gather(c.colour, first + B::seti(1));
-    const I d = B::gather(c.colour, second), e = B::gather(c.colour, second + B::seti(1));
+  /// Bilinear between the block's texels.
+  void colourAt(const Block<B>& block, F* rgba) const {
+    const F right = B::min(B::max(block.right, B::set(0)), B::set(1));
+    const F down = B::min(B::max(block.down, B::set(0)), B::set(1));
+    I a, b, d, e;
+    B::gatherNext(c.colour, block.first, a, b);
+    B::gatherNext(c.colour, block.first + B::seti(c.rows + 2), d, e);
     const auto mix = [&](F va, F vb, F vd, F ve) {
       const F leftSide = va + (vb - va) * down, rightSide = vd + (ve - vd) * down;
       return leftSide + (rightSide - leftSide) * right;
@@ -284,6 +289,12 @@ struct Kernel {
       const int skipped = __builtin_ctzll(open);
       if (skipped > 0) y = (cell + skipped) << canvas.cellShift;
       if (y >= end) break;
+      const unsigned lanes = openLanes(y, end - y, canvas);
+      if (lanes == 0) {
+        closeCells<B>(y, end - y, canvas, c.reflects);
+        continue;
+      }
+      if (end - y > B::kWidth) y += __builtin_ctz(lanes);
       painted += paintBatch(y, end - y, canvas);
     }
     return painted;
@@ -295,84 +306,91 @@ struct Kernel {
     const I other = B::different(B::template shiftRight<16>(mirror), B::seti(std::int32_t(c.mirror)));
     return B::when(isZero<B>(other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
   }
+  unsigned openLanes(int y, int count, const PatchCanvasColumn& canvas) const {
+    const I open = B::load(canvas.open + y, count);
+    const I mirror = c.reflects ? B::load(canvas.mirror + y, count) : B::seti(0);
+    return B::bits(B::greater(openTo(open, mirror), B::seti(0)));
+  }
 
+  /// Whole batches are read and written: what lies beyond the rows stays as it is.
   int paintBatch(int y0, int count, const PatchCanvasColumn& canvas) const {
-    const I before = B::load(canvas.open + y0, count);
-    I open = openTo(before, c.reflects ? B::load(canvas.mirror + y0, count) : B::seti(0));
-    if (!B::any(B::greater(open, B::seti(0)))) {
-      closeCells<B>(y0, count, canvas, c.reflects);
-      return 0;
-    }
+    const I before = loaded(canvas.open + y0);
     const F y = B::toFloat(B::counted(y0));
     Places<B> places;
     F x, slope, stretch, height;
-    const M inFront = place(y, x, slope, stretch, height, places);
-    M wanted = inFront;
+    M wanted = place(y, x, slope, stretch, height, places) & B::greater(B::seti(count), B::counted(0));
     if (c.limited) {
       const M low = B::notLess(at(c.lowStart, c.lowStep, y), B::set(0)),
               high = B::less(B::set(0), at(c.highStart, c.highStep, y));
       wanted = c.eitherSide ? wanted & (low | high) : wanted & low & high;
     }
-    open = B::when(wanted, open);
+    const I open = B::when(wanted, openTo(before, c.reflects ? loaded(canvas.mirror + y0) : B::seti(0)));
     if (!B::any(B::greater(open, B::seti(0)))) return 0;
-    const I cover =
-        B::gather(c.cover, texelAt(B::floor(limited(places.column)), B::floor(limited(places.row))));
-    const M inner =
-        isWanted(cover) & B::greater(B::both(cover, B::seti(std::int32_t(kTexelInner))), B::seti(0));
-    I parts = B::when(inner, open);
+    differentiate(x, slope, stretch, height, places);
+    const Block<B> block = blockAt(places);
+    prefetch(B::lowest(block.first));
+    const I cover = B::gather(c.cover, block.first);
+    const M within = isWithinBlock(places);
+    const M whole = isWanted(cover) & ((within & has(cover, kBlockWhole)) | has(cover, kBlockInner));
+    I parts = B::when(whole, open);
     const M byEdges = B::greater(B::different(parts, open), B::seti(0));
     if (B::any(byEdges)) {
-      differentiate(x, slope, stretch, height, places);
-      parts = B::select(inner, parts, B::both(partsOf(places, byEdges), open));
+      parts = B::select(whole, parts, B::both(partsOf(places, byEdges), open));
     }
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
-    blend(y0, count, y, before, open, parts, painted, places, canvas);
+    blend(y0, count, y, before, open, parts, painted, block, canvas);
     return __builtin_popcount(B::bits(painted));
   }
 
-  void blend(int y0, int count, F y, I before, I open, I parts, M painted, const Places<B>& places,
+  template <class T>
+  static auto loaded(const T* words) {
+    return B::load(words, B::kWidth);
+  }
+
+  void blend(int y0, int count, F y, I before, I open, I parts, M painted, const Block<B>& block,
              const PatchCanvasColumn& canvas) const {
     F rgba[4];
-    colourAt(places, rgba);
+    colourAt(block, rgba);
     const F number = B::toFloat(countOf<B>(parts));
-    const F clear = B::load(canvas.clear + y0, count);
+    const F clear = loaded(canvas.clear + y0);
     F weight = clear * number;
     if (c.blended) {
       const F alpha = rgba[3] * B::set(1.0f / 255);
       weight = weight * alpha;
       const F share = number / B::max(B::toFloat(countOf<B>(open)), B::set(1));
-      B::store(canvas.clear + y0, B::select(painted, clear * (B::set(1) - alpha * share), clear), count);
+      B::store(canvas.clear + y0, B::select(painted, clear * (B::set(1) - alpha * share), clear), B::kWidth);
     }
-    const I mirror = canvas.mirror == nullptr ? B::seti(0) : B::load(canvas.mirror + y0, count);
+    const I mirror = canvas.mirror == nullptr ? B::seti(0) : loaded(canvas.mirror + y0);
     // What a mirror shows is painted later, in the place of its own colour.
     const bool waits = c.mirror != 0 && !c.reflects && canvas.mirror != nullptr;
     if (!waits) {
       const auto add = [&](float* sum, F code) {
-        const F was = B::load(sum + y0, count);
-        B::store(sum + y0, B::select(painted, was + code * code * weight, was), count);
+        const F was = loaded(sum + y0);
+        B::store(sum + y0, B::select(painted, was + code * code * weight, was), B::kWidth);
       };
       add(canvas.red, rgba[0]), add(canvas.green, rgba[1]), add(canvas.blue, rgba[2]);
     }
     if (c.blended) return;
     if (c.reflects) {
-      B::store(canvas.mirror + y0, mirror - parts, count);
+      B::store(canvas.mirror + y0, mirror - parts, B::kWidth);
       closeIfCovered(y0, count, open, parts, canvas);
       return;
     }
-    B::store(canvas.open + y0, before - parts, count);
+    B::store(canvas.open + y0, before - parts, B::kWidth);
     closeIfCovered(y0, count, before, parts, canvas);
     if (waits) {
       const I itsNumber = B::seti(std::int32_t(c.mirror << 16));
       const I others = B::both(mirror, B::seti(std::int32_t(kAllParts)));
-      B::store(canvas.mirror + y0, B::select(painted, itsNumber + others + parts, mirror), count);
+      B::store(canvas.mirror + y0, B::select(painted, itsNumber + others + parts, mirror), B::kWidth);
     }
-    const I source = B::load(canvas.source + y0, count);
+    const I source = loaded(canvas.source + y0);
     const I mine = countOf<B>(parts);
     const M more = painted & B::greater(mine, B::both(source, B::seti(255)));
-    B::store(canvas.source + y0, B::select(more, mine + B::seti(std::int32_t(c.slot << 8)), source), count);
-    const F depth = B::load(canvas.inverseZDepth + y0, count);
-    B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), count);
+    B::store(canvas.source + y0, B::select(more, mine + B::seti(std::int32_t(c.slot << 8)), source),
+             B::kWidth);
+    const F depth = loaded(canvas.inverseZDepth + y0);
+    B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), B::kWidth);
   }
 
   void closeIfCovered(int y0, int count, I open, I parts, const PatchCanvasColumn& canvas) const {

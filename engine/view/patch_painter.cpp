@@ -27,18 +27,21 @@ class PatchPainter {
     memory.clear.assign(room, 1);
     memory.inverseZDepth.resize(room);
     memory.cells.assign(std::size_t(canvas.width), 0);
+    memory.reached = memory.cells;
   }
 
   /// Nothing is painted where something covers the captures, but for what its mirrors show.
-  void cover(const CoverImage& cover, std::span<const std::uint8_t> mirrors) {
-    for (int y = 0; y < canvas_.height; ++y)
-      for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x) {
-        const std::uint32_t local = cover.at(x, y);
-        if (local == kUncovered) continue;
-        const std::size_t at = canvas_.indexOf(x) + std::size_t(y);
-        memory_.open[at] = 0;
-        if (mirrors_ && !mirrors.empty() && mirrors[local] != 0)
-          memory_.mirror[at] = kAllParts | std::uint32_t(mirrors[local]) << 16;
+  void cover(const CoverImage& image, std::span<const std::uint8_t> mirrors) {
+    constexpr int kTogether = 16;
+    const int end = canvas_.x0 + canvas_.width;
+    for (int first = canvas_.x0; first < end; first += kTogether)
+      for (int y = 0; y < canvas_.height; ++y) {
+        const auto row = std::span(&image.at(first, y), std::size_t(std::min(kTogether, end - first)));
+        std::uint32_t all = kUncovered;
+        for (const std::uint32_t local : row) all &= local;
+        if (all == kUncovered) continue;
+        for (int x = first; x < first + int(row.size()); ++x)
+          if (image.at(x, y) != kUncovered) cover(x, y, image.at(x, y), mirrors);
       }
   }
 
@@ -62,6 +65,13 @@ class PatchPainter {
   }
 
  private:
+  void cover(int x, int y, std::uint32_t local, std::span<const std::uint8_t> mirrors) {
+    const std::size_t at = canvas_.indexOf(x) + std::size_t(y);
+    memory_.open[at] = 0;
+    if (mirrors_ && !mirrors.empty() && mirrors[local] != 0)
+      memory_.mirror[at] = kAllParts | std::uint32_t(mirrors[local]) << 16;
+  }
+
   template <class Each>
   void forColumns(const Each& each) const {
     for (int x = canvas_.x0; x < canvas_.x0 + canvas_.width; ++x) each(x);
@@ -69,12 +79,16 @@ class PatchPainter {
 
   void paint(const std::vector<StripDraw>& strips, bool reflections = false) {
     forColumns([&](int x) { kernel_.findCells(canvasColumn(x), reflections); });
-    for (const StripDraw& strip : strips)
+    for (std::size_t x = 0; x < memory_.cells.size(); ++x) memory_.reached[x] |= memory_.cells[x];
+    for (const StripDraw& strip : strips) {
+      if (strip.x0 >= canvas_.x0 + canvas_.width || strip.x1 <= canvas_.x0) continue;
       for (const PatchDraw& draw : strip.patches) paint(strip, draw);
+    }
   }
 
   void settle(bool mirrors) {
     forColumns([&](int x) { kernel_.settle(canvasColumn(x), mirrors, canvas_.column(x)); });
+    std::ranges::fill(memory_.reached, 0);
   }
 
   /// Those that hold rows of [first, end).
@@ -123,6 +137,7 @@ class PatchPainter {
             memory_.source.data() + at,
             mirrors_ ? memory_.mirror.data() + at : nullptr,
             memory_.cells.data() + (x - canvas_.x0),
+            memory_.reached.data() + (x - canvas_.x0),
             cellShift_};
   }
 

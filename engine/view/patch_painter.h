@@ -12,7 +12,7 @@ namespace acentric {
 struct PatchCanvas {
   std::vector<std::uint32_t> open, source, mirror;
   std::vector<float> red, green, blue, clear, inverseZDepth;
-  std::vector<std::uint64_t> cells;
+  std::vector<std::uint64_t> cells, reached;
   std::vector<RowRange> rows;  ///< of a polygon, by column
 };
 

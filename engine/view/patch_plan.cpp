@@ -124,16 +124,17 @@ class StripPlanner {
     set(rays_.first, column.start, column.depthStart);
     set(rays_.down, column.step, column.depthStep);
     set(rays_.across, column.across, column.depthAcross);
-    const double middleRow = patch.row + 0.5 * patch.rows;
+    const int middleRow = patch.row + patch.rows / 2;
     column.columnOffset = float(middle_ - patch.column);
-    column.middleTangent = float(capture_.camera.tangentAt(middleRow));
-    column.rowOffset = float(0.5 * patch.rows);
+    column.middleTangent = capture_.patches->rowBorder[std::size_t(middleRow)];
+    column.rowOffset = float(middleRow - patch.row);
     column.columns = patch.columns, column.rows = patch.rows;
     column.colour =
         reinterpret_cast<const std::uint32_t*>(capture_.patches->colour.data() + patch.firstTexel);
     column.cover = capture_.patches->cover.data() + patch.firstTexel;
     column.mirror = patch.mirror;
     column.blended = patch.blended;
+    draw.x0 = std::min(draw.x0, polygon.x0()), draw.x1 = std::max(draw.x1, polygon.x1());
     draw.patches.push_back({column, polygon});
   }
 

@@ -6,6 +6,7 @@
 /// order that holds for every eye.
 
 #include <array>
+#include <climits>
 #include <memory>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct StripDraw {
   const PieceDraw* piece = nullptr;               ///< of the plan
   std::shared_ptr<const DisplayCapture> capture;  ///< its camera's, or what the mirrors there show
   std::vector<PatchDraw> patches;                 ///< front to back
+  int x0 = INT_MAX, x1 = 0;                       ///< columns of the picture that they may touch
   bool limited = false;  ///< PatchColumn::limited: then the borders' values at column 0, and per column
   float lowStart = 0, lowAcross = 0, highStart = 0, highAcross = 0;
 };

@@ -26,6 +26,8 @@ constexpr int kFillRingsWhileLoading = 8;
 
 /// More than one: some strips hold more than others. Not many more: samples near the borders are read twice.
 constexpr int kStripsPerThread = 2;
+/// Of patches: narrow enough for what is known of a strip's pixels to stay in the cache.
+constexpr int kPatchStripsPerThread = 12;
 
 /// One sample at a time, and all of them.
 bool isReference(const ViewSettings& settings) {
@@ -90,9 +92,9 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
   const CapturedBackground background(scene, plan);
   const std::vector<PixelSource> sources = sourcesOf(plan);
 
-  const std::size_t strips =
-      static_cast<std::size_t>(std::min(kStripsPerThread * runner.threads(), view.width));
   const bool patches = drawsPatches(scene, plan, settings);
+  const int perThread = patches ? kPatchStripsPerThread : kStripsPerThread;
+  const auto strips = static_cast<std::size_t>(std::min(perThread * runner.threads(), view.width));
   const PatchPlan patchPlan = patches ? planPatches(scene, view, plan, runner) : PatchPlan();
   const int beside = pixelsReadBeside(plan);
   if (memory.canvases.size() < strips) memory.canvases.resize(strips);

@@ -22,7 +22,7 @@ struct CanvasColumn {
   int rows = kRows;
   std::vector<std::uint32_t> open, source, mirror;
   std::vector<float> red, green, blue, clear, inverseZDepth;
-  std::uint64_t cells = ~std::uint64_t(0);
+  std::uint64_t cells = ~std::uint64_t(0), reached = ~std::uint64_t(0);
 
   explicit CanvasColumn(int count = kRows)
       : rows(count),
@@ -35,9 +35,9 @@ struct CanvasColumn {
         clear(open.size(), 1),
         inverseZDepth(open.size()) {}
   PatchCanvasColumn view() {
-    return {rows,          open.data(),  red.data(),           green.data(),
-            blue.data(),   clear.data(), inverseZDepth.data(), source.data(),
-            mirror.data(), &cells,       cellShiftOf(rows)};
+    return {rows,         open.data(),          red.data(),    green.data(),  blue.data(),
+            clear.data(), inverseZDepth.data(), source.data(), mirror.data(), &cells,
+            &reached,     cellShiftOf(rows)};
   }
   bool showsTheSame(const CanvasColumn& other) const {
     return open == other.open && source == other.source && mirror == other.mirror && red == other.red &&
@@ -77,6 +77,10 @@ class FlatPatch {
     std::fill(colour_.begin(), colour_.end(), colour);  // of the border too
     for (int i = 0; i < columns_; ++i)
       for (int j = 0; j < rows_; ++j) set(i, j, parts, colour);
+  }
+  void markWhole() { markWholeBlocks(cover_.data(), columns_, rows_); }
+  std::ptrdiff_t countOf(std::uint32_t mark) const {
+    return std::ranges::count_if(cover_, [&](std::uint32_t word) { return (word & mark) != 0; });
   }
   PatchColumn column(double column, double scale, double shift) const {
     constexpr double kPitch = 0.001;  // radians: all is near the axis
@@ -227,6 +231,7 @@ TEST(PatchKernel, EveryVariantGivesTheSameBits) {
       for (int j = 0; j < size.rows; ++j)
         patch.set(i, j, random() % 3 == 0 ? random() & kTexelParts : kTexelParts, std::uint32_t(random()),
                   1 + random() % 3);
+    if (random() % 2 == 0) patch.markWhole();
     PatchColumn column =
         patch.column(between(-2, float(size.columns) + 2), between(0.1f, 3), between(-20, 20));
     column.step[1] = between(-0.001f, 0.001f), column.depthStep = between(-0.01f, 0.01f);
@@ -253,6 +258,38 @@ TEST(PatchKernel, EveryVariantGivesTheSameBits) {
       ASSERT_TRUE(canvas.showsTheSame(expected)) << kernels.name << ", trial " << trial;
       ASSERT_EQ(canvas.cells | canvas.cellsThatAreOpen(column.reflects), canvas.cells) << kernels.name;
     }
+  }
+}
+
+TEST(PatchKernel, MarksOfWholeBlocksSaveWorkAndChangeNothing) {
+  FlatPatch plain(12, 40);
+  plain.setAll(kTexelParts, 0xffffffff);
+  for (int j = 10; j < 20; ++j) plain.set(j - 10, j, 0x00ff, 0xffffffff);
+  for (int i = 0; i < 12; ++i) plain.set(i, 30, kTexelParts, 0xffffffff, 2);
+  FlatPatch marked = plain;
+  marked.markWhole();
+  EXPECT_GT(marked.countOf(kBlockInner), 60);
+  EXPECT_GT(marked.countOf(kBlockWhole), marked.countOf(kBlockInner) + 60);
+  for (const Kernels& kernels : supportedKernels())
+    for (const double scale : {0.2, 0.6, 0.99, 1.01, 1.7, 2.5})
+      for (double column = -0.9; column < 13; column += 0.3) {
+        CanvasColumn expected, canvas;
+        paintPatch(plain.column(column, scale, -7.3), 0, kRows, expected.view());
+        kernels.patches->paint(marked.column(column, scale, -7.3), 0, kRows, canvas.view());
+        ASSERT_TRUE(canvas.showsTheSame(expected)) << kernels.name << ", " << scale << ", " << column;
+      }
+}
+
+TEST(PatchKernel, SettlesOnlyWhatPatchesReached) {
+  for (const Kernels& kernels : supportedKernels()) {
+    CanvasColumn canvas;
+    std::fill(canvas.open.begin(), canvas.open.end(), 0u);
+    std::fill(canvas.source.begin(), canvas.source.end(), 7u << 8 | kPixelParts);
+    canvas.reached = 0b0100;
+    std::vector<CanvasPixel> pixels(kRows, kEmptyPixel);
+    kernels.patches->settle(canvas.view(), false, pixels.data());
+    for (std::size_t y = 0; y < kRows; ++y)
+      EXPECT_EQ(slotOf(pixels[y]), y / 16 == 2 ? 7u : 0u) << kernels.name << ", " << y;
   }
 }
 
