@@ -16,6 +16,7 @@ constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'
 /// Of each kind of file its own: one that changes leaves the others readable.
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
   if (kind == BlockFileKind::capture) return kPlainCapture;
+  if (kind == BlockFileKind::surfaceLight) return 3;
   return kind == BlockFileKind::localGeometry || kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
 /// What a reader of the kind takes: captures in either version.
@@ -63,6 +64,13 @@ Status BlockFileWriter::addBlock(std::span<const std::byte> raw) {
   storedBytes_ += size;
   sizes_.push_back({static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(size)});
   rawBytes_ += raw.size();
+  return {};
+}
+
+Status BlockFileWriter::addStream(std::span<const std::byte> bytes) {
+  for (std::size_t at = 0; at < bytes.size(); at += kStreamBlock)
+    if (Status added = addBlock(bytes.subspan(at, std::min(kStreamBlock, bytes.size() - at))); !added)
+      return added;
   return {};
 }
 
@@ -198,6 +206,15 @@ Status BlockFileReader::nextBlock(std::span<std::byte> raw) {
   blockAt_ += stored;
   ++block_;
   return {};
+}
+
+Result<std::vector<std::byte>> BlockFileReader::nextStream(std::size_t size) {
+  std::vector<std::byte> stream(size);
+  for (std::size_t at = 0; at < size; at += kStreamBlock) {
+    const Status read = nextBlock(std::span(stream).subspan(at, std::min(kStreamBlock, size - at)));
+    if (!read) return tl::unexpected(read.error());
+  }
+  return stream;
 }
 
 Status BlockFileReader::nextRecords(std::span<const Lane> lanes, std::size_t count) {

@@ -35,6 +35,7 @@ inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 5;
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;
+inline constexpr std::size_t kStreamBlock = std::size_t(1) << 23;  ///< bytes
 
 class BlockFileWriter {
  public:
@@ -52,6 +53,8 @@ class BlockFileWriter {
   Status addBlock(std::span<const std::byte> raw);
   /// `count` records in blocks of kRecordsPerBlock.
   Status addRecords(std::span<const ConstLane> lanes, std::size_t count);
+  /// Bytes that are coded already, in blocks of kStreamBlock.
+  Status addStream(std::span<const std::byte> bytes);
   /// What a reader will need besides the blocks as they are unpacked: the file is made long enough for it.
   void claim(std::uint64_t bytes) { claimedBytes_ += bytes; }
   Status write(const std::filesystem::path& path) const;
@@ -105,6 +108,8 @@ class BlockFileReader {
   /// Unpacks the next block into `raw`, whose size must be the block's.
   Status nextBlock(std::span<std::byte> raw);
   Status nextRecords(std::span<const Lane> lanes, std::size_t count);
+  /// `size` is rawBytes at most.
+  Result<std::vector<std::byte>> nextStream(std::size_t size);
   bool atEnd() const { return block_ == blockCount_; }
 
   tl::unexpected<Error> malformed(std::string message) const {

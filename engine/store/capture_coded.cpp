@@ -16,7 +16,6 @@ namespace {
 /// Pictures are cut into strips of rows with at most so many pixels, each a file of its own.
 constexpr int kMostStripPixels = 1 << 22;
 /// Of a block, which is smaller than 16 MiB.
-constexpr std::size_t kStreamBlock = 1 << 23;
 constexpr std::uint64_t kPixelBytes = 6;  ///< of a picture's three planes
 /// Of a sample, with all that it may have, and its place in a picture.
 constexpr std::uint64_t kHeldBytes = 26;
@@ -47,13 +46,6 @@ struct ListHead {
   std::uint64_t samples = 0, planes = 0, streamBytes = 0;
   bool stepped = false;  ///< distances are numbered by the capture's steps
 };
-
-Status addStream(BlockFileWriter& file, std::span<const std::byte> bytes) {
-  for (std::size_t at = 0; at < bytes.size(); at += kStreamBlock)
-    if (Status added = file.addBlock(bytes.subspan(at, std::min(kStreamBlock, bytes.size() - at))); !added)
-      return added;
-  return {};
-}
 
 Status addPictures(BlockFileWriter& file, const CaptureSamples& samples, const ColourTiles& tiles,
                    int quality, const std::stop_token& stop) {
@@ -96,7 +88,7 @@ class ListWriter {
     if (stream_.empty()) return {};
     file.claim(claimOf(shape_));
     if (Status added = addPlanes(file, samples_.planes); !added) return added;
-    if (Status added = addStream(file, stream_); !added) return added;
+    if (Status added = file.addStream(stream_); !added) return added;
     if (quality_ >= kLosslessColours) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
     file.claim(pictureBytes(tiles_));
     return addPictures(file, samples_, tiles_, quality_, stop);
@@ -140,13 +132,9 @@ ListHead describedList(BlockFileReader& file) {
 
 Status takeStream(BlockFileReader& file, const ListHead& head, const SampleShape& shape,
                   CaptureSamples& out) {
-  std::vector<std::byte> stream(head.streamBytes);
-  for (std::size_t at = 0; at < stream.size(); at += kStreamBlock)
-    if (Status read =
-            file.nextBlock(std::span(stream).subspan(at, std::min(kStreamBlock, stream.size() - at)));
-        !read)
-      return read;
-  if (Status decoded = decodeSamples(stream, shape, out); !decoded)
+  const auto stream = file.nextStream(head.streamBytes);
+  if (!stream) return tl::unexpected(stream.error());
+  if (Status decoded = decodeSamples(*stream, shape, out); !decoded)
     return file.malformed(decoded.error().message);
   return {};
 }

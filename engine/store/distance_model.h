@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/store/range_coder.h"
+#include "engine/store/difference_model.h"
 
 namespace acentric {
 
@@ -87,7 +87,7 @@ class DistanceModel {
     const std::int64_t nearest = (foretold + kHalf) >> kFraction;
     const auto rest = std::size_t((foretold + kHalf - (nearest << kFraction)) >> (kFraction - 4));  // 0..15
     const std::uint32_t unrest = (n ? n->off : b ? b->off : 8u) + (b ? b->off : n ? n->off : 8u);
-    const std::int64_t off = codeDifference(numbers_.numberOf(w) - nearest, rest, classOf(unrest));
+    const std::int64_t off = differences_.code(coder_, numbers_.numberOf(w) - nearest, classOf(unrest), rest);
     own.number = nearest + off;
     const auto value = numbers_.at(own.number);
     if (!value) return std::nullopt;
@@ -122,7 +122,7 @@ class DistanceModel {
                         offBefore = before == kNone ? 0 : before_[before - beforeFirst_].off;
     Trace own;
     const std::int64_t off =
-        codeDifference(numbers_.numberOf(w) - foretold, 0, classOf(offAbove + offBefore));
+        differences_.code(coder_, numbers_.numberOf(w) - foretold, classOf(offAbove + offBefore));
     own.number = foretold + off;
     own.off = std::uint32_t(std::min<std::int64_t>(std::abs(off), 255));
     now_[i - nowFirst_] = own;
@@ -153,31 +153,9 @@ class DistanceModel {
     return unrest < 3 ? unrest : std::min<std::size_t>(std::size_t(std::bit_width(unrest)) + 1, 9);
   }
 
-  std::int64_t codeDifference(std::int64_t off, std::size_t rest, std::size_t unrest) {
-    if (!coder_.bit(differs_[unrest][rest], off != 0)) return 0;
-    const bool less = coder_.bit(less_[unrest][rest], off < 0);
-    const std::uint64_t size = std::uint64_t(std::abs(off));  // from 1
-    int digits = 1;
-    const int wanted = Coder::kReads ? 0 : int(std::bit_width(size));
-    while (digits < kMostDigits && coder_.bit(longer_[unrest][std::size_t(digits)], wanted > digits))
-      ++digits;
-    std::uint64_t out = 1;
-    for (int d = digits - 2; d >= 0; --d) {
-      const bool one = (size >> d & 1u) != 0;
-      const bool known = d == digits - 2;
-      const std::uint32_t b = known ? std::uint32_t(coder_.bit(second_[std::size_t(digits)], one))
-                                    : coder_.plain(std::uint32_t(one), 1);
-      out = out << 1 | b;
-    }
-    return less ? -std::int64_t(out) : std::int64_t(out);
-  }
-
-  static constexpr int kMostDigits = 26;
   Coder& coder_;
   DistanceNumbers numbers_;
-  std::array<std::array<BitChance, 16>, 10> differs_, less_;
-  std::array<std::array<BitChance, kMostDigits + 1>, 10> longer_;
-  std::array<BitChance, kMostDigits + 1> second_;
+  DifferenceModel<10, 16> differences_;
   std::vector<Trace> now_, before_;
   std::size_t nowFirst_ = 0, beforeFirst_ = 0;
   std::int64_t last_ = 0;

@@ -7,6 +7,7 @@
 #include "engine/store/block_file.h"
 #include "engine/store/capture_store.h"
 #include "engine/store/keyed.h"
+#include "engine/store/light_coder.h"
 
 namespace acentric {
 namespace {
@@ -14,17 +15,16 @@ namespace {
 constexpr std::uint64_t kMaxTriangles = std::uint64_t(1) << 31;
 constexpr std::uint64_t kMaxSamples = std::uint64_t(1) << 31;
 
-/// First sample, resolution and sidedness of each triangle.
+/// Resolution and sidedness of each triangle.
+constexpr std::uint64_t kTriangleBytes = 3;
 template <class AnyLight>
 auto triangleLanes(AnyLight& light) {
-  return std::array{laneOf(light.firstSample), laneOf(light.resolution), laneOf(light.hasBack)};
+  return std::array{laneOf(light.resolution), laneOf(light.hasBack)};
 }
 
-/// The four halves of each sample.
-template <class AnyLight>
-auto lightLanes(AnyLight& light) {
-  return std::array{laneOf(light.light, 0, 2), laneOf(light.light, 2, 2), laneOf(light.light, 4, 2),
-                    laneOf(light.light, 6, 2)};
+std::uint64_t samplesOf(const SurfaceLight& light, std::size_t triangle) {
+  const std::uint64_t resolution = light.resolution[triangle];
+  return resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2 << (light.hasBack[triangle] & 1);
 }
 
 Status checkSurfaceLight(const SurfaceLight& light) {
@@ -36,16 +36,16 @@ Status checkSurfaceLight(const SurfaceLight& light) {
     return malformed("its tables have different lengths");
   if (triangles > kMaxTriangles || light.light.size() > kMaxSamples)
     return fail(ErrorKind::tooLarge, "more than 2^31 triangles or samples", "surface light");
-  if (light.firstSample.back() != light.light.size()) return malformed("its offsets do not span the samples");
+  std::uint64_t next = 0;
   for (std::size_t t = 0; t < triangles; ++t) {
-    const std::uint64_t resolution = light.resolution[t];
     if (light.hasBack[t] > 1)
       return malformed(fmt::format("triangle {} has a side flag that is neither 0 nor 1", t));
-    const std::uint64_t oneSide = (resolution + 1) * (resolution + 2) / 2;
-    const std::uint64_t needed = resolution == 0 ? 0 : oneSide << light.hasBack[t];
-    if (light.firstSample[t] + needed > light.firstSample[t + 1])
-      return malformed(fmt::format("triangle {} has fewer samples than its resolution needs", t));
+    if (light.firstSample[t] != next)
+      return malformed(fmt::format("the samples of triangle {} do not follow those before", t));
+    next += samplesOf(light, t);
   }
+  if (light.firstSample.back() != next || next != light.light.size())
+    return malformed("its triangles do not have as many samples as there are");
   for (const HalfColour& colour : light.light)
     if (colour.r >= 0x7c00 || colour.g >= 0x7c00 || colour.b >= 0x7c00)
       return malformed("light must be finite and >= 0");
@@ -58,8 +58,13 @@ Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::f
   BlockFileWriter file(BlockFileKind::surfaceLight, key, stop);
   file.describe(static_cast<std::uint64_t>(light.resolution.size()));
   file.describe(static_cast<std::uint64_t>(light.light.size()));
+  const int unused = unusedBits(light);
+  const std::vector<std::byte> stream = codeLight(light, unused);
+  file.describe(static_cast<std::uint64_t>(stream.size()));
+  file.describe(static_cast<std::uint8_t>(unused));
+  file.claim(sizeof(HalfColour) * light.light.size());
   if (Status added = file.addRecords(triangleLanes(light), light.resolution.size()); !added) return added;
-  if (Status added = file.addRecords(lightLanes(light), light.light.size()); !added) return added;
+  if (Status added = file.addStream(stream); !added) return added;
   return file.write(path);
 }
 
@@ -68,18 +73,30 @@ Result<Keyed<SurfaceLight>> readLight(const std::filesystem::path& path) {
   if (!file) return tl::unexpected(file.error());
   const auto triangles = file->described<std::uint64_t>();
   const auto samples = file->described<std::uint64_t>();
+  const auto streamBytes = file->described<std::uint64_t>();
+  const auto unused = file->described<std::uint8_t>();
   if (!file->describedAll()) return file->malformed("its description makes no sense");
-  if (triangles > kMaxTriangles || samples > kMaxSamples || file->rawBytes() != 7 * triangles + 8 * samples)
+  if (triangles > kMaxTriangles || samples > kMaxSamples || streamBytes > file->rawBytes() ||
+      file->rawBytes() != kTriangleBytes * triangles + streamBytes ||
+      !file->mayHold(sizeof(HalfColour) * samples))
     return file->malformed("its number of samples contradicts its size");
   SurfaceLight light;
-  light.firstSample.resize(triangles + 1);
   light.resolution.resize(triangles);
   light.hasBack.resize(triangles);
-  light.light.resize(samples);
-  light.firstSample.back() = static_cast<std::uint32_t>(samples);
   if (Status read = file->nextRecords(triangleLanes(light), triangles); !read)
     return tl::unexpected(read.error());
-  if (Status read = file->nextRecords(lightLanes(light), samples); !read) return tl::unexpected(read.error());
+  light.firstSample.push_back(0);
+  std::uint64_t next = 0;
+  for (std::size_t t = 0; t < triangles && next <= samples; ++t) {
+    next += samplesOf(light, t);
+    light.firstSample.push_back(static_cast<std::uint32_t>(next));
+  }
+  if (next != samples) return file->malformed("its triangles do not have as many samples as it says");
+  const auto stream = file->nextStream(streamBytes);
+  if (!stream) return tl::unexpected(stream.error());
+  light.light.resize(samples);
+  if (Status decoded = decodeLight(*stream, unused, light); !decoded)
+    return file->malformed(decoded.error().message);
   if (!file->atEnd()) return file->malformed("has more blocks than its description needs");
   if (Status sound = checkSurfaceLight(light); !sound) return file->malformed(sound.error().describe());
   return Keyed<SurfaceLight>{file->key(), std::move(light)};

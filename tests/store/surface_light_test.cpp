@@ -1,3 +1,4 @@
+#include <cmath>
 #include <functional>
 #include <random>
 
@@ -44,6 +45,47 @@ TEST_F(SurfaceLightFile, RoundTripsBitForBit) {
     const SurfaceLight light = randomLight(triangles, 3);
     const Status written = writeSurfaceLight(light, {1, 1}, path());
     ASSERT_TRUE(written) << written.error().describe();
+    const auto back = readSurfaceLight(path());
+    ASSERT_TRUE(back) << back.error().describe();
+    expectSame(light, *back);
+  }
+}
+
+/// Light that changes slowly over each of so many triangles, to six bits behind the first as a bake keeps it.
+SurfaceLight smoothLight(std::size_t triangles, std::uint16_t resolution) {
+  SurfaceLight result;
+  result.resolution.assign(triangles, resolution), result.hasBack.assign(triangles, 0);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    result.firstSample.push_back(std::uint32_t(result.light.size()));
+    for (int i = 0; i <= resolution; ++i)
+      for (int j = 0; i + j <= resolution; ++j) {
+        const float bright = 1 + 0.3f * std::sin(0.1f * float(i) + 0.2f * float(j) + float(t));
+        HalfColour colour = packColour({bright, 0.9f * bright, 0.7f * bright, 1});
+        for (auto* channel : {&colour.r, &colour.g, &colour.b}) *channel &= std::uint16_t(~15u);
+        result.light.push_back(colour);
+      }
+  }
+  result.firstSample.push_back(std::uint32_t(result.light.size()));
+  return result;
+}
+
+TEST_F(SurfaceLightFile, TakesLittleMoreThanWhatCannotBeForetold) {
+  const SurfaceLight light = smoothLight(200, 20);
+  ASSERT_TRUE(writeSurfaceLight(light, {1, 1}, path()));
+  const auto back = readSurfaceLight(path());
+  ASSERT_TRUE(back) << back.error().describe();
+  expectSame(light, *back);
+  EXPECT_LT(fs::file_size(path()), light.light.size()) << "eight bits of 48 and more";
+}
+
+TEST_F(SurfaceLightFile, HoldsTheBrightestAndTheDarkestSideBySide) {
+  for (const std::uint16_t step : {1, 16}) {
+    SurfaceLight light = smoothLight(3, 6);
+    std::mt19937 random(step);
+    for (HalfColour& colour : light.light)
+      for (auto* channel : {&colour.r, &colour.g, &colour.b})
+        *channel = std::uint16_t(random() % 2 == 0 ? 0 : 0x7c00 - step);
+    ASSERT_TRUE(writeSurfaceLight(light, {1, 1}, path()));
     const auto back = readSurfaceLight(path());
     ASSERT_TRUE(back) << back.error().describe();
     expectSame(light, *back);

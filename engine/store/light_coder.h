@@ -1,0 +1,23 @@
+#pragma once
+/// The light of surfaces as a range-coded stream (FORMAT.md, "Kind 2"): each sample is foretold by those
+/// before it in its triangle, red by green and blue by both.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/scene/surface_light.h"
+
+namespace acentric {
+
+/// The last bits of all channels that are 0 in every sample, four at most: they are not coded.
+int unusedBits(const SurfaceLight& light);
+
+/// Of light whose tables agree with its samples. Alpha is not coded.
+std::vector<std::byte> codeLight(const SurfaceLight& light, int unusedBits);
+
+/// Fills in the samples, alpha 1; tables and the number of samples are known and agree.
+Status decodeLight(std::span<const std::byte> stream, int unusedBits, SurfaceLight& light);
+
+}  // namespace acentric
