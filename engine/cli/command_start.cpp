@@ -13,7 +13,7 @@ Result<glm::dvec2> placeToStand(const std::string& text, const Layout& layout) {
   const auto place = parsePoint(text);
   if (!place) return place;
   if (layout.regionAt(*place)) return place;
-  const glm::dvec2 nearest = nearestStanding(layout, *place);
+  const glm::dvec2 nearest = nearestStandingCentimetre(layout, *place);
   return fail(ErrorKind::invalidArgument,
               fmt::format("no region holds ({:g}, {:g}) m; the nearest place to stand is {:.2f},{:.2f}",
                           place->x, place->y, nearest.x, nearest.y),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/geometry/conventions.h"
+#include "engine/pipeline/walk_ground.h"
 
 namespace acentric::cli {
 namespace {
@@ -18,13 +19,14 @@ Status checkStanding(const CameraPath& path, std::span<const OpenProject> storey
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const glm::dvec3& eye = path.poses[i].eye;
     const Layout& layout = *storeys[storeyAt(storeys, eye)].layout;
-    const glm::dvec2 near = clampToPlan(layout, glm::dvec2(eye));
-    if (glm::distance(near, glm::dvec2(eye)) > kRounding)
-      return fail(ErrorKind::invalidArgument,
-                  fmt::format("the eye ({:.2f}, {:.2f}) stands outside every region; the nearest place "
-                              "inside is ({:.2f}, {:.2f})",
-                              eye.x, eye.y, near.x, near.y),
-                  fmt::format("/frames/{}", i));
+    if (glm::distance(clampToPlan(layout, glm::dvec2(eye)), glm::dvec2(eye)) <= kRounding) continue;
+    const glm::dvec2 near = nearestStandingCentimetre(layout, glm::dvec2(eye));
+    return fail(
+        ErrorKind::invalidArgument,
+        fmt::format("the eye ({:.2f}, {:.2f}) stands outside every region; the nearest place to stand "
+                    "is ({:.2f}, {:.2f})",
+                    eye.x, eye.y, near.x, near.y),
+        fmt::format("/frames/{}", i));
   }
   return {};
 }

@@ -78,6 +78,20 @@ glm::dvec2 nearestStanding(const Layout& layout, const glm::dvec2& point) {
   return best ? lastStanding(layout, *best, point) : point;
 }
 
+glm::dvec2 nearestStandingCentimetre(const Layout& layout, const glm::dvec2& point) {
+  constexpr double kPerMetre = 100;
+  constexpr int kReach = 3;
+  const glm::dvec2 exact = nearestStanding(layout, point), middle = glm::round(kPerMetre * exact);
+  std::optional<glm::dvec2> best;
+  for (int x = -kReach; x <= kReach; ++x)
+    for (int y = -kReach; y <= kReach; ++y) {
+      const glm::dvec2 place = (middle + glm::dvec2(x, y)) / kPerMetre;
+      const bool nearer = !best || glm::distance(place, exact) < glm::distance(*best, exact);
+      if (nearer && mayStand(layout, place)) best = place;
+    }
+  return best.value_or(exact);
+}
+
 glm::dvec2 walkTo(const Layout& layout, const glm::dvec2& from, const glm::dvec2& to) {
   const double length = glm::distance(from, to);
   const int steps = int(std::clamp(std::ceil(length / grain(layout)), 1.0, double(kMostSteps)));

@@ -14,6 +14,9 @@ bool mayStand(const Layout& layout, const glm::dvec2& point);
 /// a cell. The point itself if one may stand nowhere.
 glm::dvec2 nearestStanding(const Layout& layout, const glm::dvec2& point);
 
+/// The same in whole centimetres, to be told to a person; as it is where no such place is near.
+glm::dvec2 nearestStandingCentimetre(const Layout& layout, const glm::dvec2& point);
+
 /// Where a walk straight from `from`, where one may stand, to `to` ends. What leads into a wall is lost, what
 /// leads along it is kept; no wall is walked through, however long the step, if it is as thick as a hundredth
 /// of a cell.

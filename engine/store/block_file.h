@@ -35,7 +35,7 @@ inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 5;
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;
-inline constexpr std::size_t kStreamBlock = std::size_t(1) << 23;  ///< bytes
+inline constexpr std::size_t kStreamBlock = std::size_t(1) << 23;  ///< bytes of a stream in one block
 
 class BlockFileWriter {
  public:

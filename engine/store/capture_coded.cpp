@@ -15,7 +15,6 @@ namespace {
 
 /// Pictures are cut into strips of rows with at most so many pixels, each a file of its own.
 constexpr int kMostStripPixels = 1 << 22;
-/// Of a block, which is smaller than 16 MiB.
 constexpr std::uint64_t kPixelBytes = 6;  ///< of a picture's three planes
 /// Of a sample, with all that it may have, and its place in a picture.
 constexpr std::uint64_t kHeldBytes = 26;

@@ -22,6 +22,11 @@ auto triangleLanes(AnyLight& light) {
   return std::array{laneOf(light.resolution), laneOf(light.hasBack)};
 }
 
+/// What a reader makes of a file besides: offsets of triangles, and samples.
+std::uint64_t claimOf(std::uint64_t triangles, std::uint64_t samples) {
+  return sizeof(std::uint32_t) * triangles + sizeof(HalfColour) * samples;
+}
+
 std::uint64_t samplesOf(const SurfaceLight& light, std::size_t triangle) {
   const std::uint64_t resolution = light.resolution[triangle];
   return resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2 << (light.hasBack[triangle] & 1);
@@ -62,7 +67,7 @@ Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::f
   const std::vector<std::byte> stream = codeLight(light, unused);
   file.describe(static_cast<std::uint64_t>(stream.size()));
   file.describe(static_cast<std::uint8_t>(unused));
-  file.claim(sizeof(HalfColour) * light.light.size());
+  file.claim(claimOf(light.resolution.size(), light.light.size()));
   if (Status added = file.addRecords(triangleLanes(light), light.resolution.size()); !added) return added;
   if (Status added = file.addStream(stream); !added) return added;
   return file.write(path);
@@ -78,7 +83,7 @@ Result<Keyed<SurfaceLight>> readLight(const std::filesystem::path& path) {
   if (!file->describedAll()) return file->malformed("its description makes no sense");
   if (triangles > kMaxTriangles || samples > kMaxSamples || streamBytes > file->rawBytes() ||
       file->rawBytes() != kTriangleBytes * triangles + streamBytes ||
-      !file->mayHold(sizeof(HalfColour) * samples))
+      !file->mayHold(claimOf(triangles, samples)))
     return file->malformed("its number of samples contradicts its size");
   SurfaceLight light;
   light.resolution.resize(triangles);

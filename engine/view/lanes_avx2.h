@@ -53,7 +53,7 @@ struct EightLanes {
   static I counted(std::int32_t first) { return seti(first) + I{_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)}; }
   static F load(const float* p) { return {_mm256_loadu_ps(p)}; }
   static __m256i firstLanes(int count) { return _mm256_cmpgt_epi32(seti(count).v, counted(0).v); }
-  // Of AMD's processors some take twenty times as long to store by a mask.
+  // Where all lanes are wanted, no mask: some processors are slow with one.
   static F load(const float* p, int count) {
     return {count >= kWidth ? _mm256_loadu_ps(p) : _mm256_maskload_ps(p, firstLanes(count))};
   }
@@ -106,10 +106,6 @@ struct EightLanes {
     return {_mm256_srli_epi32(a.v, kBits)};
   }
   template <int kBits>
-  static I shiftSigned(I a) {
-    return {_mm256_srai_epi32(a.v, kBits)};
-  }
-  template <int kBits>
   static I shiftLeft(I a) {
     return {_mm256_slli_epi32(a.v, kBits)};
   }
@@ -149,15 +145,19 @@ struct EightLanes {
   static __m256i firstPairs(int count) {
     return _mm256_cmpgt_epi64(_mm256_set1_epi64x(count), _mm256_setr_epi64x(0, 1, 2, 3));
   }
+  /// Words that alternate.
+  static void separate(__m256i first, __m256i second, I& even, I& odd) {
+    const auto ordered = [](__m256 mixed) {
+      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(mixed), 0xd8)};
+    };
+    const __m256 a = _mm256_castsi256_ps(first), b = _mm256_castsi256_ps(second);
+    even = ordered(_mm256_shuffle_ps(a, b, 0x88)), odd = ordered(_mm256_shuffle_ps(a, b, 0xdd));
+  }
   static void loadPairs(const std::uint64_t* p, int count, I& low, I& high) {
     const auto* from = reinterpret_cast<const long long*>(p);
     const __m256i first = _mm256_maskload_epi64(from, firstPairs(count));
     const __m256i second = _mm256_maskload_epi64(from + 4, firstPairs(count - 4));
-    const auto half = [&](auto shuffled) {
-      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(shuffled), 0xd8)};
-    };
-    low = half(_mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), 0x88));
-    high = half(_mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), 0xdd));
+    separate(first, second, low, high);
   }
   static __m256i pairsOf(I low, I high, bool upper) {
     const __m256i first = _mm256_unpacklo_epi32(low.v, high.v), second = _mm256_unpackhi_epi32(low.v, high.v);

@@ -98,10 +98,6 @@ struct SixteenLanes {
     return {_mm512_srli_epi32(a.v, kBits)};
   }
   template <int kBits>
-  static I shiftSigned(I a) {
-    return {_mm512_srai_epi32(a.v, kBits)};
-  }
-  template <int kBits>
   static I shiftLeft(I a) {
     return {_mm512_slli_epi32(a.v, kBits)};
   }
@@ -148,12 +144,16 @@ struct SixteenLanes {
     second = {_mm512_i32gather_epi32(index.v, table + 1, 8)};
   }
 
+  /// Words that alternate.
+  static void separate(__m512i first, __m512i second, I& even, I& odd) {
+    const I lanes{_mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30)};
+    even = {_mm512_permutex2var_epi32(first, lanes.v, second)};
+    odd = {_mm512_permutex2var_epi32(first, (lanes + seti(1)).v, second)};
+  }
   static void loadPairs(const std::uint64_t* p, int count, I& low, I& high) {
     const __m512i first = _mm512_maskz_loadu_epi64(__mmask8(firstLanes(count)), p);
     const __m512i second = _mm512_maskz_loadu_epi64(__mmask8(firstLanes(count) >> 8), p + 8);
-    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    low = {_mm512_permutex2var_epi32(first, even, second)};
-    high = {_mm512_permutex2var_epi32(first, (I{even} + seti(1)).v, second)};
+    separate(first, second, low, high);
   }
   static void storePairs(std::uint64_t* p, I low, I high) { storePairs(p, low, high, kWidth); }
   static void storePairs(std::uint64_t* p, I low, I high, int count) {

@@ -57,11 +57,6 @@ struct OneLane {
   static I shiftRight(I a) {
     return static_cast<I>(static_cast<std::uint32_t>(a) >> kBits);
   }
-  /// Of signed numbers.
-  template <int kBits>
-  static I shiftSigned(I a) {
-    return a >> kBits;
-  }
   template <int kBits>
   static I shiftLeft(I a) {
     return static_cast<I>(static_cast<std::uint32_t>(a) << kBits);

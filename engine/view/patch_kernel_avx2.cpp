@@ -13,11 +13,7 @@ struct PatchLanes : EightLanes {
     const auto* const pairs = reinterpret_cast<const long long*>(table);
     const __m256i low = _mm256_i32gather_epi64(pairs, _mm256_castsi256_si128(index.v), 4);
     const __m256i high = _mm256_i32gather_epi64(pairs, _mm256_extracti128_si256(index.v, 1), 4);
-    const auto half = [&](auto shuffled) {
-      return I{_mm256_permute4x64_epi64(_mm256_castps_si256(shuffled), 0xd8)};
-    };
-    at = half(_mm256_shuffle_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), 0x88));
-    next = half(_mm256_shuffle_ps(_mm256_castsi256_ps(low), _mm256_castsi256_ps(high), 0xdd));
+    separate(low, high, at, next);
   }
   static F inHalves(float first, float) { return set(first); }
 };

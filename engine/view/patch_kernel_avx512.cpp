@@ -12,9 +12,7 @@ struct PatchLanes : SixteenLanes {
   static void gatherNext(const std::uint32_t* table, I index, I& at, I& next) {
     const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.v), table, 4);
     const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(index.v, 1), table, 4);
-    const __m512i even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    at = {_mm512_permutex2var_epi32(low, even, high)};
-    next = {_mm512_permutex2var_epi32(low, (I{even} + seti(1)).v, high)};
+    separate(low, high, at, next);
   }
   /// The second one only where eight lanes hold the first.
   static F inHalves(float first, float second) {

@@ -36,6 +36,23 @@ TEST(WalkGround, OneStandsWithinTheOutlineOrInACellAddedBeyondIt) {
   EXPECT_FALSE(mayStand(buildLayout(spec).value(), {3, 3.5}));
 }
 
+TEST(WalkGround, APlaceThatIsToldInCentimetresIsOneToStand) {
+  LayoutSpec spec;
+  spec.cellSize = 1;
+  spec.outline.loops = {{{0.0031, 0.0017}, {6.0049, 0.3}, {5.7, 4.0023}, {0.3, 3.9}}};
+  const Layout layout = buildLayout(spec).value();
+  int outside = 0;
+  for (double x = -1.003; x < 7; x += 0.19)
+    for (double y = -1.007; y < 5; y += 0.17) {
+      const glm::dvec2 told = nearestStandingCentimetre(layout, {x, y});
+      EXPECT_TRUE(mayStand(layout, glm::round(told * 100.0) / 100.0)) << x << " " << y;
+      if (mayStand(layout, {x, y})) continue;
+      ++outside;
+      EXPECT_LT(glm::distance(told, nearestStanding(layout, {x, y})), 0.03) << x << " " << y;
+    }
+  EXPECT_GT(outside, 100);
+}
+
 TEST(WalkGround, TheNearestPlaceIsAsNearAsAnyOfAFineGrid) {
   const Layout layout = room();
   test::Random random(3);
