@@ -214,22 +214,26 @@ struct Kernel {
   /// One pixel after the other, or two at once: lanes hold their parts.
   I partsOf(const Places<B>& places, M wanted) const {
     constexpr int kWidth = B::kWidth, kStep = kWidth < kPixelParts ? kWidth : kPixelParts;
-    alignas(64) float values[6][kWidth];
-    const F four = B::set(4), all[6] = {four * places.column, places.columnAcross, places.columnDown,
-                                        four * places.row,    places.rowAcross,    places.rowDown};
-    for (int k = 0; k < 6; ++k) B::store(values[k], all[k], kWidth);
+    const F four = B::set(4);
+    alignas(64) float column[kWidth], row[kWidth], derivatives[4][kWidth];
+    B::store(column, four * places.column, kWidth), B::store(row, four * places.row, kWidth);
+    B::store(derivatives[0], places.columnAcross, kWidth),
+        B::store(derivatives[1], places.columnDown, kWidth);
+    B::store(derivatives[2], places.rowAcross, kWidth), B::store(derivatives[3], places.rowDown, kWidth);
     alignas(64) std::uint32_t parts[kWidth] = {};
     for (unsigned left = B::bits(wanted); left != 0;) {
       const int first = __builtin_ctz(left);
       left &= left - 1;
       const int second = left != 0 ? __builtin_ctz(left) : first;
-      F v[6];
-      for (int k = 0; k < 6; ++k) v[k] = B::inHalves(values[k][first], values[k][second]);
+      const auto both = [&](const float* values) { return B::inHalves(values[first], values[second]); };
+      const F columnAcross = both(derivatives[0]), columnDown = both(derivatives[1]);
+      const F rowAcross = both(derivatives[2]), rowDown = both(derivatives[3]);
+      const F column0 = both(column), row0 = both(row);
       unsigned covered = 0;
       for (int part = 0; part < kPixelParts; part += kStep) {
         const F dx = B::load(kPartX4 + part), dy = B::load(kPartY4 + part);
-        const I i = partAt(v[0] + (dx * v[1] + dy * v[2]), c.columns);
-        const I j = partAt(v[3] + (dx * v[4] + dy * v[5]), c.rows);
+        const I i = partAt(column0 + (dx * columnAcross + dy * columnDown), c.columns);
+        const I j = partAt(row0 + (dx * rowAcross + dy * rowDown), c.rows);
         const I texel = B::times(B::template shiftRight<2>(i), B::seti(c.rows + 2));
         const I cover = B::gather(c.cover, texel + B::template shiftRight<2>(j));
         const I bit = B::template shiftLeft<2>(B::both(j, B::seti(3))) + B::both(i, B::seti(3));
@@ -285,8 +289,7 @@ struct Kernel {
       const int skipped = __builtin_ctzll(open);
       if (skipped > 0) y = (cell + skipped) << canvas.cellShift;
       if (y >= end) break;
-      const I ours = openTo(B::load(canvas.open + y, end - y), y, canvas);
-      const unsigned lanes = B::bits(B::greater(ours, B::seti(0)));
+      const unsigned lanes = openLanes(y, end - y, canvas);
       if (lanes == 0) {
         closeCells<B>(y, end - y, canvas, c.reflects);
         continue;
@@ -297,17 +300,21 @@ struct Kernel {
     return painted;
   }
 
-  /// What the patch may paint in the rows from y on, of what is open there.
-  I openTo(I open, int y, const PatchCanvasColumn& canvas) const {
+  /// What the patch may paint, of all that is open.
+  I openTo(I open, I mirror) const {
     if (!c.reflects) return open;
-    const I mirror = B::load(canvas.mirror + y, B::kWidth);
     const I other = B::different(B::template shiftRight<16>(mirror), B::seti(std::int32_t(c.mirror)));
     return B::when(isZero<B>(other), B::both(mirror, B::seti(std::int32_t(kAllParts))));
+  }
+  unsigned openLanes(int y, int count, const PatchCanvasColumn& canvas) const {
+    const I open = B::load(canvas.open + y, count);
+    const I mirror = c.reflects ? B::load(canvas.mirror + y, count) : B::seti(0);
+    return B::bits(B::greater(openTo(open, mirror), B::seti(0)));
   }
 
   /// Whole batches are read and written: what lies beyond the rows stays as it is.
   int paintBatch(int y0, int count, const PatchCanvasColumn& canvas) const {
-    const I before = B::load(canvas.open + y0, B::kWidth);
+    const I before = loaded(canvas.open + y0);
     const F y = B::toFloat(B::counted(y0));
     Places<B> places;
     F x, slope, stretch, height;
@@ -317,7 +324,7 @@ struct Kernel {
               high = B::less(B::set(0), at(c.highStart, c.highStep, y));
       wanted = c.eitherSide ? wanted & (low | high) : wanted & low & high;
     }
-    const I open = B::when(wanted, openTo(before, y0, canvas));
+    const I open = B::when(wanted, openTo(before, c.reflects ? loaded(canvas.mirror + y0) : B::seti(0)));
     if (!B::any(B::greater(open, B::seti(0)))) return 0;
     differentiate(x, slope, stretch, height, places);
     const Block<B> block = blockAt(places);
@@ -336,12 +343,17 @@ struct Kernel {
     return __builtin_popcount(B::bits(painted));
   }
 
+  template <class T>
+  static auto loaded(const T* words) {
+    return B::load(words, B::kWidth);
+  }
+
   void blend(int y0, int count, F y, I before, I open, I parts, M painted, const Block<B>& block,
              const PatchCanvasColumn& canvas) const {
     F rgba[4];
     colourAt(block, rgba);
     const F number = B::toFloat(countOf<B>(parts));
-    const F clear = B::load(canvas.clear + y0, B::kWidth);
+    const F clear = loaded(canvas.clear + y0);
     F weight = clear * number;
     if (c.blended) {
       const F alpha = rgba[3] * B::set(1.0f / 255);
@@ -349,12 +361,12 @@ struct Kernel {
       const F share = number / B::max(B::toFloat(countOf<B>(open)), B::set(1));
       B::store(canvas.clear + y0, B::select(painted, clear * (B::set(1) - alpha * share), clear), B::kWidth);
     }
-    const I mirror = canvas.mirror == nullptr ? B::seti(0) : B::load(canvas.mirror + y0, B::kWidth);
+    const I mirror = canvas.mirror == nullptr ? B::seti(0) : loaded(canvas.mirror + y0);
     // What a mirror shows is painted later, in the place of its own colour.
     const bool waits = c.mirror != 0 && !c.reflects && canvas.mirror != nullptr;
     if (!waits) {
       const auto add = [&](float* sum, F code) {
-        const F was = B::load(sum + y0, B::kWidth);
+        const F was = loaded(sum + y0);
         B::store(sum + y0, B::select(painted, was + code * code * weight, was), B::kWidth);
       };
       add(canvas.red, rgba[0]), add(canvas.green, rgba[1]), add(canvas.blue, rgba[2]);
@@ -372,12 +384,12 @@ struct Kernel {
       const I others = B::both(mirror, B::seti(std::int32_t(kAllParts)));
       B::store(canvas.mirror + y0, B::select(painted, itsNumber + others + parts, mirror), B::kWidth);
     }
-    const I source = B::load(canvas.source + y0, B::kWidth);
+    const I source = loaded(canvas.source + y0);
     const I mine = countOf<B>(parts);
     const M more = painted & B::greater(mine, B::both(source, B::seti(255)));
     B::store(canvas.source + y0, B::select(more, mine + B::seti(std::int32_t(c.slot << 8)), source),
              B::kWidth);
-    const F depth = B::load(canvas.inverseZDepth + y0, B::kWidth);
+    const F depth = loaded(canvas.inverseZDepth + y0);
     B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), B::kWidth);
   }
 

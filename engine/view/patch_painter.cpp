@@ -1,8 +1,6 @@
 #include "engine/view/patch_painter.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 
 #include "engine/view/cracks.h"
 
@@ -39,7 +37,9 @@ class PatchPainter {
     for (int first = canvas_.x0; first < end; first += kTogether)
       for (int y = 0; y < canvas_.height; ++y) {
         const auto row = std::span(&image.at(first, y), std::size_t(std::min(kTogether, end - first)));
-        if (std::reduce(row.begin(), row.end(), kUncovered, std::bit_and()) == kUncovered) continue;
+        std::uint32_t all = kUncovered;
+        for (const std::uint32_t local : row) all &= local;
+        if (all == kUncovered) continue;
         for (int x = first; x < first + int(row.size()); ++x)
           if (image.at(x, y) != kUncovered) cover(x, y, image.at(x, y), mirrors);
       }
