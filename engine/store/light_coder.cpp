@@ -23,23 +23,26 @@ class LightCoder {
   /// One side of a triangle. False where what is read is no light.
   template <class Sample>
   bool code(Sample* samples, std::uint32_t resolution) {
-    resolution_ = resolution;
-    for (Channel& channel : channels_) {
-      channel.value.assign(surfaceSampleCount(resolution), 0);
-      channel.off.assign(channel.value.size(), 0);
-    }
-    for (std::uint32_t i = 0; i <= resolution; ++i)
+    for (std::uint32_t i = 0; i <= resolution; ++i) {
+      for (Channel& channel : channels_) {
+        std::swap(channel.above, channel.row);
+        channel.row.resize(resolution + 1 - i);
+      }
       for (std::uint32_t j = 0; i + j <= resolution; ++j)
         if (!codeSample(samples[surfaceSampleIndex(resolution, i, j)], i, j)) return false;
-    for (Channel& channel : channels_) channel.last = channel.value.front();
+      if (i == 0)
+        for (Channel& channel : channels_) channel.last = channel.row.front().value;
+    }
     return true;
   }
 
  private:
+  struct Trace {
+    int value = 0, off = 0;  ///< as coded, and what that is apart from the foretold
+  };
   struct Channel {
-    std::vector<int> value,
-        off;       ///< of the triangle's side: as coded, and what that is apart from the foretold
-    int last = 0;  ///< the first value of the side before
+    std::vector<Trace> row, above;  ///< of samples with the same i, and with the one before
+    int last = 0;                   ///< the first value of the side before
     DifferenceModel<30> model;
   };
   struct Guess {
@@ -48,22 +51,22 @@ class LightCoder {
 
   template <class Sample>
   bool codeSample(Sample& sample, std::uint32_t i, std::uint32_t j) {
-    const std::size_t own = surfaceSampleIndex(resolution_, i, j);
     std::array<int, 3> moved{};  // from what the samples around foretell
     for (std::size_t c = 0; c < channels_.size(); ++c) {
       Channel& channel = channels_[c];
+      Trace& own = channel.row[j];
       const Guess around = guess(channel, i, j);
       const int along = c == 0 ? 0 : c == 1 ? moved[0] : (moved[0] + moved[1]) / 2;
       const int foretold = std::max(around.value + along, 0);
       std::size_t unrest = std::min<std::size_t>(widthOf(around.unrest), 9);
       if (c > 0)
-        unrest = 3 * unrest + std::min<std::size_t>(widthOf(c == 1 ? moved[0] : channels_[1].off[own]), 2);
-      if constexpr (!Coder::kReads) channel.value[own] = sample.*kChannels[c] >> shift_;
-      const std::int64_t off = channel.model.code(coder_, channel.value[own] - foretold, unrest);
+        unrest = 3 * unrest + std::min<std::size_t>(widthOf(c == 1 ? moved[0] : channels_[1].row[j].off), 2);
+      const int value = Coder::kReads ? 0 : sample.*kChannels[c] >> shift_;
+      const std::int64_t off = channel.model.code(coder_, value - foretold, unrest);
       if (off < -foretold || off >= (kInfinite >> shift_) - foretold) return false;
-      channel.off[own] = int(off), channel.value[own] = foretold + int(off);
-      moved[c] = channel.value[own] - around.value;
-      if constexpr (Coder::kReads) sample.*kChannels[c] = std::uint16_t(channel.value[own] << shift_);
+      own = {foretold + int(off), int(off)};
+      moved[c] = own.value - around.value;
+      if constexpr (Coder::kReads) sample.*kChannels[c] = std::uint16_t(own.value << shift_);
     }
     if constexpr (Coder::kReads) sample.a = kOne;
     return true;
@@ -71,24 +74,23 @@ class LightCoder {
 
   /// From the samples around: where three of them are known, the plane through them, within their range
   /// (Martucci 1990). Unrest: by how much these were off.
-  Guess guess(const Channel& channel, std::uint32_t i, std::uint32_t j) const {
-    const std::size_t own = surfaceSampleIndex(resolution_, i, j);
-    const auto& [value, off, last, model] = channel;
+  static Guess guess(const Channel& channel, std::uint32_t i, std::uint32_t j) {
+    const auto& [row, above, last, model] = channel;
     if (i == 0 && j == 0) return {last, 0};
-    if (i == 0) return {value[own - 1], 2 * std::abs(off[own - 1])};
-    const std::size_t above = surfaceSampleIndex(resolution_, i - 1, j);
-    const int unrest = std::abs(off[above]) + std::abs(off[above + 1]);
-    if (j == 0) return {i > 1 ? value[above] : (value[above] + value[above + 1]) / 2, unrest};
-    const int before = value[own - 1], up = value[above], corner = value[above - 1];
-    const auto [low, high] = std::minmax(before, up);
-    return {std::clamp(before + up - corner, low, high), unrest + 2 * std::abs(off[own - 1])};
+    if (i == 0) return {row[j - 1].value, 2 * std::abs(row[j - 1].off)};
+    const Trace &up = above[j], &next = above[j + 1];
+    const int unrest = std::abs(up.off) + std::abs(next.off);
+    if (j == 0) return {i > 1 ? up.value : (up.value + next.value) / 2, unrest};
+    const Trace& before = row[j - 1];
+    const auto [low, high] = std::minmax(before.value, up.value);
+    return {std::clamp(before.value + up.value - above[j - 1].value, low, high),
+            unrest + 2 * std::abs(before.off)};
   }
 
   static std::size_t widthOf(int number) { return std::size_t(std::bit_width(unsigned(std::abs(number)))); }
 
   Coder& coder_;
   int shift_;
-  std::uint32_t resolution_ = 0;
   std::array<Channel, 3> channels_;
 };
 

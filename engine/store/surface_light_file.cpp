@@ -2,6 +2,7 @@
 
 #include <array>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 #include "engine/store/block_file.h"
@@ -27,9 +28,14 @@ std::uint64_t claimOf(std::uint64_t triangles, std::uint64_t samples) {
   return sizeof(std::uint32_t) * triangles + sizeof(HalfColour) * samples;
 }
 
-std::uint64_t samplesOf(const SurfaceLight& light, std::size_t triangle) {
+/// Nothing where the side flag is neither 0 nor 1.
+std::optional<std::uint64_t> samplesOf(const SurfaceLight& light, std::size_t triangle) {
   const std::uint64_t resolution = light.resolution[triangle];
-  return resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2 << (light.hasBack[triangle] & 1);
+  if (light.hasBack[triangle] > 1) return std::nullopt;
+  return resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2 << light.hasBack[triangle];
+}
+std::string badSide(std::size_t triangle) {
+  return fmt::format("triangle {} has a side flag that is neither 0 nor 1", triangle);
 }
 
 Status checkSurfaceLight(const SurfaceLight& light) {
@@ -43,11 +49,11 @@ Status checkSurfaceLight(const SurfaceLight& light) {
     return fail(ErrorKind::tooLarge, "more than 2^31 triangles or samples", "surface light");
   std::uint64_t next = 0;
   for (std::size_t t = 0; t < triangles; ++t) {
-    if (light.hasBack[t] > 1)
-      return malformed(fmt::format("triangle {} has a side flag that is neither 0 nor 1", t));
+    const auto samples = samplesOf(light, t);
+    if (!samples) return malformed(badSide(t));
     if (light.firstSample[t] != next)
       return malformed(fmt::format("the samples of triangle {} do not follow those before", t));
-    next += samplesOf(light, t);
+    next += *samples;
   }
   if (light.firstSample.back() != next || next != light.light.size())
     return malformed("its triangles do not have as many samples as there are");
@@ -93,7 +99,9 @@ Result<Keyed<SurfaceLight>> readLight(const std::filesystem::path& path) {
   light.firstSample.push_back(0);
   std::uint64_t next = 0;
   for (std::size_t t = 0; t < triangles && next <= samples; ++t) {
-    next += samplesOf(light, t);
+    const auto own = samplesOf(light, t);
+    if (!own) return file->malformed(badSide(t));
+    next += *own;
     light.firstSample.push_back(static_cast<std::uint32_t>(next));
   }
   if (next != samples) return file->malformed("its triangles do not have as many samples as it says");

@@ -334,9 +334,7 @@ struct Kernel {
     const M whole = isWanted(cover) & ((within & has(cover, kBlockWhole)) | has(cover, kBlockInner));
     I parts = B::when(whole, open);
     const M byEdges = B::greater(B::different(parts, open), B::seti(0));
-    if (B::any(byEdges)) {
-      parts = B::select(whole, parts, B::both(partsOf(places, byEdges), open));
-    }
+    if (B::any(byEdges)) parts = B::select(whole, parts, B::both(partsOf(places, byEdges), open));
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
     blend(y0, count, y, before, open, parts, painted, block, canvas);

@@ -1,9 +1,13 @@
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "engine/base/file.h"
+#include "engine/store/block_file.h"
 #include "engine/store/capture_store.h"
+#include "engine/store/light_coder.h"
 #include "tests/store/temporary_folder.h"
 
 namespace acentric {
@@ -104,6 +108,30 @@ TEST_F(SurfaceLightFile, BrokenTablesAreNeverWritten) {
     EXPECT_FALSE(writeSurfaceLight(light, {1, 1}, path()));
   }
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(SurfaceLightFile, ASideFlagThatIsNoneIsRefusedBeforeSamplesAreRead) {
+  SurfaceLight light = smoothLight(1, 5);
+  const std::vector<std::byte> stream = codeLight(light, 4);
+  const auto write = [&](std::uint8_t flag) {
+    light.hasBack = {flag};
+    BlockFileWriter file(BlockFileKind::surfaceLight, {1, 1});
+    file.describe(std::uint64_t(1)), file.describe(std::uint64_t(light.light.size()));
+    file.describe(std::uint64_t(stream.size())), file.describe(std::uint8_t(4));
+    EXPECT_TRUE(file.addRecords(std::array<ConstLane, 2>{laneOf(std::as_const(light.resolution)),
+                                                         laneOf(std::as_const(light.hasBack))},
+                                1));
+    EXPECT_TRUE(file.addStream(stream));
+    EXPECT_TRUE(file.write(path()));
+  };
+  write(0);
+  EXPECT_TRUE(readSurfaceLight(path()));
+  for (const int flag : {2, 4, 255}) {
+    write(std::uint8_t(flag));
+    const auto read = readSurfaceLight(path());
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().describe().find("side flag"), std::string::npos) << read.error().describe();
+  }
 }
 
 TEST_F(SurfaceLightFile, DamageIsAlwaysFound) {
