@@ -39,6 +39,7 @@ struct TriangleRef {
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
   std::uint32_t sceneTriangle = 0;
+  LightSides sides = LightSides::front;
 };
 
 struct Plan {
@@ -48,7 +49,7 @@ struct Plan {
 
 class SurfaceLightBaker {
  public:
-  SurfaceLightBaker(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+  SurfaceLightBaker(const RayScene& scene, const std::vector<LightSides>& wanted,
                     const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                     const std::stop_token& stop = {})
       : scene_(scene),
@@ -59,7 +60,7 @@ class SurfaceLightBaker {
     std::uint32_t number = 0;
     for (std::uint32_t m = 0; m < scene.scene().meshes.size(); ++m)
       for (std::uint32_t t = 0; t < scene.scene().meshes[m].triangles.size(); ++t, ++number)
-        if (wanted[number] != 0) plan_.triangles.push_back({m, t, number});
+        if (wanted[number] != LightSides::none) plan_.triangles.push_back({m, t, number, wanted[number]});
   }
 
   /// Chooses resolutions; a texel that asks for more than the limit grows until it fits.
@@ -140,7 +141,8 @@ class SurfaceLightBaker {
   }
   bool hasBack(const TriangleRef& ref) const {
     const auto material = std::size_t(meshOf(ref).material);
-    return scene_.scene().materials[material].doubleSided || rules_[material].clear();
+    return ref.sides == LightSides::both || scene_.scene().materials[material].doubleSided ||
+           rules_[material].clear();
   }
   std::uint64_t samplesAt(double texel) const {
     std::uint64_t sum = 0;
@@ -271,7 +273,7 @@ class PartKeeper {
 
 }  // namespace
 
-Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                                       TaskRunner& runner, const Progress& progress, std::stop_token stop,
                                       SurfaceLightParts* parts) {
@@ -316,7 +318,7 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<s
   }
 }
 
-Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
                                         const BakeSettings& settings) {
   require(wanted.size() == scene.scene().triangleCount(), "surface light is asked for triangle by triangle");
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());

@@ -1,6 +1,7 @@
 #pragma once
 /// Bakes light to the surfaces that some region draws as local geometry.
 
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <vector>
@@ -14,6 +15,10 @@
 
 namespace acentric {
 
+/// Of which sides of a triangle light is wanted. Double-sided and clear materials have it on both in any
+/// case.
+enum class LightSides : std::uint8_t { none, front, both };
+
 /// Lets a bake be resumed. The light is the same, bit for bit, as without.
 struct SurfaceLightParts {
   std::vector<SurfaceLightPart>
@@ -26,16 +31,16 @@ struct SurfaceLightParts {
   std::vector<std::uint8_t> only = {};
 };
 
-/// `wanted[sceneTriangle]` != 0: bake that triangle. `viewer[sceneTriangle]` is an eye position for
-/// view-dependent light (mirrors), frozen there. Fails only when cancelled or too large.
-Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+/// `wanted` and `viewer` are by scene triangle; `viewer` is an eye position for view-dependent light
+/// (mirrors), frozen there. Fails only when cancelled or too large.
+Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                                       TaskRunner& runner, const Progress& progress = {},
                                       std::stop_token stop = {}, SurfaceLightParts* parts = nullptr);
 
 /// Where the samples of each triangle would lie, all of them black: no ray is traced. Fails only when too
 /// large.
-Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<std::uint8_t>& wanted,
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
                                         const BakeSettings& settings);
 
 }  // namespace acentric

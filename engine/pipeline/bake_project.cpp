@@ -251,7 +251,7 @@ class StoreyBake {
  private:
   /// Of what `only` marks, or of all.
   Result<SurfaceLight> gatherLight(std::vector<std::uint8_t> only) {
-    if (!local_) local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    if (!local_) local_ = localTrianglesOf(*open_.rays, *open_.layout, runner_, stop_);
     const ContentKey& key = open_.surfaceLightKey;
     SurfaceLightParts parts;
     parts.only = std::move(only);

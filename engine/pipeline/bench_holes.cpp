@@ -170,7 +170,7 @@ class Bench {
           return {};
         }
     }
-    const LocalTriangles near = localTrianglesOf(*open_.scene, *bare_, stop_);
+    const LocalTriangles near = localTrianglesOf(*open_.rays, *bare_, runner_, stop_);
     auto light = bakeSurfaceLight(*open_.rays, near.wanted, near.viewer, open_.project.bake, runner_,
                                   progress_, stop_);
     if (!light) return tl::unexpected(light.error());

@@ -369,7 +369,7 @@ class ProjectProber final : public BakeProber {
   Status layOutLight() {
     if (!layout_.resolution.empty()) return {};
     const Stopwatch finding;
-    local_ = localTrianglesOf(*open_.scene, *open_.layout, stop_);
+    local_ = localTrianglesOf(*open_.rays, *open_.layout, runner_, stop_);
     if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
     findingSeconds_ = finding.seconds();
     auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
@@ -390,8 +390,8 @@ class ProjectProber final : public BakeProber {
 
   /// Bytes: of the light itself, without the tables.
   Result<LightProbe> bakeLight(const std::vector<std::size_t>& triangles) const {
-    std::vector<std::uint8_t> wanted(local_.wanted.size(), 0);
-    for (const std::size_t t : triangles) wanted[t] = 1;
+    std::vector<LightSides> wanted(local_.wanted.size(), LightSides::none);
+    for (const std::size_t t : triangles) wanted[t] = local_.wanted[t];
     const auto bakeOnce = [&] {
       return bakeSurfaceLight(*open_.rays, wanted, local_.viewer, lightProbingSettings(open_.project.bake),
                               runner_, {}, stop_);

@@ -6,6 +6,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/bake/ray_scene.h"
+#include "engine/bake/surface_light_bake.h"
 #include "engine/layout/layout.h"
 #include "engine/scene/scene.h"
 
@@ -13,14 +15,15 @@ namespace acentric {
 
 /// By scene-wide triangle number.
 struct LocalTriangles {
-  std::vector<std::uint8_t> wanted;
-  std::vector<glm::vec3> viewer;  ///< an eye in the first region (in layout order) that draws the triangle
+  std::vector<LightSides> wanted;  ///< `both` where an eye of a region that draws the triangle sees its back
+  std::vector<glm::vec3> viewer;   ///< an eye in the first region (in layout order) that draws the triangle
 };
 
 /// Those that this region draws.
 std::vector<std::uint8_t> localTrianglesOf(const Scene& scene, const Region& region,
                                            const std::stop_token& stop = {});
 /// Stopped, it knows of some of them only.
-LocalTriangles localTrianglesOf(const Scene& scene, const Layout& layout, const std::stop_token& stop = {});
+LocalTriangles localTrianglesOf(const RayScene& rays, const Layout& layout, TaskRunner& runner,
+                                const std::stop_token& stop = {});
 
 }  // namespace acentric

@@ -26,7 +26,7 @@ std::uint64_t localMeshBytes(const Scene& scene, const LocalTriangles& local) {
     const Mesh& mesh = scene.meshes[m];
     std::vector<char> used(mesh.positions.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (local.wanted[first[m] + t] == 0) continue;
+      if (local.wanted[first[m] + t] == LightSides::none) continue;
       ++triangles;
       for (int corner = 0; corner < 3; ++corner) used[mesh.triangles[t][corner]] = 1;
     }
@@ -106,7 +106,7 @@ Result<RepresentationBake> bakeOfRings(const Workplace& at, const std::string& n
   RepresentationBake bake{std::move(*own)};
   const OpenProject& open = bake.open;
   bake.cameras = allCamerasOf(*open.layout), bake.light = true;
-  bake.bytesThere = localMeshBytes(*open.scene, localTrianglesOf(*open.scene, *open.layout, at.stop));
+  bake.bytesThere = localMeshBytes(*open.scene, localTrianglesOf(*open.rays, *open.layout, at.runner, at.stop));
   if (target.bytes) bake.packedBytes = *target.bytes - double(bake.bytesThere);
   std::error_code error;
   const auto folder = captureFolderFor(open.file);
@@ -142,7 +142,7 @@ Result<Representation> makeRings(const Workplace& at, const std::string& name, c
   if (!lightSeconds) return tl::unexpected(lightSeconds.error());
   const std::uint64_t lightBytes = store->bytesOf(own->surfaceLightKey),
                       polygonBytes =
-                          localMeshBytes(*own->scene, localTrianglesOf(*own->scene, *own->layout, at.stop));
+                          localMeshBytes(*own->scene, localTrianglesOf(*own->rays, *own->layout, at.runner, at.stop));
 
   const CaptureBake bake = bakeBeside(own->surfaceLightKey, at, openAt);
   std::optional<double> captureBytes;

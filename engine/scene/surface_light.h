@@ -17,9 +17,10 @@ namespace acentric {
 struct SurfaceLight {
   std::vector<std::uint32_t> firstSample;  ///< per scene triangle (scene-wide number), + 1 sentinel
   std::vector<std::uint16_t> resolution;   ///< per scene triangle
-  /// Front-side and back-side light are separate samples: front at [first, first+n), back (double-sided or
-  /// blended materials only, flagged) behind it. `light` is what leaves the surface for base colour 1, i.e.
-  /// radiance = baseColour * rgb + emission; for unlit materials it is 1. Half floats; alpha unused.
+  /// Front-side and back-side light are separate samples: front at [first, first+n), back (flagged; where
+  /// it is drawn: of double-sided and clear materials, and where an eye sees it) behind it. `light` is what
+  /// leaves the surface for base colour 1, i.e. radiance = baseColour * rgb + emission; for unlit materials
+  /// it is 1. Half floats; alpha unused.
   std::vector<std::uint8_t> hasBack;
   std::vector<HalfColour> light;
 

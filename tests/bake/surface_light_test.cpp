@@ -16,8 +16,8 @@ Result<SurfaceLight> bakeAll(const RayScene& scene, const BakeSettings& settings
                              glm::vec3 viewer = {0, 0, 1.6f}, std::stop_token stop = {}) {
   const std::size_t n = scene.scene().triangleCount();
   TaskRunner runner(workers);
-  return bakeSurfaceLight(scene, std::vector<std::uint8_t>(n, 1), std::vector<glm::vec3>(n, viewer), settings,
-                          runner, {}, stop);
+  return bakeSurfaceLight(scene, std::vector<LightSides>(n, LightSides::front),
+                          std::vector<glm::vec3>(n, viewer), settings, runner, {}, stop);
 }
 
 BakeSettings texel(double metres) {
@@ -78,7 +78,8 @@ TEST(SurfaceLight, BakesOnlyWhatIsWantedAndOnlyTheSidesThatShow) {
       .sky(glm::vec3(1));
   const auto scene = builder.rays();
   TaskRunner runner;
-  const std::vector<std::uint8_t> wanted{1, 0, 1, 0, 1, 0};
+  using enum LightSides;
+  const std::vector<LightSides> wanted{front, none, front, none, front, none};
   const auto light = bakeSurfaceLight(*scene, wanted, std::vector<glm::vec3>(6), texel(0.5), runner);
   ASSERT_TRUE(light.has_value());
   EXPECT_EQ(light->hasBack, (std::vector<std::uint8_t>{0, 0, 1, 0, 1, 0}));
@@ -97,6 +98,18 @@ TEST(SurfaceLight, TheTwoSidesOfALeafAreLitApart) {
   builder.floor(builder.material(leaf), 1).sun({0, 0, -1}, 100).sky(glm::vec3(1e-3f));
   const auto light = bakeAll(*builder.rays(), texel(0.5));
   ASSERT_TRUE(light.has_value());
+  EXPECT_NEAR(light->at(0, {0.3f, 0.3f}, false).x, 100 / 3.14159f, 0.25f);
+  EXPECT_LT(light->at(0, {0.3f, 0.3f}, true).x, 2e-3f);
+}
+
+TEST(SurfaceLight, ABackThatIsSeenIsLitByWhatLiesBehind) {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte()), 1).sun({0, 0, -1}, 100).sky(glm::vec3(1e-3f));
+  TaskRunner runner(0);
+  const auto light = bakeSurfaceLight(*builder.rays(), {LightSides::both, LightSides::front},
+                                      std::vector<glm::vec3>(2, glm::vec3(0, 0, 1.6f)), texel(0.5), runner);
+  ASSERT_TRUE(light.has_value());
+  EXPECT_EQ(light->hasBack, (std::vector<std::uint8_t>{1, 0}));
   EXPECT_NEAR(light->at(0, {0.3f, 0.3f}, false).x, 100 / 3.14159f, 0.25f);
   EXPECT_LT(light->at(0, {0.3f, 0.3f}, true).x, 2e-3f);
 }
@@ -143,7 +156,7 @@ TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
   const auto bakeWith = [&](SurfaceLightParts& parts, int workers) {
     TaskRunner runner(workers);
     const std::size_t n = scene->scene().triangleCount();
-    return bakeSurfaceLight(*scene, std::vector<std::uint8_t>(n, 1),
+    return bakeSurfaceLight(*scene, std::vector<LightSides>(n, LightSides::front),
                             std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(0.05), runner, {}, {},
                             &parts);
   };
@@ -200,8 +213,9 @@ TEST(SurfaceLight, GivesTheSameBytesForAnyNumberOfThreadsAndReportsProgress) {
   EXPECT_EQ(one->light, three->light);
   TaskRunner runner(1);
   std::vector<ProgressState> seen;
-  ASSERT_TRUE(bakeSurfaceLight(*scene, std::vector<std::uint8_t>(12, 1), std::vector<glm::vec3>(12),
-                               texel(0.05), runner, [&](const ProgressState& p) { seen.push_back(p); })
+  ASSERT_TRUE(bakeSurfaceLight(*scene, std::vector<LightSides>(12, LightSides::front),
+                               std::vector<glm::vec3>(12), texel(0.05), runner,
+                               [&](const ProgressState& p) { seen.push_back(p); })
                   .has_value());
   ASSERT_GT(seen.size(), 3u);
   EXPECT_EQ(seen.back().done, seen.back().total);

@@ -101,10 +101,10 @@ TEST(GatherForecast, OfThePartsTellsTheWholeAsNoPartCan) {
 
 TEST(GatherForecast, TellsWhatTheSurfacesOwnLightGathersBeyondTheCaptures) {
   const OpenProject open = test::openWith(litRoom(kNoBounces), project());
-  const LocalTriangles local = localTrianglesOf(*open.scene, *open.layout);
+  TaskRunner runner(1);
+  const LocalTriangles local = localTrianglesOf(*open.rays, *open.layout, runner);
   const auto layout = layOutSurfaceLight(*open.rays, local.wanted, open.project.bake);
   ASSERT_TRUE(layout);
-  TaskRunner runner(1);
   for (const std::vector<int>& cameras : {std::vector<int>{}, std::vector{0}}) {
     // The light reads every place of the surfaces it is baked for; those not read before are gathered.
     const auto fresh = test::openWith(litRoom(kNoBounces), project());
