@@ -38,6 +38,8 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
   if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
   if (bake.silhouettes) settings.text("silhouettes");
+  // So that only captures with mirrors are baked anew since these show what lies close before them.
+  if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 2");
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
   else

@@ -64,7 +64,7 @@ void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
       runPixel(packet.direction[n], hits_[n].distance, next, stop);
     addBackgroundAlong(packet.direction[n]);
     if (mirrorMarch_)
-      mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), flat_, roles_},
+      mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), roles_},
                         shown_, out_.counts.rays, stop);
     if (!shown_.empty()) addShown(packet.direction[n]);
   }

@@ -37,7 +37,6 @@ void MirrorMarch::ask(const Pixel& pixel, const FlatMirror& mirror, const Met& m
   unseen_.clear();
   for (RoleOnRay& having : roles_) {
     const ColumnRole& role = *having.role;
-    if (role.exit > met.distance * pixel.flat * (1 + kBorderSlack)) break;
     if (isFull(having) || !(met.distance * (1 - rightBehind_) > having.opaqueAt)) continue;
     if (!(sky ? role.holdsBackground : role.clip == nullptr || role.clip->holds(place))) continue;
     std::optional<MirrorSight::Seen> seen;
@@ -108,6 +107,8 @@ void MirrorMarch::addOther(const FlatMirror& mirror, const Met& met, std::vector
                    mirror.number, met.hit});
 }
 
+/// From the mirror on, also within the region: nothing else would show its image there, as local geometry
+/// does for surfaces themselves.
 void MirrorMarch::follow(const Pixel& pixel, const MirrorSight::Span& span, std::vector<ShownInMirror>& shown,
                          RayCounts& rays, const std::stop_token& stop) {
   const FlatMirror& mirror = *span.mirror;
@@ -118,9 +119,7 @@ void MirrorMarch::follow(const Pixel& pixel, const MirrorSight::Span& span, std:
           std::max(float(span.from), known > 0 ? justBehind(float(known)) : 0)};
   const RayScene& scene = shader_.scene();
   for (int step = 0; step < kMaxMarch && !stop.stop_requested(); ++step) {
-    const auto next = std::ranges::find_if(roles_, [&](const RoleOnRay& r) { return !isFull(r); });
-    if (next == roles_.end()) return;
-    ray.nearest = std::max(ray.nearest, float(next->role->exit / pixel.flat));
+    if (std::ranges::all_of(roles_, [&](const RoleOnRay& r) { return isFull(r); })) return;
     if (!(double(ray.nearest) < span.to)) return;
     ++rays.mirror;
     const Hit hit = scene.traceSolid(ray);

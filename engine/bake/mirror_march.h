@@ -34,7 +34,6 @@ class MirrorMarch {
 
   struct Pixel {
     glm::dvec3 origin, direction;  ///< unit
-    double flat = 1;               ///< horizontal metres per metre of ray
     std::span<const ColumnRole> roles;
   };
   /// Adds to what the camera itself sees in mirrors along the ray, which comes in `shown`. Only a part when

@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "engine/view/display_bytes.h"
 #include "engine/view/view_cameras.h"
 
 namespace acentric {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/base/memory_budget.h"
-#include "engine/view/display_bytes.h"
+#include "engine/view/walk_scene.h"
 
 namespace acentric {
 

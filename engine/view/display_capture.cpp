@@ -59,6 +59,11 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   return display;
 }
 
+template <class T, class Allocator>
+std::size_t bytesOf(const std::vector<T, Allocator>& values) {
+  return values.size() * sizeof(T);
+}
+
 }  // namespace
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
@@ -74,6 +79,14 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
     display.reflections = std::make_shared<const DisplayCapture>(
         prepare(camera, capture.reflections, capture.planeTolerance, exposure));
   return display;
+}
+
+std::size_t bytesOf(const DisplayCapture& c) {
+  return sizeof c + bytesOf(c.columnStart) + bytesOf(c.samples) + bytesOf(c.colour) +
+         bytesOf(c.columnDirection) + bytesOf(c.rowTangent) + bytesOf(c.columnRange) + bytesOf(c.mirror) +
+         (c.patches ? c.patches->bytes() : 0) + c.background.runs.bytes() +
+         bytesOf(c.background.columnBorder) + bytesOf(c.background.rowBorder) +
+         (c.reflections ? bytesOf(*c.reflections) : 0);
 }
 
 }  // namespace acentric

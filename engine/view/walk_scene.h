@@ -57,6 +57,8 @@ struct DisplayCapture {
 };
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure);
+/// What it takes in memory, with what its mirrors show.
+std::size_t bytesOf(const DisplayCapture& capture);
 
 struct WalkScene {
   ScenePtr scene;

@@ -336,6 +336,25 @@ TEST(BakeMirrors, KeepWhatIsHiddenBehindWhatTheyShowFirst) {
   EXPECT_GT(behind, 50) << "the wall behind the pillar";
 }
 
+TEST(BakeMirrors, KeepWhatTheyShowCloseBeforeThem) {
+  MirrorRoom room;
+  // Its image lies within the grown region, where nothing else would draw it.
+  const glm::vec3 grey(0.3f, 0.31f, 0.32f);
+  room.builder.box(room.builder.material(glowing(grey)), {5.2f, -0.1f, 0}, {5.3f, 0.1f, 2});
+  LayoutCamera camera = cameraAt({0.5, 0.2}, {square(5)});
+  camera.roles[0].grown = square(6.5);
+  const Capture capture = bakeFrom(room.builder.rays(), camera, true).capture;
+  const CaptureSamples& shown = capture.reflections;
+  int close = 0;
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+      const glm::dvec3 place = placeOf(capture, shown, k, i);
+      const bool isGrey = glm::distance(glm::vec3(unpackColour(shown.colour[i])), grey * room.tint) < 1e-3f;
+      close += isGrey && std::abs(place.x - 5.75) < 0.1 ? 1 : 0;
+    }
+  EXPECT_GT(close, 20);
+}
+
 /// What is shown of a place: the original's position, and the colour without the mirror's tint.
 struct ShownPlace {
   glm::dvec3 original{0};
