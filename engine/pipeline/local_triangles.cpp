@@ -18,7 +18,7 @@ bool hasArea(const std::vector<PolygonClipper::Corner>& part) {
   return false;
 }
 
-/// Calls `found` with the number of each triangle that the region draws, and with its corners.
+/// Calls `found` with the number of each triangle that the region draws, its mesh and its corners.
 template <class Found>
 void eachLocal(const Scene& scene, const Region& region, const std::stop_token& stop, const Found& found) {
   PolygonClipper clipper(region.grown);
@@ -29,7 +29,7 @@ void eachLocal(const Scene& scene, const Region& region, const std::stop_token& 
       const std::size_t t = number++;
       const Corners corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
                             mesh.positions[triangle.z]};
-      if (hasArea(clipper.clip(corners))) found(t, corners);
+      if (hasArea(clipper.clip(corners))) found(t, mesh, corners);
     }
   }
 }
@@ -71,7 +71,7 @@ class BackViews {
 std::vector<std::uint8_t> localTrianglesOf(const Scene& scene, const Region& region,
                                            const std::stop_token& stop) {
   std::vector<std::uint8_t> local(scene.triangleCount(), 0);
-  eachLocal(scene, region, stop, [&](std::size_t t, const Corners&) { local[t] = 1; });
+  eachLocal(scene, region, stop, [&](std::size_t t, const Mesh&, const Corners&) { local[t] = 1; });
   return local;
 }
 
@@ -84,10 +84,12 @@ LocalTriangles localTrianglesOf(const RayScene& rays, const Layout& layout, Task
   runner.parallelFor(layout.regions.size(), [&](std::size_t r) {
     const Region& region = layout.regions[r];
     const BackViews views(rays, region.polygon, layout.eyeZ());
-    eachLocal(rays.scene(), region, stop, [&](std::size_t t, const Corners& corners) {
+    eachLocal(rays.scene(), region, stop, [&](std::size_t t, const Mesh& mesh, const Corners& corners) {
       const std::atomic_ref first(firstRegion[t]);
       std::uint32_t was = first;
       while (r < was && !first.compare_exchange_weak(was, std::uint32_t(r))) continue;
+      // Double-sided surfaces have light on their backs whoever sees them.
+      if (stop.stop_requested() || rays.scene().materials[std::size_t(mesh.material)].doubleSided) return;
       const std::atomic_ref seen(backSeen[t]);
       if (seen == 0 && views.seeBackOf(corners)) seen = 1;
     });

@@ -15,7 +15,8 @@ namespace acentric {
 
 /// By scene-wide triangle number.
 struct LocalTriangles {
-  std::vector<LightSides> wanted;  ///< `both` where an eye of a region that draws the triangle sees its back
+  std::vector<LightSides> wanted;  ///< `both` where an eye of a region that draws the triangle sees the back
+                                   ///< of a single-sided surface
   std::vector<glm::vec3> viewer;   ///< an eye in the first region (in layout order) that draws the triangle
 };
 
