@@ -5,12 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 namespace acentric {
 namespace {
 
-/// Fewer tell nothing about how cameras differ.
-constexpr std::size_t kFewestProbes = 16;
+/// Fewer tell nothing about how cameras differ: some have ten times the samples of others.
+constexpr std::size_t kFewestProbes = 32;
 /// Of these, slices are baked densely too.
 constexpr std::size_t kSlicedProbes = 8;
 /// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
@@ -18,15 +19,14 @@ constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
 /// The same where it is to be brief: a tenth of the cameras, within these bounds.
 constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 5;
 
-/// Ratio estimate of `part` per `whole` over probes, with its standard error; `share` of the population was
-/// probed.
+/// Ratio estimate of `part` per `whole` over the probes that have any of it, with its standard error; `share`
+/// of the population was probed.
 template <class Probe>
 Figure ratioOf(const std::vector<Probe>& probes, double Probe::*part, double Probe::*whole, double share) {
-  double parts = 0, wholes = 0;
-  for (const Probe& probe : probes) parts += probe.*part, wholes += probe.*whole;
+  double parts = 0, wholes = 0, n = 0;
+  for (const Probe& probe : probes) parts += probe.*part, wholes += probe.*whole, n += probe.*whole > 0;
   if (!(wholes > 0)) return {};
   const double ratio = parts / wholes;
-  const double n = double(probes.size());
   if (n < 2 || !(ratio > 0)) return {ratio, n < 2 ? 1.0 : 0.0};
   double squares = 0;
   for (const Probe& probe : probes) {
@@ -110,16 +110,25 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
                         const std::stop_token& stop, BakeEstimate& estimate) {
   const auto overhead = prober.captureOverhead();
   if (!overhead) return tl::unexpected(overhead.error());
-  const std::vector<int> order = spreadOrder(int(pixels.size()));
+  const std::vector<int> order = shuffledOrder(int(pixels.size()));
   const auto probes = probeCaptures(order, options, prober, progress, stop);
   if (!probes) return tl::unexpected(probes.error());
 
   const double cameras = double(pixels.size());
+  // Each camera counts by its own pixels, however many of them were traced.
+  std::vector<CaptureProbe> whole = *probes;
   double probedPixels = 0;
-  for (const CaptureProbe& probe : *probes) probedPixels += probe.pixels;
+  for (std::size_t p = 0; p < whole.size(); ++p) {
+    CaptureProbe& probe = whole[p];
+    probedPixels += probe.pixels;
+    const double times = probe.pixels > 0 ? pixels[std::size_t(order[p])] / probe.pixels : 0;
+    for (double CaptureProbe::*part :
+         {&CaptureProbe::pixels, &CaptureProbe::samples, &CaptureProbe::rays, &CaptureProbe::traceSeconds})
+      probe.*part *= times;
+  }
   const double seenShare = std::min(double(probes->size()) / cameras, probedPixels / estimate.pixels);
-  const auto ratio = [&](double CaptureProbe::*part, double CaptureProbe::*whole) {
-    return ratioOf(*probes, part, whole, seenShare);
+  const auto ratio = [&](double CaptureProbe::*part, double CaptureProbe::*per) {
+    return ratioOf(whole, part, per, seenShare);
   };
   const auto perPixel = [&](double CaptureProbe::*part) {
     return times(ratio(part, &CaptureProbe::pixels), estimate.pixels);
@@ -198,15 +207,11 @@ Status EstimateOptions::check() const {
   return {};
 }
 
-std::vector<int> spreadOrder(int count) {
-  // The multiples of the golden ratio, modulo 1, ranked: every beginning is spread as evenly as can be.
-  constexpr double kGolden = 0.6180339887498949;
-  std::vector<std::pair<double, int>> places;
-  for (int i = 0; i < count; ++i) places.emplace_back(std::fmod((i + 0.5) * kGolden, 1.0), i);
-  std::ranges::sort(places);
-  std::vector<int> order(places.size());
-  for (std::size_t rank = 0; rank < places.size(); ++rank)
-    order[std::size_t(places[rank].second)] = static_cast<int>(rank);
+std::vector<int> shuffledOrder(int count) {
+  std::vector<int> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 random(1);
+  for (std::size_t left = order.size(); left > 1; --left) std::swap(order[left - 1], order[random() % left]);
   return order;
 }
 

@@ -118,8 +118,9 @@ struct BakeEstimate {
   double probeSeconds = 0;  ///< that the estimate itself took
 };
 
-/// Cameras in an order of which every beginning is spread evenly over [0, count).
-std::vector<int> spreadOrder(int count);
+/// [0, count) in an order by chance, the same each time. One that is spread evenly would fall in step with
+/// the cameras of regions, which come in groups.
+std::vector<int> shuffledOrder(int count);
 
 /// `pixels[i]`: of camera i. An empty list: there is nothing to bake but the light.
 Result<BakeEstimate> estimateBake(const std::vector<double>& pixels, const EstimateOptions& options,

@@ -67,13 +67,16 @@ ColumnCamera sliceOf(const ColumnCamera& whole, int first, int columns) {
   return slice;
 }
 
-/// Slices spread over a camera; all of it where they would be half.
-std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, int columns, double pixels) {
+/// Slices spread over a camera; all of it where they would be half. Those of camera after camera lie at other
+/// places each time, since the middle of cameras tells little of their sides.
+std::vector<ColumnCamera> slicesOf(const ColumnCamera& whole, int columns, double pixels, std::size_t probe) {
+  constexpr double kGolden = 0.6180339887498949;
   const int count = std::max(1, int(pixels / (double(columns) * whole.rows)));
   if (2 * count * columns > whole.columns) return {whole};
+  const double place = std::fmod((double(probe) + 0.5) * kGolden, 1.0);
   std::vector<ColumnCamera> slices;
   for (int n = 0; n < count; ++n)
-    slices.push_back(sliceOf(whole, int((n + 0.5) / count * whole.columns) - columns / 2, columns));
+    slices.push_back(sliceOf(whole, int((n + place) / count * (whole.columns - columns)), columns));
   return slices;
 }
 
@@ -204,7 +207,7 @@ class ProjectProber final : public BakeProber {
     const auto spread = traceTrial(camera, fewColumns, false);
     if (!spread) return spread;
     double traced = *spread;
-    for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted)) {
+    for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted, probes_.size())) {
       const auto rays = traceTrial(camera, slice, true);
       if (!rays) return rays;
       traced += *rays;
@@ -231,7 +234,7 @@ class ProjectProber final : public BakeProber {
     for (const int camera : cameras) {
       SliceProbe& probe = probes.emplace_back();
       const std::vector<ColumnCamera> slices =
-          slicesOf(columnsOf(camera), kSliceColumns, kSlicePixels / fewer_);
+          slicesOf(columnsOf(camera), kSliceColumns, kSlicePixels / fewer_, probes.size());
       const Stopwatch watch;
       double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
       for (const ColumnCamera& slice : slices) {

@@ -78,9 +78,9 @@ note "the store is a local bake's, byte for byte: $(ls "$captures" | wc -l) file
 "$acentric" farm slurm "$project" --submit | grep 'nothing to submit' > /dev/null || fail "a finished bake was submitted"
 
 # --- The step after a bake bakes again what is damaged, and names it
-pack=$(find "$captures" -name '*.pack' | sort | sed -n 1p)
+read -r size pack < <(find "$captures" -name '*.pack' -printf '%s %p\n' | sort -rn)
 touch -r "$pack" "$work/written"
-printf 'XXXX' | dd of="$pack" bs=1 seek=2000 conv=notrunc status=none
+printf 'XXXX' | dd of="$pack" bs=1 seek=$((size / 2)) conv=notrunc status=none
 touch -r "$work/written" "$pack" # so that reading it to its end alone can tell
 bash "$shared/gallery.farm/submit.sh" > "$work/again.txt"
 read -r array merge < "$work/again.txt"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "engine/inspect/estimate_picture.h"
 
@@ -212,8 +213,8 @@ TEST(Estimates, ProbeByRaysNotByTime) {
   EXPECT_LT(usual, 300);
   EXPECT_EQ(probedWith(1e5, 1), 2 * usual);
   EXPECT_EQ(probedWith(2e5, 2), 2 * usual);
-  EXPECT_EQ(probedWith(1e9, 1), 16) << "a few tell how they differ, whatever it takes";
-  EXPECT_EQ(probedWith(2e5, 0), 16);
+  EXPECT_EQ(probedWith(1e9, 1), 32) << "a few tell how they differ, whatever it takes";
+  EXPECT_EQ(probedWith(2e5, 0), 32);
   EXPECT_EQ(probedWith(2e5, 1000), 300);
 }
 
@@ -243,19 +244,16 @@ TEST(Estimates, StopAndRefuse) {
   EXPECT_FALSE(estimateBake(bake.pixels(), {NAN, true}, bake));
 }
 
-TEST(SpreadOrder, HasEachOnceAndEveryBeginningIsSpread) {
-  EXPECT_TRUE(spreadOrder(0).empty());
+TEST(ShuffledOrder, HasEachOnceAndFallsInStepWithNoGroups) {
+  EXPECT_TRUE(shuffledOrder(0).empty());
   for (const int count : {1, 2, 7, 100, 644}) {
-    std::vector<int> order = spreadOrder(count);
-    if (count >= 100)
-      for (const int first : {8, 16, 40}) {
-        std::vector<int> chosen(order.begin(), order.begin() + first);
-        std::ranges::sort(chosen);
-        int widest = std::max(chosen.front(), count - 1 - chosen.back());
-        for (int k = 1; k < first; ++k)
-          widest = std::max(widest, chosen[std::size_t(k)] - chosen[std::size_t(k) - 1]);
-        EXPECT_LT(widest, 2.7 * count / first) << count << " " << first;
-      }
+    std::vector<int> order = shuffledOrder(count);
+    EXPECT_EQ(order, shuffledOrder(count)) << "the same each time";
+    if (count >= 100) {
+      std::set<int> groups;
+      for (int n = 0; n < 32; ++n) groups.insert(order[std::size_t(n)] % 8);
+      EXPECT_GE(groups.size(), 7u) << "cameras of a region come in groups of eight";
+    }
     std::ranges::sort(order);
     for (int k = 0; k < count; ++k) EXPECT_EQ(order[std::size_t(k)], k);
   }
