@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "engine/bake/abrupt_light.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/shading.h"
@@ -34,6 +35,7 @@ HalfColour packLight(const glm::vec3& light) {
 constexpr std::uint64_t kMaxSamples = 60'000'000;
 constexpr std::size_t kSamplesPerChunk = 2048;
 constexpr std::uint32_t kMaxResolution = 256;
+constexpr std::uint32_t kFiner = 4;  ///< times, where light changes abruptly
 
 struct TriangleRef {
   std::uint32_t mesh = 0;
@@ -84,16 +86,41 @@ class SurfaceLightBaker {
       light_.resolution[ref.sceneTriangle] = std::uint16_t(resolution(ref, plan_.texel));
       light_.hasBack[ref.sceneTriangle] = hasBack(ref) ? 1 : 0;
     }
-    light_.firstSample.assign(count + 1, 0);
-    std::uint32_t next = 0;
-    for (std::size_t t = 0; t < count; ++t) {
-      light_.firstSample[t] = next;
-      if (light_.resolution[t] > 0)
-        next += surfaceSampleCount(light_.resolution[t]) * (light_.hasBack[t] ? 2 : 1);
-    }
-    light_.firstSample[count] = next;
-    light_.light.resize(next);
+    place();
     return {};
+  }
+
+  /// Lays out what is baked so far anew, with finer grids where light is abrupt. Those triangles are black
+  /// then, and to be baked again; whether one is depends on its own samples alone, or parts would not fit.
+  void refine() {
+    const SurfaceLight coarse = std::move(light_);
+    for (std::uint32_t finer = kFiner; finer >= 1; finer /= 2) {
+      light_.resolution = coarse.resolution;
+      light_.hasBack = coarse.hasBack;
+      std::uint64_t samples = 0;
+      for (const TriangleRef& ref : plan_.triangles) {
+        std::uint16_t& resolution = light_.resolution[ref.sceneTriangle];
+        if (isAbrupt(coarse, ref.sceneTriangle))
+          resolution = std::uint16_t(std::min(resolution * finer, kMaxResolution));
+        samples += samplesOf(light_, ref.sceneTriangle);
+      }
+      if (samples <= kMaxSamples) break;
+    }
+    place();
+    isFiner_.assign(light_.resolution.size(), 0);
+    for (const TriangleRef& ref : plan_.triangles) {
+      const std::uint32_t t = ref.sceneTriangle;
+      isFiner_[t] = light_.resolution[t] != coarse.resolution[t];
+      if (!isFiner_[t])
+        std::copy(coarse.light.begin() + coarse.firstSample[t],
+                  coarse.light.begin() + coarse.firstSample[t + 1],
+                  light_.light.begin() + light_.firstSample[t]);
+    }
+  }
+  bool refines(std::size_t first, std::size_t last) const {
+    return std::any_of(plan_.triangles.begin() + std::ptrdiff_t(first),
+                       plan_.triangles.begin() + std::ptrdiff_t(last),
+                       [&](const TriangleRef& ref) { return isFiner_[ref.sceneTriangle] != 0; });
   }
 
   /// Runs of triangles of about equal work: [starts[i], starts[i + 1]).
@@ -119,7 +146,9 @@ class SurfaceLightBaker {
   }
 
   void bakeTriangles(std::size_t first, std::size_t last, const std::stop_token& stop) {
-    for (std::size_t i = first; i < last; ++i) bakeTriangle(plan_.triangles[i], stop);
+    for (std::size_t i = first; i < last; ++i)
+      if (isFiner_.empty() || isFiner_[plan_.triangles[i].sceneTriangle] != 0)
+        bakeTriangle(plan_.triangles[i], stop);
   }
 
   /// The samples of a run of triangles lie one behind the other.
@@ -133,6 +162,19 @@ class SurfaceLightBaker {
   SurfaceLight take() { return std::move(light_); }
 
  private:
+  static std::uint64_t samplesOf(const SurfaceLight& light, std::uint32_t t) {
+    return light.resolution[t] == 0
+               ? 0
+               : std::uint64_t(surfaceSampleCount(light.resolution[t])) * (light.hasBack[t] ? 2 : 1);
+  }
+  /// Gives each triangle its samples, black.
+  void place() {
+    const std::size_t count = light_.resolution.size();
+    light_.firstSample.assign(count + 1, 0);
+    for (std::uint32_t t = 0; t < count; ++t)
+      light_.firstSample[t + 1] = light_.firstSample[t] + std::uint32_t(samplesOf(light_, t));
+    light_.light.assign(light_.firstSample[count], HalfColour(0));
+  }
   const Mesh& meshOf(const TriangleRef& ref) const { return scene_.scene().meshes[ref.mesh]; }
   std::uint32_t resolution(const TriangleRef& ref, double texel) const {
     // Unlit surfaces have the light 1 everywhere.
@@ -192,17 +234,28 @@ class SurfaceLightBaker {
   std::vector<MaterialRules> rules_;
   Plan plan_;
   SurfaceLight light_;
+  std::vector<std::uint8_t> isFiner_;  ///< by scene triangle, once light is refined; empty before
 };
 
 /// What is kept of a bake while it runs.
 class PartKeeper {
  public:
-  PartKeeper(SurfaceLightBaker& baker, const std::vector<std::size_t>& starts, SurfaceLightParts* parts)
-      : baker_(baker), starts_(starts), parts_(parts), known_(starts.size() - 1, 0) {
+  /// `isFine`: of the runs as they are laid out when light is refined, which are counted on behind the
+  /// others.
+  PartKeeper(SurfaceLightBaker& baker, const std::vector<std::size_t>& starts, bool isFine,
+             SurfaceLightParts* parts)
+      : baker_(baker),
+        starts_(starts),
+        firstRun_(isFine ? std::uint32_t(starts.size() - 1) : 0),
+        parts_(parts),
+        known_(starts.size() - 1, 0) {
+    if (isFine)
+      for (std::size_t run = 0; run < known_.size(); ++run)
+        known_[run] = !baker_.refines(starts_[run], starts_[run + 1]);
     if (parts_ == nullptr) return;
-    parts_->resumed = 0;
+    if (!isFine) parts_->resumed = 0;
     for (const SurfaceLightPart& part : parts_->known) take(part);
-    parts_->known.clear();
+    if (isFine) parts_->known.clear();
     if (parts_->only.empty()) return;
     for (std::size_t run = 0; run < known_.size(); ++run)
       leftOut_.push_back(!baker_.holdsAny(starts_[run], starts_[run + 1], parts_->only));
@@ -237,12 +290,13 @@ class PartKeeper {
   void take(const SurfaceLightPart& part) {
     std::size_t at = 0;
     for (std::size_t r = 0; r < part.runs.size() && r < part.sizes.size(); ++r) {
-      const std::size_t run = part.runs[r], size = part.sizes[r];
-      if (run >= known_.size() || size > part.light.size() - at) return;
+      const std::size_t run = std::size_t(part.runs[r]) - firstRun_, size = part.sizes[r], from = at;
+      if (size > part.light.size() - at) return;
+      at += size;
+      if (run >= known_.size()) continue;  // also those before the first
       const std::span<HalfColour> samples = samplesOf(run);
       if (samples.size() != size) return;
-      std::copy_n(part.light.begin() + std::ptrdiff_t(at), size, samples.begin());
-      at += size;
+      std::copy_n(part.light.begin() + std::ptrdiff_t(from), size, samples.begin());
       if (known_[run] == 0) parts_->resumed += size;
       known_[run] = 1;
     }
@@ -252,7 +306,7 @@ class PartKeeper {
     SurfaceLightPart part;
     for (const std::uint32_t run : baked_) {
       const std::span<const HalfColour> samples = samplesOf(run);
-      part.runs.push_back(run);
+      part.runs.push_back(firstRun_ + run);
       part.sizes.push_back(std::uint32_t(samples.size()));
       part.light.insert(part.light.end(), samples.begin(), samples.end());
     }
@@ -262,6 +316,7 @@ class PartKeeper {
 
   SurfaceLightBaker& baker_;
   const std::vector<std::size_t>& starts_;
+  std::uint32_t firstRun_;
   SurfaceLightParts* parts_;
   std::vector<char> known_;    ///< by run; nobody writes it once the bake has begun
   std::vector<bool> leftOut_;  ///< by run; empty: none is
@@ -270,6 +325,28 @@ class PartKeeper {
   std::optional<Stopwatch> watch_;    ///< since something was kept
   Status kept_;
 };
+
+Status bakeRuns(SurfaceLightBaker& baker, const std::vector<std::size_t>& starts, PartKeeper& keeper,
+                TaskRunner& runner, const Progress& progress, const std::string& stage,
+                const std::stop_token& stop) {
+  std::mutex progressMutex;
+  const std::size_t total = keeper.wantedRuns();
+  std::size_t done = 0;
+  Status kept;
+  std::atomic<bool> failed = false;
+  runner.parallelFor(starts.size() - 1, [&](std::size_t run) {
+    if (stop.stop_requested() || failed || !keeper.wants(run)) return;
+    const FlushDenormals flush;
+    baker.bakeTriangles(starts[run], starts[run + 1], stop);
+    if (stop.stop_requested()) return;  // the run may be half baked
+    const Status stored = keeper.done(run);
+    const std::lock_guard lock(progressMutex);
+    if (!stored && !failed.exchange(true)) kept = stored;
+    if (progress) progress({double(++done), double(total), stage});
+  });
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
+  return kept ? keeper.end() : kept;
+}
 
 }  // namespace
 
@@ -285,32 +362,18 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<L
     SurfaceLightBaker baker(scene, wanted, viewer, settings, stop);
     if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
     const auto starts = baker.chunkStarts();
-    const std::size_t chunks = starts.size() - 1;
-    const std::string stage =
+    const std::string coarse =
         baker.texel() > settings.surfaceTexel
             ? fmt::format("baking surface light (texel raised to {:.3g} m to stay within {} million samples)",
                           baker.texel(), kMaxSamples / 1'000'000)
             : std::string("baking surface light");
-    PartKeeper keeper(baker, starts, parts);
-    std::mutex progressMutex;
-    const bool all = parts == nullptr || parts->only.empty();
-    const std::size_t total = all ? chunks : keeper.wantedRuns();
-    std::size_t done = total - keeper.wantedRuns();
-    Status kept;
-    std::atomic<bool> failed = false;
-    runner.parallelFor(chunks, [&](std::size_t chunk) {
-      if (stop.stop_requested() || failed || !keeper.wants(chunk)) return;
-      const FlushDenormals flush;
-      baker.bakeTriangles(starts[chunk], starts[chunk + 1], stop);
-      if (stop.stop_requested()) return;  // the run may be half baked
-      const Status stored = keeper.done(chunk);
-      const std::lock_guard lock(progressMutex);
-      if (!stored && !failed.exchange(true)) kept = stored;
-      if (progress) progress({double(++done), double(total), stage});
-    });
-    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "the bake was stopped");
-    if (kept) kept = keeper.end();
-    if (!kept) return tl::unexpected(kept.error());
+    for (const bool isFine : {false, true}) {
+      if (isFine) baker.refine();
+      const std::string stage = isFine ? "baking surface light at the edges of shadows" : coarse;
+      PartKeeper keeper(baker, starts, isFine, parts);
+      if (Status done = bakeRuns(baker, starts, keeper, runner, progress, stage, stop); !done)
+        return tl::unexpected(done.error());
+    }
     return baker.take();
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory for surface light; raise the surface texel",

@@ -15,6 +15,8 @@ namespace acentric {
 namespace {
 
 constexpr int kMostCuts = 32;  ///< of a side, for light
+/// Metres: light is finer at the edges of shadows, but vertices take far more room than its samples.
+constexpr float kFinestCut = 0.04f;
 
 class LocalWriter {
  public:
@@ -92,15 +94,18 @@ class LocalWriter {
     GlbMesh& mesh = out_[{source.material, sides}];
     std::array<LocalVertex, 3> corners;
     for (int i = 0; i < 3; ++i) corners[std::size_t(i)] = local_.vertices[t.vertices[i]];
-    float longest = 0;
+    float longest = 0, metres = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const glm::vec2 way = corners[(i + 1) % 3].barycentric - corners[i].barycentric;
+      const LocalVertex &here = corners[i], &next = corners[(i + 1) % 3];
+      const glm::vec2 way = next.barycentric - here.barycentric;
       longest = std::max({longest, std::abs(way.x), std::abs(way.y), std::abs(way.x + way.y)});
+      metres = std::max(metres, glm::length(next.position - here.position));
     }
     const std::uint32_t number = numberOf(t);
     const int resolution =
         light_ != nullptr && number < light_->resolution.size() ? int(light_->resolution[number]) : 0;
-    const int cuts = std::clamp(int(std::ceil(longest * float(resolution))), 1, kMostCuts);
+    const float wanted = std::min(longest * float(resolution), metres / kFinestCut);
+    const int cuts = std::clamp(int(std::ceil(wanted)), 1, kMostCuts);
     const TextureUse& use = material(t).baseColourTexture;
     const bool hasTexture = textured(t);
     const auto first = std::uint32_t(mesh.positions.size());

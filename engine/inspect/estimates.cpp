@@ -192,7 +192,7 @@ Status estimateLight(const EstimateOptions& options, const GatherForecast& gathe
     const auto whole = [&](double LightProbe::*part) {
       return times(ratioOf(probes[kind], part, &LightProbe::samples, share), samples[kind]);
     };
-    estimate.lightSamples.value += samples[kind];
+    estimate.lightSamples = sum(estimate.lightSamples, whole(&LightProbe::stored));
     estimate.lightBytes = sum(estimate.lightBytes, whole(&LightProbe::bytes));
     estimate.lightSeconds = sum(estimate.lightSeconds, whole(&LightProbe::seconds));
   }

@@ -55,13 +55,15 @@ struct GatherForecast {
 
 /// What part of the surfaces' own light cost, beyond the overhead.
 struct LightProbe {
-  double samples = 0, bytes = 0;
+  double samples = 0;  ///< before grids are made finer at the edges of shadows
+  double bytes = 0;
   double seconds = 0;  ///< where all light is gathered already
+  double stored = 0;   ///< samples as they are stored
 };
 struct LightOverhead {
   double bytes = 0, seconds = 0;
-  /// Samples by kind of triangle, exactly. Small triangles lie where much is in the way of the light, large
-  /// ones on bare walls: each kind has rates of its own.
+  /// Samples by kind of triangle, exactly, before grids are made finer. Small triangles lie where much is in
+  /// the way of the light, large ones on bare walls: each kind has rates of its own.
   std::vector<double> samplesOfKind;
 };
 

@@ -410,7 +410,9 @@ class ProjectProber final : public BakeProber {
     }
     const auto lit = writeLight(*light);
     if (!lit) return tl::unexpected(lit.error());
-    LightProbe probe{double(light->light.size()), 0, seconds + lit->seconds};
+    LightProbe probe{0, 0, seconds + lit->seconds, double(light->light.size())};
+    for (const std::size_t t : triangles)
+      probe.samples += double(layout_.firstSample[t + 1] - layout_.firstSample[t]);
     std::ranges::fill(light->light, HalfColour(0));
     const auto dark = writeLight(*light);
     if (!dark) return tl::unexpected(dark.error());

@@ -202,6 +202,76 @@ TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
   EXPECT_EQ(before + after, whole->light.size()) << "nothing is baked twice";
 }
 
+/// A floor in the sun, half of it under a roof that ends at x = 0.13, and another one beside it in the open.
+std::shared_ptr<const RayScene> floorWithAShadow() {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  return builder.quad(white, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0})
+      .quad(white, {3, -1, 0}, {5, -1, 0}, {5, 1, 0}, {3, 1, 0})
+      .quad(white, {-9, -9, 1}, {0.13f, -9, 1}, {0.13f, 9, 1}, {-9, 9, 1})
+      .sun({0, 0, -1}, 5)
+      .rays();
+}
+
+TEST(SurfaceLight, IsFinerAtTheEdgesOfShadows) {
+  const auto scene = floorWithAShadow();
+  const auto light = bakeAll(*scene, texel(0.1));
+  ASSERT_TRUE(light.has_value()) << light.error().describe();
+  EXPECT_EQ(light->resolution[2], 29u) << "in the open: the diagonal over the texel";
+  EXPECT_EQ(light->resolution[0], 4 * 29u);
+  EXPECT_EQ(light->resolution[1], 4 * 29u);
+  const Mesh& floor = scene->scene().meshes[0];
+  const float lit = light->at(2, {0.3f, 0.3f}, false).x;
+  ASSERT_GT(lit, 0);
+  for (const std::uint32_t t : {0u, 1u})
+    for (float x = 0.01f; x < 1; x += 0.02f)
+      for (float y = 0.01f; x + y < 1; y += 0.02f) {
+        const glm::uvec3& corners = floor.triangles[t];
+        const glm::vec3 place = floor.positions[corners.x] * (1 - x - y) + floor.positions[corners.y] * x +
+                                floor.positions[corners.z] * y;
+        if (std::abs(place.x - 0.13f) < 0.03f) continue;  // within a sample of the edge
+        EXPECT_EQ(light->at(t, {x, y}, false).x > 0.5f * lit, place.x > 0.13f) << place.x;
+      }
+}
+
+TEST(SurfaceLight, GoesOnFromPartsOfBothPassesToTheSameBytes) {
+  const auto scene = floorWithAShadow();
+  const std::size_t n = scene->scene().triangleCount();
+  const auto bakeWith = [&](SurfaceLightParts& parts, int workers) {
+    TaskRunner runner(workers);
+    return bakeSurfaceLight(*scene, std::vector<LightSides>(n, LightSides::front),
+                            std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(0.02), runner, {}, {},
+                            &parts);
+  };
+  std::vector<SurfaceLightPart> kept;
+  SurfaceLightParts first;
+  first.secondsBetween = 0;
+  first.keep = [&](const SurfaceLightPart& part) -> Status {
+    kept.push_back(part);
+    return {};
+  };
+  const auto whole = bakeWith(first, 2);
+  ASSERT_TRUE(whole.has_value());
+  ASSERT_GT(kept.size(), 4u);
+  for (const std::size_t count : {kept.size() / 2, kept.size() - 1, kept.size()}) {
+    std::size_t baked = 0;
+    SurfaceLightParts next;
+    next.known.assign(kept.begin(), kept.begin() + std::ptrdiff_t(count));
+    next.secondsBetween = 0;
+    next.keep = [&](const SurfaceLightPart& part) -> Status {
+      baked += part.runs.size();
+      return {};
+    };
+    const auto resumed = bakeWith(next, 0);
+    ASSERT_TRUE(resumed.has_value());
+    EXPECT_EQ(resumed->light, whole->light);
+    EXPECT_EQ(resumed->resolution, whole->resolution);
+    std::size_t missing = 0;
+    for (std::size_t part = count; part < kept.size(); ++part) missing += kept[part].runs.size();
+    EXPECT_EQ(baked, missing) << "nothing is baked twice";
+  }
+}
+
 TEST(SurfaceLight, GivesTheSameBytesForAnyNumberOfThreadsAndReportsProgress) {
   SceneBuilder builder;
   builder.box(builder.material(matte()), {-2, -2, 0}, {2, 2, 3}, true)
