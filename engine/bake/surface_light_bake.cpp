@@ -90,17 +90,18 @@ class SurfaceLightBaker {
     return {};
   }
 
-  /// Lays out what is baked so far anew, with finer grids where light is abrupt. Those triangles are black
-  /// then, and to be baked again; whether one is depends on its own samples alone, or parts would not fit.
+  /// Lays out light that is baked anew, with finer grids where it is abrupt. Those triangles are black then,
+  /// and to be baked again.
   void refine() {
     const SurfaceLight coarse = std::move(light_);
+    const float usual = usualLight(coarse);
     for (std::uint32_t finer = kFiner; finer >= 1; finer /= 2) {
       light_.resolution = coarse.resolution;
       light_.hasBack = coarse.hasBack;
       std::uint64_t samples = 0;
       for (const TriangleRef& ref : plan_.triangles) {
         std::uint16_t& resolution = light_.resolution[ref.sceneTriangle];
-        if (isAbrupt(coarse, ref.sceneTriangle))
+        if (isAbrupt(coarse, ref.sceneTriangle, usual))
           resolution = std::uint16_t(std::min(resolution * finer, kMaxResolution));
         samples += samplesOf(light_, ref.sceneTriangle);
       }
@@ -367,7 +368,9 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<L
             ? fmt::format("baking surface light (texel raised to {:.3g} m to stay within {} million samples)",
                           baker.texel(), kMaxSamples / 1'000'000)
             : std::string("baking surface light");
+    const bool isWhole = parts == nullptr || parts->only.empty();
     for (const bool isFine : {false, true}) {
+      if (isFine && !isWhole) break;
       if (isFine) baker.refine();
       const std::string stage = isFine ? "baking surface light at the edges of shadows" : coarse;
       PartKeeper keeper(baker, starts, isFine, parts);

@@ -27,7 +27,8 @@ struct SurfaceLightParts {
   std::function<Status(const SurfaceLightPart&)> keep;
   double secondsBetween = 2;  ///< at least, between two calls of `keep`; the first is at once
   std::uint64_t resumed = 0;  ///< out: samples taken from `known`
-  /// Bakes the runs that hold one of these triangles, and no others: those stay black. Empty: all of them.
+  /// Bakes the runs that hold one of these triangles, and no others: those stay black, and none is made finer
+  /// at the edges of shadows. Empty: all of them.
   std::vector<std::uint8_t> only = {};
 };
 

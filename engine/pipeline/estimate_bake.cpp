@@ -31,7 +31,8 @@ namespace {
 constexpr double kProbePixelsPerThread = 10000, kFewestProbePixels = 30000;
 constexpr int kProbeColumns = 64;  ///< side by side, of which bytes are told: pictures of fewer pack worse
 constexpr double kLightSamples = 66000, kLightRunSamples = 2000;
-constexpr int kColumnsPerThread = 4;  ///< of which the bake makes one task
+constexpr std::size_t kFewestLightRuns = 4;  ///< one may be finer for a shadow's edge, the next is not
+constexpr int kColumnsPerThread = 4;         ///< of which the bake makes one task
 /// Of slices as dense as a bake: columns of each, and pixels of a camera's together.
 constexpr int kSliceColumns = 32;
 constexpr double kSlicePixels = 2e5;
@@ -124,7 +125,9 @@ class TriangleKind {
     constexpr double kGolden = 0.6180339887498949;
     const double mostRuns = 4 * samples() / kLightRunSamples + 16;
     std::vector<std::size_t> chosen;
-    for (double found = 0; found < wanted && double(runs_) < mostRuns; ++runs_) {
+    const std::size_t begun = runs_;
+    for (double found = 0; (found < wanted || runs_ < begun + kFewestLightRuns) && double(runs_) < mostRuns;
+         ++runs_) {
       const double place = std::fmod((double(runs_) + 0.5) * kGolden, 1.0) * samples();
       auto at = std::size_t(std::ranges::upper_bound(last_, place) - last_.begin());
       for (double run = 0; run < kLightRunSamples && at < taken_.size() && taken_[at] == 0; ++at) {

@@ -88,19 +88,21 @@ TEST_F(BakeForecastTest, ForetellsBrieflyWhatTheBakeDoesWithinAFactorOfTwo) {
   ASSERT_TRUE(report) << report.error().describe();
   const BakeReport& captures = report->captures;
   EXPECT_EQ(estimate->cameras, captures.baked);
-  const auto within = [](double foretold, double found) {
-    EXPECT_GT(foretold, found / 2);
-    EXPECT_LT(foretold, found * 2);
+  const auto within = [](double foretold, double found, const char* what) {
+    EXPECT_GT(foretold, found / 2) << what;
+    EXPECT_LT(foretold, found * 2) << what;
   };
   // What time is spent on; how long that takes depends on what else the machine does.
-  within(estimate->rays.value, double(captures.counts.rays.total() - captures.counts.rays.visibility));
-  within(estimate->samples.value, double(captures.counts.samples.keptInAll()));
+  within(estimate->rays.value, double(captures.counts.rays.total() - captures.counts.rays.visibility),
+         "rays");
+  within(estimate->samples.value, double(captures.counts.samples.keptInAll()), "samples");
   within(
       estimate->bytes.value,
-      double(report->bytes + CaptureStore::open(captureFolderFor(open.file))->bytesOf(open.surfaceLightKey)));
+      double(report->bytes + CaptureStore::open(captureFolderFor(open.file))->bytesOf(open.surfaceLightKey)),
+      "bytes");
   const auto light = CaptureStore::open(captureFolderFor(open.file))->getSurfaceLight(open.surfaceLightKey);
   ASSERT_TRUE(light);
-  within(estimate->lightSamples.value, double(light->light.size()));
+  within(estimate->lightSamples.value, double(light->light.size()), "samples of light");
   std::printf("[ bench    ] foretold: %.2f of the seconds that it took\n",
               estimate->seconds.value / (captures.seconds + report->surfaceLightSeconds));
 }
