@@ -242,7 +242,7 @@ void drawBake(PanelContext& context) {
   bakeNumber(context, "surfaceTexel",
              {"Surface texel", "%.3f m", 0.001, 0.002, 10,
               "Distance of light samples on near geometry, and of places where light from all around is "
-              "gathered."},
+              "gathered. Edges of strong shadows have samples four times as close."},
              &BakeSettings::surfaceTexel, "surface texel");
   bakeNumber(context, "maxLayers",
              {"Most layers", "%.0f", 0.05, 1, 64,
