@@ -95,20 +95,22 @@ class SurfaceLightBaker {
   void refine() {
     const SurfaceLight coarse = std::move(light_);
     const float usual = usualLight(coarse);
+    light_.hasBack = coarse.hasBack;
+    isFiner_.assign(coarse.resolution.size(), 0);
+    for (const TriangleRef& ref : plan_.triangles)
+      isFiner_[ref.sceneTriangle] = isAbrupt(coarse, ref.sceneTriangle, usual);
     for (std::uint32_t finer = kFiner; finer >= 1; finer /= 2) {
       light_.resolution = coarse.resolution;
-      light_.hasBack = coarse.hasBack;
       std::uint64_t samples = 0;
       for (const TriangleRef& ref : plan_.triangles) {
         std::uint16_t& resolution = light_.resolution[ref.sceneTriangle];
-        if (isAbrupt(coarse, ref.sceneTriangle, usual))
+        if (isFiner_[ref.sceneTriangle] != 0)
           resolution = std::uint16_t(std::min(resolution * finer, kMaxResolution));
         samples += samplesOf(light_, ref.sceneTriangle);
       }
       if (samples <= kMaxSamples) break;
     }
     place();
-    isFiner_.assign(light_.resolution.size(), 0);
     for (const TriangleRef& ref : plan_.triangles) {
       const std::uint32_t t = ref.sceneTriangle;
       isFiner_[t] = light_.resolution[t] != coarse.resolution[t];
@@ -117,11 +119,6 @@ class SurfaceLightBaker {
                   coarse.light.begin() + coarse.firstSample[t + 1],
                   light_.light.begin() + light_.firstSample[t]);
     }
-  }
-  bool refines(std::size_t first, std::size_t last) const {
-    return std::any_of(plan_.triangles.begin() + std::ptrdiff_t(first),
-                       plan_.triangles.begin() + std::ptrdiff_t(last),
-                       [&](const TriangleRef& ref) { return isFiner_[ref.sceneTriangle] != 0; });
   }
 
   /// Runs of triangles of about equal work: [starts[i], starts[i + 1]).
@@ -145,6 +142,8 @@ class SurfaceLightBaker {
                        plan_.triangles.begin() + std::ptrdiff_t(last),
                        [&](const TriangleRef& ref) { return triangles[ref.sceneTriangle] != 0; });
   }
+
+  bool refines(std::size_t first, std::size_t last) const { return holdsAny(first, last, isFiner_); }
 
   void bakeTriangles(std::size_t first, std::size_t last, const std::stop_token& stop) {
     for (std::size_t i = first; i < last; ++i)

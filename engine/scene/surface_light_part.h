@@ -11,7 +11,7 @@ namespace acentric {
 
 /// The bake counts its runs of triangles; these are some of them, and their samples one behind the other.
 struct SurfaceLightPart {
-  std::vector<std::uint32_t> runs;   ///< ascending
+  std::vector<std::uint32_t> runs;   ///< ascending; as made finer they are counted on behind the others
   std::vector<std::uint32_t> sizes;  ///< of each: its number of samples
   std::vector<HalfColour> light;
 };

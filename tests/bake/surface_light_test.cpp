@@ -145,6 +145,15 @@ TEST(SurfaceLight, ANeedleDoesNotGetTheSamplesOfAPlate) {
   EXPECT_GE(light->resolution[0], 1u);
 }
 
+Result<SurfaceLight> bakeInParts(const RayScene& scene, double metres, SurfaceLightParts& parts,
+                                 int workers) {
+  const std::size_t n = scene.scene().triangleCount();
+  TaskRunner runner(workers);
+  return bakeSurfaceLight(scene, std::vector<LightSides>(n, LightSides::front),
+                          std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(metres), runner, {}, {},
+                          &parts);
+}
+
 TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
   SceneBuilder builder;
   builder.box(builder.material(matte()), {-2, -2, 0}, {2, 2, 3}, true)
@@ -154,11 +163,7 @@ TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
   const auto whole = bakeAll(*scene, texel(0.05));
   ASSERT_TRUE(whole.has_value());
   const auto bakeWith = [&](SurfaceLightParts& parts, int workers) {
-    TaskRunner runner(workers);
-    const std::size_t n = scene->scene().triangleCount();
-    return bakeSurfaceLight(*scene, std::vector<LightSides>(n, LightSides::front),
-                            std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(0.05), runner, {}, {},
-                            &parts);
+    return bakeInParts(*scene, 0.05, parts, workers);
   };
   std::vector<SurfaceLightPart> kept;
   SurfaceLightParts ended;
@@ -236,13 +241,6 @@ TEST(SurfaceLight, IsFinerAtTheEdgesOfShadows) {
 
 TEST(SurfaceLight, GoesOnFromPartsOfBothPassesToTheSameBytes) {
   const auto scene = floorWithAShadow();
-  const std::size_t n = scene->scene().triangleCount();
-  const auto bakeWith = [&](SurfaceLightParts& parts, int workers) {
-    TaskRunner runner(workers);
-    return bakeSurfaceLight(*scene, std::vector<LightSides>(n, LightSides::front),
-                            std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(0.02), runner, {}, {},
-                            &parts);
-  };
   std::vector<SurfaceLightPart> kept;
   SurfaceLightParts first;
   first.secondsBetween = 0;
@@ -250,7 +248,7 @@ TEST(SurfaceLight, GoesOnFromPartsOfBothPassesToTheSameBytes) {
     kept.push_back(part);
     return {};
   };
-  const auto whole = bakeWith(first, 2);
+  const auto whole = bakeInParts(*scene, 0.02, first, 2);
   ASSERT_TRUE(whole.has_value());
   ASSERT_GT(kept.size(), 4u);
   for (const std::size_t count : {kept.size() / 2, kept.size() - 1, kept.size()}) {
@@ -262,7 +260,7 @@ TEST(SurfaceLight, GoesOnFromPartsOfBothPassesToTheSameBytes) {
       baked += part.runs.size();
       return {};
     };
-    const auto resumed = bakeWith(next, 0);
+    const auto resumed = bakeInParts(*scene, 0.02, next, 0);
     ASSERT_TRUE(resumed.has_value());
     EXPECT_EQ(resumed->light, whole->light);
     EXPECT_EQ(resumed->resolution, whole->resolution);
