@@ -39,7 +39,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
   if (bake.silhouettes) settings.text("silhouettes");
   // So that only captures with mirrors are baked anew since these show what lies close before them.
-  if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 2");
+  if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 3");
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);
   else

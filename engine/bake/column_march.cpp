@@ -197,10 +197,7 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shad
                           std::uint8_t mirror) {
   const bool opaque = shaded.alpha >= kOpaqueAlpha;
   if (needed.empty() || shaded.alpha < kInvisibleAlpha) return;
-  // The last place is kept for an opaque surface: there is always something behind glass.
-  if (!opaque)
-    std::erase_if(
-        needed, [&](const RoleOnRay* having) { return having->samples + 1 >= setting_.settings.maxLayers; });
+  if (!opaque) keepLastPlace(needed, setting_.settings.maxLayers);
   if (needed.empty()) {
     ++out_.counts.samples.overLimit;
     return;
@@ -219,15 +216,18 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shad
 Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal,
                                   std::uint8_t mirror) {
   const Shader::Mirrored mirrored = setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays);
-  const bool sky = !mirrored.shown.found();
-  const double reach = horizontal * (1 + double(mirrored.shown.distance) / double(hit.distance));
-  const glm::dvec2 place = setting_.camera.position + reach * direction_;
-  std::uint8_t mask = 0;
-  for (const ColumnRole* role : facing_)
-    if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
-  if (mask != 0)
-    shown_.push_back(
-        {reach / flat_, packColour({mirrored.surface.radiance(), 1}), mask, mirror, mirrored.shown});
+  int clear = 0;
+  for (const Shader::Layer& layer : mirrored.shown) {
+    if (layer.alpha < 1 && ++clear >= setting_.settings.maxLayers) continue;  // keepLastPlace
+    const bool sky = !layer.hit.found();
+    const double reach = horizontal * (1 + double(layer.hit.distance) / double(hit.distance));
+    const glm::dvec2 place = setting_.camera.position + reach * direction_;
+    std::uint8_t mask = 0;
+    for (const ColumnRole* role : facing_)
+      if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
+    if (mask != 0)
+      shown_.push_back({reach / flat_, packColour({layer.radiance, layer.alpha}), mask, mirror, layer.hit});
+  }
   return mirrored.surface;
 }
 

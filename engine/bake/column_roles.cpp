@@ -15,6 +15,10 @@ std::uint8_t give(std::span<RoleOnRay* const> roles) {
   return mask;
 }
 
+void keepLastPlace(std::vector<RoleOnRay*>& needed, int maxLayers) {
+  std::erase_if(needed, [&](const RoleOnRay* having) { return having->samples + 1 >= maxLayers; });
+}
+
 double reachOf(const LayoutCamera& camera) {
   double reach = 0;
   for (const Role& role : camera.roles)

@@ -37,6 +37,9 @@ struct RoleOnRay {
 };
 /// Counts a sample to each; returns their bits.
 std::uint8_t give(std::span<RoleOnRay* const> roles);
+/// Of the roles that need a clear surface those that have room for it: the last place is kept for an opaque
+/// one, since there is always something behind glass.
+void keepLastPlace(std::vector<RoleOnRay*>& needed, int maxLayers);
 
 /// The roles that a surface is kept for, by the side that they see.
 struct SeenSides {

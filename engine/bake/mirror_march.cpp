@@ -65,46 +65,50 @@ void MirrorMarch::ask(const Pixel& pixel, const FlatMirror& mirror, const Met& m
   }
 }
 
-std::uint8_t MirrorMarch::giveTo(std::span<RoleOnRay* const> roles, double distance) const {
-  for (RoleOnRay* role : roles) role->opaqueAt = distance;
+std::uint8_t MirrorMarch::giveTo(std::vector<RoleOnRay*>& roles, double distance, bool isClear) const {
+  if (isClear)
+    keepLastPlace(roles, maxLayers_);
+  else
+    for (RoleOnRay* role : roles) role->opaqueAt = distance;
   return give(roles);
 }
 
 /// What the camera sees in the mirror itself is kept for those who see the mirror there; others may see it
-/// elsewhere in the mirror. Returns its distance, 0 if there is none.
+/// elsewhere in the mirror. Returns the distance of the farthest, 0 if there is none.
 double MirrorMarch::addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror,
                                     std::vector<ShownInMirror>& shown, RayCounts& rays) {
   double farthest = 0;
   const std::size_t known = shown.size();
+  const glm::vec3 direction(mirror.reflected(pixel.direction));
   for (std::size_t i = 0; i < known; ++i) {
     if (shown[i].mirror != mirror.number) continue;
     const Met met = metAt(pixel, mirror, shown[i].surface, shown[i].distance);
     ask(pixel, mirror, met, true, rays);
-    shown[i].roles = giveTo(sides_.met, met.distance);
-    addOther(mirror, met, shown, rays);
+    shown[i].roles = giveTo(sides_.met, met.distance, shown[i].isClear());
+    addSide(mirror, met, Side::other, direction, shown, rays);
     farthest = std::max(farthest, met.distance);
   }
   std::erase_if(shown, [](const ShownInMirror& s) { return s.roles == 0; });
   return farthest;
 }
 
-void MirrorMarch::addMet(const FlatMirror& mirror, const Met& met, const Ray& ray,
-                         std::vector<ShownInMirror>& shown, RayCounts& rays) {
-  if (sides_.met.empty()) return;
-  const Shader::Seen seen = shader_.seenAlong(ray, &RayCounts::mirror, rays, true);
-  const Shaded surface = shader_.flatMirrorUnder(seen.radiance, byMet_.mirror, byMet_.toEye);
-  shown.push_back({std::min(met.distance, double(seen.opaque.distance)), packColour({surface.radiance(), 1}),
-                   giveTo(sides_.met, met.distance), mirror.number, seen.opaque});
-}
-
-/// Without the glass before the side that the ray meets: the eyes do not look through that.
-void MirrorMarch::addOther(const FlatMirror& mirror, const Met& met, std::vector<ShownInMirror>& shown,
-                           RayCounts& rays) {
-  if (sides_.other.empty()) return;
-  const Shaded seen = shader_.shade(met.hit, met.surface->toViewer(Side::other), rays, true);
-  const Shaded surface = shader_.flatMirrorUnder(seen.radiance(), byOther_.mirror, byOther_.toEye);
-  shown.push_back({met.distance, packColour({surface.radiance(), 1}), giveTo(sides_.other, met.distance),
-                   mirror.number, met.hit});
+/// Without what is before it, which is clear and has samples of its own.
+void MirrorMarch::addSide(const FlatMirror& mirror, const Met& met, Side side, const glm::vec3& direction,
+                          std::vector<ShownInMirror>& shown, RayCounts& rays) {
+  std::vector<RoleOnRay*>& roles = sides_.of(side);
+  if (roles.empty()) return;
+  const MirrorSight::Seen& by = side == Side::met ? byMet_ : byOther_;
+  Shaded seen;
+  if (met.surface)
+    seen = shader_.shade(met.hit, met.surface->toViewer(side), rays, true);
+  else
+    seen.emission = shader_.background(direction);
+  if (seen.alpha < kInvisibleAlpha) return;
+  const bool clear = seen.alpha < kOpaqueAlpha;
+  const Shaded surface = shader_.flatMirrorUnder(seen.radiance(), by.mirror, by.toEye);
+  if (const std::uint8_t mask = giveTo(roles, met.distance, clear); mask != 0)
+    shown.push_back({met.distance, packColour({surface.radiance(), clear ? seen.alpha : 1}), mask,
+                     mirror.number, met.hit});
 }
 
 /// From the mirror on, also within the region: nothing else would show its image there, as local geometry
@@ -122,12 +126,11 @@ void MirrorMarch::follow(const Pixel& pixel, const MirrorSight::Span& span, std:
     if (std::ranges::all_of(roles_, [&](const RoleOnRay& r) { return isFull(r); })) return;
     if (!(double(ray.nearest) < span.to)) return;
     ++rays.mirror;
-    const Hit hit = scene.traceSolid(ray);
+    const Hit hit = scene.trace(ray);
     if (hit.found() && double(hit.distance) > span.to) return;
     const Met met = metAt(pixel, mirror, hit, double(hit.distance));
     ask(pixel, mirror, met, false, rays);
-    addMet(mirror, met, ray, shown, rays);
-    addOther(mirror, met, shown, rays);
+    for (const Side side : {Side::met, Side::other}) addSide(mirror, met, side, ray.direction, shown, rays);
     if (!hit.found()) return;
     ray.nearest = justBehind(hit.distance);
   }

@@ -23,6 +23,7 @@ struct ShownInMirror {
   std::uint8_t roles = 0, mirror = 0;
   Hit surface;  ///< not found: the sky
   bool isSky() const { return !(distance < std::numeric_limits<double>::infinity()); }
+  bool isClear() const { return unpackColour(colour).a < 1; }
 };
 
 class MirrorMarch {
@@ -53,11 +54,10 @@ class MirrorMarch {
               RayCounts& rays, const std::stop_token& stop);
   double addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror, std::vector<ShownInMirror>& shown,
                          RayCounts& rays);
-  void addMet(const FlatMirror& mirror, const Met& met, const Ray& ray, std::vector<ShownInMirror>& shown,
-              RayCounts& rays);
-  void addOther(const FlatMirror& mirror, const Met& met, std::vector<ShownInMirror>& shown, RayCounts& rays);
+  void addSide(const FlatMirror& mirror, const Met& met, Side side, const glm::vec3& direction,
+               std::vector<ShownInMirror>& shown, RayCounts& rays);
   void ask(const Pixel& pixel, const FlatMirror& mirror, const Met& met, bool isKnown, RayCounts& rays);
-  std::uint8_t giveTo(std::span<RoleOnRay* const> roles, double distance) const;
+  std::uint8_t giveTo(std::vector<RoleOnRay*>& roles, double distance, bool isClear) const;
   bool isFull(const RoleOnRay& role) const { return role.samples >= maxLayers_; }
 
   const Shader& shader_;

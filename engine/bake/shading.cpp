@@ -10,12 +10,6 @@
 #include "engine/scene/surface_alpha.h"
 
 namespace acentric {
-namespace {
-
-/// Layers of glass and blending that a composed ray goes through at most.
-
-}  // namespace
-
 float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
 
 /// The instantiations, and the table that finds one.
@@ -190,32 +184,41 @@ Shaded Shader::flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm
 Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const {
   const Surface surface = flatMirrorAt(hit, toViewer);
   const glm::vec3 mirrored = glm::reflect(-toViewer, surface.geometricNormal);
-  const Seen seen = seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true);
-  return {mirrorUnder(seen.radiance, surface), seen.opaque};
+  Mirrored out;
+  Seen seen;
+  eachLayer({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true, [&](const Layer& layer) {
+    seen.add(layer);
+    out.shown.push_back({layer.hit, mirrorUnder(layer.radiance, surface).radiance(), layer.alpha});
+  });
+  out.surface = mirrorUnder(seen.radiance, surface);
+  return out;
+}
+
+void Shader::Seen::add(const Layer& layer) {
+  radiance += (passing * layer.alpha) * layer.radiance;
+  passing *= 1 - layer.alpha;
+  if (layer.alpha >= 1) opaque = layer.hit;
+}
+
+template <class Visit>
+void Shader::eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays, bool seenInMirror,
+                       const Visit& visit) const {
+  Ray rest = ray;
+  for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
+    ++(rays.*counter);
+    const Hit hit = scene_->trace(rest);
+    if (!hit.found()) return visit(Layer{hit, background(ray.direction)});
+    const Shaded shaded = shade(hit, -ray.direction, rays, seenInMirror);
+    if (shaded.alpha >= kOpaqueAlpha) return visit(Layer{hit, shaded.radiance()});
+    if (shaded.alpha >= kInvisibleAlpha) visit(Layer{hit, shaded.radiance(), shaded.alpha});
+    rest.nearest = justBehind(hit.distance);
+  }
 }
 
 Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                                bool seenInMirror) const {
   Seen seen;
-  float passing = 1;
-  Ray rest = ray;
-  for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
-    ++(rays.*counter);
-    const Hit hit = scene_->trace(rest);
-    if (!hit.found()) {
-      seen.radiance += passing * background(ray.direction);
-      return seen;
-    }
-    const Shaded shaded = shade(hit, -ray.direction, rays, seenInMirror);
-    const float alpha = shaded.alpha >= kOpaqueAlpha ? 1 : shaded.alpha < kInvisibleAlpha ? 0 : shaded.alpha;
-    if (alpha > 0) seen.radiance += (passing * alpha) * shaded.radiance();
-    passing *= 1 - alpha;
-    if (alpha >= 1) {
-      seen.opaque = hit;
-      return seen;
-    }
-    rest.nearest = justBehind(hit.distance);
-  }
+  eachLayer(ray, counter, rays, seenInMirror, [&](const Layer& layer) { seen.add(layer); });
   return seen;
 }
 

@@ -65,19 +65,28 @@ class Shader {
   Sky sky() const { return scene_->plan().on(Effect::sky) ? scene_->scene().sky : Sky{}; }
   glm::vec3 background(const glm::vec3& direction) const { return sky().radiance(direction); }
 
+  /// A surface on a ray's way, or the sky that ends it.
+  struct Layer {
+    Hit hit;  ///< not found: the sky
+    glm::vec3 radiance{0};
+    float alpha = 1;  ///< 1: it ends the ray
+  };
   struct Seen {
     glm::vec3 radiance{0};
-    Hit opaque;  ///< what ends the ray; not found: the sky
+    float passing = 1;  ///< of what is behind
+    Hit opaque;         ///< what ends the ray; not found: the sky
+    /// What is behind all that was added.
+    void add(const Layer& layer);
   };
   /// What a ray sees: blended layers composed front to back in linear light. Each ray is counted in
   /// `counter`.
   Seen seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                  bool seenInMirror = false) const;
 
-  /// What a plane mirror is seen to show: light that arrives by the mirrored ray, and what ends that.
+  /// What a plane mirror is seen to show: light that arrives by the mirrored ray.
   struct Mirrored {
     Shaded surface;
-    Hit shown;  ///< not found: the sky
+    std::vector<Layer> shown;  ///< what that light comes from, nearest first, each as the mirror shows it
   };
   /// A hit on a mirror of FlatMirrors; the same radiance as shade() gives.
   Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const;
@@ -104,6 +113,10 @@ class Shader {
   const Switches& switches() const { return switches_; }
 
  private:
+  /// Calls `visit` with each layer of a ray, nearest first.
+  template <class Visit>
+  void eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays, bool seenInMirror,
+                 const Visit& visit) const;
   using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, const TextureArea*,
                             RayCounts&);
   friend struct ShadingKernels;

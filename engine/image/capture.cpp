@@ -76,8 +76,9 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
         return bad("inverse distance has more than 16 significant bits");
       if (s.roles[i] == 0) return bad("no role needs it");
       if (!isStorable(s.colour[i])) return bad("radiance must be finite and >= 0, alpha within [0,1]");
-      if (!s.mirror.empty() && s.mirror[i] != 0 && s.colour[i].a != kHalfOne)
-        return bad("mirrors and what they show must be opaque");
+      const bool mustBeOpaque =
+          reflections ? s.inverseDistance[i] == 0 : !s.mirror.empty() && s.mirror[i] != 0;
+      if (mustBeOpaque && s.colour[i].a != kHalfOne) return bad("mirrors and the sky must be opaque");
       if (reflections && s.mirror[i] == 0) return bad("no mirror shows it");
       if (s.hasSilhouettes() && s.coverage[i] == 0) return bad("covers nothing of its pixel");
       if (s.hasSilhouettes() && s.plane[i] >= s.planes.size()) return bad("lies on no plane of the capture");

@@ -179,7 +179,7 @@ class Painter {
     const Splat splat = splatAt(splats_, i);
     const std::uint32_t colour = wordOf(target_.colour[splat.index]);
     const bool opaque = colour >= 0xff000000u;
-    const bool wanted = kOver || mode == PaintMode::reflect || opaque == (mode == PaintMode::nearest);
+    const bool wanted = kOver || opaque == (mode == PaintMode::nearest || mode == PaintMode::reflect);
     if (!wanted) return false;
     const std::uint8_t mirror = mirrorOf(i);
     const int x0 = std::max(splat.x, rect_.x0), x1 = std::min(splat.x + splat.side, rect_.x1);

@@ -355,6 +355,57 @@ TEST(BakeMirrors, KeepWhatTheyShowCloseBeforeThem) {
   EXPECT_GT(close, 20);
 }
 
+/// Glass before the wall behind the region: the mirror shows it, and the wall through it.
+TEST(BakeMirrors, KeepGlassAndWhatIsBehindItApart) {
+  MirrorRoom room;
+  Material pane = glowing({0.2f, 0.5f, 0.9f});
+  pane.baseColour.a = 0.4f, pane.alphaMode = AlphaMode::blend;
+  constexpr float kPaneX = -4;
+  room.builder.quad(room.builder.material(pane), {kPaneX, -2, 0}, {kPaneX, 2, 0}, {kPaneX, 2, 3},
+                    {kPaneX, -2, 3});
+  const auto scene = room.builder.rays();
+  for (const bool pruning : {false, true}) {
+    const Capture capture = bakeFrom(scene, cameraAt({0.5, 0.2}, {square(1)}), pruning).capture;
+    const CaptureSamples& shown = capture.reflections;
+    int panes = 0, behind = 0, composed = 0;
+    for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k) {
+      std::uint32_t own = capture.columnStart[k];
+      for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+        const glm::vec4 colour = unpackColour(shown.colour[i]);
+        if (shown.inverseDistance[i] == 0) {
+          EXPECT_TRUE(room.shows(5, glm::vec3(colour)));
+          continue;
+        }
+        glm::dvec3 place = placeOf(capture, shown, k, i);
+        place.x = 2 * double(MirrorRoom::kMirrorX) - place.x;
+        const double slack = roundingAt(capture, shown.inverseDistance[i]);
+        if (colour.a == 1) {
+          ASSERT_GE(room.sideOf(place, slack, glm::vec3(colour)), 0) << "as it looks without the glass";
+          continue;
+        }
+        ++panes;
+        EXPECT_NEAR(place.x, double(kPaneX), slack);
+        EXPECT_NEAR(colour.a, 0.4f, 1e-3f);
+        const glm::vec3 expected = glm::vec3(pane.baseColour) * room.tint;
+        EXPECT_LT(glm::distance(glm::vec3(colour), expected), 2e-3f);
+        if (i + 1 == shown.columnStart[k + 1] || shown.row[i + 1] != shown.row[i]) continue;
+        ++behind;
+        while (own < capture.columnStart[k + 1] && capture.row[own] < shown.row[i]) ++own;
+        if (own == capture.columnStart[k + 1] || capture.row[own] != shown.row[i] || capture.mirror[own] == 0)
+          continue;
+        ++composed;
+        const glm::vec3 through =
+            glm::mix(glm::vec3(unpackColour(shown.colour[i + 1])), glm::vec3(colour), colour.a);
+        EXPECT_LT(glm::distance(through, glm::vec3(unpackColour(capture.colour[own]))), 2e-3f)
+            << "together what the camera saw";
+      }
+    }
+    EXPECT_GT(panes, 500);
+    EXPECT_EQ(behind, panes);
+    EXPECT_GT(composed, 500);
+  }
+}
+
 /// What is shown of a place: the original's position, and the colour without the mirror's tint.
 struct ShownPlace {
   glm::dvec3 original{0};

@@ -219,6 +219,25 @@ TEST(PatchKernel, AMirrorWaitsForWhatItShows) {
   EXPECT_EQ(canvas.green[20], 0);
 }
 
+TEST(PatchKernel, GlassInAMirrorTintsWhatTheMirrorShowsBehindIt) {
+  FlatPatch mirror(4, 32), pane(4, 32), image(4, 32);
+  mirror.setAll(kTexelParts, 0xffffffff);
+  pane.setAll(kTexelParts, 0x800000ff);
+  image.setAll(kTexelParts, 0xff00ff00);
+  CanvasColumn canvas;
+  PatchColumn surface = mirror.column(2, 1, 0), glass = pane.column(2, 1, 0), shown = image.column(2, 1, 0);
+  surface.mirror = glass.mirror = shown.mirror = 3;
+  glass.reflects = shown.reflects = glass.blended = true;
+  paintPatch(surface, 0, kRows, canvas.view());
+  kPatchKernelScalar.findCells(canvas.view(), true);
+  paintPatch(glass, 0, kRows, canvas.view());
+  EXPECT_EQ(canvas.mirror[10], 3u << 16 | kAllParts) << "what is behind it is still wanted";
+  paintPatch(shown, 0, kRows, canvas.view());
+  EXPECT_EQ(canvas.mirror[10], 3u << 16);
+  EXPECT_NEAR(canvas.red[10], 255.0 * 255 * 8 * 128 / 255, 10);
+  EXPECT_NEAR(canvas.green[10], 255.0 * 255 * 8 * (1 - 128 / 255.0), 10);
+}
+
 TEST(PatchKernel, EveryVariantGivesTheSameBits) {
   std::mt19937 random(7);
   const auto between = [&](float low, float high) {

@@ -125,7 +125,7 @@ export class PointPass {
     );
     if (this.ranges.length === 0) return;
     const defines: string[] = [];
-    if (samples.clearRanks && !reflect) defines.push(clear ? 'CLEAR' : 'OPAQUE');
+    if (samples.clearRanks) defines.push(clear ? 'CLEAR' : 'OPAQUE');
     if (piece.limits.clips) defines.push('CLIP_TO_PIECE');
     if (samples.mirrors && options.mirrors !== 'none') defines.push('MIRRORS');
     if (options.mirrors === 'mark' && !clear) defines.push('MARK_MIRRORS');
