@@ -9,9 +9,6 @@
 namespace acentric {
 namespace {
 
-/// Of what silhouettes are baked as.
-constexpr int kSilhouetteVersion = 2;
-
 constexpr double kCoarsest = 0.5;  ///< samples per degree
 
 }  // namespace

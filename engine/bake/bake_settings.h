@@ -15,6 +15,8 @@ inline constexpr double kLeastBakeLength = 1e-6, kLargestBakeLength = 1e6;
 inline constexpr int kMostTestEyes = 64;
 inline constexpr double kLeastPruningLoss = 1e-5;
 
+/// Of what silhouettes, and colours with them, are baked as.
+inline constexpr int kSilhouetteVersion = 3;
 inline constexpr double kUsualDistanceShift = 0.1, kLargestDistanceShift = 16;
 
 /// How much of the settings a bake spends: a preview is there at once, a draft shows the layout's faults.

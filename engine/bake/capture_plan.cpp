@@ -37,7 +37,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
   // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
   if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
-  if (bake.silhouettes) settings.text("silhouettes");
+  if (bake.silhouettes) settings.text("silhouettes").value(kSilhouetteVersion);
   // So that only captures with mirrors are baked anew since these show what lies close before them.
   if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 3");
   if (gathersLight(plan, bake))

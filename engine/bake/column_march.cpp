@@ -8,14 +8,20 @@
 
 namespace acentric {
 
-std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
-                                      const glm::vec3& direction) {
+std::optional<SampleFootprint> sampleFootprint(const ColumnMarch::Setting& setting,
+                                               const glm::vec3& direction) {
   if (setting.textures == nullptr) return {};
   const float flat = glm::length(glm::vec2(direction));
   const glm::vec2 across = float(setting.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
   const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
-  return TextureArea(*setting.textures, setting.shader.scene().scene(), hit, direction,
-                     {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up});
+  return SampleFootprint{setting.textures, {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up}};
+}
+
+std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
+                                      const glm::vec3& direction) {
+  const auto footprint = sampleFootprint(setting, direction);
+  if (!footprint) return {};
+  return footprint->on(setting.shader.scene().scene(), hit, direction);
 }
 
 ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
@@ -64,7 +70,8 @@ void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
       runPixel(packet.direction[n], hits_[n].distance, next, stop);
     addBackgroundAlong(packet.direction[n]);
     if (mirrorMarch_)
-      mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), roles_},
+      mirrorMarch_->run({setting_.columns.centreOfProjection, glm::dvec3(packet.direction[n]), roles_,
+                         sampleFootprint(setting_, packet.direction[n])},
                         shown_, out_.counts.rays, stop);
     if (!shown_.empty()) addShown(packet.direction[n]);
   }
@@ -85,7 +92,8 @@ bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) 
     out_.add(row, stored, even[hit.mesh], mask);
   } else {
     const auto area = sampleArea(setting_, hit, direction);
-    const Shaded shaded = setting_.shader.shade(hit, -direction, area ? &*area : nullptr, out_.counts.rays);
+    const Shaded shaded =
+        setting_.shader.shade(hit, -direction, out_.counts.rays, false, area ? &*area : nullptr);
     if (shaded.alpha < kOpaqueAlpha) return false;
     out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
   }
@@ -179,7 +187,8 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
   }
   const auto shaded = [&](Side side) {
     const auto area = sampleArea(setting_, hit, direction);
-    return setting_.shader.shade(hit, surface.toViewer(side), area ? &*area : nullptr, out_.counts.rays);
+    return setting_.shader.shade(hit, surface.toViewer(side), out_.counts.rays, false,
+                                 area ? &*area : nullptr);
   };
   if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (setting_.settings.silhouettes && !(sides_.empty() && facing_.empty()))
@@ -215,7 +224,9 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shad
 /// place, which may be another part than the mirror's own.
 Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal,
                                   std::uint8_t mirror) {
-  const Shader::Mirrored mirrored = setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays);
+  const auto footprint = sampleFootprint(setting_, direction);
+  const Shader::Mirrored mirrored =
+      setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays, footprint ? &*footprint : nullptr);
   int clear = 0;
   for (const Shader::Layer& layer : mirrored.shown) {
     if (layer.alpha < 1 && ++clear >= setting_.settings.maxLayers) continue;  // keepLastPlace
@@ -226,7 +237,8 @@ Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, do
     for (const ColumnRole* role : facing_)
       if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
     if (mask != 0)
-      shown_.push_back({reach / flat_, packColour({layer.radiance, layer.alpha}), mask, mirror, layer.hit});
+      shown_.push_back(
+          {reach / flat_, packColour({layer.radiance, layer.alpha}), mask, mirror, Side::met, layer.hit});
   }
   return mirrored.surface;
 }
@@ -242,7 +254,8 @@ void ColumnMarch::addShown(const glm::vec3& direction) {
       out_.reflections.addPlane(
           s.isSky() ? SurfacePlane{}
                     : imagePlaneOf(setting_.shader.scene().scene(), s.surface, mirrors_[s.mirror],
-                                   setting_.columns.centreOfProjection, s.distance * glm::dvec3(direction)));
+                                   setting_.columns.centreOfProjection, s.distance * glm::dvec3(direction),
+                                   s.side == Side::other));
   }
   out_.counts.reflections += shown_.size();
   shown_.clear();

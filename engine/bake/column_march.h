@@ -78,7 +78,10 @@ class ColumnMarch {
   std::array<FlatMirror, 256> mirrors_{};  ///< by number, where silhouettes are asked for
 };
 
-/// What a sample stands for on the surface that it hits; nothing where no texture is averaged.
+/// What a sample stands for wherever it hits a surface; nothing where no texture is averaged.
+std::optional<SampleFootprint> sampleFootprint(const ColumnMarch::Setting& setting,
+                                               const glm::vec3& direction);
+/// And on the surface that it hits.
 std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
                                       const glm::vec3& direction);
 

@@ -22,6 +22,7 @@ void MirrorMarch::run(const Pixel& pixel, std::vector<ShownInMirror>& shown, Ray
 MirrorMarch::Met MirrorMarch::metAt(const Pixel& pixel, const FlatMirror& mirror, const Hit& hit,
                                     double distance) const {
   Met met{hit, distance, std::nullopt};
+  met.hit.distance = float(distance);
   if (hit.found())
     met.surface.emplace(hit, mirror.imageOf(pixel.origin + distance * pixel.direction),
                         glm::vec3(mirror.reflected(pixel.direction)));
@@ -79,13 +80,12 @@ double MirrorMarch::addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror
                                     std::vector<ShownInMirror>& shown, RayCounts& rays) {
   double farthest = 0;
   const std::size_t known = shown.size();
-  const glm::vec3 direction(mirror.reflected(pixel.direction));
   for (std::size_t i = 0; i < known; ++i) {
     if (shown[i].mirror != mirror.number) continue;
     const Met met = metAt(pixel, mirror, shown[i].surface, shown[i].distance);
     ask(pixel, mirror, met, true, rays);
     shown[i].roles = giveTo(sides_.met, met.distance, shown[i].isClear());
-    addSide(mirror, met, Side::other, direction, shown, rays);
+    addSide(pixel, mirror, met, Side::other, shown, rays);
     farthest = std::max(farthest, met.distance);
   }
   std::erase_if(shown, [](const ShownInMirror& s) { return s.roles == 0; });
@@ -93,22 +93,28 @@ double MirrorMarch::addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror
 }
 
 /// Without what is before it, which is clear and has samples of its own.
-void MirrorMarch::addSide(const FlatMirror& mirror, const Met& met, Side side, const glm::vec3& direction,
+void MirrorMarch::addSide(const Pixel& pixel, const FlatMirror& mirror, const Met& met, Side side,
                           std::vector<ShownInMirror>& shown, RayCounts& rays) {
   std::vector<RoleOnRay*>& roles = sides_.of(side);
   if (roles.empty()) return;
   const MirrorSight::Seen& by = side == Side::met ? byMet_ : byOther_;
+  const glm::vec3 direction(mirror.reflected(pixel.direction));
   Shaded seen;
-  if (met.surface)
-    seen = shader_.shade(met.hit, met.surface->toViewer(side), rays, true);
-  else
+  if (met.surface) {
+    std::optional<TextureArea> area;
+    if (pixel.footprint)
+      area.emplace(pixel.footprint->mirrored(glm::vec3(mirror.normal), 0)
+                       .on(shader_.scene().scene(), met.hit, direction));
+    seen = shader_.shade(met.hit, met.surface->toViewer(side), rays, true, area ? &*area : nullptr);
+  } else {
     seen.emission = shader_.background(direction);
+  }
   if (seen.alpha < kInvisibleAlpha) return;
   const bool clear = seen.alpha < kOpaqueAlpha;
   const Shaded surface = shader_.flatMirrorUnder(seen.radiance(), by.mirror, by.toEye);
   if (const std::uint8_t mask = giveTo(roles, met.distance, clear); mask != 0)
     shown.push_back({met.distance, packColour({surface.radiance(), clear ? seen.alpha : 1}), mask,
-                     mirror.number, met.hit});
+                     mirror.number, side, met.hit});
 }
 
 /// From the mirror on, also within the region: nothing else would show its image there, as local geometry
@@ -130,7 +136,7 @@ void MirrorMarch::follow(const Pixel& pixel, const MirrorSight::Span& span, std:
     if (hit.found() && double(hit.distance) > span.to) return;
     const Met met = metAt(pixel, mirror, hit, double(hit.distance));
     ask(pixel, mirror, met, false, rays);
-    for (const Side side : {Side::met, Side::other}) addSide(mirror, met, side, ray.direction, shown, rays);
+    for (const Side side : {Side::met, Side::other}) addSide(pixel, mirror, met, side, shown, rays);
     if (!hit.found()) return;
     ray.nearest = justBehind(hit.distance);
   }

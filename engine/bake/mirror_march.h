@@ -21,6 +21,7 @@ struct ShownInMirror {
   double distance = 0;  ///< metres along the camera's ray; infinity: the sky
   HalfColour colour{0};
   std::uint8_t roles = 0, mirror = 0;
+  Side side = Side::met;
   Hit surface;  ///< not found: the sky
   bool isSky() const { return !(distance < std::numeric_limits<double>::infinity()); }
   bool isClear() const { return unpackColour(colour).a < 1; }
@@ -36,6 +37,7 @@ class MirrorMarch {
   struct Pixel {
     glm::dvec3 origin, direction;  ///< unit
     std::span<const ColumnRole> roles;
+    std::optional<SampleFootprint> footprint;  ///< none: no texture is averaged
   };
   /// Adds to what the camera itself sees in mirrors along the ray, which comes in `shown`. Only a part when
   /// stopped.
@@ -45,7 +47,7 @@ class MirrorMarch {
  private:
   /// Something on the way of the mirrored ray.
   struct Met {
-    Hit hit;              ///< not found: the sky
+    Hit hit;              ///< as from the camera's image; not found: the sky
     double distance = 0;  ///< metres along the camera's ray
     std::optional<MetSurface> surface;
   };
@@ -54,7 +56,7 @@ class MirrorMarch {
               RayCounts& rays, const std::stop_token& stop);
   double addSeenByCamera(const Pixel& pixel, const FlatMirror& mirror, std::vector<ShownInMirror>& shown,
                          RayCounts& rays);
-  void addSide(const FlatMirror& mirror, const Met& met, Side side, const glm::vec3& direction,
+  void addSide(const Pixel& pixel, const FlatMirror& mirror, const Met& met, Side side,
                std::vector<ShownInMirror>& shown, RayCounts& rays);
   void ask(const Pixel& pixel, const FlatMirror& mirror, const Met& met, bool isKnown, RayCounts& rays);
   std::uint8_t giveTo(std::vector<RoleOnRay*>& roles, double distance, bool isClear) const;

@@ -52,13 +52,10 @@ class Shader {
          std::shared_ptr<const GatheredLight> gathered, std::stop_token stop = {});
 
   /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
-  /// only.
-  Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false) const {
-    return kernel_(*this, hit, toViewer, seenInMirror, nullptr, rays);
-  }
-  /// Of a surface that a sample of a camera stands for: textures are averaged over it (texture_area.h).
-  Shaded shade(const Hit& hit, const glm::vec3& toViewer, const TextureArea* area, RayCounts& rays) const {
-    return kernel_(*this, hit, toViewer, false, area, rays);
+  /// only. `area`: what textures are averaged over (texture_area.h).
+  Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false,
+               const TextureArea* area = nullptr) const {
+    return kernel_(*this, hit, toViewer, seenInMirror, area, rays);
   }
   const DetailRules& detail() const { return detail_; }
   /// What is seen where a ray hits nothing; all zero (black) where the plan has none.
@@ -88,8 +85,9 @@ class Shader {
     Shaded surface;
     std::vector<Layer> shown;  ///< what that light comes from, nearest first, each as the mirror shows it
   };
-  /// A hit on a mirror of FlatMirrors; the same radiance as shade() gives.
-  Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays) const;
+  /// A hit on a mirror of FlatMirrors; without a footprint the same radiance as shade() gives.
+  Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays,
+                           const SampleFootprint* footprint = nullptr) const;
   /// The same mirror where `light` arrives, whatever it is.
   Shaded flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm::vec3& toViewer) const;
 
@@ -116,7 +114,7 @@ class Shader {
   /// Calls `visit` with each layer of a ray, nearest first.
   template <class Visit>
   void eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays, bool seenInMirror,
-                 const Visit& visit) const;
+                 const SampleFootprint* footprint, const Visit& visit) const;
   using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, const TextureArea*,
                             RayCounts&);
   friend struct ShadingKernels;

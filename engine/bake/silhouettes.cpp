@@ -7,21 +7,19 @@
 #include <functional>
 
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/part_rays.h"
 
 namespace acentric {
 namespace {
 
 constexpr int kColumnsPerTask = 16;
-constexpr int kParts = kCoverageParts * kCoverageParts;
-/// So much more may what a sample covers leave its plane: curved surfaces do, and surfaces that meet at an
-/// edge must overlap a little, or other eyes would see in between them.
-constexpr double kCurved = 3;
-/// Surfaces right before one another that a ray is asked about.
-constexpr int kMostBeforePlane = 4;
-
-constexpr std::uint16_t bitOf(int x, int y) { return std::uint16_t(1u << (kCoverageParts * y + x)); }
-constexpr std::uint16_t kCorners = bitOf(0, 0) | bitOf(3, 0) | bitOf(0, 3) | bitOf(3, 3);
-constexpr std::uint16_t kMiddle = bitOf(1, 1);
+constexpr int kParts = kPixelPartCount;
+constexpr std::uint16_t kCorners = partBit(0, 0) | partBit(3, 0) | partBit(0, 3) | partBit(3, 3);
+constexpr std::uint16_t kMiddle = partBit(1, 1);
+/// One in each row and column.
+constexpr std::uint16_t kSpread = partBit(1, 0) | partBit(3, 1) | partBit(0, 2) | partBit(2, 3);
+/// Of radiance: two samples that differ by less look even.
+constexpr float kContrast = 1.05f;
 
 /// The parts of a pixel beside its neighbour in that direction.
 std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
@@ -29,28 +27,10 @@ std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
   for (int y = 0; y < kCoverageParts; ++y)
     for (int x = 0; x < kCoverageParts; ++x) {
       const auto isBeside = [](int step, int at) { return step == 0 || at == (step < 0 ? 0 : 3); };
-      if (isBeside(acrossColumns, x) && isBeside(acrossRows, y)) parts |= bitOf(x, y);
+      if (isBeside(acrossColumns, x) && isBeside(acrossRows, y)) parts |= partBit(x, y);
     }
   return parts;
 }
-
-/// Directions of the parts of all pixels.
-struct PartAngles {
-  std::vector<glm::dvec2> column;
-  std::vector<double> cosine, sine, tangent;  ///< of rows
-
-  explicit PartAngles(const ColumnCamera& camera) {
-    const auto middle = [](int part) { return (part + 0.5) / kCoverageParts; };
-    for (int part = 0; part < kCoverageParts * camera.columns; ++part)
-      column.push_back(camera.directionAt(middle(part)));
-    for (int part = 0; part < kCoverageParts * camera.rows; ++part) {
-      const double elevation = camera.elevationAt(middle(part));
-      cosine.push_back(std::cos(elevation));
-      sine.push_back(std::sin(elevation));
-      tangent.push_back(sine.back() / cosine.back());
-    }
-  }
-};
 
 /// Of some neighbouring columns.
 struct NewSamples {
@@ -65,7 +45,7 @@ class ColumnSilhouettes {
   ColumnSilhouettes(const ColumnMarch::Setting& setting, const PartAngles& parts, const CaptureSamples& all,
                     bool reflections, double tolerance, NewSamples& out)
       : setting_(setting),
-        parts_(parts),
+        rays_(setting, parts, all, reflections, tolerance, out.counts),
         all_(all),
         reflections_(reflections),
         out_(out),
@@ -73,8 +53,6 @@ class ColumnSilhouettes {
         tolerance_(tolerance) {
     for (int row = 0; row < rows_; ++row) tangent_.push_back(setting.columns.tangentAt(row + 0.5));
     if (setting.sight != nullptr) hints_ = setting.sight->hints();
-    if (reflections)
-      for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
   }
 
   void run(int column) {
@@ -169,8 +147,9 @@ class ColumnSilhouettes {
       if (!isSky(i))
         eachNeighbour(
             row, [&](const Pixel& neighbour, int, int) { whole = whole && hasSame(neighbour, i, pixel); });
-      pixel_.push_back({i, whole ? kWholePixel : ownCoverage(i, row), all_.inverseDistance[i], all_.colour[i],
-                        all_.roles[i], all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
+      const std::uint16_t coverage = whole ? kWholePixel : ownCoverage(i, row);
+      pixel_.push_back({i, coverage, all_.inverseDistance[i], meanColour(i, row, coverage), all_.roles[i],
+                        all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
     }
     const std::size_t own = pixel_.size();
     eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
@@ -233,52 +212,17 @@ class ColumnSilhouettes {
   void meet(std::uint32_t sample, int row, std::uint16_t asked, Met& met) {
     for (int part = 0; part < kParts; ++part) {
       if ((asked >> part & 1) == 0) continue;
-      const std::size_t r = rowOf(row, part);
-      const Hit hit = meetAt(sample, columnOf(part), parts_.cosine[r], parts_.sine[r]);
+      const Hit hit = rays_.meet(sample, rays_.through(column_, row, part));
       if (!hit.found()) continue;
       met.parts |= std::uint16_t(1u << part);
       met.hits[std::size_t(part)] = hit;
     }
   }
 
-  glm::vec3 directionOf(int row, int part) const {
-    const std::size_t r = rowOf(row, part);
-    return glm::vec3(glm::vec2(columnOf(part)) * float(parts_.cosine[r]), float(parts_.sine[r]));
-  }
-  const glm::dvec2& columnOf(int part) const {
-    return parts_.column[std::size_t(kCoverageParts * column_ + part % kCoverageParts)];
-  }
-  static std::size_t rowOf(int row, int part) {
-    return std::size_t(kCoverageParts * row + part / kCoverageParts);
-  }
-
-  /// Where the ray in that direction meets the sample's surface.
-  Hit meetAt(std::uint32_t sample, const glm::dvec2& column, double flat, double sine) {
-    const double w = planeOf(sample).inverseDistance(column, sine / flat);
-    if (!(w > 0)) return {};
-    const double loose = kCurved * tolerance_;
-    glm::dvec3 origin = setting_.columns.centreOfProjection, direction(column * flat, sine);
-    if (reflections_) {
-      const FlatMirror& mirror = mirrors_[all_.mirror[sample]];
-      origin = mirror.imageOf(origin), direction = mirror.reflected(direction);
-    }
-    Ray ray{glm::vec3(origin), glm::vec3(direction)};
-    ray.nearest = float(1 / ((w + loose) * flat));
-    if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
-    for (int before = 0; before < kMostBeforePlane; ++before) {
-      ++out_.counts.rays.primary;
-      const Hit hit = setting_.shader.scene().trace(ray);
-      if (!hit.found()) return {};
-      if (std::abs(1 / (double(hit.distance) * flat) - w) <= loose) return hit;
-      ray.nearest = justBehind(hit.distance);
-    }
-    return {};
-  }
-
   /// By a role of the sample, at that part.
   bool isSeen(std::uint32_t sample, const Hit& hit, int row, int part) {
     if (setting_.sight == nullptr || reflections_) return true;
-    const glm::vec3 direction = directionOf(row, part);
+    const glm::vec3 direction = rays_.through(column_, row, part).unit();
     const glm::dvec3 point =
         setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const MetSurface surface(hit, point, direction);
@@ -308,8 +252,9 @@ class ColumnSilhouettes {
 
   /// False where the surface is not what the neighbour's sample is.
   bool shade(std::uint32_t sample, const Hit& hit, int part, int row, New& out) {
+    const PartRays::Direction direction = rays_.through(column_, row, part);
     // Where the pixel's own ray would meet the plane, unless that is elsewhere altogether.
-    const double met = 1 / (double(hit.distance) * parts_.cosine[rowOf(row, part)]),
+    const double met = 1 / (double(hit.distance) * direction.row.cosine),
                  own = at(planeOf(sample), {&beside_[1], row});
     out.inverseDistance =
         storedInverseDistance(own > 0.5 * met && own < 2 * met ? own : met, setting_.distanceStep);
@@ -317,28 +262,73 @@ class ColumnSilhouettes {
       out.colour = all_.colour[sample], out.mirror = all_.mirror[sample];
       return true;
     }
-    const glm::vec3 direction = directionOf(row, part);
-    const bool away = planeOf(sample).away != 0;
-    RayCounts& rays = out_.counts.rays;
-    Shaded shaded;
-    if (setting_.mirrors != nullptr && !away)
-      out.mirror = setting_.mirrors->at(hit.mesh, hit.triangle, -direction);
-    if (out.mirror != 0) {
-      shaded = setting_.shader.shadeFlatMirror(hit, -direction, rays).surface;
-    } else {
-      const MetSurface surface(hit, glm::dvec3(0), direction);
-      const auto area = sampleArea(setting_, hit, direction);
-      shaded = setting_.shader.shade(hit, surface.toViewer(away ? Side::other : Side::met),
-                                     area ? &*area : nullptr, rays);
-    }
+    const glm::vec3 way = direction.unit();
+    if (setting_.mirrors != nullptr && planeOf(sample).away == 0)
+      out.mirror = setting_.mirrors->at(hit.mesh, hit.triangle, -way);
+    const Shaded shaded = out.mirror != 0 ? mirrorSurface(hit, way) : rays_.shade(sample, hit, direction, 1);
     const bool opaque = shaded.alpha >= kOpaqueAlpha;
     if (opaque != isOpaque(sample) || shaded.alpha < kInvisibleAlpha) return false;
     out.colour = packColour({shaded.radiance(), opaque ? 1 : shaded.alpha});
     return true;
   }
+  Shaded mirrorSurface(const Hit& hit, const glm::vec3& direction) {
+    const auto footprint = sampleFootprint(setting_, direction);
+    return setting_.shader
+        .shadeFlatMirror(hit, -direction, out_.counts.rays, footprint ? &*footprint : nullptr)
+        .surface;
+  }
+
+  /// The mean over what the sample covers, where neighbours show that the surface's light changes: textures
+  /// are averaged already.
+  HalfColour meanColour(std::uint32_t sample, int row, std::uint16_t coverage) {
+    const HalfColour plain = all_.colour[sample];
+    const bool isMirror = !reflections_ && !all_.mirror.empty() && all_.mirror[sample] != 0;
+    if (!isOpaque(sample) || isSky(sample) || isMirror || !contrasts(sample, row)) return plain;
+    const glm::vec3 shown(unpackColour(plain));
+    glm::vec3 own = shown;
+    if (reflections_) {  // which the mirror tints
+      const std::optional<glm::vec3> untinted = look(sample, rays_.through(column_, row), 1);
+      if (!untinted) return plain;
+      own = *untinted;
+    }
+    glm::vec3 sum = own;
+    int count = 1;
+    for (int part = 0; part < kParts; ++part) {
+      if ((kSpread & coverage & (1u << part)) == 0) continue;
+      const auto radiance = look(sample, rays_.through(column_, row, part), 0.5f);
+      if (radiance) sum += *radiance, ++count;
+    }
+    glm::vec3 mean = sum / float(count);
+    if (reflections_)
+      for (int i = 0; i < 3; ++i) mean[i] = own[i] > 0 ? shown[i] * mean[i] / own[i] : shown[i];
+    return packColour({mean, 1});
+  }
+  /// The sample's surface in that direction; nothing where it is not, or clear.
+  std::optional<glm::vec3> look(std::uint32_t sample, const PartRays::Direction& direction, float width) {
+    const Hit hit = rays_.meet(sample, direction);
+    if (!hit.found()) return {};
+    const Shaded shaded = rays_.shade(sample, hit, direction, width);
+    if (shaded.alpha < kOpaqueAlpha) return {};
+    return shaded.radiance();
+  }
+  bool contrasts(std::uint32_t sample, int row) const {
+    const Pixel pixel{&beside_[1], row};
+    const glm::vec3 own(unpackColour(all_.colour[sample]));
+    bool found = false;
+    eachNeighbour(row, [&](const Pixel& neighbour, int, int) {
+      for (std::uint32_t i = neighbour.first(); i < neighbour.end() && !found; ++i) {
+        const glm::vec3 its(unpackColour(all_.colour[i]));
+        found = isContrast(glm::min(own, its), glm::max(own, its)) && isSame(i, neighbour, sample, pixel);
+      }
+    });
+    return found;
+  }
+  static bool isContrast(const glm::vec3& least, const glm::vec3& most) {
+    return glm::any(glm::greaterThan(most, kContrast * least));
+  }
 
   const ColumnMarch::Setting& setting_;
-  const PartAngles& parts_;
+  PartRays rays_;
   const CaptureSamples& all_;
   bool reflections_;
   NewSamples& out_;
@@ -349,7 +339,6 @@ class ColumnSilhouettes {
   int column_ = 0;
   std::vector<New> pixel_;
   RegionSight::Hints hints_;
-  std::array<FlatMirror, 256> mirrors_{};  ///< by number, of reflections
 };
 
 /// The samples of all tasks, behind one another; planes and reflections stay.

@@ -42,11 +42,13 @@ SurfacePlane planeOf(const Scene& scene, const Hit& hit, const glm::dvec3& centr
 }
 
 SurfacePlane imagePlaneOf(const Scene& scene, const Hit& hit, const FlatMirror& mirror,
-                          const glm::dvec3& centre, const glm::dvec3& way) {
+                          const glm::dvec3& centre, const glm::dvec3& way, bool away) {
   const Mesh& mesh = scene.meshes[hit.mesh];
   const glm::dvec3 corner(mesh.positions[mesh.triangles[hit.triangle].x]),
       normal(triangleNormal(mesh, hit.triangle));
-  return planeThrough(mirror.reflected(normal), mirror.imageOf(corner) - centre, way);
+  SurfacePlane plane = planeThrough(mirror.reflected(normal), mirror.imageOf(corner) - centre, way);
+  plane.away = away ? 1 : 0;
+  return plane;
 }
 
 void numberPlanes(CaptureSamples& samples, double distanceStep) {

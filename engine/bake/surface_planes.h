@@ -15,7 +15,7 @@ SurfacePlane planeOf(const Scene& scene, const Hit& hit, const glm::dvec3& centr
 
 /// Of the virtual image of a hit that a plane mirror shows at centre + `way`; as often the same bits.
 SurfacePlane imagePlaneOf(const Scene& scene, const Hit& hit, const FlatMirror& mirror,
-                          const glm::dvec3& centre, const glm::dvec3& way);
+                          const glm::dvec3& centre, const glm::dvec3& way, bool away);
 
 /// Each plane once, in the order in which the samples meet them; rounded, for bytes' sake, by less than
 /// distances are that are `distanceStep` apart (0: as they are).

@@ -46,7 +46,8 @@ TextureArea::TextureArea(const TexturePyramids& pyramids, const Scene& scene, co
   const auto onTriangle = [&](const glm::vec3& change) {
     if (!(square > 0)) return glm::vec2(0);
     const float cosine = std::abs(facing) > least ? facing : std::copysign(least, facing);
-    const glm::vec3 step = hit.distance * (change - direction * (glm::dot(normal, change) / cosine));
+    const glm::vec3 step =
+        (spread.before + hit.distance) * (change - direction * (glm::dot(normal, change) / cosine));
     return glm::vec2(glm::dot(glm::cross(step, second), normal), glm::dot(glm::cross(first, step), normal)) /
            square;
   };

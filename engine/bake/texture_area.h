@@ -15,6 +15,7 @@ namespace acentric {
 struct SampleSpread {
   glm::vec3 across{0};  ///< to the next column
   glm::vec3 along{0};   ///< to the next row
+  float before = 0;     ///< metres of the way ahead of the ray's origin, as from the camera to a mirror
 };
 
 class TextureArea {
@@ -35,6 +36,20 @@ class TextureArea {
   const TexturePyramids& pyramids_;
   glm::vec2 middle_;          // barycentric, as hits have it
   glm::vec2 across_, along_;  // of the area's sides
+};
+
+/// Whatever surfaces a ray of a sample meets.
+struct SampleFootprint {
+  const TexturePyramids* textures = nullptr;
+  SampleSpread spread;
+
+  TextureArea on(const Scene& scene, const Hit& hit, const glm::vec3& direction) const {
+    return {*textures, scene, hit, direction, spread};
+  }
+  /// Of the ray that a mirror sends on, whose origin is that many metres on its way.
+  SampleFootprint mirrored(const glm::vec3& normal, float before) const {
+    return {textures, {glm::reflect(spread.across, normal), glm::reflect(spread.along, normal), before}};
+  }
 };
 
 }  // namespace acentric

@@ -61,11 +61,12 @@ struct Baked {
   CaptureCounts counts;
 };
 
-Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, bool pruning = false) {
+Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, bool pruning = false,
+               bool silhouettes = false) {
   BakeSettings settings;
   settings.samplesPerDegree = 2;
   settings.pruning = pruning;
-  settings.silhouettes = false;
+  settings.silhouettes = silhouettes;
   const ColumnCamera columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, settings);
   TaskRunner runner(0);
   Baked baked;
@@ -477,6 +478,60 @@ TEST(BakeMirrors, KeepASampleOfEachSideThatDifferentRolesSeeInThem) {
       shownAtTheMiddle(room, bakeFrom(scene, cameraAt({1.5, -1}, {left}), true).capture, 3, 5);
   EXPECT_GT(places.size(), 100u);
   for (const ShownPlace& place : places) ASSERT_GT(place.colour.r, 0.99f * kLit);
+}
+
+/// Else frames would take the lit side for one that the eye cannot see.
+TEST(BakeMirrors, TellWhichSideOfASurfaceTheyShow) {
+  MirrorRoom room;
+  lightFromPositiveY(room);
+  room.builder.quad(room.builder.material(test::matte()), {3, 0, 0}, {5, 0, 0}, {5, 0, 3}, {3, 0, 3});
+  const std::vector regions = {square(0.5, {1.5, -1}), square(0.5, {1.5, 1})};
+  const Capture capture = bakeFrom(room.builder.rays(), cameraAt({1.5, -1}, regions), true, true).capture;
+  const CaptureSamples& shown = capture.reflections;
+  std::array<int, 2> found{};
+  for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
+    for (auto i = shown.columnStart[k]; i < shown.columnStart[k + 1]; ++i) {
+      if (shown.inverseDistance[i] == 0 || shown.coverage[i] != kWholePixel) continue;
+      const glm::dvec3 place = placeOf(capture, shown, k, i);
+      const double slack = roundingAt(capture, shown.inverseDistance[i]);
+      if (std::abs(place.y) > slack || place.z < 0.1 || place.x < 6 + slack || place.x > 8 - slack) continue;
+      const bool lit =
+          unpackColour(shown.colour[i]).r > 0.8f * kLit;  // from the side where the camera is not
+      ASSERT_EQ(shown.planes[shown.plane[i]].away, lit ? 1u : 0u) << place.x << " " << place.z;
+      ++found[lit ? 1 : 0];
+    }
+  EXPECT_GT(found[0], 100);
+  EXPECT_GT(found[1], 100);
+}
+
+TEST(BakeMirrors, AverageTexturesOverWhatASampleShows) {
+  ColourImage tiles(1024, 1024, {0, 0, 0, 255});
+  for (int y = 0; y < 1024; ++y)
+    for (int x = 0; x < 1024; ++x)
+      if ((x + y) % 2 == 0) tiles.at(x, y) = {255, 255, 255, 255};
+  SceneBuilder builder;
+  Material material = glowing(glm::vec3(1));
+  material.baseColourTexture = builder.texture(std::move(tiles));
+  builder.floor(builder.material(material), 20);  // tiles of 4 cm
+  const int mirror = builder.material(silver(glm::vec3(1)));
+  builder.quad(mirror, {3, -3, 0}, {3, -3, 3}, {3, 3, 3}, {3, 3, 0});
+  const auto scene = builder.rays();
+  for (const bool pruning : {false, true}) {
+    const Capture capture = bakeFrom(scene, cameraAt({0, 0}, {square(1)}), pruning).capture;
+    const CaptureSamples& shown = capture.reflections;
+    int far = 0;
+    double worst = 0, sum = 0;
+    for (std::size_t i = 0; i < shown.sampleCount(); ++i) {
+      const double distance = 1 / double(shown.inverseDistance[i]);
+      if (distance < 8 || distance > 12) continue;
+      ++far;
+      const double off = std::abs(double(unpackColour(shown.colour[i]).g) - 0.5);
+      worst = std::max(worst, off), sum += off;
+    }
+    EXPECT_GT(far, 50);
+    EXPECT_LT(worst, 0.3);
+    EXPECT_LT(sum / far, 0.1);
+  }
 }
 
 TEST(BakeMirrors, CostNoRaysWhereNoneCanBeSeen) {

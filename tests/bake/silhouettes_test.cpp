@@ -98,6 +98,52 @@ TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
   EXPECT_LE(over, parts / 500);
 }
 
+/// Shadows of slats overhead, on the floor: half of them on half a sample.
+SceneBuilder stripedFloor() {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte({0.7f, 0.7f, 0.7f})), 20).sun({0, 0, -1}, 3);
+  for (float x = -6; x < 6; x += 0.3f) builder.box(0, {x, -6, 8}, {x + 0.15f, 6, 8.1f});
+  return builder;
+}
+
+TEST(Silhouettes, ColoursAreMeansOverWhatASampleCoversWhereItsLightChanges) {
+  const auto scene = stripedFloor().rays();
+  BakeSettings settings = withSilhouettes();
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  const ColumnCamera& camera = baked.columns;
+  const Shader shader(*scene, settings);
+  RayCounts rays;
+  const auto look = [&](double column, double row) {
+    const glm::dvec3 way(camera.directionAt(column), camera.tangentAt(row));
+    const Ray ray{glm::vec3(camera.centreOfProjection), glm::vec3(glm::normalize(way))};
+    return shader.shade(scene->trace(ray), -ray.direction, rays).radiance().g;
+  };
+  double squares = 0, squaresOfOneRay = 0;
+  int changing = 0;
+  for (int column = 0; column < camera.columns; ++column)
+    for (int row = 0; row < camera.rows; ++row) {
+      if (camera.tangentAt(row + 0.5) > -0.3) continue;
+      const auto samples = baked.pixelAt(column, row);
+      ASSERT_GE(samples.size(), 1u);
+      constexpr int kGrid = 12;
+      float sum = 0, least = HUGE_VALF, most = 0;
+      for (int i = 0; i < kGrid * kGrid; ++i) {
+        const float seen = look(column + (i % kGrid + 0.5) / kGrid, row + (double(i / kGrid) + 0.5) / kGrid);
+        sum += seen, least = std::min(least, seen), most = std::max(most, seen);
+      }
+      const float mean = sum / (kGrid * kGrid), own = look(column + 0.5, row + 0.5);
+      if (most < 1.01f * least) {
+        ASSERT_NEAR(samples[0].colour.g, own, 2e-3f * own);
+        continue;
+      }
+      ++changing;
+      squares += double(samples[0].colour.g - mean) * double(samples[0].colour.g - mean);
+      squaresOfOneRay += double(own - mean) * double(own - mean);
+    }
+  EXPECT_GT(changing, 1000);
+  EXPECT_LT(squares, 0.2 * squaresOfOneRay);
+}
+
 TEST(Silhouettes, PlanesTellHowFarTheSamplesAre) {
   const Baked baked = bakeAsSet(postBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
   const Capture& capture = baked.capture;

@@ -1,0 +1,92 @@
+#include "engine/bake/part_rays.h"
+
+#include <cmath>
+
+namespace acentric {
+namespace {
+
+/// So much more may what a sample covers leave its plane: curved surfaces do, and surfaces that meet at an
+/// edge must overlap a little, or other eyes would see in between them.
+constexpr double kCurved = 3;
+/// Surfaces right before one another that a ray is asked about.
+constexpr int kMostBeforePlane = 4;
+
+}  // namespace
+
+PartAngles::PartAngles(const ColumnCamera& camera) {
+  const auto at = [](int part) { return (part + 0.5) / kCoverageParts; };
+  const auto rowAt = [&](double y) {
+    const double elevation = camera.elevationAt(y);
+    return Row{std::cos(elevation), std::sin(elevation)};
+  };
+  for (int part = 0; part < kCoverageParts * camera.columns; ++part)
+    column.push_back(camera.directionAt(at(part)));
+  for (int part = 0; part < kCoverageParts * camera.rows; ++part) row.push_back(rowAt(at(part)));
+  for (int k = 0; k < camera.columns; ++k) ownColumn.push_back(camera.directionAt(k + 0.5));
+  for (int k = 0; k < camera.rows; ++k) ownRow.push_back(rowAt(k + 0.5));
+}
+
+PartRays::PartRays(const ColumnMarch::Setting& setting, const PartAngles& angles,
+                   const CaptureSamples& samples, bool reflections, double tolerance, CaptureCounts& counts)
+    : setting_(setting),
+      angles_(angles),
+      samples_(samples),
+      reflections_(reflections),
+      tolerance_(tolerance),
+      counts_(counts) {
+  if (reflections)
+    for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
+}
+
+PartRays::Direction PartRays::through(int column, int row, int part) const {
+  return {angles_.column[std::size_t(kCoverageParts * column + part % kCoverageParts)],
+          angles_.row[std::size_t(kCoverageParts * row + part / kCoverageParts)]};
+}
+
+PartRays::Direction PartRays::through(int column, int row) const {
+  return {angles_.ownColumn[std::size_t(column)], angles_.ownRow[std::size_t(row)]};
+}
+
+Hit PartRays::meet(std::uint32_t sample, const Direction& direction) {
+  const double flat = direction.row.cosine;
+  const double w = planeOf(sample).inverseDistance(direction.plan, direction.row.sine / flat);
+  if (!(w > 0)) return {};
+  const double loose = kCurved * tolerance_;
+  glm::dvec3 origin = setting_.columns.centreOfProjection, way(direction.plan * flat, direction.row.sine);
+  if (reflections_) {
+    const FlatMirror& mirror = mirrors_[samples_.mirror[sample]];
+    origin = mirror.imageOf(origin), way = mirror.reflected(way);
+  }
+  Ray ray{glm::vec3(origin), glm::vec3(way)};
+  ray.nearest = float(1 / ((w + loose) * flat));
+  if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
+  for (int before = 0; before < kMostBeforePlane; ++before) {
+    ++counts_.rays.primary;
+    const Hit hit = setting_.shader.scene().trace(ray);
+    if (!hit.found()) return {};
+    if (std::abs(1 / (double(hit.distance) * flat) - w) <= loose) return hit;
+    ray.nearest = justBehind(hit.distance);
+  }
+  return {};
+}
+
+Shaded PartRays::shade(std::uint32_t sample, const Hit& hit, const Direction& direction, float width) {
+  glm::vec3 way = direction.unit();
+  std::optional<SampleFootprint> footprint = sampleFootprint(setting_, way);
+  if (reflections_) {
+    const FlatMirror& mirror = mirrors_[samples_.mirror[sample]];
+    way = glm::vec3(mirror.reflected(glm::dvec3(way)));
+    if (footprint) footprint = footprint->mirrored(glm::vec3(mirror.normal), 0);
+  }
+  std::optional<TextureArea> area;
+  if (footprint) {
+    footprint->spread.across *= width, footprint->spread.along *= width;
+    area.emplace(footprint->on(setting_.shader.scene().scene(), hit, way));
+  }
+  const MetSurface surface(hit, glm::dvec3(0), way);
+  const Side side = planeOf(sample).away != 0 ? Side::other : Side::met;
+  return setting_.shader.shade(hit, surface.toViewer(side), counts_.rays, reflections_,
+                               area ? &*area : nullptr);
+}
+
+}  // namespace acentric

@@ -1,0 +1,61 @@
+#pragma once
+/// Rays through the 4x4 parts of a capture's pixels (coverage bits: image/capture.h) that ask for the surface
+/// of one sample alone, right around its plane, whatever lies before it: what hides it may move aside.
+
+#include <array>
+#include <vector>
+
+#include "engine/bake/column_march.h"
+
+namespace acentric {
+
+inline constexpr int kPixelPartCount = kCoverageParts * kCoverageParts;
+constexpr std::uint16_t partBit(int x, int y) { return std::uint16_t(1u << (kCoverageParts * y + x)); }
+
+/// Directions of the parts of all pixels, and of the pixels' own rays.
+struct PartAngles {
+  explicit PartAngles(const ColumnCamera& camera);
+
+  std::vector<glm::dvec2> column, ownColumn;
+  struct Row {
+    double cosine = 0, sine = 0;
+  };
+  std::vector<Row> row, ownRow;
+};
+
+/// On one thread.
+class PartRays {
+ public:
+  /// `samples`: of the capture, or what mirrors show in it (`reflections`). All must outlive it.
+  PartRays(const ColumnMarch::Setting& setting, const PartAngles& angles, const CaptureSamples& samples,
+           bool reflections, double tolerance, CaptureCounts& counts);
+
+  /// A ray's direction: unit, in plan and up.
+  struct Direction {
+    glm::dvec2 plan{0};
+    PartAngles::Row row;
+    glm::vec3 unit() const { return {glm::vec2(plan) * float(row.cosine), float(row.sine)}; }
+  };
+  Direction through(int column, int row, int part) const;
+  /// The pixel's own ray.
+  Direction through(int column, int row) const;
+
+  /// Where the ray meets the sample's surface.
+  Hit meet(std::uint32_t sample, const Direction& direction);
+  /// What is met there as the sample shows it, textures averaged over a square so many samples wide; of what
+  /// mirrors show as it is without their tint.
+  Shaded shade(std::uint32_t sample, const Hit& hit, const Direction& direction, float width);
+
+ private:
+  const SurfacePlane& planeOf(std::uint32_t sample) const { return samples_.planes[samples_.plane[sample]]; }
+
+  const ColumnMarch::Setting& setting_;
+  const PartAngles& angles_;
+  const CaptureSamples& samples_;
+  bool reflections_;
+  double tolerance_;  ///< 1/m
+  CaptureCounts& counts_;
+  std::array<FlatMirror, 256> mirrors_{};  ///< by number, of reflections
+};
+
+}  // namespace acentric
