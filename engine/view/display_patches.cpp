@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
-#include "engine/image/patches.h"
+#include "engine/image/sharpen.h"
 
 namespace acentric {
 namespace {
@@ -13,9 +12,14 @@ namespace {
 /// Lays out the texels of one patch after the other.
 class TexelWriter {
  public:
-  TexelWriter(const ColumnCamera& camera, const CaptureSamples& samples, double tolerance,
-              std::span<const Rgba8> colours, DisplayPatches& out)
-      : camera_(camera), samples_(samples), tolerance_(tolerance), colours_(colours), out_(out) {
+  TexelWriter(const ColumnCamera& camera, const CaptureSamples& samples, const PixelSamples& pixels,
+              double tolerance, std::span<const Rgba8> colours, DisplayPatches& out)
+      : camera_(camera),
+        samples_(samples),
+        pixels_(pixels),
+        tolerance_(tolerance),
+        colours_(colours),
+        out_(out) {
     for (int column = 0; column < camera.columns; ++column)
       direction_.push_back(camera.directionAt(column + 0.5));
     for (int row = 0; row < camera.rows; ++row) tangent_.push_back(camera.tangentAt(row + 0.5));
@@ -23,7 +27,6 @@ class TexelWriter {
     for (int column = 0; column < camera.columns; ++column)
       std::fill(columnOf_.begin() + samples.columnStart[std::size_t(column)],
                 columnOf_.begin() + samples.columnStart[std::size_t(column) + 1], std::uint16_t(column));
-    pixels_.emplace(samples, camera.rows, 0, camera.columns);
   }
 
   void add(const Patch& patch, std::span<const std::uint32_t> members) {
@@ -79,10 +82,10 @@ class TexelWriter {
       for (int j = -1; j <= patch.rows; ++j) {
         const std::size_t at = texel(i, j);
         const int column = patch.column + i, row = patch.row + j;
-        if (known_[at] != 0 || !pixels_->holds(column, row)) continue;
+        if (known_[at] != 0 || !pixels_.holds(column, row)) continue;
         const double expected = inverseAt(patch.plane, column, row);
         double least = kBent * tolerance_;
-        for (const std::uint32_t sample : pixels_->at(column, row)) {
+        for (const std::uint32_t sample : pixels_.at(column, row)) {
           const SurfacePlane& plane = samples_.planes[samples_.plane[sample]];
           const double apart = std::abs(inverseAt(plane, column, row) - expected);
           if (apart > least || plane.away != patch.plane.away ||
@@ -109,12 +112,12 @@ class TexelWriter {
       for (int j = -1; j <= patch.rows; ++j) {
         const std::size_t at = texel(i, j);
         const int column = patch.column + i, row = patch.row + j;
-        if (parts_[at] == kTexelParts || !pixels_->holds(column, row)) continue;
+        if (parts_[at] == kTexelParts || !pixels_.holds(column, row)) continue;
         const std::uint32_t first = near_[at] & ~std::uint32_t(parts_[at]);
         const std::uint32_t second = partsBeside(near_, i, j) & ~std::uint32_t(near_[at]);
         if ((first | second) == 0) continue;
         std::uint32_t reached = 0;
-        for (const std::uint32_t sample : pixels_->at(column, row)) {
+        for (const std::uint32_t sample : pixels_.at(column, row)) {
           if (sample == own_[at] || colours_[sample].a < 255) continue;
           if (((first | second) & samples_.coverage[sample]) == 0) continue;
           const Meeting meeting = meetingOf(patch, i, j, samples_.plane[sample]);
@@ -218,13 +221,13 @@ class TexelWriter {
 
   const ColumnCamera& camera_;
   const CaptureSamples& samples_;
+  const PixelSamples& pixels_;
   double tolerance_;
   std::span<const Rgba8> colours_;
   DisplayPatches& out_;
   std::vector<glm::dvec2> direction_;
   std::vector<double> tangent_;
   std::vector<std::uint16_t> columnOf_;
-  std::optional<PixelSamples> pixels_;
   int width_ = 0, height_ = 0;      ///< of the patch, with its border
   std::uint32_t* cover_ = nullptr;  ///< of the patch
   Rgba8* colour_ = nullptr;         ///< of the patch
@@ -271,7 +274,9 @@ DisplayPatches displayPatches(const ColumnCamera& camera, const CaptureSamples& 
   display.patches.reserve(patches.patches.size());
   for (int x = 0; x <= camera.columns; ++x) display.columnBorder.push_back(glm::vec2(camera.directionAt(x)));
   for (int y = 0; y <= camera.rows; ++y) display.rowBorder.push_back(float(camera.tangentAt(y)));
-  TexelWriter writer(camera, samples, tolerance, colours, display);
+  const PixelSamples pixels(samples, camera.rows, 0, camera.columns);
+  const std::vector<Rgba8> sharpened = sharpenedColours(camera, samples, pixels, tolerance, colours);
+  TexelWriter writer(camera, samples, pixels, tolerance, sharpened, display);
   for (std::size_t i = 0; i < patches.patches.size(); ++i) {
     const std::uint32_t first = patches.patches[i].firstSample;
     writer.add(patches.patches[i], std::span(patches.samples).subspan(first, patches.endOf(i) - first));

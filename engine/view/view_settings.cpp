@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace acentric {
 
 Renderer withoutOpenGl(Renderer renderer) {
@@ -10,21 +12,8 @@ Renderer withoutOpenGl(Renderer renderer) {
 }
 
 const char* nameOf(Renderer renderer) {
-  switch (renderer) {
-    case Renderer::list:
-      return "list";
-    case Renderer::scalar:
-      return "scalar";
-    case Renderer::precise:
-      return "double";
-    case Renderer::zbuffer:
-      return "zbuffer";
-    case Renderer::gl:
-      return "gl";
-    case Renderer::glZbuffer:
-      return "gl-zbuffer";
-  }
-  return "list";
+  constexpr std::array kNames{"list", "scalar", "double", "zbuffer", "gl", "gl-zbuffer"};
+  return kNames[std::size_t(renderer)];
 }
 
 Result<Renderer> parseRenderer(std::string_view name) {
@@ -45,15 +34,8 @@ std::vector<std::string> rendererNames() {
 }
 
 const char* nameOf(Reconstruction reconstruction) {
-  switch (reconstruction) {
-    case Reconstruction::point:
-      return "point";
-    case Reconstruction::splat:
-      return "splat";
-    case Reconstruction::patches:
-      return "patches";
-  }
-  return "splat";
+  constexpr std::array kNames{"point", "splat", "patches"};
+  return kNames[std::size_t(reconstruction)];
 }
 
 Result<Reconstruction> parseReconstruction(std::string_view name) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/geometry/conventions.h"
+#include "engine/image/sharpen.h"
 
 namespace acentric {
 namespace {
@@ -200,6 +201,54 @@ TEST(Patches, OfLeavesAreOrderedByHowNearTheyAre) {
     falls += capture.inverseDistance[patches.samples[n - 1]] >= capture.inverseDistance[patches.samples[n]];
   EXPECT_GT(patches.patches.size(), 90000u);
   EXPECT_GT(falls, patches.samples.size() * 99 / 100);
+}
+
+std::vector<Rgba8> sharpened(const CaptureOfPlanes& of, const std::function<float(int, int, int)>& grey) {
+  const CaptureSamples& samples = of.samples();
+  std::vector<Rgba8> colours;
+  for (int column = 0; column < of.camera().columns; ++column)
+    for (auto i = samples.columnStart[std::size_t(column)]; i < samples.columnStart[std::size_t(column) + 1];
+         ++i)
+      colours.emplace_back(glm::vec3(std::round(grey(column, samples.row[i], int(samples.plane[i])))), 255);
+  const PixelSamples pixels(samples, of.camera().rows, 0, of.camera().columns);
+  return sharpenedColours(of.camera(), samples, pixels, kTolerance, colours);
+}
+
+TEST(SharpenedColours, RaiseWhatASampleDiffersByFromNeighboursOnItsSurface) {
+  const CaptureOfPlanes of({{wall(4), [](int column, int) { return column < 40; }},
+                            {wall(5), [](int column, int) { return column >= 40; }}});
+  const int rows = of.camera().rows;
+  const auto colours = sharpened(of, [](int column, int row, int) {
+    return column >= 40 ? 250 : column == 20 && row == 60 ? 150 : 100;
+  });
+  const auto at = [&](int column, int row) { return int(colours[std::size_t(column * rows + row)].g); };
+  for (int column = 0; column < of.camera().columns; ++column)
+    for (int row = 0; row < rows; ++row) {
+      const int away = std::abs(column - 20) + std::abs(row - 60);
+      ASSERT_EQ(at(column, row), column >= 40 ? 250 : away == 0 ? 162 : away == 1 ? 97 : 100);
+    }
+}
+
+TEST(SharpenedColours, AreNearerToWhatTheSamplesAreMeansOfWhenInterpolated) {
+  const CaptureOfPlanes of({{wall(4), everywhere}});
+  constexpr double kPeriod = 5;  // samples
+  const auto wave = [](double column) { return 128 + 90 * std::cos(kTwoPi * column / kPeriod); };
+  const auto mean = [&](int column) {
+    double sum = 0;
+    for (int i = 0; i < 32; ++i) sum += wave(column + (i + 0.5) / 32);
+    return float(sum / 32);
+  };
+  const auto colours = sharpened(of, [&](int column, int, int) { return mean(column); });
+  double plain = 0, raised = 0;
+  for (int column = 2; column + 3 < of.camera().columns; ++column)
+    for (int i = 0; i < 8; ++i) {
+      const double share = (i + 0.5) / 8, truth = wave(column + 0.5 + share);
+      const auto error = [&](double a, double b) { return std::pow(a + (b - a) * share - truth, 2); };
+      const auto code = [&](int k) { return double(colours[std::size_t(k * of.camera().rows)].g); };
+      plain += error(double(mean(column)), double(mean(column + 1)));
+      raised += error(code(column), code(column + 1));
+    }
+  EXPECT_LT(raised, 0.75 * plain);
 }
 
 }  // namespace
