@@ -288,7 +288,8 @@ class ColumnSilhouettes {
     glm::vec3 own = shown;
     if (reflections_) {  // which the mirror tints
       const std::optional<glm::vec3> untinted = look(sample, rays_.through(column_, row), 1);
-      if (!untinted) return plain;
+      constexpr float kRoundings = 1.01f;  // no mirror shows more than there is: that is another surface
+      if (!untinted || glm::any(glm::greaterThan(shown, kRoundings * *untinted))) return plain;
       own = *untinted;
     }
     glm::vec3 sum = own;

@@ -4,13 +4,6 @@
 #include <cmath>
 
 namespace acentric {
-namespace {
-
-/// Of the difference from each neighbour. At 1/8 means and interpolation together would keep slow changes as
-/// they are; but what is raised has the noise of coded colours in it (docs/patches.md).
-constexpr float kRaised = 0.06f;
-
-}  // namespace
 
 std::vector<Rgba8> sharpenedColours(const ColumnCamera& camera, const CaptureSamples& samples,
                                     const PixelSamples& pixels, double tolerance,
@@ -45,7 +38,7 @@ std::vector<Rgba8> sharpenedColours(const ColumnCamera& camera, const CaptureSam
           }
       }
       if (difference == glm::ivec3(0)) continue;
-      const glm::vec3 raised = glm::vec3(colours[i]) + kRaised * glm::vec3(difference);
+      const glm::vec3 raised = glm::vec3(colours[i]) + kSharpening * glm::vec3(difference);
       sharpened[i] = Rgba8(glm::clamp(raised + 0.5f, 0.0f, 255.0f), colours[i].a);
     }
   return sharpened;

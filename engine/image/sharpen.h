@@ -10,6 +10,10 @@
 
 namespace acentric {
 
+/// Of the difference from each neighbour, what is added. At 1/8 means and interpolation together would keep
+/// slow changes as they are; but what is raised has the noise of coded colours in it (docs/patches.md).
+inline constexpr float kSharpening = 0.06f;
+
 /// A sample's colour is the mean over its pixel; bilinear interpolation between means averages once more.
 /// What each differs by from its four neighbours on the same surface is raised, so that what is interpolated
 /// comes nearer to what the means were taken of. Of samples that have planes (one surface: within `tolerance`

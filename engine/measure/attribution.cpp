@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/contract.h"
+#include "engine/image/sharpen.h"
 #include "engine/measure/surface_steps.h"
 
 namespace acentric {
@@ -109,6 +110,20 @@ Floats along(const Floats& picture, const std::vector<Weights>& columns, const s
   return out;
 }
 
+/// By what each pixel differs from the four beside it.
+Floats sharpened(const Floats& picture) {
+  Floats out = picture;
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      const glm::vec3 own = picture.at(x, y);
+      for (const int step : {-1, 1})
+        out.at(x, y) += kSharpening * (own - picture.at(std::clamp(x + step, 0, out.width - 1), y) + own -
+                                       picture.at(x, std::clamp(y + step, 0, out.height - 1)));
+      out.at(x, y) = glm::clamp(out.at(x, y), 0.0f, 255.0f);
+    }
+  return out;
+}
+
 }  // namespace
 
 const char* nameOf(ErrorSource source) {
@@ -177,7 +192,7 @@ ColourImage atSampleRate(const ColourImage& truth, double pixelsPerSample) {
   Floats picture(truth.width, truth.height);
   std::ranges::transform(truth.pixels, picture.pixels.begin(), [](const Rgba8& c) { return glm::vec3(c); });
   const Floats samples = along(picture, meansOver(truth.width, columns), meansOver(truth.height, rows));
-  const Floats drawn = along(samples, between(truth.width, columns), between(truth.height, rows));
+  const Floats drawn = along(sharpened(samples), between(truth.width, columns), between(truth.height, rows));
   ColourImage out(truth.width, truth.height);
   std::ranges::transform(drawn.pixels, out.pixels.begin(),
                          [](const glm::vec3& c) { return Rgba8(glm::round(c), 255); });

@@ -51,7 +51,8 @@ Attribution attribute(const Frame& frame, const ColourImage& truth, const FloatI
                       const Image<std::uint8_t>& viewDependent);
 
 /// The truth as samples `pixelsPerSample` (>= 1) pixels apart could tell it at best: each the mean of the
-/// square that it stands for, drawn bilinearly. What it lacks, no capture that coarse can have.
+/// square that it stands for, sharpened (image/sharpen.h) and drawn bilinearly. What it lacks, no patches of
+/// captures that coarse can show.
 ColourImage atSampleRate(const ColourImage& truth, double pixelsPerSample);
 
 }  // namespace acentric

@@ -11,14 +11,18 @@ class PanoramaView final : public RepresentationView {
  public:
   PanoramaView(const OpenProject& open, std::shared_ptr<const PanoramaSet> set,
                std::vector<std::shared_ptr<const DisplayCapture>> captures)
-      : set_(std::move(set)), settings_(open.project.view) {
+      : set_(std::move(set)),
+        settings_(open.project.view),
+        patches_(settings_.reconstruction == Reconstruction::patches && open.project.bake.silhouettes) {
     walk_.scene = open.scene, walk_.plan = open.plan, walk_.exposure = open.project.exposure;
     walk_.layout = std::shared_ptr<const Layout>(set_, &set_->layout);
     walk_.captures = std::move(captures);
-    settings_.renderer = Renderer::zbuffer;
+    settings_.renderer = patches_ ? Renderer::list : Renderer::zbuffer;
   }
   Result<Frame> render(const PerspectiveView& view, TaskRunner& runner, FrameMemory& memory) const override {
-    const auto plan = planCaptures(walk_, view, settings_, set_->camerasFor(glm::dvec2(view.eye)));
+    std::vector<int> cameras = set_->camerasFor(glm::dvec2(view.eye));
+    if (patches_) std::ranges::reverse(cameras);  // the nearest is painted over the others
+    const auto plan = planCaptures(walk_, view, settings_, cameras);
     if (!plan) return tl::unexpected(plan.error());
     return renderPlan(walk_, view, settings_, *plan, runner, memory);
   }
@@ -27,6 +31,7 @@ class PanoramaView final : public RepresentationView {
   std::shared_ptr<const PanoramaSet> set_;
   WalkScene walk_;
   ViewSettings settings_;
+  bool patches_;  ///< in order; else splats by depth test
 };
 
 Result<std::vector<std::shared_ptr<const DisplayCapture>>> loadCaptures(const Workplace& at,
