@@ -11,6 +11,7 @@
 #include "engine/scene/surface_alpha.h"
 
 namespace acentric {
+
 float justBehind(float distance) { return distance * (1 + 1e-6f) + 1e-9f; }
 
 /// The instantiations, and the table that finds one.

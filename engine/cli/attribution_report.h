@@ -19,8 +19,11 @@ class AttributionReport {
   std::string text() const;
 
  private:
+  /// The truth's at the captures' density, of the whole error of the frames.
+  double shareAtLimit(ErrorSource source) const;
+
   double samplesPerDegree_;
-  Attribution sums_;
+  Attribution sums_, limitSums_;
   std::vector<double> limitPsnr_, limitSsim_;  ///< of the truth at the captures' density, by frame
 };
 
