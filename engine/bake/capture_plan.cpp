@@ -38,7 +38,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
   if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
   if (bake.silhouettes) settings.text("silhouettes").value(kSilhouetteVersion);
-  // So that only captures with mirrors are baked anew since these show what lies close before them.
+  // Counted on when what mirrors show changes, so that only captures of scenes with mirrors are baked anew.
   if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 3");
   if (gathersLight(plan, bake))
     settings.value(bake.ambientRays).value(bake.ambientRadius).value(bake.surfaceTexel);

@@ -8,20 +8,12 @@
 
 namespace acentric {
 
-std::optional<SampleFootprint> sampleFootprint(const ColumnMarch::Setting& setting,
-                                               const glm::vec3& direction) {
+SampleFootprint sampleFootprint(const ColumnMarch::Setting& setting, const glm::vec3& direction) {
   if (setting.textures == nullptr) return {};
   const float flat = glm::length(glm::vec2(direction));
   const glm::vec2 across = float(setting.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
   const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
-  return SampleFootprint{setting.textures, {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up}};
-}
-
-std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
-                                      const glm::vec3& direction) {
-  const auto footprint = sampleFootprint(setting, direction);
-  if (!footprint) return {};
-  return footprint->on(setting.shader.scene().scene(), hit, direction);
+  return {setting.textures, {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up}};
 }
 
 ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
@@ -77,6 +69,12 @@ void ColumnMarch::runRows(int first, int last, const std::stop_token& stop) {
   }
 }
 
+Shaded ColumnMarch::shade(const Hit& hit, const glm::vec3& direction, const glm::vec3& toViewer) {
+  return setting_.shader.shade(
+      hit, toViewer, out_.counts.rays, false,
+      sampleFootprint(setting_, direction).on(setting_.shader.scene().scene(), hit, direction));
+}
+
 /// A pixel of a column that serves one role, with one layer and without pruning: no march. False where the
 /// surface does not hide what is behind it.
 bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) {
@@ -91,9 +89,7 @@ bool ColumnMarch::addAlone(int row, const glm::vec3& direction, const Hit& hit) 
   if (const auto& even = setting_.shader.evenColours(); !even.empty()) {
     out_.add(row, stored, even[hit.mesh], mask);
   } else {
-    const auto area = sampleArea(setting_, hit, direction);
-    const Shaded shaded =
-        setting_.shader.shade(hit, -direction, out_.counts.rays, false, area ? &*area : nullptr);
+    const Shaded shaded = shade(hit, direction, -direction);
     if (shaded.alpha < kOpaqueAlpha) return false;
     out_.add(row, stored, packColour({shaded.radiance(), 1}), mask);
   }
@@ -169,7 +165,7 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     const ColumnRole& role = *having.role;
     if (role.begin() > horizontal) break;
     if (role.exit > horizontal * (1 + kBorderSlack) && !goesOnBeyond(role, hit, point)) continue;
-    const bool inPart = role.clip == nullptr || role.clip->holds(glm::dvec2(point));
+    const bool inPart = role.holds(glm::dvec2(point));
     if (!inPart && mirror == 0) continue;
     wanted = true;
     if (isFull(having)) {
@@ -185,11 +181,7 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     if (inPart) sides_.of(side).push_back(&having);
     if (mirror != 0 && side == Side::met) facing_.push_back(&role);
   }
-  const auto shaded = [&](Side side) {
-    const auto area = sampleArea(setting_, hit, direction);
-    return setting_.shader.shade(hit, surface.toViewer(side), out_.counts.rays, false,
-                                 area ? &*area : nullptr);
-  };
+  const auto shaded = [&](Side side) { return shade(hit, direction, surface.toViewer(side)); };
   if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (setting_.settings.silhouettes && !(sides_.empty() && facing_.empty()))
     plane_ =
@@ -224,9 +216,8 @@ void ColumnMarch::addSide(std::vector<RoleOnRay*>& needed, Side side, const Shad
 /// place, which may be another part than the mirror's own.
 Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal,
                                   std::uint8_t mirror) {
-  const auto footprint = sampleFootprint(setting_, direction);
-  const Shader::Mirrored mirrored =
-      setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays, footprint ? &*footprint : nullptr);
+  const Shader::Mirrored mirrored = setting_.shader.shadeFlatMirror(hit, -direction, out_.counts.rays,
+                                                                    sampleFootprint(setting_, direction));
   int clear = 0;
   for (const Shader::Layer& layer : mirrored.shown) {
     if (layer.alpha < 1 && ++clear >= setting_.settings.maxLayers) continue;  // keepLastPlace
@@ -235,7 +226,7 @@ Shaded ColumnMarch::mirrorSurface(const glm::vec3& direction, const Hit& hit, do
     const glm::dvec2 place = setting_.camera.position + reach * direction_;
     std::uint8_t mask = 0;
     for (const ColumnRole* role : facing_)
-      if (sky ? role->holdsBackground : role->clip == nullptr || role->clip->holds(place)) mask |= role->bit;
+      if (sky ? role->holdsBackground : role->holds(place)) mask |= role->bit;
     if (mask != 0)
       shown_.push_back(
           {reach / flat_, packColour({layer.radiance, layer.alpha}), mask, mirror, Side::met, layer.hit});

@@ -40,6 +40,7 @@ class ColumnMarch {
 
  private:
   void runRows(int first, int last, const std::stop_token& stop);
+  Shaded shade(const Hit& hit, const glm::vec3& direction, const glm::vec3& toViewer);
   bool addAlone(int row, const glm::vec3& direction, const Hit& hit);
   void beginPixel(int row);
   void runPixel(const glm::vec3& direction, float distance, const ColumnRole* next,
@@ -78,11 +79,7 @@ class ColumnMarch {
   std::array<FlatMirror, 256> mirrors_{};  ///< by number, where silhouettes are asked for
 };
 
-/// What a sample stands for wherever it hits a surface; nothing where no texture is averaged.
-std::optional<SampleFootprint> sampleFootprint(const ColumnMarch::Setting& setting,
-                                               const glm::vec3& direction);
-/// And on the surface that it hits.
-std::optional<TextureArea> sampleArea(const ColumnMarch::Setting& setting, const Hit& hit,
-                                      const glm::vec3& direction);
+/// What a sample stands for wherever it hits a surface.
+SampleFootprint sampleFootprint(const ColumnMarch::Setting& setting, const glm::vec3& direction);
 
 }  // namespace acentric

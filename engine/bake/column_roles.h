@@ -24,6 +24,7 @@ struct ColumnRole {
   std::uint8_t bit = 0;
   const Clip* clip = nullptr;
   bool holdsBackground = true;  ///< the part holds what is infinitely far along the column
+  bool holds(const glm::dvec2& place) const { return clip == nullptr || clip->holds(place); }
 };
 
 /// What a role has been given along one ray.

@@ -39,7 +39,7 @@ void MirrorMarch::ask(const Pixel& pixel, const FlatMirror& mirror, const Met& m
   for (RoleOnRay& having : roles_) {
     const ColumnRole& role = *having.role;
     if (isFull(having) || !(met.distance * (1 - rightBehind_) > having.opaqueAt)) continue;
-    if (!(sky ? role.holdsBackground : role.clip == nullptr || role.clip->holds(place))) continue;
+    if (!(sky ? role.holdsBackground : role.holds(place))) continue;
     std::optional<MirrorSight::Seen> seen;
     if (!sky)
       seen = sight_.sees(role.index, mirror, *met.surface, sameDepth_ * met.distance, hints_, rays);
@@ -100,15 +100,12 @@ void MirrorMarch::addSide(const Pixel& pixel, const FlatMirror& mirror, const Me
   const MirrorSight::Seen& by = side == Side::met ? byMet_ : byOther_;
   const glm::vec3 direction(mirror.reflected(pixel.direction));
   Shaded seen;
-  if (met.surface) {
-    std::optional<TextureArea> area;
-    if (pixel.footprint)
-      area.emplace(pixel.footprint->mirrored(glm::vec3(mirror.normal), 0)
-                       .on(shader_.scene().scene(), met.hit, direction));
-    seen = shader_.shade(met.hit, met.surface->toViewer(side), rays, true, area ? &*area : nullptr);
-  } else {
+  if (met.surface)
+    seen = shader_.shade(met.hit, met.surface->toViewer(side), rays, true,
+                         pixel.footprint.mirrored(glm::vec3(mirror.normal), 0)
+                             .on(shader_.scene().scene(), met.hit, direction));
+  else
     seen.emission = shader_.background(direction);
-  }
   if (seen.alpha < kInvisibleAlpha) return;
   const bool clear = seen.alpha < kOpaqueAlpha;
   const Shaded surface = shader_.flatMirrorUnder(seen.radiance(), by.mirror, by.toEye);

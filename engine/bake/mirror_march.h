@@ -37,7 +37,7 @@ class MirrorMarch {
   struct Pixel {
     glm::dvec3 origin, direction;  ///< unit
     std::span<const ColumnRole> roles;
-    std::optional<SampleFootprint> footprint;  ///< none: no texture is averaged
+    SampleFootprint footprint;
   };
   /// Adds to what the camera itself sees in mirrors along the ray, which comes in `shown`. Only a part when
   /// stopped.

@@ -72,21 +72,17 @@ Hit PartRays::meet(std::uint32_t sample, const Direction& direction) {
 
 Shaded PartRays::shade(std::uint32_t sample, const Hit& hit, const Direction& direction, float width) {
   glm::vec3 way = direction.unit();
-  std::optional<SampleFootprint> footprint = sampleFootprint(setting_, way);
+  SampleFootprint footprint = sampleFootprint(setting_, way);
+  footprint.spread.across *= width, footprint.spread.along *= width;
   if (reflections_) {
     const FlatMirror& mirror = mirrors_[samples_.mirror[sample]];
     way = glm::vec3(mirror.reflected(glm::dvec3(way)));
-    if (footprint) footprint = footprint->mirrored(glm::vec3(mirror.normal), 0);
-  }
-  std::optional<TextureArea> area;
-  if (footprint) {
-    footprint->spread.across *= width, footprint->spread.along *= width;
-    area.emplace(footprint->on(setting_.shader.scene().scene(), hit, way));
+    footprint = footprint.mirrored(glm::vec3(mirror.normal), 0);
   }
   const MetSurface surface(hit, glm::dvec3(0), way);
   const Side side = planeOf(sample).away != 0 ? Side::other : Side::met;
   return setting_.shader.shade(hit, surface.toViewer(side), counts_.rays, reflections_,
-                               area ? &*area : nullptr);
+                               footprint.on(setting_.shader.scene().scene(), hit, way));
 }
 
 }  // namespace acentric

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "engine/bake/surface.h"
@@ -184,15 +183,13 @@ Shaded Shader::flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm
 }
 
 Shader::Mirrored Shader::shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays,
-                                         const SampleFootprint* footprint) const {
+                                         const SampleFootprint& footprint) const {
   const Surface surface = flatMirrorAt(hit, toViewer);
   const glm::vec3 mirrored = glm::reflect(-toViewer, surface.geometricNormal);
-  std::optional<SampleFootprint> onwards;
-  if (footprint != nullptr) onwards = footprint->mirrored(surface.geometricNormal, hit.distance);
   Mirrored out;
   Seen seen;
-  eachLayer({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true, onwards ? &*onwards : nullptr,
-            [&](const Layer& layer) {
+  eachLayer({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true,
+            footprint.mirrored(surface.geometricNormal, hit.distance), [&](const Layer& layer) {
               seen.add(layer);
               out.shown.push_back({layer.hit, mirrorUnder(layer.radiance, surface).radiance(), layer.alpha});
             });
@@ -208,15 +205,14 @@ void Shader::Seen::add(const Layer& layer) {
 
 template <class Visit>
 void Shader::eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays, bool seenInMirror,
-                       const SampleFootprint* footprint, const Visit& visit) const {
+                       const SampleFootprint& footprint, const Visit& visit) const {
   Ray rest = ray;
   for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
     ++(rays.*counter);
     const Hit hit = scene_->trace(rest);
     if (!hit.found()) return visit(Layer{hit, background(ray.direction)});
-    std::optional<TextureArea> area;
-    if (footprint != nullptr) area.emplace(footprint->on(scene_->scene(), hit, ray.direction));
-    const Shaded shaded = shade(hit, -ray.direction, rays, seenInMirror, area ? &*area : nullptr);
+    const Shaded shaded =
+        shade(hit, -ray.direction, rays, seenInMirror, footprint.on(scene_->scene(), hit, ray.direction));
     if (shaded.alpha >= kOpaqueAlpha) return visit(Layer{hit, shaded.radiance()});
     if (shaded.alpha >= kInvisibleAlpha) visit(Layer{hit, shaded.radiance(), shaded.alpha});
     rest.nearest = justBehind(hit.distance);
@@ -226,7 +222,7 @@ void Shader::eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCou
 Shader::Seen Shader::seenAlong(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays,
                                bool seenInMirror) const {
   Seen seen;
-  eachLayer(ray, counter, rays, seenInMirror, nullptr, [&](const Layer& layer) { seen.add(layer); });
+  eachLayer(ray, counter, rays, seenInMirror, {}, [&](const Layer& layer) { seen.add(layer); });
   return seen;
 }
 

@@ -54,8 +54,8 @@ class Shader {
   /// `toViewer` is unit; it decides the side. `seenInMirror`: mirrors then show the sky or ambient light
   /// only. `area`: what textures are averaged over (texture_area.h).
   Shaded shade(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays, bool seenInMirror = false,
-               const TextureArea* area = nullptr) const {
-    return kernel_(*this, hit, toViewer, seenInMirror, area, rays);
+               const std::optional<TextureArea>& area = {}) const {
+    return kernel_(*this, hit, toViewer, seenInMirror, area ? &*area : nullptr, rays);
   }
   const DetailRules& detail() const { return detail_; }
   /// What is seen where a ray hits nothing; all zero (black) where the plan has none.
@@ -87,7 +87,7 @@ class Shader {
   };
   /// A hit on a mirror of FlatMirrors; without a footprint the same radiance as shade() gives.
   Mirrored shadeFlatMirror(const Hit& hit, const glm::vec3& toViewer, RayCounts& rays,
-                           const SampleFootprint* footprint = nullptr) const;
+                           const SampleFootprint& footprint = {}) const;
   /// The same mirror where `light` arrives, whatever it is.
   Shaded flatMirrorUnder(const glm::vec3& light, const Hit& hit, const glm::vec3& toViewer) const;
 
@@ -114,7 +114,7 @@ class Shader {
   /// Calls `visit` with each layer of a ray, nearest first.
   template <class Visit>
   void eachLayer(const Ray& ray, std::uint64_t RayCounts::*counter, RayCounts& rays, bool seenInMirror,
-                 const SampleFootprint* footprint, const Visit& visit) const;
+                 const SampleFootprint& footprint, const Visit& visit) const;
   using Kernel = Shaded (*)(const Shader&, const Hit&, const glm::vec3&, bool, const TextureArea*,
                             RayCounts&);
   friend struct ShadingKernels;

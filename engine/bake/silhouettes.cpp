@@ -272,9 +272,8 @@ class ColumnSilhouettes {
     return true;
   }
   Shaded mirrorSurface(const Hit& hit, const glm::vec3& direction) {
-    const auto footprint = sampleFootprint(setting_, direction);
     return setting_.shader
-        .shadeFlatMirror(hit, -direction, out_.counts.rays, footprint ? &*footprint : nullptr)
+        .shadeFlatMirror(hit, -direction, out_.counts.rays, sampleFootprint(setting_, direction))
         .surface;
   }
 

@@ -40,11 +40,12 @@ class TextureArea {
 
 /// Whatever surfaces a ray of a sample meets.
 struct SampleFootprint {
-  const TexturePyramids* textures = nullptr;
+  const TexturePyramids* textures = nullptr;  ///< null: none is averaged
   SampleSpread spread;
 
-  TextureArea on(const Scene& scene, const Hit& hit, const glm::vec3& direction) const {
-    return {*textures, scene, hit, direction, spread};
+  std::optional<TextureArea> on(const Scene& scene, const Hit& hit, const glm::vec3& direction) const {
+    if (textures == nullptr) return {};
+    return TextureArea(*textures, scene, hit, direction, spread);
   }
   /// Of the ray that a mirror sends on, whose origin is that many metres on its way.
   SampleFootprint mirrored(const glm::vec3& normal, float before) const {

@@ -505,13 +505,9 @@ TEST(BakeMirrors, TellWhichSideOfASurfaceTheyShow) {
 }
 
 TEST(BakeMirrors, AverageTexturesOverWhatASampleShows) {
-  ColourImage tiles(1024, 1024, {0, 0, 0, 255});
-  for (int y = 0; y < 1024; ++y)
-    for (int x = 0; x < 1024; ++x)
-      if ((x + y) % 2 == 0) tiles.at(x, y) = {255, 255, 255, 255};
   SceneBuilder builder;
   Material material = glowing(glm::vec3(1));
-  material.baseColourTexture = builder.texture(std::move(tiles));
+  material.baseColourTexture = builder.texture(test::chequers(1024));
   builder.floor(builder.material(material), 20);  // tiles of 4 cm
   const int mirror = builder.material(silver(glm::vec3(1)));
   builder.quad(mirror, {3, -3, 0}, {3, -3, 3}, {3, 3, 3}, {3, 3, 0});

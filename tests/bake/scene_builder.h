@@ -23,6 +23,15 @@ inline Material matte(glm::vec3 colour = glm::vec3(1)) {
   return m;
 }
 
+/// Of white and black texels.
+inline ColourImage chequers(int size) {
+  ColourImage image(size, size, {0, 0, 0, 255});
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      if ((x + y) % 2 == 0) image.at(x, y) = {255, 255, 255, 255};
+  return image;
+}
+
 class SceneBuilder {
  public:
   SceneBuilder() { scene_.name = "made by hand"; }

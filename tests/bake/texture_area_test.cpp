@@ -126,14 +126,10 @@ TEST(TextureArea, StaysInTheTriangleHoweverFlatTheRay) {
 }
 
 TEST(TextureArea, MakesFarTilesOfACaptureGrey) {
-  ColourImage tiles(1024, 1024, {0, 0, 0, 255});
-  for (int y = 0; y < 1024; ++y)
-    for (int x = 0; x < 1024; ++x)
-      if ((x + y) % 2 == 0) tiles.at(x, y) = {255, 255, 255, 255};
   SceneBuilder builder;
   Material material = test::matte();
   material.unlit = true;
-  material.baseColourTexture = builder.texture(std::move(tiles));
+  material.baseColourTexture = builder.texture(test::chequers(1024));
   builder.floor(builder.material(material), 20);
   const RayScenePtr scene = builder.rays();
   int far = 0;
