@@ -9,6 +9,7 @@
 #include "engine/bake/column_march.h"
 #include "engine/bake/column_rays.h"
 #include "engine/bake/column_roles.h"
+#include "engine/bake/edge_on.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/silhouettes.h"
 #include "engine/bake/surface_planes.h"
@@ -29,6 +30,17 @@ double distanceStepFor(const LayoutCamera& camera, const ColumnCamera& columns, 
   if (!(reach > 0) || !(shift > 0)) return 0;
   const double largest = shift * std::min(columns.columnPitch(), columns.rowPitch()) / reach;
   return std::ldexp(1.0, std::ilogb(largest));
+}
+
+/// By role.
+std::vector<glm::dvec3> middleEyes(const LayoutCamera& camera, double eyeZ) {
+  std::vector<glm::dvec3> eyes;
+  for (const Role& role : camera.roles) {
+    glm::dvec2 sum(0);
+    for (const glm::dvec2& corner : role.polygon.corners) sum += corner;
+    eyes.emplace_back(sum / double(std::max<std::size_t>(role.polygon.corners.size(), 1)), eyeZ);
+  }
+  return eyes;
 }
 
 }  // namespace
@@ -117,7 +129,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                                        mirrors,
                                        beyond && beyond->any() ? &*beyond : nullptr,
                                        textures_ && textures_->any() ? textures_.get() : nullptr,
-                                       distanceStepFor(camera, columns, settings_.distanceShift)};
+                                       distanceStepFor(camera, columns, settings_.distanceShift),
+                                       middleEyes(camera, columns.centreOfProjection.z)};
     const std::size_t chunkCount = std::size_t((columns.columns + kColumnsPerChunk - 1) / kColumnsPerChunk);
     std::vector<ChunkSamples> chunks(chunkCount);
     std::atomic<std::size_t> total = 0;
@@ -165,6 +178,8 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     if (capture.hasSilhouettes() || capture.reflections.hasSilhouettes())
       capture.planeTolerance = planeToleranceFor(camera, columns);
     if (settings_.silhouettes) traceSilhouettes(setting, capture, runner, counts, stop);
+    if (settings_.silhouettes && !stop.stop_requested())
+      turnEdgeOnFacets(setting, capture, runner, counts, stop);
     if (stop.stop_requested()) return stopped();
     if (settings_.silhouettes)
       for (CaptureSamples* list : {static_cast<CaptureSamples*>(&capture), &capture.reflections})

@@ -7,6 +7,18 @@
 #include "engine/bake/surface_planes.h"
 
 namespace acentric {
+namespace {
+
+/// Of a distance: so near behind an opaque surface the test eyes' maps are not trusted.
+constexpr double kSoonBehind = 3 * kSameSurface;
+
+bool looksLike(const Shaded& a, const Shaded& b) {
+  const glm::vec3 ofA = a.alpha * a.radiance(), ofB = b.alpha * b.radiance();
+  return std::abs(a.alpha - b.alpha) <= kContrast * (1.01f - std::max(a.alpha, b.alpha)) &&
+         glm::all(glm::lessThanEqual(glm::abs(ofA - ofB), kContrast * glm::max(ofA, ofB)));
+}
+
+}  // namespace
 
 SampleFootprint sampleFootprint(const ColumnMarch::Setting& setting, const glm::vec3& direction) {
   if (setting.textures == nullptr) return {};
@@ -14,6 +26,17 @@ SampleFootprint sampleFootprint(const ColumnMarch::Setting& setting, const glm::
   const glm::vec2 across = float(setting.columns.columnPitch()) * glm::vec2(-direction.y, direction.x);
   const glm::vec3 up(glm::vec2(direction) * (-direction.z / flat), flat);
   return {setting.textures, {glm::vec3(across, 0), float(setting.columns.rowPitch()) * up}};
+}
+
+glm::vec3 towardsEyes(const ColumnMarch::Setting& setting, std::uint8_t roles, const MetSurface& surface,
+                      Side side) {
+  glm::dvec3 sum(0);
+  double count = 0;
+  for (std::size_t role = 0; role < setting.eyes.size(); ++role)
+    if ((roles & roleBit(setting.camera, int(role))) != 0) sum += setting.eyes[role], ++count;
+  const glm::dvec3 eye = sum / count;
+  return count > 0 && surface.sideOf(eye) == side ? glm::normalize(glm::vec3(eye - surface.point()))
+                                                  : surface.toViewer(side);
 }
 
 ColumnMarch::ColumnMarch(const Setting& setting, ChunkSamples& out)
@@ -174,23 +197,46 @@ void ColumnMarch::addSurface(const glm::vec3& direction, const Hit& hit) {
     }
     Side side = Side::met;
     if (setting_.sight != nullptr) {
-      side = setting_.sight->sees(role.index, surface, tolerance, hints_, out_.counts.rays);
+      const bool soonBehind = !(horizontal * (1 - kSoonBehind) > having.opaqueAt);
+      side = setting_.sight->sees(role.index, surface, tolerance, hints_, out_.counts.rays, soonBehind);
       const bool rightBehind = !(horizontal * (1 - rightBehind_) > having.opaqueAt);
       if (side == Side::none || (rightBehind && side == having.opaqueSide)) continue;
     }
     if (inPart) sides_.of(side).push_back(&having);
     if (mirror != 0 && side == Side::met) facing_.push_back(&role);
   }
-  const auto shaded = [&](Side side) { return shade(hit, direction, surface.toViewer(side)); };
   if (sides_.empty() && wanted) ++(limited ? out_.counts.samples.overLimit : out_.counts.samples.hidden);
   if (setting_.settings.silhouettes && !(sides_.empty() && facing_.empty()))
     plane_ =
         planeOf(setting_.shader.scene().scene(), hit, setting_.columns.centreOfProjection, direction, false);
-  if (!sides_.met.empty() || !facing_.empty())
-    addSide(sides_.met, Side::met,
-            mirror != 0 ? mirrorSurface(direction, hit, horizontal, mirror) : shaded(Side::met), horizontal,
-            mirror);
-  if (!sides_.other.empty()) addSide(sides_.other, Side::other, shaded(Side::other), horizontal, 0);
+  if (mirror != 0 && !(sides_.met.empty() && facing_.empty()))
+    addSide(sides_.met, Side::met, mirrorSurface(direction, hit, horizontal, mirror), horizontal, mirror);
+  else
+    addAsSeen(sides_.met, surface, Side::met, direction, hit, horizontal);
+  addAsSeen(sides_.other, surface, Side::other, direction, hit, horizontal);
+}
+
+/// What looks different to each region gets a sample for each, as the middle of its eyes sees it; those that
+/// see about the same share one.
+void ColumnMarch::addAsSeen(std::vector<RoleOnRay*>& needed, const MetSurface& surface, Side side,
+                            const glm::vec3& direction, const Hit& hit, double horizontal) {
+  if (needed.empty()) return;
+  const Shaded shaded = shade(hit, direction, surface.toViewer(side));
+  if (!shaded.dependsOnViewer) {
+    addSide(needed, side, shaded, horizontal, 0);
+    return;
+  }
+  looks_.clear();
+  for (RoleOnRay* having : needed) {
+    const Shaded own = shade(hit, direction, towardsEyes(setting_, having->role->bit, surface, side));
+    const auto same =
+        std::ranges::find_if(looks_, [&](const Look& look) { return looksLike(look.shaded, own); });
+    if (same != looks_.end())
+      same->roles.push_back(having);
+    else
+      looks_.push_back({own, {having}});
+  }
+  for (Look& look : looks_) addSide(look.roles, side, look.shaded, horizontal, 0);
 }
 
 /// A sample of one side of a surface for the roles that see it.

@@ -16,6 +16,9 @@
 
 namespace acentric {
 
+/// Of radiance: two that differ by a smaller share look the same.
+inline constexpr float kContrast = 0.05f;
+
 /// Marches along the rays of one column after the other, on one thread.
 class ColumnMarch {
  public:
@@ -31,6 +34,7 @@ class ColumnMarch {
     const MirrorSight* beyond;        ///< null: only what the camera itself sees in them
     const TexturePyramids* textures;  ///< null: none to be averaged
     double distanceStep;
+    std::vector<glm::dvec3> eyes;  ///< by role: the middle of its region, at eye height
   };
   /// All must outlive the march.
   ColumnMarch(const Setting& setting, ChunkSamples& out);
@@ -48,6 +52,8 @@ class ColumnMarch {
   const ColumnRole* addHit(const glm::vec3& direction, const Hit& hit);
   bool goesOnBeyond(const ColumnRole& role, const Hit& hit, const glm::dvec3& point) const;
   void addSurface(const glm::vec3& direction, const Hit& hit);
+  void addAsSeen(std::vector<RoleOnRay*>& needed, const MetSurface& surface, Side side,
+                 const glm::vec3& direction, const Hit& hit, double horizontal);
   void addSide(std::vector<RoleOnRay*>& needed, Side side, const Shaded& shaded, double horizontal,
                std::uint8_t mirror);
   Shaded mirrorSurface(const glm::vec3& direction, const Hit& hit, double horizontal, std::uint8_t mirror);
@@ -55,6 +61,12 @@ class ColumnMarch {
   void addBackgroundAlong(const glm::vec3& direction);
   void addBackground(int row, std::uint8_t mask);
   bool isFull(const RoleOnRay& role) const { return role.samples >= setting_.settings.maxLayers; }
+
+  /// How some regions see a surface.
+  struct Look {
+    Shaded shaded;
+    std::vector<RoleOnRay*> roles;
+  };
 
   const Setting& setting_;
   ChunkSamples& out_;
@@ -72,12 +84,18 @@ class ColumnMarch {
   bool reachedBackground_ = false;         ///< of the pixel: is nothing left along its ray?
   std::vector<RoleOnRay> having_;          ///< of the pixel, as roles_; horizontal metres
   SeenSides sides_;                        ///< of the surface
+  std::vector<Look> looks_;                ///< of the surface
   SurfacePlane plane_;                     ///< of the surface, where silhouettes are asked for
   std::vector<const ColumnRole*> facing_;  ///< those that a mirror shows something
   std::optional<MirrorMarch> mirrorMarch_;
   std::vector<ShownInMirror> shown_;       ///< by the mirrors of the pixel
   std::array<FlatMirror, 256> mirrors_{};  ///< by number, where silhouettes are asked for
 };
+
+/// From a point that a ray of the camera meets towards the regions of some roles, by their bits, unit: to the
+/// middle of their eyes, or if that is not on `side`, as the camera's ray tells.
+glm::vec3 towardsEyes(const ColumnMarch::Setting& setting, std::uint8_t roles, const MetSurface& surface,
+                      Side side);
 
 /// What a sample stands for wherever it hits a surface.
 SampleFootprint sampleFootprint(const ColumnMarch::Setting& setting, const glm::vec3& direction);

@@ -76,9 +76,13 @@ bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& poi
   return nothingBefore(scene, view.eye(), point, tolerance, rays);
 }
 
+bool seesByRay(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
+               RayCounts& rays) {
+  return view.looksAt(point) != EyeView::Sees::no && nothingBefore(scene, view.eye(), point, tolerance, rays);
+}
+
 bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays) {
-  return view.looksAt(point) != EyeView::Sees::no &&
-         nothingBefore(scene, view.eye(), point, kRounding * glm::length(point - view.eye()), rays);
+  return seesByRay(scene, view, point, kRounding * glm::length(point - view.eye()), rays);
 }
 
 EyeViews::EyeViews(const RayScene& scene, const ElevationRange& elevations, const BakeSettings& settings,

@@ -122,7 +122,10 @@ bool nothingBefore(const RayScene& scene, const glm::dvec3& eye, const glm::dvec
 /// Does an eye see a point? The map's answer, or else a ray's.
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
                RayCounts& rays);
-/// The same, with no more tolerance than rounding takes: what the map shows is asked of a ray too.
+/// The same, but what the map shows is asked of a ray too.
+bool seesByRay(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,
+               RayCounts& rays);
+/// The same, with no more tolerance than rounding takes.
 bool seesClosely(const RayScene& scene, const EyeView& view, const glm::dvec3& point, RayCounts& rays);
 /// Parts of a distance that rounding may take.
 inline constexpr double kRounding = 3e-5;

@@ -17,6 +17,12 @@ class MirrorSight {
 
   /// Is there a mirror that an eye stands before?
   bool any() const { return !faced_.empty(); }
+  /// All of them.
+  std::vector<const FlatMirror*> mirrors() const {
+    std::vector<const FlatMirror*> all;
+    for (const Faced& faced : faced_) all.push_back(&faced.mirror);
+    return all;
+  }
 
   /// Where along a ray virtual places may be seen in a mirror, metres.
   struct Span {

@@ -1,5 +1,6 @@
 #include "engine/bake/part_rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace acentric {
@@ -33,7 +34,8 @@ PartRays::PartRays(const ColumnMarch::Setting& setting, const PartAngles& angles
       samples_(samples),
       reflections_(reflections),
       tolerance_(tolerance),
-      counts_(counts) {
+      counts_(counts),
+      rules_(materialRules(setting.shader.scene().scene(), setting.shader.scene().plan())) {
   if (reflections)
     for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
 }
@@ -47,11 +49,18 @@ PartRays::Direction PartRays::through(int column, int row) const {
   return {angles_.ownColumn[std::size_t(column)], angles_.ownRow[std::size_t(row)]};
 }
 
-Hit PartRays::meet(std::uint32_t sample, const Direction& direction) {
+double PartRays::loose() const { return kCurved * tolerance_; }
+
+bool PartRays::mayBe(bool opaque, const Hit& hit) const {
+  const MaterialRules& rule = rules_[std::size_t(setting_.shader.scene().scene().meshes[hit.mesh].material)];
+  return opaque ? !rule.transmissive : rule.clear();
+}
+
+Hit PartRays::meet(std::uint32_t sample, const Direction& direction, std::span<const SurfacePlane> rivals) {
   const double flat = direction.row.cosine;
   const double w = planeOf(sample).inverseDistance(direction.plan, direction.row.sine / flat);
   if (!(w > 0)) return {};
-  const double loose = kCurved * tolerance_;
+  const double loose = this->loose();
   glm::dvec3 origin = setting_.columns.centreOfProjection, way(direction.plan * flat, direction.row.sine);
   if (reflections_) {
     const FlatMirror& mirror = mirrors_[samples_.mirror[sample]];
@@ -60,11 +69,16 @@ Hit PartRays::meet(std::uint32_t sample, const Direction& direction) {
   Ray ray{glm::vec3(origin), glm::vec3(way)};
   ray.nearest = float(1 / ((w + loose) * flat));
   if (w > loose) ray.farthest = float(1 / ((w - loose) * flat));
+  const bool isOpaque = unpackColour(samples_.colour[sample]).a >= 1;
   for (int before = 0; before < kMostBeforePlane; ++before) {
     ++counts_.rays.primary;
     const Hit hit = setting_.shader.scene().trace(ray);
     if (!hit.found()) return {};
-    if (std::abs(1 / (double(hit.distance) * flat) - w) <= loose) return hit;
+    const double met = 1 / (double(hit.distance) * flat), apart = std::abs(met - w);
+    const auto isNearer = [&](const SurfacePlane& rival) {
+      return std::abs(met - rival.inverseDistance(direction.plan, direction.row.sine / flat)) < apart;
+    };
+    if (apart <= loose && mayBe(isOpaque, hit) && std::ranges::none_of(rivals, isNearer)) return hit;
     ray.nearest = justBehind(hit.distance);
   }
   return {};
@@ -79,10 +93,16 @@ Shaded PartRays::shade(std::uint32_t sample, const Hit& hit, const Direction& di
     way = glm::vec3(mirror.reflected(glm::dvec3(way)));
     footprint = footprint.mirrored(glm::vec3(mirror.normal), 0);
   }
-  const MetSurface surface(hit, glm::dvec3(0), way);
+  const glm::dvec3 point = setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(way);
+  const MetSurface surface(hit, point, way);
   const Side side = planeOf(sample).away != 0 ? Side::other : Side::met;
-  return setting_.shader.shade(hit, surface.toViewer(side), counts_.rays, reflections_,
-                               footprint.on(setting_.shader.scene().scene(), hit, way));
+  const auto seenFrom = [&](const glm::vec3& toViewer) {
+    return setting_.shader.shade(hit, toViewer, counts_.rays, reflections_,
+                                 footprint.on(setting_.shader.scene().scene(), hit, way));
+  };
+  const Shaded shaded = seenFrom(surface.toViewer(side));
+  if (reflections_ || !shaded.dependsOnViewer) return shaded;
+  return seenFrom(towardsEyes(setting_, samples_.roles[sample], surface, side));
 }
 
 }  // namespace acentric

@@ -3,6 +3,7 @@
 /// of one sample alone, right around its plane, whatever lies before it: what hides it may move aside.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "engine/bake/column_march.h"
@@ -40,13 +41,18 @@ class PartRays {
   /// The pixel's own ray.
   Direction through(int column, int row) const;
 
-  /// Where the ray meets the sample's surface.
-  Hit meet(std::uint32_t sample, const Direction& direction);
+  /// Where the ray meets the sample's surface. What it meets nearer to another plane than to that of the
+  /// sample belongs there.
+  Hit meet(std::uint32_t sample, const Direction& direction, std::span<const SurfacePlane> rivals);
+  /// How far what a sample covers may be off its plane, 1/m.
+  double loose() const;
   /// What is met there as the sample shows it, textures averaged over a square so many samples wide; of what
   /// mirrors show as it is without their tint.
   Shaded shade(std::uint32_t sample, const Hit& hit, const Direction& direction, float width);
 
  private:
+  /// Panes and their bars may lie in one plane.
+  bool mayBe(bool opaque, const Hit& hit) const;
   const SurfacePlane& planeOf(std::uint32_t sample) const { return samples_.planes[samples_.plane[sample]]; }
 
   const ColumnMarch::Setting& setting_;
@@ -55,6 +61,7 @@ class PartRays {
   bool reflections_;
   double tolerance_;  ///< 1/m
   CaptureCounts& counts_;
+  std::vector<MaterialRules> rules_;
   std::array<FlatMirror, 256> mirrors_{};  ///< by number, of reflections
 };
 

@@ -83,7 +83,7 @@ std::vector<glm::dvec3> RegionSight::eyes() const {
 }
 
 Side RegionSight::sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
-                       RayCounts& rays) const {
+                       RayCounts& rays, bool byRays) const {
   const EyeGroup& group = groups_[region_[role]];
   const glm::dvec3& point = surface.point();
   bool askedOne = false, askedAll = false;
@@ -96,8 +96,9 @@ Side RegionSight::sees(std::size_t role, const MetSurface& surface, double toler
   return sideSeen(
       role, surface, hints, [](const EyeView& view) -> const glm::dvec3& { return view.eye(); },
       [&](const EyeView& view, bool closely) {
-        return closely ? seesClosely(*scene_, view, point, rays)
-                       : seesPoint(*scene_, view, point, tolerance, rays);
+        if (closely) return seesClosely(*scene_, view, point, rays);
+        return byRays ? seesByRay(*scene_, view, point, tolerance, rays)
+                      : seesPoint(*scene_, view, point, tolerance, rays);
       },
       isHidden);
 }

@@ -39,9 +39,10 @@ class RegionSight {
   };
   Hints hints() const { return {std::vector<std::size_t>(groups_.size(), 0), {}}; }
 
-  /// Which side of a surface the region of role `role` sees, give or take `tolerance` metres of depth.
-  Side sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints,
-            RayCounts& rays) const;
+  /// Which side of a surface the region of role `role` sees, give or take `tolerance` metres of depth;
+  /// `byRays`: maps, which take what lies right behind a surface for the surface itself, may only deny it.
+  Side sees(std::size_t role, const MetSurface& surface, double tolerance, Hints& hints, RayCounts& rays,
+            bool byRays = false) const;
   /// The same for what lies infinitely far in a direction (unit).
   bool seesAlong(std::size_t role, const glm::dvec3& direction, Hints& hints, RayCounts& rays) const;
 

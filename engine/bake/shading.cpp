@@ -78,6 +78,7 @@ struct ShadingKernels {
       if (out.alpha < kInvisibleAlpha) return out;
       if (rules.mirror && !seenInMirror && glm::dot(mirrored, surface.geometricNormal) > 0) {
         out.light = shader.seenAlong({surface.rayOrigin, mirrored}, &RayCounts::mirror, rays, true).radiance;
+        out.dependsOnViewer = true;
         return out;
       }
     }
@@ -93,6 +94,7 @@ struct ShadingKernels {
     // Metals have no diffuse colour of their own; without traced reflections half stays, and the rest is what
     // lies in the mirrored direction, the blurrier the rougher.
     const float metal = std::clamp(surface.metallic, 0.0f, 1.0f);
+    out.dependsOnViewer = metal > kFaintlyMetallic;
     if (metal > 0) {
       const float rough = std::clamp(surface.roughness, 0.0f, 1.0f);
       const glm::vec3 seen = glm::mix(inMirror<kAround>(shader, mirrored, ambient), ambient.radiance, rough);
@@ -105,6 +107,7 @@ struct ShadingKernels {
         const glm::vec3 film = inMirror<kAround>(shader, mirrored, ambient);
         out.light = (out.light * glass.body + film * glass.film) / glass.alpha();
         out.alpha *= glass.alpha();
+        out.dependsOnViewer = true;
       }
     }
     return out;

@@ -30,9 +30,12 @@ struct Shaded {
   glm::vec3 light{0};
   glm::vec3 emission{0};
   float alpha = 1;  ///< 1 = opaque; else what lies behind shows by 1 - alpha
+  bool dependsOnViewer = false;
   glm::vec3 radiance() const { return baseColour * light + emission; }
 };
 
+/// A metal this faint looks the same from everywhere.
+inline constexpr float kFaintlyMetallic = 0.05f;
 /// A hit this opaque hides what is behind it; one this clear is not there at all.
 inline constexpr float kOpaqueAlpha = 0.999f;
 inline constexpr float kInvisibleAlpha = 1.0f / 512;

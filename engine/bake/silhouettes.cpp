@@ -18,8 +18,6 @@ constexpr std::uint16_t kCorners = partBit(0, 0) | partBit(3, 0) | partBit(0, 3)
 constexpr std::uint16_t kMiddle = partBit(1, 1);
 /// One in each row and column.
 constexpr std::uint16_t kSpread = partBit(1, 0) | partBit(3, 1) | partBit(0, 2) | partBit(2, 3);
-/// Of radiance: two samples that differ by less look even.
-constexpr float kContrast = 1.05f;
 
 /// The parts of a pixel beside its neighbour in that direction.
 std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
@@ -79,6 +77,7 @@ class ColumnSilhouettes {
     int row = 0;
     std::uint32_t first() const { return beside->first[std::size_t(row)]; }
     std::uint32_t end() const { return beside->first[std::size_t(row) + 1]; }
+    bool holds(std::uint32_t sample) const { return sample >= first() && sample < end(); }
   };
   /// A sample of the pixel as it will be.
   struct New {
@@ -129,6 +128,32 @@ class ColumnSilhouettes {
     return false;
   }
 
+  /// The planes of other surfaces around that run close behind the sample's without meeting it in this pixel,
+  /// as a wall does behind mouldings: these must not spread over it, while it may go on beneath them.
+  void findRivals(std::uint32_t sample, int row) {
+    rivals_.clear();
+    const Pixel pixel{&beside_[1], row};
+    const SurfacePlane& own = planeOf(sample);
+    const auto add = [&](const Pixel& from) {
+      for (std::uint32_t i = from.first(); i < from.end(); ++i) {
+        if (i == sample || isSky(i) || (all_.roles[sample] & ~all_.roles[i]) != 0) continue;
+        const SurfacePlane& plane = planeOf(i);
+        const double apart = at(own, pixel) - at(plane, pixel);
+        if (apart < tolerance_ || apart > 2 * rays_.loose() || meet(own, plane, pixel)) continue;
+        if (pixel.holds(i) || !hasSame(pixel, i, from)) rivals_.push_back(plane);
+      }
+    };
+    add(pixel);
+    eachNeighbour(row, [&](const Pixel& neighbour, int, int) { add(neighbour); });
+  }
+  bool meet(const SurfacePlane& a, const SurfacePlane& b, const Pixel& pixel) const {
+    const glm::dvec3 normal = glm::dvec3(a.normal) - glm::dvec3(b.normal);
+    const double tangent = tangent_[std::size_t(pixel.row)];
+    const glm::dvec2 rise = setting_.columns.risePerSample(normal, pixel.beside->direction, tangent);
+    return std::abs(glm::dot(normal, glm::dvec3(pixel.beside->direction, tangent))) <=
+           0.5 * (std::abs(rise.x) + std::abs(rise.y));
+  }
+
   template <class Visit>
   void eachNeighbour(int row, const Visit& visit) const {
     for (int across = -1; across <= 1; ++across)
@@ -155,7 +180,7 @@ class ColumnSilhouettes {
     eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
         if (!isSky(i) && !hasSame(pixel, i, neighbour))
-          addNeighbours(i, partsTowards(across, down), row, own);
+          addNeighbours(i, neighbour, partsTowards(across, down), row, own);
     });
     if (pixel_.size() > own) std::ranges::stable_sort(pixel_, std::greater<>(), &New::inverseDistance);
     for (const New& sample : pixel_) add(row, sample);
@@ -175,6 +200,7 @@ class ColumnSilhouettes {
   }
 
   std::uint16_t ownCoverage(std::uint32_t sample, int row) {
+    findRivals(sample, row);
     Met met;
     meet(sample, row, kCorners | kMiddle, met);
     if (met.parts == (kCorners | kMiddle)) return kWholePixel;
@@ -182,14 +208,18 @@ class ColumnSilhouettes {
     return met.parts == 0 ? kMiddle : met.parts;  // its ray went between those of the parts
   }
 
-  /// A sample of a neighbour's surface, if that covers a part here.
-  void addNeighbours(std::uint32_t sample, std::uint16_t beside, int row, std::size_t own) {
+  /// A sample of a neighbour's surface, if that covers a part here. Where the neighbour has several, for
+  /// regions that see it differently, each is gone on with.
+  void addNeighbours(std::uint32_t sample, const Pixel& neighbour, std::uint16_t beside, int row,
+                     std::size_t own) {
     const Pixel pixel{&beside_[1], row};
     for (std::size_t k = own; k < pixel_.size(); ++k)
-      if (isSame(pixel_[k].of, pixel, sample, pixel)) {
+      if (isSame(pixel_[k].of, pixel, sample, pixel) &&
+          ((pixel_[k].roles & all_.roles[sample]) != 0 || !neighbour.holds(pixel_[k].of))) {
         pixel_[k].roles |= all_.roles[sample];
         return;
       }
+    findRivals(sample, row);
     Met met;
     meet(sample, row, beside, met);
     if (met.parts == 0) return;
@@ -212,7 +242,7 @@ class ColumnSilhouettes {
   void meet(std::uint32_t sample, int row, std::uint16_t asked, Met& met) {
     for (int part = 0; part < kParts; ++part) {
       if ((asked >> part & 1) == 0) continue;
-      const Hit hit = rays_.meet(sample, rays_.through(column_, row, part));
+      const Hit hit = rays_.meet(sample, rays_.through(column_, row, part), rivals_);
       if (!hit.found()) continue;
       met.parts |= std::uint16_t(1u << part);
       met.hits[std::size_t(part)] = hit;
@@ -283,6 +313,7 @@ class ColumnSilhouettes {
     const HalfColour plain = all_.colour[sample];
     const bool isMirror = !reflections_ && !all_.mirror.empty() && all_.mirror[sample] != 0;
     if (!isOpaque(sample) || isSky(sample) || isMirror || !contrasts(sample, row)) return plain;
+    findRivals(sample, row);
     const glm::vec3 shown(unpackColour(plain));
     glm::vec3 own = shown;
     if (reflections_) {  // which the mirror tints
@@ -305,7 +336,7 @@ class ColumnSilhouettes {
   }
   /// The sample's surface in that direction; nothing where it is not, or clear.
   std::optional<glm::vec3> look(std::uint32_t sample, const PartRays::Direction& direction, float width) {
-    const Hit hit = rays_.meet(sample, direction);
+    const Hit hit = rays_.meet(sample, direction, rivals_);
     if (!hit.found()) return {};
     const Shaded shaded = rays_.shade(sample, hit, direction, width);
     if (shaded.alpha < kOpaqueAlpha) return {};
@@ -318,13 +349,14 @@ class ColumnSilhouettes {
     eachNeighbour(row, [&](const Pixel& neighbour, int, int) {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end() && !found; ++i) {
         const glm::vec3 its(unpackColour(all_.colour[i]));
-        found = isContrast(glm::min(own, its), glm::max(own, its)) && isSame(i, neighbour, sample, pixel);
+        found = isContrast(glm::min(own, its), glm::max(own, its)) &&
+                (all_.roles[i] & all_.roles[sample]) != 0 && isSame(i, neighbour, sample, pixel);
       }
     });
     return found;
   }
   static bool isContrast(const glm::vec3& least, const glm::vec3& most) {
-    return glm::any(glm::greaterThan(most, kContrast * least));
+    return glm::any(glm::greaterThan(most, (1 + kContrast) * least));
   }
 
   const ColumnMarch::Setting& setting_;
@@ -338,6 +370,7 @@ class ColumnSilhouettes {
   std::array<Beside, 3> beside_;
   int column_ = 0;
   std::vector<New> pixel_;
+  std::vector<SurfacePlane> rivals_;
   RegionSight::Hints hints_;
 };
 

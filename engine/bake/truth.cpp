@@ -108,7 +108,6 @@ Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const Perspective
   const DetailRules detail = detailRules(scene.plan());
   const ViewRays camera(view);
   const auto depends = [&](Ray ray) {
-    constexpr float kFaintlyMetallic = 0.05f;
     for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
       const Hit hit = scene.trace(ray);
       if (!hit.found()) return false;

@@ -35,6 +35,10 @@ struct ColumnCamera {
   /// Tangent of the elevation at row position y (y = r + 0.5 is the centre of row r).
   double tangentAt(double y) const;
   double elevationAt(double y) const { return topElevation - y * rowPitch(); }
+  /// By how much dot(normal, (c, t)) rises from one column to the next, and from one row to the next.
+  glm::dvec2 risePerSample(const glm::dvec3& normal, const glm::dvec2& c, double t) const {
+    return {columnPitch() * (normal.y * c.x - normal.x * c.y), -rowPitch() * (1 + t * t) * normal.z};
+  }
 
   void addTo(Hasher& hasher) const;
   bool operator==(const ColumnCamera&) const = default;

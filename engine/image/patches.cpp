@@ -24,7 +24,7 @@ constexpr float kHorizon = 0.02f;
 
 /// Pairs of patches that are looked at for the order of one strip: leaves make far more. Those left out are
 /// ordered by what the camera itself sees of them, and by how near they are.
-constexpr std::size_t kMostPairs = 4'000'000;
+constexpr std::size_t kMostPairs = 16'000'000;
 /// Samples of a pixel behind one that it is compared with.
 constexpr std::uint32_t kMostBehind = 64;
 
@@ -114,7 +114,8 @@ class Strip {
       for (int column = std::max(at.column - 1, first_); column <= std::min(at.column + 1, end_ - 1);
            ++column)
         for (int row = std::max(at.row - 1, firstRow); row <= std::min(at.row + 1, endRow - 1); ++row)
-          if (const std::uint32_t sample = findMember(patch, number, column, row); sample != kNone) {
+          if (const std::uint32_t sample = findMember(patch, number, at.sample, column, row);
+              sample != kNone) {
             owner(sample) = number;
             members.push_back({sample, column, row});
           }
@@ -131,15 +132,18 @@ class Strip {
     members_.push_back(std::move(members));
   }
 
-  /// The pixel's sample that belongs to the patch, if that has none of the pixel yet.
-  std::uint32_t findMember(const Patch& patch, std::uint32_t number, int column, int row) {
+  /// The pixel's sample that belongs to the patch beside one of its own, if it has none of the pixel yet: for
+  /// a role of both, since a surface may look different to each region.
+  std::uint32_t findMember(const Patch& patch, std::uint32_t number, std::uint32_t beside, int column,
+                           int row) {
     std::uint32_t found = kNone;
     double least = tolerance_;
     const double inverse = inverseAt(patch.plane, column, row);
     for (const std::uint32_t sample : pixels_.at(column, row)) {
       if (owner(sample) == number) return kNone;
       if (owner(sample) != kNone || planeOf(sample).away != patch.plane.away ||
-          isBlended(sample) != patch.blended || mirrorOf(sample) != patch.mirror)
+          isBlended(sample) != patch.blended || mirrorOf(sample) != patch.mirror ||
+          (samples_.roles[sample] & samples_.roles[beside]) == 0)
         continue;
       const double apart = std::abs(inverseAt(planeOf(sample), column, row) - inverse);
       if (apart <= least) least = apart, found = sample;
@@ -190,7 +194,7 @@ class Strip {
         for (const std::uint32_t a : pixel)
           for (std::uint32_t b = a + 1; b < std::min(*pixel.end(), a + kMostBehind); ++b) {
             const int shared = std::popcount(std::uint16_t(samples_.coverage[a] & samples_.coverage[b]));
-            if (shared == 0 || planeOf(a).away != 0 || planeOf(b).away != 0) continue;
+            if (planeOf(a).away != 0 || planeOf(b).away != 0) continue;
             const bool aFirst = inverseAt(planeOf(a), column, row) >= inverseAt(planeOf(b), column, row);
             const std::uint32_t before = owner(aFirst ? a : b), behind = owner(aFirst ? b : a);
             const auto [first, second] = std::minmax(before, behind);
@@ -199,7 +203,7 @@ class Strip {
               at = all.size();
               all.push_back({first, second, 0, 0});
             }
-            (before < behind ? all[at].before : all[at].behind) += shared;
+            (before < behind ? all[at].before : all[at].behind) += std::max(shared, 1);
             now.push_back(at);
           }
         std::swap(last, now);

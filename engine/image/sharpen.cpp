@@ -14,7 +14,9 @@ std::vector<Rgba8> sharpenedColours(const ColumnCamera& camera, const CaptureSam
   for (int r = 0; r < camera.rows; ++r) tangent.push_back(camera.tangentAt(r + 0.5));
   const auto mirrorOf = [&](std::uint32_t i) { return samples.mirror.empty() ? 0 : samples.mirror[i]; };
   const auto isSame = [&](std::uint32_t a, std::uint32_t b, int column, int row) {
-    if (colours[a].a != colours[b].a || mirrorOf(a) != mirrorOf(b)) return false;
+    if (colours[a].a != colours[b].a || mirrorOf(a) != mirrorOf(b) ||
+        (samples.roles[a] & samples.roles[b]) == 0)
+      return false;
     if (samples.plane[a] == samples.plane[b]) return true;
     const SurfacePlane &planeA = samples.planes[samples.plane[a]], &planeB = samples.planes[samples.plane[b]];
     const auto& d = direction[std::size_t(column)];

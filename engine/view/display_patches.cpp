@@ -89,7 +89,7 @@ class TexelWriter {
           const SurfacePlane& plane = samples_.planes[samples_.plane[sample]];
           const double apart = std::abs(inverseAt(plane, column, row) - expected);
           if (apart > least || plane.away != patch.plane.away ||
-              (colours_[sample].a < 255) != patch.blended ||
+              (samples_.roles[sample] & patch.roles) == 0 || (colours_[sample].a < 255) != patch.blended ||
               (!samples_.mirror.empty() && samples_.mirror[sample] != patch.mirror))
             continue;
           least = apart;
@@ -130,19 +130,19 @@ class TexelWriter {
   }
   /// How much nearer one plane is than another around the middle of a pixel, in inverse distance.
   struct Difference {
-    double middle, across, down;  ///< there, and per sample
+    double middle;    ///< there
+    glm::dvec2 rise;  ///< per sample, across and down
 
     Difference(const TexelWriter& of, const SurfacePlane& a, const SurfacePlane& b, int column, int row) {
       const glm::dvec3 normal = glm::dvec3(a.normal) - glm::dvec3(b.normal);
       const glm::dvec2& direction = of.direction_[std::size_t(column)];
       const double tangent = of.tangent_[std::size_t(row)];
       middle = glm::dot(normal, glm::dvec3(direction, tangent));
-      across = of.camera_.columnPitch() * (normal.y * direction.x - normal.x * direction.y);
-      down = -of.camera_.rowPitch() * (1 + tangent * tangent) * normal.z;
+      rise = of.camera_.risePerSample(normal, direction, tangent);
     }
-    double perSample() const { return std::abs(across) + std::abs(down); }
+    double perSample() const { return std::abs(rise.x) + std::abs(rise.y); }
     double at(int part) const {
-      return middle + (0.25 * (part % 4) - 0.375) * across + (0.25 * (part / 4) - 0.375) * down;
+      return middle + (0.25 * (part % 4) - 0.375) * rise.x + (0.25 * (part / 4) - 0.375) * rise.y;
     }
   };
   /// In which parts of a pixel (texel i, j of the patch) the patch's own samples there and beside it meet

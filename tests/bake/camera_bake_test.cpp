@@ -11,6 +11,7 @@
 namespace acentric {
 namespace {
 
+using test::bakeAsSet;
 using test::Baked;
 using test::bakeFrom;
 using test::cameraAt;
@@ -248,6 +249,39 @@ TEST(BakeCamera, RefusesSettingsOutOfRange) {
       CameraBaker(*scene, bad).bake(camera, columnCameraFor(camera, 1.6, 1, {}, {}), runner, counts);
   ASSERT_FALSE(capture.has_value());
   EXPECT_EQ(capture.error().kind, ErrorKind::invalidArgument);
+}
+
+/// A pane that the camera sees at a slant and the regions on either side of it do not.
+TEST(BakeCamera, GivesEachRegionTheGlassAsItSeesIt) {
+  SceneBuilder builder = room();
+  Material glass = matte({0.9f, 0.9f, 0.9f});
+  glass.transmission = 1;
+  builder.quad(builder.material(glass), {3, 0.8f, 0}, {5, 0.8f, 0}, {5, 0.8f, 3}, {3, 0.8f, 3});
+  const RayScenePtr scene = builder.rays();
+  BakeSettings settings;
+  settings.samplesPerDegree = 2;
+  const ConvexPolygon near = square(0.4, {0, 0.2}), far = square(0.4, {0, -3});
+  const Baked both = bakeAsSet(scene, cameraAt({0, 0}, {near, far}), settings);
+  const auto paneOf = [&](const Baked& baked, int roles) {
+    std::vector<Baked::Sample> panes;
+    for (const auto& sample : baked.pixel(std::atan2(0.8, 4.0), 0))
+      if (sample.colour.a < 1 && (sample.roles & roles) != 0) panes.push_back(sample);
+    return panes;
+  };
+  ASSERT_EQ(paneOf(both, 3).size(), 2u);
+  ASSERT_EQ(paneOf(both, 1).size(), 1u);
+  const auto alone = [&](const ConvexPolygon& region) {
+    return paneOf(bakeAsSet(scene, cameraAt({0, 0}, {region}), settings), 1).at(0);
+  };
+  const Baked::Sample asNear = alone(near), asFar = alone(far);
+  EXPECT_EQ(paneOf(both, 1)[0].colour, asNear.colour);
+  EXPECT_EQ(paneOf(both, 2)[0].colour, asFar.colour);
+  EXPECT_GT(asNear.colour.a, asFar.colour.a + 0.2) << "glass hides more at a slant";
+  // Matte surfaces look the same from everywhere.
+  for (const auto& sample : both.pixel(radians(-20.0), 0)) EXPECT_EQ(sample.roles, 3);
+  // And so does the pane to regions that see it alike.
+  const Baked alike = bakeAsSet(scene, cameraAt({0, 0}, {near, square(0.4, {0.1, 0.2})}), settings);
+  EXPECT_EQ(paneOf(alike, 3).size(), 1u);
 }
 
 }  // namespace

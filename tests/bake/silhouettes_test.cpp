@@ -98,6 +98,63 @@ TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
   EXPECT_LE(over, parts / 500);
 }
 
+/// A board closer before a wall than curved surfaces may leave their planes covers itself alone, and does not
+/// spread to where the wall is seen beside it.
+TEST(Silhouettes, OfMouldingsEndWhereTheWallBehindBegins) {
+  SceneBuilder builder;
+  const int grey = builder.material(matte({0.5f, 0.5f, 0.5f}));
+  builder.quad(grey, {12, 40, -30}, {12, -40, -30}, {12, -40, 30}, {12, 40, 30});
+  builder.quad(grey, {11.2f, 0.93f, 1.07f}, {11.2f, -0.71f, 1.07f}, {11.2f, -0.71f, 2.91f},
+               {11.2f, 0.93f, 2.91f});
+  const auto scene = builder.rays();
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const ColumnCamera& camera = baked.columns;
+  int wrong = 0, onBoard = 0;
+  for (int column = 1; column + 1 < camera.columns; ++column)
+    for (int row = 1; row + 1 < camera.rows; ++row)
+      for (int part = 0; part < 16; ++part) {
+        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
+        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
+        if (std::abs(way.y / way.x) > 0.3 || std::abs(way.z / way.x) > 0.3) continue;
+        const Hit met = scene->trace({glm::vec3(camera.centreOfProjection), glm::vec3(glm::normalize(way))});
+        const bool board = met.mesh == 1;
+        onBoard += board;
+        wrong += covering(baked.capture, column, row, part) != (board ? 2 : 1);
+      }
+  EXPECT_GT(onBoard, 3000);
+  EXPECT_LE(wrong, onBoard / 500);
+}
+
+/// A pane and its bar lie in one plane: neither covers the other.
+TEST(Silhouettes, OfBarsEndWhereThePanesBesideThemBegin) {
+  SceneBuilder builder;
+  Material glass = matte({0.9f, 0.9f, 0.9f});
+  glass.transmission = 1;
+  const int grey = builder.material(matte({0.5f, 0.5f, 0.5f})), clear = builder.material(glass);
+  builder.box(grey, {30, -60, -60}, {60, 60, 60});
+  builder.quad(grey, {5, 0.033f, -10}, {5, -0.041f, -10}, {5, -0.041f, 10}, {5, 0.033f, 10});
+  builder.quad(clear, {5, 3, -10}, {5, 0.033f, -10}, {5, 0.033f, 10}, {5, 3, 10});
+  const auto scene = builder.rays();
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
+  const ColumnCamera& camera = baked.columns;
+  int wrong = 0, parts = 0;
+  for (int column = 0; column < camera.columns; ++column)
+    for (auto i = baked.capture.columnStart[std::size_t(column)];
+         i < baked.capture.columnStart[std::size_t(column) + 1]; ++i) {
+      if (1 / baked.capture.inverseDistance[i] > 6) continue;
+      const bool opaque = unpackColour(baked.capture.colour[i]).a >= 1;
+      for (int part = 0; part < 16; ++part) {
+        if ((baked.capture.coverage[i] >> part & 1) == 0) continue;
+        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
+        const bool onBar = 5 * across.y / across.x < 0.033;
+        ++parts;
+        wrong += opaque != onBar;
+      }
+    }
+  EXPECT_GT(parts, 5000);
+  EXPECT_EQ(wrong, 0);
+}
+
 /// Shadows of slats overhead, on the floor: half of them on half a sample.
 SceneBuilder stripedFloor() {
   SceneBuilder builder;

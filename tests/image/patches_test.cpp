@@ -25,6 +25,7 @@ class CaptureOfPlanes {
     std::function<bool(int, int)> holds;  ///< column, row
     std::uint8_t mirror = 0;
     bool blended = false;
+    std::uint8_t roles = 1;
   };
   explicit CaptureOfPlanes(const std::vector<Plane>& planes) {
     for (const Plane& plane : planes) capture_.planes.push_back(plane.plane);
@@ -39,7 +40,7 @@ class CaptureOfPlanes {
           capture_.row.push_back(std::uint16_t(row));
           capture_.inverseDistance.push_back(float(inverse));
           capture_.colour.push_back(packColour({1, 1, 1, planes[i].blended ? 0.5 : 1}));
-          capture_.roles.push_back(1);
+          capture_.roles.push_back(planes[i].roles);
           capture_.mirror.push_back(planes[i].mirror);
           capture_.coverage.push_back(kWholePixel);
           capture_.plane.push_back(i);
@@ -112,6 +113,12 @@ TEST(Patches, OfOneWallAreTheTilesAlone) {
   // 20 x 30 degrees at 4 samples per degree: strips of 4 degrees, tiles of 8.
   EXPECT_EQ(of.patches().stripColumns, 16);
   EXPECT_EQ(of.patches().patches.size(), 5u * 4);
+}
+
+TEST(Patches, OfOneSurfaceThatLooksDifferentToEachRegionAreOneForEach) {
+  const CaptureOfPlanes of({{wall(5), everywhere, 0, true, 1}, {wall(5), everywhere, 0, true, 6}});
+  for (const Patch& patch : of.patches().patches) EXPECT_TRUE(patch.roles == 1 || patch.roles == 6);
+  EXPECT_EQ(of.placesOf(0).size(), of.placesOf(1).size());
 }
 
 TEST(Patches, ThatMayHideOthersComeFirst) {
