@@ -9,7 +9,7 @@
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/part_rays.h"
 #include "engine/bake/surface_planes.h"
-#include "engine/image/patches.h"
+#include "engine/bake/turned_samples.h"
 
 namespace acentric {
 namespace {
@@ -38,18 +38,8 @@ struct Facet {
   double width = 0;      ///< about that line, radians
 };
 
-struct Added {
-  std::uint32_t pixel = 0;  ///< column * rows + row
-  float inverseDistance = 0;
-  HalfColour colour{0};
-  std::uint8_t roles = 0, mirror = 0;
-  std::uint16_t coverage = 0;
-  SurfacePlane plane;
-  SurfacePlane met;  ///< the same of what rays meet
-};
-
 struct Task {
-  std::vector<Added> added;
+  std::vector<TurnedSample> added;
   CaptureCounts counts;
 };
 
@@ -103,6 +93,10 @@ class EdgeOnFacets {
     const double area2 = glm::dot(cross, cross), distance2 = glm::dot(middle, middle),
                  volume = glm::dot(cross, x[0]);
     if (!(volume * volume < kSteep * kSteep * area2 * distance2)) return {};
+    const auto isAtCamera = [&](const glm::dvec3& corner) {
+      return !(glm::length(corner) > nearestSample(setting_.camera));
+    };
+    if (std::ranges::any_of(x, isAtCamera)) return {};
     const auto isAside = [&](const glm::dvec3& corner) {
       const glm::dvec2 plan(corner);
       return glm::dot(plan, ahead_) < widestCosine_ * glm::length(plan);
@@ -212,7 +206,8 @@ class EdgeOnFacets {
   }
 
   void addPixel(const Facet& facet, const Turn& turn, std::uint32_t pixel) {
-    const int column = int(pixel) / camera_.rows, row = int(pixel) % camera_.rows;
+    const int column = int(pixel / std::uint32_t(camera_.rows)),
+              row = int(pixel % std::uint32_t(camera_.rows));
     std::uint16_t coverage = 0;
     Place place;
     float least = 2;
@@ -237,14 +232,14 @@ class EdgeOnFacets {
     if (seers.roles == 0) return;
     const std::optional<glm::vec3> radiance = radianceOf(hit, surface, turn.side, seers, glm::vec3(way));
     if (!radiance) return;
-    Added added{pixel,
-                0,
-                packColour({*radiance, 1}),
-                seers.roles,
-                mirror_ == nullptr ? std::uint8_t(0) : mirror_->number,
-                coverage,
-                {},
-                planeMet(facet)};
+    TurnedSample added{pixel,
+                       0,
+                       packColour({*radiance, 1}),
+                       seers.roles,
+                       mirror_ == nullptr ? std::uint8_t(0) : mirror_->number,
+                       coverage,
+                       {},
+                       planeMet(facet)};
     const glm::dvec3 plane = facet.normal / facet.height;
     added.plane.normal =
         glm::vec3(plane - (1 - turn.narrower) * glm::dot(plane, facet.across) * facet.across);
@@ -325,72 +320,6 @@ class EdgeOnFacets {
   std::vector<MirrorSight::Span> spans_;
 };
 
-std::uint32_t pixelOf(std::size_t column, int row, int rows) {
-  return std::uint32_t(column) * std::uint32_t(rows) + std::uint32_t(row);
-}
-
-/// Takes away what rays met of the same facets in the same parts; their roles go to what replaces it.
-void replaceMet(std::vector<Added>& added, int rows, CaptureSamples& list) {
-  for (std::size_t column = 0; column + 1 < list.columnStart.size(); ++column)
-    for (std::uint32_t i = list.columnStart[column]; i < list.columnStart[column + 1]; ++i) {
-      const std::uint32_t pixel = pixelOf(column, list.row[i], rows);
-      const SurfacePlane plane = list.planes[list.plane[i]];
-      for (auto a = std::ranges::lower_bound(added, pixel, {}, &Added::pixel);
-           a != added.end() && a->pixel == pixel; ++a) {
-        if (a->met != plane || (!list.mirror.empty() && a->mirror != list.mirror[i])) continue;
-        a->roles |= list.roles[i];
-        list.coverage[i] &= std::uint16_t(~a->coverage);
-      }
-    }
-}
-
-/// The samples that still cover something and those that are added; `added` is sorted as captures are.
-CaptureSamples merged(const CaptureSamples& list, const std::vector<Added>& added, int rows) {
-  CaptureSamples out;
-  out.planes = list.planes;
-  out.columnStart.push_back(0);
-  auto next = added.begin();
-  const auto addBefore = [&](std::uint32_t pixel, float inverseDistance) {
-    for (; next != added.end() &&
-           (next->pixel < pixel || (next->pixel == pixel && next->inverseDistance > inverseDistance));
-         ++next) {
-      out.row.push_back(std::uint16_t(next->pixel % std::uint32_t(rows)));
-      out.inverseDistance.push_back(next->inverseDistance);
-      out.colour.push_back(next->colour), out.roles.push_back(next->roles);
-      if (!list.mirror.empty()) out.mirror.push_back(next->mirror);
-      out.coverage.push_back(next->coverage);
-      out.plane.push_back(std::uint32_t(out.planes.size()));
-      out.planes.push_back(next->plane);
-    }
-  };
-  for (std::size_t column = 0; column + 1 < list.columnStart.size(); ++column) {
-    for (std::uint32_t i = list.columnStart[column]; i < list.columnStart[column + 1]; ++i) {
-      if (list.coverage[i] == 0) continue;
-      addBefore(pixelOf(column, list.row[i], rows), list.inverseDistance[i]);
-      out.row.push_back(list.row[i]), out.inverseDistance.push_back(list.inverseDistance[i]);
-      out.colour.push_back(list.colour[i]), out.roles.push_back(list.roles[i]);
-      if (!list.mirror.empty()) out.mirror.push_back(list.mirror[i]);
-      out.coverage.push_back(list.coverage[i]), out.plane.push_back(list.plane[i]);
-    }
-    addBefore(pixelOf(column + 1, 0, rows), HUGE_VALF);
-    out.columnStart.push_back(std::uint32_t(out.row.size()));
-  }
-  return out;
-}
-
-/// Pixels by how many samples they have, as SampleCounts does.
-SampleCounts countsOf(const CaptureSamples& list) {
-  SampleCounts counts;
-  for (std::size_t column = 0; column + 1 < list.columnStart.size(); ++column) {
-    std::size_t layer = 0;
-    for (std::uint32_t i = list.columnStart[column]; i < list.columnStart[column + 1]; ++i) {
-      layer = i > list.columnStart[column] && list.row[i] == list.row[i - 1] ? layer + 1 : 0;
-      ++counts.kept[std::min(layer, SampleCounts::kLayers - 1)];
-    }
-  }
-  return counts;
-}
-
 }  // namespace
 
 void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
@@ -422,18 +351,14 @@ void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, Tas
         facets.add(range.mesh, t);
       tasks[number] = std::move(task);
     });
-    std::vector<Added> added;
+    std::vector<TurnedSample> added;
     for (Task& task : tasks) {
       counts += task.counts;
       added.insert(added.end(), task.added.begin(), task.added.end());
       task = {};
     }
     if (added.empty() || stop.stop_requested()) return;
-    std::ranges::stable_sort(added, [](const Added& a, const Added& b) {
-      return a.pixel != b.pixel ? a.pixel < b.pixel : a.inverseDistance > b.inverseDistance;
-    });
-    replaceMet(added, rows, list);
-    list = merged(list, added, rows);
+    mergeTurned(std::move(added), rows, list);
   };
   const auto before = countsOf(capture);
   turn({nullptr}, capture);

@@ -1,6 +1,7 @@
 #include "engine/bake/part_rays.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace acentric {
@@ -13,6 +14,30 @@ constexpr double kCurved = 3;
 constexpr int kMostBeforePlane = 4;
 
 }  // namespace
+
+std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
+  std::uint16_t parts = 0;
+  for (int y = 0; y < kCoverageParts; ++y)
+    for (int x = 0; x < kCoverageParts; ++x) {
+      const auto isBeside = [](int step, int at) { return step == 0 || at == (step < 0 ? 0 : 3); };
+      if (isBeside(acrossColumns, x) && isBeside(acrossRows, y)) parts |= partBit(x, y);
+    }
+  return parts;
+}
+
+int middlePart(std::uint16_t parts) {
+  const auto placeOf = [](int part) { return glm::dvec2(part % kCoverageParts, part / kCoverageParts); };
+  glm::dvec2 sum(0);
+  for (int part = 0; part < kPixelPartCount; ++part)
+    if ((parts >> part & 1) != 0) sum += placeOf(part);
+  const glm::dvec2 middle = sum / double(std::popcount(parts));
+  int best = -1;
+  for (int part = 0; part < kPixelPartCount; ++part)
+    if ((parts >> part & 1) != 0 &&
+        (best < 0 || glm::distance(placeOf(part), middle) < glm::distance(placeOf(best), middle)))
+      best = part;
+  return best;
+}
 
 PartAngles::PartAngles(const ColumnCamera& camera) {
   const auto at = [](int part) { return (part + 0.5) / kCoverageParts; };

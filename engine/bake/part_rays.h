@@ -13,6 +13,11 @@ namespace acentric {
 inline constexpr int kPixelPartCount = kCoverageParts * kCoverageParts;
 constexpr std::uint16_t partBit(int x, int y) { return std::uint16_t(1u << (kCoverageParts * y + x)); }
 
+/// The parts of a pixel beside its neighbour in that direction.
+std::uint16_t partsTowards(int acrossColumns, int acrossRows);
+/// The part nearest to the middle of those that a mask has, which is not 0.
+int middlePart(std::uint16_t parts);
+
 /// Directions of the parts of all pixels, and of the pixels' own rays.
 struct PartAngles {
   explicit PartAngles(const ColumnCamera& camera);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -18,17 +17,6 @@ constexpr std::uint16_t kCorners = partBit(0, 0) | partBit(3, 0) | partBit(0, 3)
 constexpr std::uint16_t kMiddle = partBit(1, 1);
 /// One in each row and column.
 constexpr std::uint16_t kSpread = partBit(1, 0) | partBit(3, 1) | partBit(0, 2) | partBit(2, 3);
-
-/// The parts of a pixel beside its neighbour in that direction.
-std::uint16_t partsTowards(int acrossColumns, int acrossRows) {
-  std::uint16_t parts = 0;
-  for (int y = 0; y < kCoverageParts; ++y)
-    for (int x = 0; x < kCoverageParts; ++x) {
-      const auto isBeside = [](int step, int at) { return step == 0 || at == (step < 0 ? 0 : 3); };
-      if (isBeside(acrossColumns, x) && isBeside(acrossRows, y)) parts |= partBit(x, y);
-    }
-  return parts;
-}
 
 /// Of some neighbouring columns.
 struct NewSamples {
@@ -230,7 +218,7 @@ class ColumnSilhouettes {
       meet(sample, row, std::uint16_t(~few), met);
       coverage = met.parts;
     }
-    const int part = middleOf(met.parts);
+    const int part = middlePart(met.parts);
     if (!isSeen(sample, met.hits[std::size_t(part)], row, part)) return;
     New added{sample, coverage};
     if (!shade(sample, met.hits[std::size_t(part)], part, row, added)) return;
@@ -263,21 +251,6 @@ class ColumnSilhouettes {
           setting_.sight->sees(role, surface, tolerance, hints_, out_.counts.rays) == side)
         return true;
     return false;
-  }
-
-  /// The part nearest to the middle of those that a mask has.
-  static int middleOf(std::uint16_t parts) {
-    glm::dvec2 sum(0);
-    const auto placeOf = [](int part) { return glm::dvec2(part % kCoverageParts, part / kCoverageParts); };
-    for (int part = 0; part < kParts; ++part)
-      if ((parts >> part & 1) != 0) sum += placeOf(part);
-    const glm::dvec2 middle = sum / double(std::popcount(parts));
-    int best = -1;
-    for (int part = 0; part < kParts; ++part)
-      if ((parts >> part & 1) != 0 &&
-          (best < 0 || glm::distance(placeOf(part), middle) < glm::distance(placeOf(best), middle)))
-        best = part;
-    return best;
   }
 
   /// False where the surface is not what the neighbour's sample is.
