@@ -175,12 +175,13 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     capture.camera = columns;
     capture.distanceStep = setting.distanceStep;
     if (capture.background.runCount() > 0) capture.background.sky = shader_->sky();
-    if (capture.hasSilhouettes() || capture.reflections.hasSilhouettes())
+    if (settings_.silhouettes) {
       capture.planeTolerance = planeToleranceFor(camera, columns);
-    if (settings_.silhouettes) traceSilhouettes(setting, capture, runner, counts, stop);
-    if (settings_.silhouettes && !stop.stop_requested())
-      turnEdgeOnFacets(setting, capture, runner, counts, stop);
+      traceSilhouettes(setting, capture, runner, counts, stop);
+      if (!stop.stop_requested()) turnEdgeOnFacets(setting, capture, runner, counts, stop);
+    }
     if (stop.stop_requested()) return stopped();
+    if (!capture.hasSilhouettes() && !capture.reflections.hasSilhouettes()) capture.planeTolerance = 0;
     if (settings_.silhouettes)
       for (CaptureSamples* list : {static_cast<CaptureSamples*>(&capture), &capture.reflections})
         numberPlanes(*list, capture.distanceStep);

@@ -130,6 +130,16 @@ TEST(EdgeOnFacets, CoverAFewPartsOfTheirPixelsAndEachOnce) {
   EXPECT_LE(twice, parts / 20) << "its halves are triangles that meet";
 }
 
+TEST(EdgeOnFacets, MayBeAllThatACaptureHolds) {
+  SceneBuilder builder;
+  builder.quad(builder.material(unlit(kRed)), {kFar, 1.2f}, {kNear, 1.2f}, {kNear, 2.1f}, {kFar, 2.1f});
+  BakeSettings settings = coarse();
+  settings.samplesPerDegree = 2;
+  const Baked baked = bakeAsSet(builder.rays(), cameraAt({0, 0}, {square(0.5)}), settings);
+  EXPECT_GT(baked.capture.sampleCount(), 0u);
+  EXPECT_EQ(baked.counts.keptInAll(), baked.capture.sampleCount());
+}
+
 TEST(EdgeOnFacets, ThatNoEyeSeesHaveNoSamples) {
   SceneBuilder builder = facetBeforeWall();
   builder.box(0, {2, -10, -10}, {2.1f, 10, 10});
