@@ -36,6 +36,7 @@ struct Facet {
   double height = 0;     ///< of its plane: dot(normal, X)
   glm::dvec3 across{0};  ///< unit, normal to the plane through camera and middle line
   double width = 0;      ///< about that line, radians
+  SurfacePlane met;      ///< as a ray that meets it tells
 };
 
 struct Task {
@@ -86,7 +87,7 @@ class EdgeOnFacets {
   std::optional<Facet> facetOf(std::uint32_t number, std::uint32_t triangle) {
     const Mesh& mesh = scene_.meshes[number];
     const glm::uvec3& corners = mesh.triangles[triangle];
-    Facet facet{number, triangle, {}, {}, 0, {}, 0};
+    Facet facet{number, triangle, {}, {}, 0, {}, 0, {}};
     auto& x = facet.corners;
     for (int k = 0; k < 3; ++k) x[std::size_t(k)] = fromCamera(mesh.positions[corners[k]]);
     const glm::dvec3 cross = glm::cross(x[1] - x[0], x[2] - x[0]), middle = (x[0] + x[1] + x[2]) / 3.0;
@@ -115,6 +116,7 @@ class EdgeOnFacets {
       facet.width = std::max(facet.width, 2 * std::abs(glm::dot(facet.across, corner)) / glm::length(corner));
     const double slope = glm::dot(facet.normal, facet.across) / facet.height;
     if (!(facet.width < kWidest * part()) || !(std::abs(slope) * facet.width > kDeep * tolerance_)) return {};
+    facet.met = planeMet(facet);
     return facet;
   }
   double part() const { return pitch_ / kCoverageParts; }
@@ -139,7 +141,6 @@ class EdgeOnFacets {
     if (glm::length(across) > kLeastAcross) return glm::normalize(across);
     return glm::normalize(glm::cross(ray, glm::cross(normal, ray)));
   }
-  /// As a ray that meets it tells.
   SurfacePlane planeMet(const Facet& facet) const {
     const Hit hit{float(glm::length(facet.corners[0])), facet.mesh, facet.triangle, {}, {}};
     const glm::dvec3 way = facet.corners[0];
@@ -212,7 +213,8 @@ class EdgeOnFacets {
     Place place;
     float least = 2;
     for (int part = 0; part < kPixelPartCount; ++part) {
-      const std::optional<Place> met = placeAlong(facet, turn.narrower, wayThrough(column, row, part));
+      const std::optional<Place> met =
+          placeAlong(facet, turn.narrower, parts_.through(column, row, part).unit());
       if (!met) continue;
       coverage |= std::uint16_t(1u << part);
       if (const float off = glm::distance(met->weights, glm::vec2(1.0f / 3)); off < least)
@@ -239,7 +241,7 @@ class EdgeOnFacets {
                        mirror_ == nullptr ? std::uint8_t(0) : mirror_->number,
                        coverage,
                        {},
-                       planeMet(facet)};
+                       facet.met};
     const glm::dvec3 plane = facet.normal / facet.height;
     added.plane.normal =
         glm::vec3(plane - (1 - turn.narrower) * glm::dot(plane, facet.across) * facet.across);
@@ -247,14 +249,8 @@ class EdgeOnFacets {
     const double own = added.plane.inverseDistance(camera_.directionAt(column + 0.5),
                                                    camera_.tangentAt(row + 0.5)),
                  met = 1 / glm::length(glm::dvec2(place.at));
-    added.inverseDistance =
-        storedInverseDistance(own > 0.5 * met && own < 2 * met ? own : met, setting_.distanceStep);
+    added.inverseDistance = storedInverseDistance(ownInverseDistance(own, met), setting_.distanceStep);
     out_.added.push_back(added);
-  }
-  glm::dvec3 wayThrough(int column, int row, int part) const {
-    const glm::dvec2& plan = parts_.column[std::size_t(kCoverageParts * column + part % kCoverageParts)];
-    const PartAngles::Row& up = parts_.row[std::size_t(kCoverageParts * row + part / kCoverageParts)];
-    return {plan * up.cosine, up.sine};
   }
 
   /// Who sees a side.
@@ -325,13 +321,12 @@ class EdgeOnFacets {
 void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
                       CaptureCounts& counts, const std::stop_token& stop) {
   const Scene& scene = setting.shader.scene().scene();
-  const std::vector<MaterialRules> rules = materialRules(scene, setting.shader.scene().plan());
   struct Range {
     std::uint32_t mesh, first, end;
   };
   std::vector<Range> ranges;
   for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    const MaterialRules& rule = rules[std::size_t(scene.meshes[mesh].material)];
+    const MaterialRules& rule = setting.shader.rules()[std::size_t(scene.meshes[mesh].material)];
     if (rule.clear() || rule.masked) continue;
     const std::size_t count = scene.meshes[mesh].triangles.size();
     for (std::size_t first = 0; first < count; first += kTrianglesPerTask)

@@ -46,38 +46,37 @@ PartAngles::PartAngles(const ColumnCamera& camera) {
     return Row{std::cos(elevation), std::sin(elevation)};
   };
   for (int part = 0; part < kCoverageParts * camera.columns; ++part)
-    column.push_back(camera.directionAt(at(part)));
-  for (int part = 0; part < kCoverageParts * camera.rows; ++part) row.push_back(rowAt(at(part)));
-  for (int k = 0; k < camera.columns; ++k) ownColumn.push_back(camera.directionAt(k + 0.5));
-  for (int k = 0; k < camera.rows; ++k) ownRow.push_back(rowAt(k + 0.5));
+    columns_.push_back(camera.directionAt(at(part)));
+  for (int part = 0; part < kCoverageParts * camera.rows; ++part) rows_.push_back(rowAt(at(part)));
+  for (int k = 0; k < camera.columns; ++k) ownColumns_.push_back(camera.directionAt(k + 0.5));
+  for (int k = 0; k < camera.rows; ++k) ownRows_.push_back(rowAt(k + 0.5));
 }
 
-PartRays::PartRays(const ColumnMarch::Setting& setting, const PartAngles& angles,
-                   const CaptureSamples& samples, bool reflections, double tolerance, CaptureCounts& counts)
+PartAngles::Direction PartAngles::through(int column, int row, int part) const {
+  return {columns_[std::size_t(kCoverageParts * column + part % kCoverageParts)],
+          rows_[std::size_t(kCoverageParts * row + part / kCoverageParts)]};
+}
+
+PartAngles::Direction PartAngles::through(int column, int row) const {
+  return {ownColumns_[std::size_t(column)], ownRows_[std::size_t(row)]};
+}
+
+PartRays::PartRays(const ColumnMarch::Setting& setting, const CaptureSamples& samples, bool reflections,
+                   double tolerance, CaptureCounts& counts)
     : setting_(setting),
-      angles_(angles),
       samples_(samples),
       reflections_(reflections),
       tolerance_(tolerance),
-      counts_(counts),
-      rules_(materialRules(setting.shader.scene().scene(), setting.shader.scene().plan())) {
+      counts_(counts) {
   if (reflections)
     for (const FlatMirror& mirror : setting.mirrors->sides()) mirrors_[mirror.number] = mirror;
-}
-
-PartRays::Direction PartRays::through(int column, int row, int part) const {
-  return {angles_.column[std::size_t(kCoverageParts * column + part % kCoverageParts)],
-          angles_.row[std::size_t(kCoverageParts * row + part / kCoverageParts)]};
-}
-
-PartRays::Direction PartRays::through(int column, int row) const {
-  return {angles_.ownColumn[std::size_t(column)], angles_.ownRow[std::size_t(row)]};
 }
 
 double PartRays::loose() const { return kCurved * tolerance_; }
 
 bool PartRays::mayBe(bool opaque, const Hit& hit) const {
-  const MaterialRules& rule = rules_[std::size_t(setting_.shader.scene().scene().meshes[hit.mesh].material)];
+  const std::size_t material(setting_.shader.scene().scene().meshes[hit.mesh].material);
+  const MaterialRules& rule = setting_.shader.rules()[material];
   return opaque ? !rule.transmissive : rule.clear();
 }
 
@@ -86,7 +85,7 @@ Hit PartRays::meet(std::uint32_t sample, const Direction& direction, std::span<c
   const double w = planeOf(sample).inverseDistance(direction.plan, direction.row.sine / flat);
   if (!(w > 0)) return {};
   const double loose = this->loose();
-  glm::dvec3 origin = setting_.columns.centreOfProjection, way(direction.plan * flat, direction.row.sine);
+  glm::dvec3 origin = setting_.columns.centreOfProjection, way = direction.unit();
   if (reflections_) {
     const FlatMirror& mirror = mirrors_[samples_.mirror[sample]];
     origin = mirror.imageOf(origin), way = mirror.reflected(way);
@@ -110,7 +109,7 @@ Hit PartRays::meet(std::uint32_t sample, const Direction& direction, std::span<c
 }
 
 Shaded PartRays::shade(std::uint32_t sample, const Hit& hit, const Direction& direction, float width) {
-  glm::vec3 way = direction.unit();
+  glm::vec3 way(direction.unit());
   SampleFootprint footprint = sampleFootprint(setting_, way);
   footprint.spread.across *= width, footprint.spread.along *= width;
   if (reflections_) {

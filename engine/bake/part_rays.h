@@ -18,33 +18,43 @@ std::uint16_t partsTowards(int acrossColumns, int acrossRows);
 /// The part nearest to the middle of those that a mask has, which is not 0.
 int middlePart(std::uint16_t parts);
 
+/// Where the pixel's own ray meets a plane that a ray through one of its parts meets at `met`; if that is
+/// elsewhere altogether, `met`. 1/m.
+inline double ownInverseDistance(double own, double met) {
+  return own > 0.5 * met && own < 2 * met ? own : met;
+}
+
 /// Directions of the parts of all pixels, and of the pixels' own rays.
-struct PartAngles {
+class PartAngles {
+ public:
   explicit PartAngles(const ColumnCamera& camera);
 
-  std::vector<glm::dvec2> column, ownColumn;
   struct Row {
     double cosine = 0, sine = 0;
   };
-  std::vector<Row> row, ownRow;
+  /// A ray's direction: unit, in plan and up.
+  struct Direction {
+    glm::dvec2 plan{0};
+    Row row;
+    glm::dvec3 unit() const { return {plan * row.cosine, row.sine}; }
+  };
+  Direction through(int column, int row, int part) const;
+  /// The pixel's own ray.
+  Direction through(int column, int row) const;
+
+ private:
+  std::vector<glm::dvec2> columns_, ownColumns_;
+  std::vector<Row> rows_, ownRows_;
 };
 
 /// On one thread.
 class PartRays {
  public:
   /// `samples`: of the capture, or what mirrors show in it (`reflections`). All must outlive it.
-  PartRays(const ColumnMarch::Setting& setting, const PartAngles& angles, const CaptureSamples& samples,
-           bool reflections, double tolerance, CaptureCounts& counts);
+  PartRays(const ColumnMarch::Setting& setting, const CaptureSamples& samples, bool reflections,
+           double tolerance, CaptureCounts& counts);
 
-  /// A ray's direction: unit, in plan and up.
-  struct Direction {
-    glm::dvec2 plan{0};
-    PartAngles::Row row;
-    glm::vec3 unit() const { return {glm::vec2(plan) * float(row.cosine), float(row.sine)}; }
-  };
-  Direction through(int column, int row, int part) const;
-  /// The pixel's own ray.
-  Direction through(int column, int row) const;
+  using Direction = PartAngles::Direction;
 
   /// Where the ray meets the sample's surface. What it meets nearer to another plane than to that of the
   /// sample belongs there.
@@ -61,12 +71,10 @@ class PartRays {
   const SurfacePlane& planeOf(std::uint32_t sample) const { return samples_.planes[samples_.plane[sample]]; }
 
   const ColumnMarch::Setting& setting_;
-  const PartAngles& angles_;
   const CaptureSamples& samples_;
   bool reflections_;
   double tolerance_;  ///< 1/m
   CaptureCounts& counts_;
-  std::vector<MaterialRules> rules_;
   std::array<FlatMirror, 256> mirrors_{};  ///< by number, of reflections
 };
 

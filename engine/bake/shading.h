@@ -61,6 +61,8 @@ class Shader {
     return kernel_(*this, hit, toViewer, seenInMirror, area ? &*area : nullptr, rays);
   }
   const DetailRules& detail() const { return detail_; }
+  /// By material.
+  const std::vector<MaterialRules>& rules() const { return rules_; }
   /// What is seen where a ray hits nothing; all zero (black) where the plan has none.
   Sky sky() const { return scene_->plan().on(Effect::sky) ? scene_->scene().sky : Sky{}; }
   glm::vec3 background(const glm::vec3& direction) const { return sky().radiance(direction); }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/part_rays.h"
@@ -31,7 +32,8 @@ class ColumnSilhouettes {
   ColumnSilhouettes(const ColumnMarch::Setting& setting, const PartAngles& parts, const CaptureSamples& all,
                     bool reflections, double tolerance, NewSamples& out)
       : setting_(setting),
-        rays_(setting, parts, all, reflections, tolerance, out.counts),
+        parts_(parts),
+        rays_(setting, all, reflections, tolerance, out.counts),
         all_(all),
         reflections_(reflections),
         out_(out),
@@ -48,6 +50,7 @@ class ColumnSilhouettes {
       if (beside.inImage) listRows(column + step, beside);
     }
     column_ = column;
+    rivalsOf_ = {0, -1};
     const std::size_t before = out_.list.row.size();
     for (int row = 0; row < rows_; ++row) addPixel(row);
     out_.perColumn.push_back(std::uint32_t(out_.list.row.size() - before));
@@ -119,6 +122,7 @@ class ColumnSilhouettes {
   /// The planes of other surfaces around that run close behind the sample's without meeting it in this pixel,
   /// as a wall does behind mouldings: these must not spread over it, while it may go on beneath them.
   void findRivals(std::uint32_t sample, int row) {
+    if (std::exchange(rivalsOf_, std::pair{sample, row}) == std::pair{sample, row}) return;
     rivals_.clear();
     const Pixel pixel{&beside_[1], row};
     const SurfacePlane& own = planeOf(sample);
@@ -230,7 +234,7 @@ class ColumnSilhouettes {
   void meet(std::uint32_t sample, int row, std::uint16_t asked, Met& met) {
     for (int part = 0; part < kParts; ++part) {
       if ((asked >> part & 1) == 0) continue;
-      const Hit hit = rays_.meet(sample, rays_.through(column_, row, part), rivals_);
+      const Hit hit = rays_.meet(sample, parts_.through(column_, row, part), rivals_);
       if (!hit.found()) continue;
       met.parts |= std::uint16_t(1u << part);
       met.hits[std::size_t(part)] = hit;
@@ -240,7 +244,7 @@ class ColumnSilhouettes {
   /// By a role of the sample, at that part.
   bool isSeen(std::uint32_t sample, const Hit& hit, int row, int part) {
     if (setting_.sight == nullptr || reflections_) return true;
-    const glm::vec3 direction = rays_.through(column_, row, part).unit();
+    const glm::vec3 direction(parts_.through(column_, row, part).unit());
     const glm::dvec3 point =
         setting_.columns.centreOfProjection + double(hit.distance) * glm::dvec3(direction);
     const MetSurface surface(hit, point, direction);
@@ -255,17 +259,15 @@ class ColumnSilhouettes {
 
   /// False where the surface is not what the neighbour's sample is.
   bool shade(std::uint32_t sample, const Hit& hit, int part, int row, New& out) {
-    const PartRays::Direction direction = rays_.through(column_, row, part);
-    // Where the pixel's own ray would meet the plane, unless that is elsewhere altogether.
+    const PartAngles::Direction direction = parts_.through(column_, row, part);
     const double met = 1 / (double(hit.distance) * direction.row.cosine),
                  own = at(planeOf(sample), {&beside_[1], row});
-    out.inverseDistance =
-        storedInverseDistance(own > 0.5 * met && own < 2 * met ? own : met, setting_.distanceStep);
+    out.inverseDistance = storedInverseDistance(ownInverseDistance(own, met), setting_.distanceStep);
     if (reflections_) {
       out.colour = all_.colour[sample], out.mirror = all_.mirror[sample];
       return true;
     }
-    const glm::vec3 way = direction.unit();
+    const glm::vec3 way(direction.unit());
     if (setting_.mirrors != nullptr && planeOf(sample).away == 0)
       out.mirror = setting_.mirrors->at(hit.mesh, hit.triangle, -way);
     const Shaded shaded = out.mirror != 0 ? mirrorSurface(hit, way) : rays_.shade(sample, hit, direction, 1);
@@ -290,7 +292,7 @@ class ColumnSilhouettes {
     const glm::vec3 shown(unpackColour(plain));
     glm::vec3 own = shown;
     if (reflections_) {  // which the mirror tints
-      const std::optional<glm::vec3> untinted = look(sample, rays_.through(column_, row), 1);
+      const std::optional<glm::vec3> untinted = look(sample, parts_.through(column_, row), 1);
       constexpr float kRoundings = 1.01f;  // no mirror shows more than there is: that is another surface
       if (!untinted || glm::any(glm::greaterThan(shown, kRoundings * *untinted))) return plain;
       own = *untinted;
@@ -299,7 +301,7 @@ class ColumnSilhouettes {
     int count = 1;
     for (int part = 0; part < kParts; ++part) {
       if ((kSpread & coverage & (1u << part)) == 0) continue;
-      const auto radiance = look(sample, rays_.through(column_, row, part), 0.5f);
+      const auto radiance = look(sample, parts_.through(column_, row, part), 0.5f);
       if (radiance) sum += *radiance, ++count;
     }
     glm::vec3 mean = sum / float(count);
@@ -308,7 +310,7 @@ class ColumnSilhouettes {
     return packColour({mean, 1});
   }
   /// The sample's surface in that direction; nothing where it is not, or clear.
-  std::optional<glm::vec3> look(std::uint32_t sample, const PartRays::Direction& direction, float width) {
+  std::optional<glm::vec3> look(std::uint32_t sample, const PartAngles::Direction& direction, float width) {
     const Hit hit = rays_.meet(sample, direction, rivals_);
     if (!hit.found()) return {};
     const Shaded shaded = rays_.shade(sample, hit, direction, width);
@@ -333,6 +335,7 @@ class ColumnSilhouettes {
   }
 
   const ColumnMarch::Setting& setting_;
+  const PartAngles& parts_;
   PartRays rays_;
   const CaptureSamples& all_;
   bool reflections_;
@@ -344,6 +347,7 @@ class ColumnSilhouettes {
   int column_ = 0;
   std::vector<New> pixel_;
   std::vector<SurfacePlane> rivals_;
+  std::pair<std::uint32_t, int> rivalsOf_{0, -1};  ///< the sample and the row
   RegionSight::Hints hints_;
 };
 
