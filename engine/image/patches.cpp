@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <queue>
 #include <utility>
 
 #include "engine/geometry/conventions.h"
+#include "engine/image/patch_order.h"
 
 namespace acentric {
 namespace {
@@ -30,11 +30,17 @@ constexpr std::uint32_t kMostBehind = 64;
 
 int atMost(int samples, double angle, double pitch) { return std::clamp(int(angle / pitch), 1, samples); }
 
+/// Normals of planes that may separate patches, in the upright plane through the strip's middle: so many, all
+/// around.
+constexpr std::size_t kAxes = 8;
+
 /// What ordering wants to know of a patch.
 struct Extent {
   std::array<glm::vec3, 8> corners{};       ///< of an octagon around it, relative to P
   std::array<float, 8> perSlack{};          ///< one over by how much each may be off a plane unnoticed
   float nearest = 0, farthest = HUGE_VALF;  ///< largest and smallest inverse distance
+  std::array<float, kAxes> low{}, high{};   ///< along each axis, less the slack
+  std::array<float, kAxes> lowWithEyes{}, highWithEyes{};  ///< and with all eyes
 };
 
 class Strip {
@@ -63,8 +69,12 @@ class Strip {
     }
     findExtents();
     countVotes();
-    const std::vector<std::uint32_t> order = orderPatches();
-    for (const std::uint32_t i : order) {
+    findOrders();
+    std::vector<float> nearest;
+    for (const Extent& extent : extents_) nearest.push_back(extent.nearest);
+    const PatchOrder order = orderPatches(pairs_, nearest, !looksAtEach());
+    out_.unordered += order.broken;
+    for (const std::uint32_t i : order.patches) {
       Patch patch = patches_[i];
       const std::vector<Member>& members = members_[i];
       patch.firstSample = std::uint32_t(out_.samples.size());
@@ -157,26 +167,71 @@ class Strip {
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       const SurfacePlane& plane = patches_[i].plane;
       Extent extent;
-      std::array<glm::ivec2, 8> far;
+      std::array<glm::ivec2, 8> far;  // in parts
       std::array<int, 8> most;
       most.fill(INT_MIN);
       for (const Member& member : members_[i]) {
-        for (std::size_t way = 0; way < kWays.size(); ++way)
-          if (const int along = kWays[way].x * member.column + kWays[way].y * member.row; along > most[way])
-            most[way] = along, far[way] = {member.column, member.row};
+        const PartBox box = boxOf(samples_.coverage[member.sample]);
+        const glm::ivec2 pixel = kCoverageParts * glm::ivec2(member.column, member.row);
+        for (std::size_t way = 0; way < kWays.size(); ++way) {
+          const glm::ivec2 corner = pixel + glm::ivec2(kWays[way].x > 0 ? box.high.x : box.low.x,
+                                                       kWays[way].y > 0 ? box.high.y : box.low.y);
+          if (const int along = kWays[way].x * corner.x + kWays[way].y * corner.y; along > most[way])
+            most[way] = along, far[way] = corner;
+        }
         const float inverse = float(inverseAt(plane, member.column, member.row));
         extent.nearest = std::max(extent.nearest, inverse);
         extent.farthest = std::min(extent.farthest, std::max(inverse, 0.0f));
       }
       for (std::size_t way = 0; way < kWays.size(); ++way) {
-        const glm::dvec2 at = glm::dvec2(far[way]) + 0.5 + 0.5 * glm::dvec2(kWays[way]);
+        const glm::dvec2 at = glm::dvec2(far[way]) / double(kCoverageParts);
         const glm::vec3 direction(camera_.directionAt(at.x), camera_.tangentAt(at.y));
         const float inverse = std::max(glm::dot(plane.normal, direction), kHorizon * extent.nearest);
         extent.corners[way] = direction / std::max(inverse, 1e-6f);
         extent.perSlack[way] = 1 / (float(tolerance_) * glm::length(glm::vec2(extent.corners[way])) + 1e-5f);
       }
+      extend(extent);
       extents_.push_back(extent);
     }
+  }
+  /// What parts a sample covers: [low, high).
+  struct PartBox {
+    glm::ivec2 low{kCoverageParts}, high{0};
+  };
+  static PartBox boxOf(std::uint16_t coverage) {
+    if (coverage == kWholePixel) return {glm::ivec2(0), glm::ivec2(kCoverageParts)};
+    PartBox box;
+    for (int part = 0; part < kCoverageParts * kCoverageParts; ++part)
+      if ((coverage >> part & 1) != 0) {
+        const glm::ivec2 at(part % kCoverageParts, part / kCoverageParts);
+        box.low = glm::min(box.low, at), box.high = glm::max(box.high, at + 1);
+      }
+    return box;
+  }
+  void extend(Extent& extent) const {
+    const glm::vec2 ahead(camera_.directionAt(0.5 * (first_ + end_)));
+    const float reach = float(0.25 * std::min(camera_.columnPitch(), camera_.rowPitch()) / tolerance_);
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      const float turn = float(kPi) * float(axis) / float(kAxes), along = std::cos(turn), up = std::sin(turn);
+      float low = HUGE_VALF, high = -HUGE_VALF;
+      for (std::size_t k = 0; k < extent.corners.size(); ++k) {
+        const glm::vec3& corner = extent.corners[k];
+        const float at = along * glm::dot(ahead, glm::vec2(corner)) + up * corner.z;
+        const float slack = glm::length(corner) / extent.perSlack[k];
+        low = std::min(low, at + slack), high = std::max(high, at - slack);
+      }
+      const float eyes = reach * std::abs(along);
+      extent.low[axis] = low, extent.high[axis] = high;
+      extent.lowWithEyes[axis] = std::min(low, -eyes), extent.highWithEyes[axis] = std::max(high, eyes);
+    }
+  }
+  /// Does a plane separate patch `i` from all eyes and `j`? Then it hides nothing of that.
+  bool isAside(std::uint32_t i, std::uint32_t j) const {
+    const Extent &a = extents_[i], &b = extents_[j];
+    bool aside = false;
+    for (std::size_t axis = 0; axis < kAxes; ++axis)
+      aside |= a.low[axis] > b.highWithEyes[axis] || a.high[axis] < b.lowWithEyes[axis];
+    return aside;
   }
 
   /// In how many parts of pixels the one of two patches lies before the other, as the camera sees them.
@@ -219,7 +274,6 @@ class Strip {
   /// Does some of `b` lie on the eye's side of a's plane, and some beyond it?
   struct Sides {
     bool before = false, beyond = false;
-    float mean = 0;  ///< > 0: most of it lies before
   };
   Sides sidesOf(std::uint32_t a, std::uint32_t b) const {
     const SurfacePlane& plane = patches_[a].plane;
@@ -231,7 +285,6 @@ class Strip {
           towardsEye * (glm::dot(plane.normal, extent.corners[way]) - 1) * extent.perSlack[way];
       sides.before |= side > 1;
       sides.beyond |= side < -1;
-      sides.mean += side;
     }
     return sides;
   }
@@ -250,37 +303,26 @@ class Strip {
            gap(pa.row, pa.rows, pb.row, pb.rows) > shift;
   }
 
-  struct Edge {
-    std::uint32_t patch = 0;
-    int weight = 0;
-  };
   /// `ij`, `ji`: votes for i before j, and for j before i.
   void addOrder(std::uint32_t i, std::uint32_t j, int ij, int ji) {
     if (areApart(i, j)) return;
     const Sides ofJ = sidesOf(i, j), ofI = sidesOf(j, i);
-    const bool iHides = ofI.before && ofJ.beyond, jHides = ofJ.before && ofI.beyond;
+    const bool iHides = ofI.before && ofJ.beyond && !isAside(i, j);
+    const bool jHides = ofJ.before && ofI.beyond && !isAside(j, i);
+    if (!iHides && !jHides && ij == ji) return;
     bool iFirst = iHides;
+    int weight = int(std::min(members_[i].size(), members_[j].size()));
     if (iHides == jHides) {
-      if (ij != ji)
-        iFirst = ij > ji;
-      else if (iHides)
-        iFirst = extents_[i].nearest > extents_[j].nearest;
-      else if (ofI.mean * ofJ.mean < 0)  // close to each other, as a board and its back
-        iFirst = ofI.mean > 0;
-      else
-        return;
+      iFirst = ij != ji ? ij > ji : extents_[i].nearest > extents_[j].nearest;
+      weight = 1;
       out_.unordered += iHides;
     }
-    const std::uint32_t from = iFirst ? i : j, to = iFirst ? j : i;
-    const int weight = 1 + (iFirst ? ij : ji);
-    after_[from].push_back({to, weight});
-    before_[to].push_back({from, weight});
+    pairs_.push_back({iFirst ? i : j, iFirst ? j : i, weight + (iFirst ? ij : ji)});
   }
 
   /// Of pairs of patches: which goes first.
   void findOrders() {
     const std::uint32_t count = std::uint32_t(patches_.size());
-    after_.assign(count, {}), before_.assign(count, {});
     const std::vector<char> isLarge = findLarge();
     std::vector<std::uint32_t> large;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -321,67 +363,6 @@ class Strip {
     return isLarge;
   }
 
-  /// Those that may hide others first. Where they hide each other in a ring, an order that breaks little: by
-  /// Eades, Lin and Smyth (1993), what hides nothing that is left goes last, what nothing hides first, and
-  /// if there is neither, first that which is hidden least for what it hides; of too many, the nearest.
-  std::vector<std::uint32_t> orderPatches() {
-    findOrders();
-    const std::uint32_t count = std::uint32_t(patches_.size());
-    std::vector<std::int64_t> hides(count, 0), hidden(count, 0);
-    const auto farther = [&](std::uint32_t a, std::uint32_t b) {
-      return extents_[a].nearest != extents_[b].nearest ? extents_[a].nearest < extents_[b].nearest : a > b;
-    };
-    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, decltype(farther)> free(farther);
-    std::vector<std::uint32_t> last, left;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      for (const Edge& edge : after_[i]) hides[i] += edge.weight;
-      for (const Edge& edge : before_[i]) hidden[i] += edge.weight;
-      if (hidden[i] == 0)
-        free.push(i);
-      else if (hides[i] == 0)
-        last.push_back(i);
-      else
-        left.push_back(i);
-    }
-    const bool isEach = looksAtEach();
-    if (!isEach) std::ranges::sort(left, farther);
-    std::vector<char> done(count, 0);
-    std::vector<std::uint32_t> order, reversed;
-    const auto take = [&](std::uint32_t i) {
-      done[i] = 1;
-      for (const Edge& edge : after_[i])
-        if ((hidden[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) free.push(edge.patch);
-      for (const Edge& edge : before_[i])
-        if ((hides[edge.patch] -= edge.weight) == 0 && done[edge.patch] == 0) last.push_back(edge.patch);
-    };
-    const auto isHiddenLess = [&](std::uint32_t a, std::uint32_t b) {
-      return double(hidden[a]) * double(hides[b]) < double(hidden[b]) * double(hides[a]);
-    };
-    while (order.size() + reversed.size() < count) {
-      std::uint32_t next = kNone;
-      const bool goesLast = free.empty() && !last.empty();
-      if (goesLast) {
-        next = last.back();
-        last.pop_back();
-      } else if (!free.empty()) {
-        next = free.top();
-        free.pop();
-      } else if (isEach) {
-        std::erase_if(left, [&](std::uint32_t i) { return done[i] != 0; });
-        next = *std::ranges::min_element(left, isHiddenLess);
-        ++out_.unordered;
-      } else {
-        next = left.back();
-        left.pop_back();
-      }
-      if (done[next] != 0) continue;
-      (goesLast ? reversed : order).push_back(next);
-      take(next);
-    }
-    order.insert(order.end(), reversed.rbegin(), reversed.rend());
-    return order;
-  }
-
   static constexpr std::uint16_t kOpaque = 0x3c00;  ///< alpha 1
   const ColumnCamera& camera_;
   const CaptureSamples& samples_;
@@ -395,8 +376,8 @@ class Strip {
   std::vector<Patch> patches_;
   std::vector<std::vector<Member>> members_;
   std::vector<Extent> extents_;
-  std::vector<Votes> votes_;                       ///< by patches
-  std::vector<std::vector<Edge>> after_, before_;  ///< of each patch: what must come after, and before it
+  std::vector<Votes> votes_;  ///< by patches
+  std::vector<PatchPair> pairs_;
   Patches& out_;
 };
 
