@@ -169,6 +169,7 @@ class ColumnSilhouettes {
                         all_.mirror.empty() ? std::uint8_t(0) : all_.mirror[i]});
     }
     const std::size_t own = pixel_.size();
+    for (std::size_t k = 0; k < own; ++k) goOnBeside(k, row);
     eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
       for (std::uint32_t i = neighbour.first(); i < neighbour.end(); ++i)
         if (!isSky(i) && !hasSame(pixel, i, neighbour))
@@ -178,6 +179,47 @@ class ColumnSilhouettes {
     for (const New& sample : pixel_) add(row, sample);
     for (std::size_t layer = own; layer < pixel_.size() && !reflections_; ++layer)
       ++out_.counts.samples.kept[std::min(layer, SampleCounts::kLayers - 1)];
+  }
+
+  /// Those of some parts that no nearer one of the first samples covers.
+  std::uint16_t openOf(std::uint16_t parts, float inverseDistance, std::size_t first) const {
+    for (std::size_t k = 0; k < first; ++k)
+      if (isOpaque(pixel_[k].of) && pixel_[k].inverseDistance > inverseDistance)
+        parts &= std::uint16_t(~pixel_[k].coverage);
+    return parts;
+  }
+
+  /// The pixel's own ray met the surface beneath another, where some regions do not see it, though they do in
+  /// parts that the other leaves open: beside a neighbour's sample of it that they need. So they need this
+  /// one too, and it looks as it does there.
+  void goOnBeside(std::size_t k, int row) {
+    New& sample = pixel_[k];
+    if (isSky(sample.of)) return;
+    const std::uint16_t open = openOf(sample.coverage, sample.inverseDistance, k);
+    if (open == 0 || open == sample.coverage) return;
+    const Pixel pixel{&beside_[1], row};
+    const auto rolesOn = [&](const Pixel& at) {
+      std::uint8_t roles = 0;
+      for (std::uint32_t i = at.first(); i < at.end(); ++i)
+        if (isSame(i, at, sample.of, pixel)) roles |= all_.roles[i];
+      return roles;
+    };
+    std::uint8_t more = 0;
+    eachNeighbour(row, [&](const Pixel& neighbour, int across, int down) {
+      if ((open & partsTowards(across, down)) != 0) more |= rolesOn(neighbour);
+    });
+    more &= std::uint8_t(~rolesOn(pixel));
+    if (more == 0) return;
+    const int part = middlePart(open);
+    findRivals(sample.of, row);
+    const Hit hit = rays_.meet(sample.of, parts_.through(column_, row, part), rivals_);
+    if (!hit.found()) return;
+    const std::uint8_t before = sample.roles;
+    for (std::size_t role = 0; role < setting_.camera.roles.size(); ++role)
+      if ((more & bitOf(role)) != 0 && isSeenBy(role, sample.of, hit, row, part, true))
+        sample.roles |= bitOf(role);
+    New there = sample;
+    if (sample.roles != before && shade(sample.of, hit, part, row, there)) sample.colour = there.colour;
   }
 
   void add(int row, const New& sample) {
@@ -222,7 +264,8 @@ class ColumnSilhouettes {
       meet(sample, row, std::uint16_t(~few), met);
       coverage = met.parts;
     }
-    const int part = middlePart(met.parts);
+    const std::uint16_t open = openOf(met.parts, float(at(planeOf(sample), pixel)), own);
+    const int part = middlePart(open != 0 ? open : met.parts);
     if (!isSeen(sample, met.hits[std::size_t(part)], row, part)) return;
     New added{sample, coverage};
     if (!shade(sample, met.hits[std::size_t(part)], part, row, added)) return;
@@ -243,6 +286,13 @@ class ColumnSilhouettes {
 
   /// By a role of the sample, at that part.
   bool isSeen(std::uint32_t sample, const Hit& hit, int row, int part) {
+    for (std::size_t role = 0; role < setting_.camera.roles.size(); ++role)
+      if ((all_.roles[sample] & bitOf(role)) != 0 && isSeenBy(role, sample, hit, row, part, false))
+        return true;
+    return false;
+  }
+  std::uint8_t bitOf(std::size_t role) const { return roleBit(setting_.camera, int(role)); }
+  bool isSeenBy(std::size_t role, std::uint32_t sample, const Hit& hit, int row, int part, bool byRays) {
     if (setting_.sight == nullptr || reflections_) return true;
     const glm::vec3 direction(parts_.through(column_, row, part).unit());
     const glm::dvec3 point =
@@ -250,11 +300,7 @@ class ColumnSilhouettes {
     const MetSurface surface(hit, point, direction);
     const double tolerance = kSameDepth * setting_.columns.rowPitch() * double(hit.distance);
     const Side side = planeOf(sample).away != 0 ? Side::other : Side::met;
-    for (std::size_t role = 0; role < setting_.camera.roles.size(); ++role)
-      if ((all_.roles[sample] >> role & 1) != 0 &&
-          setting_.sight->sees(role, surface, tolerance, hints_, out_.counts.rays) == side)
-        return true;
-    return false;
+    return setting_.sight->sees(role, surface, tolerance, hints_, out_.counts.rays, byRays) == side;
   }
 
   /// False where the surface is not what the neighbour's sample is.

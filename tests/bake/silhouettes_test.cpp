@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -267,6 +268,48 @@ TEST(Silhouettes, EndWhereNoServedRegionSeesTheSurface) {
   int partly = 0;
   for (const std::uint16_t mask : baked.capture.coverage) partly += mask != kWholePixel;
   EXPECT_GT(partly, 0);
+}
+
+/// A board hides the wall behind it, of which eyes to its right see more there than those straight before it:
+/// a pixel whose own ray meets the wall where only they see it is needed by all, where the board leaves it
+/// open.
+TEST(Silhouettes, OfAWallReachToTheBoardForAllWhoSeeIt) {
+  SceneBuilder builder;
+  const int grey = builder.material(matte({0.5f, 0.5f, 0.5f}));
+  builder.quad(grey, {6, 40, -30}, {6, -40, -30}, {6, -40, 30}, {6, 40, 30});
+  builder.quad(grey, {5.5f, 1.3f, 0.2f}, {5.5f, -1.1f, 0.2f}, {5.5f, -0.7f, 2.9f}, {5.5f, 0.8f, 2.9f});
+  const auto scene = builder.rays();
+  BakeSettings settings = withSilhouettes();
+  settings.pruning = true;
+  const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.02), square(0.3, {0, -1.2})}), settings);
+  const ColumnCamera& camera = baked.columns;
+  const Capture& capture = baked.capture;
+  std::array<int, 2> seen{}, missing{};
+  for (int column = 1; column + 1 < camera.columns; ++column)
+    for (int row = 1; row + 1 < camera.rows; ++row)
+      for (int part = 0; part < 16; ++part) {
+        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
+        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
+        if (std::abs(way.y / way.x) > 0.3 || std::abs(way.z / way.x) > 0.3) continue;
+        const Hit met = scene->trace({glm::vec3(camera.centreOfProjection), glm::vec3(glm::normalize(way))});
+        if (met.mesh != 0) continue;
+        int roles = 0;
+        for (auto i = capture.columnStart[std::size_t(column)];
+             i < capture.columnStart[std::size_t(column) + 1]; ++i)
+          if (capture.row[i] == row && (capture.coverage[i] >> part & 1) != 0) roles |= capture.roles[i];
+        const glm::vec3 point =
+            glm::vec3(camera.centreOfProjection) + met.distance * glm::vec3(glm::normalize(way));
+        for (std::size_t role = 0; role < 2; ++role) {
+          const glm::vec3 eye(0, role == 0 ? 0.0f : -1.2f, test::kEyeZ);
+          if (scene->trace({eye, glm::normalize(point - eye)}).mesh != 0) continue;
+          ++seen[role];
+          missing[role] += (roles >> role & 1) == 0;
+        }
+      }
+  for (std::size_t role = 0; role < 2; ++role) {
+    EXPECT_GT(seen[role], 20000);
+    EXPECT_LE(missing[role], seen[role] / 1000);
+  }
 }
 
 TEST(Silhouettes, AreTheSameForAnyNumberOfThreads) {
