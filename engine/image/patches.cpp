@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cmath>
 #include <functional>
 #include <numeric>
 #include <utility>
 
 #include "engine/geometry/conventions.h"
+#include "engine/image/patch_extent.h"
 #include "engine/image/patch_order.h"
 
 namespace acentric {
@@ -19,9 +19,6 @@ namespace {
 constexpr int kStripColumns = 32, kTileRows = 64;
 constexpr double kWidestStrip = radians(4.0), kHighestTile = radians(8.0);
 
-/// Planes are taken no nearer to their horizon than where they are so much farther away than the patch.
-constexpr float kHorizon = 0.02f;
-
 /// Pairs of patches that are looked at for the order of one strip: leaves make far more. Those left out are
 /// ordered by what the camera itself sees of them, and by how near they are.
 constexpr std::size_t kMostPairs = 16'000'000;
@@ -29,19 +26,6 @@ constexpr std::size_t kMostPairs = 16'000'000;
 constexpr std::uint32_t kMostBehind = 64;
 
 int atMost(int samples, double angle, double pitch) { return std::clamp(int(angle / pitch), 1, samples); }
-
-/// Normals of planes that may separate patches, in the upright plane through the strip's middle: so many, all
-/// around.
-constexpr std::size_t kAxes = 8;
-
-/// What ordering wants to know of a patch.
-struct Extent {
-  std::array<glm::vec3, 8> corners{};       ///< of an octagon around it, relative to P
-  std::array<float, 8> perSlack{};          ///< one over by how much each may be off a plane unnoticed
-  float nearest = 0, farthest = HUGE_VALF;  ///< largest and smallest inverse distance
-  std::array<float, kAxes> low{}, high{};   ///< along each axis, less the slack
-  std::array<float, kAxes> lowWithEyes{}, highWithEyes{};  ///< and with all eyes
-};
 
 class Strip {
  public:
@@ -71,7 +55,7 @@ class Strip {
     countVotes();
     findOrders();
     std::vector<float> nearest;
-    for (const Extent& extent : extents_) nearest.push_back(extent.nearest);
+    for (const PatchExtent& extent : extents_) nearest.push_back(extent.nearest);
     const PatchOrder order = orderPatches(pairs_, nearest, !looksAtEach());
     out_.unordered += order.broken;
     for (const std::uint32_t i : order.patches) {
@@ -162,76 +146,17 @@ class Strip {
   }
 
   void findExtents() {
-    constexpr std::array<glm::ivec2, 8> kWays{
-        {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    const PatchExtents extents(camera_, tolerance_, first_, end_);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-      const SurfacePlane& plane = patches_[i].plane;
-      Extent extent;
-      std::array<glm::ivec2, 8> far;  // in parts
-      std::array<int, 8> most;
-      most.fill(INT_MIN);
+      PatchOutline outline;
+      float nearest = 0, farthest = HUGE_VALF;
       for (const Member& member : members_[i]) {
-        const PartBox box = boxOf(samples_.coverage[member.sample]);
-        const glm::ivec2 pixel = kCoverageParts * glm::ivec2(member.column, member.row);
-        for (std::size_t way = 0; way < kWays.size(); ++way) {
-          const glm::ivec2 corner = pixel + glm::ivec2(kWays[way].x > 0 ? box.high.x : box.low.x,
-                                                       kWays[way].y > 0 ? box.high.y : box.low.y);
-          if (const int along = kWays[way].x * corner.x + kWays[way].y * corner.y; along > most[way])
-            most[way] = along, far[way] = corner;
-        }
-        const float inverse = float(inverseAt(plane, member.column, member.row));
-        extent.nearest = std::max(extent.nearest, inverse);
-        extent.farthest = std::min(extent.farthest, std::max(inverse, 0.0f));
+        outline.add(member.column, member.row, samples_.coverage[member.sample]);
+        const float inverse = float(inverseAt(patches_[i].plane, member.column, member.row));
+        nearest = std::max(nearest, inverse), farthest = std::min(farthest, std::max(inverse, 0.0f));
       }
-      for (std::size_t way = 0; way < kWays.size(); ++way) {
-        const glm::dvec2 at = glm::dvec2(far[way]) / double(kCoverageParts);
-        const glm::vec3 direction(camera_.directionAt(at.x), camera_.tangentAt(at.y));
-        const float inverse = std::max(glm::dot(plane.normal, direction), kHorizon * extent.nearest);
-        extent.corners[way] = direction / std::max(inverse, 1e-6f);
-        extent.perSlack[way] = 1 / (float(tolerance_) * glm::length(glm::vec2(extent.corners[way])) + 1e-5f);
-      }
-      extend(extent);
-      extents_.push_back(extent);
+      extents_.push_back(extents.of(patches_[i].plane, outline, nearest, farthest));
     }
-  }
-  /// What parts a sample covers: [low, high).
-  struct PartBox {
-    glm::ivec2 low{kCoverageParts}, high{0};
-  };
-  static PartBox boxOf(std::uint16_t coverage) {
-    if (coverage == kWholePixel) return {glm::ivec2(0), glm::ivec2(kCoverageParts)};
-    PartBox box;
-    for (int part = 0; part < kCoverageParts * kCoverageParts; ++part)
-      if ((coverage >> part & 1) != 0) {
-        const glm::ivec2 at(part % kCoverageParts, part / kCoverageParts);
-        box.low = glm::min(box.low, at), box.high = glm::max(box.high, at + 1);
-      }
-    return box;
-  }
-  void extend(Extent& extent) const {
-    const glm::vec2 ahead(camera_.directionAt(0.5 * (first_ + end_)));
-    const float reach = float(0.25 * std::min(camera_.columnPitch(), camera_.rowPitch()) / tolerance_);
-    for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      const float turn = float(kPi) * float(axis) / float(kAxes), along = std::cos(turn), up = std::sin(turn);
-      float low = HUGE_VALF, high = -HUGE_VALF;
-      for (std::size_t k = 0; k < extent.corners.size(); ++k) {
-        const glm::vec3& corner = extent.corners[k];
-        const float at = along * glm::dot(ahead, glm::vec2(corner)) + up * corner.z;
-        const float slack = glm::length(corner) / extent.perSlack[k];
-        low = std::min(low, at + slack), high = std::max(high, at - slack);
-      }
-      const float eyes = reach * std::abs(along);
-      extent.low[axis] = low, extent.high[axis] = high;
-      extent.lowWithEyes[axis] = std::min(low, -eyes), extent.highWithEyes[axis] = std::max(high, eyes);
-    }
-  }
-  /// Does a plane separate patch `i` from all eyes and `j`? Then it hides nothing of that.
-  bool isAside(std::uint32_t i, std::uint32_t j) const {
-    const Extent &a = extents_[i], &b = extents_[j];
-    bool aside = false;
-    for (std::size_t axis = 0; axis < kAxes; ++axis)
-      aside |= a.low[axis] > b.highWithEyes[axis] || a.high[axis] < b.lowWithEyes[axis];
-    return aside;
   }
 
   /// In how many parts of pixels the one of two patches lies before the other, as the camera sees them.
@@ -271,24 +196,6 @@ class Strip {
     }
   }
 
-  /// Does some of `b` lie on the eye's side of a's plane, and some beyond it?
-  struct Sides {
-    bool before = false, beyond = false;
-  };
-  Sides sidesOf(std::uint32_t a, std::uint32_t b) const {
-    const SurfacePlane& plane = patches_[a].plane;
-    const Extent& extent = extents_[b];
-    const float towardsEye = plane.away != 0 ? 1.0f : -1.0f;
-    Sides sides;
-    for (std::size_t way = 0; way < extent.corners.size(); ++way) {
-      const float side =
-          towardsEye * (glm::dot(plane.normal, extent.corners[way]) - 1) * extent.perSlack[way];
-      sides.before |= side > 1;
-      sides.beyond |= side < -1;
-    }
-    return sides;
-  }
-
   /// Can no served eye see one before the other? An eye shifts things against each other by no more than
   /// their inverse distances differ, in quarters of samples per tolerance.
   bool areApart(std::uint32_t a, std::uint32_t b) const {
@@ -296,7 +203,7 @@ class Strip {
     const auto gap = [](int firstA, int sizeA, int firstB, int sizeB) {
       return std::max(firstA - (firstB + sizeB), firstB - (firstA + sizeA));
     };
-    const Extent &ea = extents_[a], &eb = extents_[b];
+    const PatchExtent &ea = extents_[a], &eb = extents_[b];
     const double differ = std::max(ea.nearest - eb.farthest, eb.nearest - ea.farthest);
     const double shift = 0.25 * differ / tolerance_ + 2;
     return gap(pa.column, pa.columns, pb.column, pb.columns) > shift ||
@@ -306,9 +213,7 @@ class Strip {
   /// `ij`, `ji`: votes for i before j, and for j before i.
   void addOrder(std::uint32_t i, std::uint32_t j, int ij, int ji) {
     if (areApart(i, j)) return;
-    const Sides ofJ = sidesOf(i, j), ofI = sidesOf(j, i);
-    const bool iHides = ofI.before && ofJ.beyond && !isAside(i, j);
-    const bool jHides = ofJ.before && ofI.beyond && !isAside(j, i);
+    const auto [iHides, jHides] = hidingOf(extents_[i], extents_[j]);
     if (!iHides && !jHides && ij == ji) return;
     bool iFirst = iHides;
     int weight = int(std::min(members_[i].size(), members_[j].size()));
@@ -375,7 +280,7 @@ class Strip {
   std::vector<double> tangent_;
   std::vector<Patch> patches_;
   std::vector<std::vector<Member>> members_;
-  std::vector<Extent> extents_;
+  std::vector<PatchExtent> extents_;
   std::vector<Votes> votes_;  ///< by patches
   std::vector<PatchPair> pairs_;
   Patches& out_;

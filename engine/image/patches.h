@@ -6,8 +6,8 @@
 /// one sample of each pixel. Strips are drawn in list order, as columns are. The patches of one strip are
 /// ordered here, once for all eyes that the camera serves: a patch that may hide another comes before it.
 /// That can be known beforehand because an eye lies on a known side of every plane that it sees
-/// (SurfacePlane::away), and A can hide B only if some of A lies on the eye's side of B's plane and some of B
-/// beyond A's.
+/// (SurfacePlane::away) and near the camera: patch_extent.h tells which may hide which, patch_order.h what
+/// follows.
 
 #include <ranges>
 
