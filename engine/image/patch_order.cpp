@@ -125,11 +125,13 @@ class Orderer {
       path_.pop_back();
       if (!path_.empty()) visit_[path_.back()].lowest = std::min(visit_[path_.back()].lowest, visit.lowest);
       if (visit.lowest != visit.number) continue;
-      const auto first = std::ranges::find(open_, patch);
-      for (auto member = first; member != open_.end(); ++member) ring_[*member] = std::uint32_t(rings.size());
-      rings.emplace_back(first, open_.end());
-      std::ranges::sort(rings.back());
-      open_.erase(first, open_.end());
+      std::vector<std::uint32_t>& ring = rings.emplace_back();
+      while (ring.empty() || ring.back() != patch) {
+        ring.push_back(open_.back());
+        ring_[open_.back()] = std::uint32_t(rings.size() - 1);
+        open_.pop_back();
+      }
+      std::ranges::sort(ring);
     }
   }
 
