@@ -68,7 +68,12 @@ PatchExtents::PatchExtents(const ColumnCamera& camera, double tolerance, int fir
     : camera_(camera),
       tolerance_(float(tolerance)),
       ahead_(camera.directionAt(0.5 * (firstColumn + endColumn))),
-      reach_(float(0.25 * std::min(camera.columnPitch(), camera.rowPitch()) / tolerance)) {}
+      reach_(float(0.25 * std::min(camera.columnPitch(), camera.rowPitch()) / tolerance)) {
+  for (std::size_t axis = 0; axis < PatchExtent::kAxes; ++axis) {
+    const float turn = float(kPi) * float(axis) / float(PatchExtent::kAxes);
+    axes_[axis] = {std::cos(turn), std::sin(turn)};
+  }
+}
 
 PatchExtent PatchExtents::of(const SurfacePlane& plane, const PatchOutline& outline, float nearest,
                              float farthest) const {
@@ -89,8 +94,7 @@ PatchExtent PatchExtents::of(const SurfacePlane& plane, const PatchOutline& outl
 /// Eyes lie at P's height, and no farther from it than `reach_`.
 void PatchExtents::project(PatchExtent& extent) const {
   for (std::size_t axis = 0; axis < PatchExtent::kAxes; ++axis) {
-    const float turn = float(kPi) * float(axis) / float(PatchExtent::kAxes);
-    const float along = std::cos(turn), up = std::sin(turn);
+    const float along = axes_[axis].x, up = axes_[axis].y;
     float low = HUGE_VALF, high = -HUGE_VALF;
     for (std::size_t k = 0; k < extent.corners.size(); ++k) {
       const glm::vec3& corner = extent.corners[k];

@@ -47,8 +47,9 @@ class PatchExtents {
 
   const ColumnCamera& camera_;
   float tolerance_;
-  glm::vec2 ahead_;  ///< direction of the strip's middle
-  float reach_;      ///< of the eyes, m
+  glm::vec2 ahead_;                                 ///< direction of the strip's middle
+  float reach_;                                     ///< of the eyes, m
+  std::array<glm::vec2, PatchExtent::kAxes> axes_;  ///< along that, and up
 };
 
 /// Of two patches: may the first hide some of the second, and the other way round? Only if some of it lies on

@@ -1,7 +1,6 @@
 #include "engine/image/patches.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>

@@ -72,6 +72,25 @@ int covering(const Capture& capture, int column, int row, int part) {
   return count;
 }
 
+/// Unit.
+glm::vec3 directionThrough(const ColumnCamera& camera, int column, int row, int part) {
+  const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
+  return glm::vec3(glm::normalize(glm::dvec3(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4))));
+}
+
+/// Calls `visit` with column, row and part of all pixels but the outermost that look about straight ahead,
+/// the part's direction, and what it meets.
+template <class Visit>
+void forPartsAhead(const RayScene& scene, const ColumnCamera& camera, const Visit& visit) {
+  for (int column = 1; column + 1 < camera.columns; ++column)
+    for (int row = 1; row + 1 < camera.rows; ++row)
+      for (int part = 0; part < 16; ++part) {
+        const glm::vec3 way = directionThrough(camera, column, row, part);
+        if (std::abs(way.y / way.x) > 0.3f || std::abs(way.z / way.x) > 0.3f) continue;
+        visit(column, row, part, way, scene.trace({glm::vec3(camera.centreOfProjection), way}));
+      }
+}
+
 TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
   const auto scene = blockBeforeWall().rays();
   const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
@@ -83,9 +102,7 @@ TEST(Silhouettes, CoverTheVeryPartsWhereRaysMeetTheSurface) {
       bool whole = true;
       const int first = covering(baked.capture, column, row, 0);
       for (int part = 0; part < 16; ++part) {
-        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
-        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
-        const Surfaces met = surfacesAlong(*scene, camera, glm::vec3(glm::normalize(way)));
+        const Surfaces met = surfacesAlong(*scene, camera, directionThrough(camera, column, row, part));
         const int covered = covering(baked.capture, column, row, part);
         whole = whole && covered == first;
         missing += covered < met.apart;
@@ -109,19 +126,12 @@ TEST(Silhouettes, OfMouldingsEndWhereTheWallBehindBegins) {
                {11.2f, 0.93f, 2.91f});
   const auto scene = builder.rays();
   const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), withSilhouettes());
-  const ColumnCamera& camera = baked.columns;
   int wrong = 0, onBoard = 0;
-  for (int column = 1; column + 1 < camera.columns; ++column)
-    for (int row = 1; row + 1 < camera.rows; ++row)
-      for (int part = 0; part < 16; ++part) {
-        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
-        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
-        if (std::abs(way.y / way.x) > 0.3 || std::abs(way.z / way.x) > 0.3) continue;
-        const Hit met = scene->trace({glm::vec3(camera.centreOfProjection), glm::vec3(glm::normalize(way))});
-        const bool board = met.mesh == 1;
-        onBoard += board;
-        wrong += covering(baked.capture, column, row, part) != (board ? 2 : 1);
-      }
+  forPartsAhead(*scene, baked.columns, [&](int column, int row, int part, const glm::vec3&, const Hit& met) {
+    const bool board = met.mesh == 1;
+    onBoard += board;
+    wrong += covering(baked.capture, column, row, part) != (board ? 2 : 1);
+  });
   EXPECT_GT(onBoard, 3000);
   EXPECT_LE(wrong, onBoard / 500);
 }
@@ -282,30 +292,24 @@ TEST(Silhouettes, OfAWallReachToTheBoardForAllWhoSeeIt) {
   BakeSettings settings = withSilhouettes();
   settings.pruning = true;
   const Baked baked = bakeAsSet(scene, cameraAt({0, 0}, {square(0.02), square(0.3, {0, -1.2})}), settings);
-  const ColumnCamera& camera = baked.columns;
   const Capture& capture = baked.capture;
   std::array<int, 2> seen{}, missing{};
-  for (int column = 1; column + 1 < camera.columns; ++column)
-    for (int row = 1; row + 1 < camera.rows; ++row)
-      for (int part = 0; part < 16; ++part) {
-        const glm::dvec2 across = camera.directionAt(column + (part % 4 + 0.5) / 4);
-        const glm::dvec3 way(across, camera.tangentAt(row + (double(part / 4) + 0.5) / 4));
-        if (std::abs(way.y / way.x) > 0.3 || std::abs(way.z / way.x) > 0.3) continue;
-        const Hit met = scene->trace({glm::vec3(camera.centreOfProjection), glm::vec3(glm::normalize(way))});
-        if (met.mesh != 0) continue;
-        int roles = 0;
-        for (auto i = capture.columnStart[std::size_t(column)];
-             i < capture.columnStart[std::size_t(column) + 1]; ++i)
-          if (capture.row[i] == row && (capture.coverage[i] >> part & 1) != 0) roles |= capture.roles[i];
-        const glm::vec3 point =
-            glm::vec3(camera.centreOfProjection) + met.distance * glm::vec3(glm::normalize(way));
-        for (std::size_t role = 0; role < 2; ++role) {
-          const glm::vec3 eye(0, role == 0 ? 0.0f : -1.2f, test::kEyeZ);
-          if (scene->trace({eye, glm::normalize(point - eye)}).mesh != 0) continue;
-          ++seen[role];
-          missing[role] += (roles >> role & 1) == 0;
-        }
-      }
+  forPartsAhead(*scene, baked.columns,
+                [&](int column, int row, int part, const glm::vec3& way, const Hit& met) {
+                  if (met.mesh != 0) return;
+                  int roles = 0;
+                  for (auto i = capture.columnStart[std::size_t(column)];
+                       i < capture.columnStart[std::size_t(column) + 1]; ++i)
+                    if (capture.row[i] == row && (capture.coverage[i] >> part & 1) != 0)
+                      roles |= capture.roles[i];
+                  const glm::vec3 point = glm::vec3(baked.columns.centreOfProjection) + met.distance * way;
+                  for (std::size_t role = 0; role < 2; ++role) {
+                    const glm::vec3 eye(0, role == 0 ? 0.0f : -1.2f, test::kEyeZ);
+                    if (scene->trace({eye, glm::normalize(point - eye)}).mesh != 0) continue;
+                    ++seen[role];
+                    missing[role] += (roles >> role & 1) == 0;
+                  }
+                });
   for (std::size_t role = 0; role < 2; ++role) {
     EXPECT_GT(seen[role], 20000);
     EXPECT_LE(missing[role], seen[role] / 1000);
