@@ -16,7 +16,7 @@ inline constexpr int kMostTestEyes = 64;
 inline constexpr double kLeastPruningLoss = 1e-5;
 
 /// Of what silhouettes, and colours with them, are baked as.
-inline constexpr int kSilhouetteVersion = 5;
+inline constexpr int kSilhouetteVersion = 6;
 inline constexpr double kUsualDistanceShift = 0.1, kLargestDistanceShift = 16;
 
 /// How much of the settings a bake spends: a preview is there at once, a draft shows the layout's faults.

@@ -19,7 +19,7 @@ constexpr double kWidest = 4, kWidened = 0.75;
 /// Parts: turned back, a facet's edges move by its width too.
 constexpr double kWidestTurnedBack = 0.7;
 /// Tolerances of planes, of a facet's depth over its width: others look alike from everywhere.
-constexpr double kDeep = 2;
+constexpr double kDeep = 5;
 /// Sine of the angle between a ray and a facet that may be edge on.
 constexpr double kSteep = 0.3;
 /// Of the camera's distance: a plane nearer to it is taken that far away.

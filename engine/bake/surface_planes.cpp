@@ -6,12 +6,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/image/plane_numbers.h"
+
 namespace acentric {
 namespace {
 
 constexpr double kEdgeOn = 1e-3;  ///< cosine
-/// Steps of planes to one of distances, and how many the largest part of a plane that is rounded has.
-constexpr double kPerDistanceStep = 4, kLeastSteps = 64;
+/// Steps that the largest part of a plane that is rounded has.
+constexpr double kLeastSteps = 64;
 
 SurfacePlane rounded(SurfacePlane plane, double step) {
   const glm::dvec3 normal(plane.normal);
@@ -62,8 +64,8 @@ void numberPlanes(CaptureSamples& samples, double distanceStep) {
   for (std::uint32_t& plane : samples.plane) {
     std::uint32_t& number = now[plane];
     if (number == kUnmet) {
-      const auto [met, isNew] = numbers.try_emplace(
-          rounded(samples.planes[plane], distanceStep / kPerDistanceStep), std::uint32_t(planes.size()));
+      const auto [met, isNew] = numbers.try_emplace(rounded(samples.planes[plane], planeStep(distanceStep)),
+                                                    std::uint32_t(planes.size()));
       if (isNew) planes.push_back(met->first);
       number = met->second;
     }

@@ -31,7 +31,7 @@ enum class BlockFileKind : std::uint32_t {
 };
 
 /// Of captures: colours as they are and arrays of records, or all of it coded (FORMAT.md).
-inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 5;
+inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 6;
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;

@@ -24,9 +24,12 @@ const ColourCoder& colourCoder() {
   return coder;
 }
 
-/// What reading a list takes besides its blocks: its pixels, its samples.
+constexpr std::uint64_t kHeldPlaneBytes = sizeof(SurfacePlane);
+
+/// What reading a list takes besides its blocks: its pixels, its samples, their planes.
 std::uint64_t claimOf(const SampleShape& shape) {
-  return std::uint64_t(shape.camera.columns) * std::uint64_t(shape.camera.rows) + kHeldBytes * shape.samples;
+  return std::uint64_t(shape.camera.columns) * std::uint64_t(shape.camera.rows) + kHeldBytes * shape.samples +
+         kHeldPlaneBytes * shape.planes;
 }
 std::uint64_t pictureBytes(const ColourTiles& tiles) {
   return kPixelBytes * std::uint64_t(tiles.width) * std::uint64_t(tiles.height);
@@ -86,7 +89,6 @@ class ListWriter {
   Status add(BlockFileWriter& file, const std::stop_token& stop) const {
     if (stream_.empty()) return {};
     file.claim(claimOf(shape_));
-    if (Status added = addPlanes(file, samples_.planes); !added) return added;
     if (Status added = file.addStream(stream_); !added) return added;
     if (quality_ >= kLosslessColours) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
     file.claim(pictureBytes(tiles_));
@@ -166,7 +168,6 @@ Status takePictures(BlockFileReader& file, const SampleShape& shape, bool whole,
 
 Status takeList(BlockFileReader& file, const ListHead& head, const SampleShape& shape, int quality,
                 bool whole, CaptureSamples& out) {
-  if (Status read = takePlanes(file, head.planes, out.planes); !read) return read;
   if (Status read = takeStream(file, head, shape, out); !read) return read;
   if (quality >= kLosslessColours) return file.nextRecords(colourLanes(out), out.sampleCount());
   return takePictures(file, shape, whole, out);
@@ -190,7 +191,7 @@ Result<Capture> readCoded(BlockFileReader& file) {
   const SampleShape shapes[] = {shapeOf(surfaces), shapeOf(reflections)};
   for (const ListHead* list : {&surfaces, &reflections})
     if (list->samples > kMaxCaptureSamples || list->planes > kMaxCaptureSamples ||
-        list->streamBytes > file.rawBytes() || list->planes * kPlaneBytes > file.rawBytes())
+        list->streamBytes > file.rawBytes())
       return file.malformed("its number of samples contradicts its size");
   const auto columns = std::uint64_t(camera.columns);
   const std::uint64_t backgroundBytes =

@@ -8,13 +8,15 @@
 #include <optional>
 
 #include "engine/store/distance_model.h"
+#include "engine/store/pixels_around.h"
+#include "engine/store/plane_model.h"
 #include "engine/store/range_coder.h"
 
 namespace acentric {
 namespace {
 
 constexpr std::uint16_t kHalfOne = 0x3c00;
-constexpr std::size_t kNone = ~std::size_t(0);
+constexpr std::size_t kNone = kNoSample;
 
 /// How many samples lie in each pixel, column by column: from the counts of pixels around it.
 template <class Coder>
@@ -91,82 +93,6 @@ void findPixels(const CaptureSamples& samples, std::size_t column, std::vector<s
   }
 }
 
-/// The samples of one pixel.
-struct PixelRange {
-  std::uint32_t first = 0, end = 0;
-  std::size_t at(std::uint32_t layer) const {
-    return first == end ? kNone : std::min(first + layer, end - 1);
-  }
-};
-
-/// Pixels around one that come before it: in the column before, and above. Empty beyond the image.
-struct PixelsAround {
-  enum Place : std::uint8_t { kBefore, kAbove, kAboveBefore, kBelowBefore, kPlaces };
-  std::array<PixelRange, kPlaces> pixel;
-};
-
-/// Which plane each sample lies on: mostly one of those in the pixels around, or one that is met for the
-/// first time; planes are numbered in that order.
-template <class Coder>
-class PlaneModel {
- public:
-  PlaneModel(Coder& coder, std::size_t planes)
-      : coder_(coder), bits_(planes > 1 ? int(std::bit_width(planes - 1)) : 1) {}
-
-  /// `before` holds the planes of the samples before this one, `own` where those of its pixel begin.
-  template <class Planes>
-  std::uint32_t code(std::uint32_t value, const Planes& planes, const PixelsAround& around,
-                     const PixelRange& own) {
-    listCandidates(planes, around, own);
-    for (std::size_t k = 0; k < count_; ++k)
-      if (coder_.bit(isIt_[std::min(k, kRanks - 1)][where_[k]], value == candidate_[k])) return candidate_[k];
-    if (coder_.bit(isNext_[std::min<std::size_t>(count_, 1)], value == next_)) return next_++;
-    return coder_.plain(value, bits_);
-  }
-
- private:
-  static constexpr std::size_t kMost = 16, kRanks = 4;
-  static constexpr std::uint32_t kLayers = 12;
-
-  /// Nearest surfaces first; not those that the pixel has already.
-  template <class Planes>
-  void listCandidates(const Planes& planes, const PixelsAround& around, const PixelRange& own) {
-    count_ = 0;
-    for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
-      bool any = false;
-      for (std::size_t place = 0; place < PixelsAround::kPlaces; ++place) {
-        const PixelRange& pixel = around.pixel[place];
-        if (pixel.first + layer >= pixel.end) continue;
-        any = true;
-        add(planes[pixel.first + layer], std::uint8_t(1u << place), planes, own);
-      }
-      if (!any) break;
-    }
-  }
-  template <class Planes>
-  void add(std::uint32_t plane, std::uint8_t place, const Planes& planes, const PixelRange& own) {
-    for (std::size_t k = 0; k < count_; ++k)
-      if (candidate_[k] == plane) {
-        where_[k] |= place;
-        return;
-      }
-    for (std::uint32_t i = own.first; i < own.end; ++i)
-      if (planes[i] == plane) return;
-    if (count_ == kMost) return;
-    candidate_[count_] = plane, where_[count_] = place;
-    ++count_;
-  }
-
-  Coder& coder_;
-  int bits_;
-  std::array<std::uint32_t, kMost> candidate_{};
-  std::array<std::uint8_t, kMost> where_{};  ///< in which of the pixels around, by bits
-  std::size_t count_ = 0;
-  std::uint32_t next_ = 0;
-  std::array<std::array<BitChance, 1u << PixelsAround::kPlaces>, kRanks> isIt_;
-  std::array<BitChance, 2> isNext_;
-};
-
 /// Which parts of its pixel each sample covers: where the same plane goes on around it, mostly all; else part
 /// by part, each by those before it.
 template <class Coder>
@@ -212,9 +138,15 @@ class AttributeWalk {
         shape_(shape),
         distances_(coder, shape.distanceStep),
         planes_(coder, shape.planes),
+        planeNumbers_(coder, planeStep(shape.distanceStep)),
+        isMet_(shape.planes, false),
         numbers_(shape.distanceStep),
         now_(std::size_t(shape.camera.rows) + 1),
         before_(now_) {
+    if constexpr (Coder::kReads)
+      samples.planes.resize(shape.planes);
+    else if (shape.planes > 0)
+      reaches_ = planeReaches(samples);
     if (shape.planes > 0)
       for (int row = 0; row < shape.camera.rows; ++row) tangent_.push_back(shape.camera.tangentAt(row + 0.5));
   }
@@ -233,6 +165,8 @@ class AttributeWalk {
           if (!codeSample(i, row, around)) return false;
       }
     }
+    for (std::uint32_t plane = 0; plane < shape_.planes; ++plane)
+      if (!isMet_[plane] && !codeNewPlane(plane, 0, kNone)) return false;
     return true;
   }
 
@@ -279,7 +213,7 @@ class AttributeWalk {
     std::size_t above = around.pixel[PixelsAround::kAbove].at(i - first),
                 before = around.pixel[PixelsAround::kBefore].at(i - first);
     if (shape_.planes > 0) {
-      if (!codePlane(i, first, around)) return false;
+      if (!codePlane(i, row, around, above, before)) return false;
       const std::size_t a = onPlane(around.pixel[PixelsAround::kAbove], samples_.plane[i]),
                         b = onPlane(around.pixel[PixelsAround::kBefore], samples_.plane[i]);
       if (a != kNone || b != kNone) above = a, before = b;
@@ -308,15 +242,32 @@ class AttributeWalk {
   }
 
   /// With the parts that the sample covers. False if there is no such plane.
-  bool codePlane(std::uint32_t i, std::uint32_t first, const PixelsAround& around) {
+  bool codePlane(std::uint32_t i, std::size_t row, const PixelsAround& around, std::size_t above,
+                 std::size_t before) {
+    const std::uint32_t first = now_[row];
     const std::uint32_t plane = planes_.code(samples_.plane[i], samples_.plane, around, {first, i});
     if (plane >= shape_.planes) return false;
+    if (!isMet_[plane]) {
+      const std::size_t beside = i > first ? i - 1 : before != kNone ? before : above;
+      if (!codeNewPlane(plane, row, beside)) return false;
+    }
     std::array<std::optional<std::uint16_t>, PixelsAround::kPlaces> masks;
     for (std::size_t place = 0; place < masks.size(); ++place)
       if (const std::size_t n = onPlane(around.pixel[place], plane); n != kNone)
         masks[place] = samples_.coverage[n];
     const std::uint16_t mask = coverages_.code(coder_, samples_.coverage[i], masks);
     if constexpr (Coder::kReads) samples_.plane[i] = plane, samples_.coverage[i] = mask;
+    return true;
+  }
+
+  /// `beside`: a sample whose plane may be like it, or none.
+  bool codeNewPlane(std::uint32_t plane, std::size_t row, std::size_t beside) {
+    isMet_[plane] = true;
+    const auto coded = planeNumbers_.code(
+        samples_.planes[plane], Coder::kReads ? PlaneReach{} : reaches_[plane], shape_.camera, direction_,
+        tangent_[row], beside == kNone ? nullptr : &samples_.planes[samples_.plane[beside]]);
+    if (!coded) return false;
+    if constexpr (Coder::kReads) samples_.planes[plane] = *coded;
     return true;
   }
 
@@ -327,6 +278,9 @@ class AttributeWalk {
   LikeNeighbours<Coder, 8> roles_, mirrors_;
   LikeNeighbours<Coder, 16> alphas_;
   PlaneModel<Coder> planes_;
+  PlaneNumberModel<Coder> planeNumbers_;
+  std::vector<PlaneReach> reaches_;  ///< by plane; of writing alone
+  std::vector<bool> isMet_;          ///< by plane
   CoverageModel<Coder> coverages_;
   DistanceNumbers numbers_;
   std::vector<double> tangent_;              ///< of rows, where planes are asked

@@ -1,8 +1,8 @@
 #pragma once
 /// Everything of a list of samples but its colours as one range-coded stream (FORMAT.md, "Range-coded
 /// streams"): how many samples each pixel holds, and of each sample its inverse distance, roles, opacity and,
-/// where there are any, mirror, coverage and plane. Each is foretold by the samples above it and in the
-/// column before. Exact.
+/// where there are any, mirror, coverage and plane, each plane's numbers where it is met first. Each is
+/// predicted by the samples above it and in the column before. Exact.
 
 #include <cstddef>
 #include <span>
@@ -28,7 +28,7 @@ double codedStep(const CaptureSamples& samples, double distanceStep);
 /// `samples` are sound (Capture::check).
 std::vector<std::byte> codeSamples(const CaptureSamples& samples, const SampleShape& shape);
 
-/// Fills all arrays but `planes`, which it reads; of colours alpha alone. Numbers are in range; that the
+/// Fills all arrays; of colours alpha alone. Numbers are in range; that the
 /// whole is a capture Capture::check tells. `malformed` without a place.
 Status decodeSamples(std::span<const std::byte> bytes, const SampleShape& shape, CaptureSamples& out);
 

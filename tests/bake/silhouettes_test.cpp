@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 
 #include "baked_camera.h"
 #include "engine/bake/shading.h"
@@ -164,6 +165,40 @@ TEST(Silhouettes, OfBarsEndWhereThePanesBesideThemBegin) {
     }
   EXPECT_GT(parts, 5000);
   EXPECT_EQ(wrong, 0);
+}
+
+TEST(Silhouettes, ClearSamplesHaveFewOpacitiesAndKeepTheirLight) {
+  SceneBuilder builder;
+  Material glass = matte({0.9f, 0.7f, 0.9f});
+  glass.transmission = 1;
+  builder.box(builder.material(matte({0.5f, 0.5f, 0.5f})), {30, -60, -60}, {60, 60, 60});
+  builder.quad(builder.material(glass), {5, 30, -30}, {5, -30, -30}, {5, -30, 30}, {5, 30, 30});
+  BakeSettings settings = withSilhouettes();
+  const auto scene = builder.rays();
+  const Baked rounded = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  settings.silhouettes = false;
+  const Baked exact = bakeAsSet(scene, cameraAt({0, 0}, {square(0.5)}), settings);
+  int compared = 0;
+  for (int column = 0; column < exact.columns.columns; ++column) {
+    const auto clearOf = [&](const Baked& baked) {
+      std::map<int, glm::vec4> byRow;
+      for (auto i = baked.capture.columnStart[std::size_t(column)];
+           i < baked.capture.columnStart[std::size_t(column) + 1]; ++i)
+        if (const glm::vec4 c = unpackColour(baked.capture.colour[i]); c.a < 1)
+          byRow[baked.capture.row[i]] = c;
+      return byRow;
+    };
+    const auto a = clearOf(rounded);
+    for (const auto& [row, b] : clearOf(exact)) {
+      const auto at = a.find(row);
+      ASSERT_NE(at, a.end());
+      ++compared;
+      ASSERT_EQ(128 * at->second.a, std::round(128 * at->second.a));
+      ASSERT_NEAR(at->second.a, b.a, 1 / 256.0 + 1e-6);
+      for (int k = 0; k < 3; ++k) ASSERT_NEAR(at->second.a * at->second[k], b.a * b[k], 0.002f * b.a * b[k]);
+    }
+  }
+  EXPECT_GT(compared, 5000);
 }
 
 /// Shadows of slats overhead, on the floor: half of them on half a sample.

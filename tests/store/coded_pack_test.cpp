@@ -9,6 +9,7 @@
 
 #include "engine/base/file.h"
 #include "engine/image/colour.h"
+#include "engine/image/plane_numbers.h"
 #include "engine/store/capture_store.h"
 #include "engine/store/colour_tiles.h"
 #include "engine/store/sample_coder.h"
@@ -170,6 +171,78 @@ TEST_F(CodedPack, KeepsWhatPlanesForetellBadly) {
     ASSERT_TRUE(back) << back.error().describe();
     EXPECT_EQ(*back, capture);
   }
+}
+
+TEST_F(CodedPack, KeepsPlanesInWhicheverOrderTheyAreNumbered) {
+  std::mt19937 random(5);
+  for (Capture capture : everyShape()) {
+    for (CaptureSamples* list : {static_cast<CaptureSamples*>(&capture), &capture.reflections}) {
+      if (!list->hasSilhouettes()) continue;
+      for (int k = 0; k < 3; ++k) list->planes.insert(list->planes.begin(), {{0.5f, float(k), -1}, 1});
+      std::vector<std::uint32_t> numbers(list->planes.size());
+      for (std::uint32_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
+      std::ranges::shuffle(numbers, random);
+      const std::vector<SurfacePlane> before = list->planes;
+      for (std::size_t k = 0; k < before.size(); ++k) list->planes[numbers[k]] = before[k];
+      for (std::uint32_t& plane : list->plane) plane = numbers[plane + 3];
+    }
+    const auto back = thereAndBack(capture, kLosslessColours);
+    ASSERT_TRUE(back) << back.error().describe();
+    EXPECT_EQ(*back, capture);
+  }
+}
+
+/// A ball of small facets, each seen in a pixel or two.
+Capture facets() {
+  Capture capture = wallAndFloor();
+  capture.planes.clear();
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k)
+    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i) {
+      const double tilt = 0.5 * std::sin(double(k) / 30), lean = 0.5 * std::cos(capture.row[i] / 20.0);
+      const double azimuth = capture.camera.azimuthAt(double(k) + 0.5) + tilt;
+      const double tangent = capture.camera.tangentAt(capture.row[i] + 0.5);
+      glm::dvec3 normal(std::cos(azimuth), std::sin(azimuth), lean);
+      const glm::dvec2 direction = capture.camera.directionAt(double(k) + 0.5);
+      normal *= double(capture.inverseDistance[i]) / glm::dot(normal, glm::dvec3(direction, tangent));
+      capture.plane[i] = std::uint32_t(capture.planes.size());
+      capture.planes.push_back({glm::vec3(normal)});
+    }
+  return capture;
+}
+
+TEST_F(CodedPack, TakesThreeBytesForThePlaneOfASmallFacet) {
+  Capture capture = facets();
+  roundPlanes(capture, capture.camera, capture.distanceStep);
+  const SampleShape shape{capture.camera, capture.sampleCount(), false, capture.planes.size(),
+                          codedStep(capture, capture.distanceStep)};
+  EXPECT_LT(codeSamples(capture, shape).size(), 3 * capture.planes.size());
+  const auto back = thereAndBack(capture, kLosslessColours);
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, capture);
+}
+
+/// Glass that looks different to each region has samples on one plane in each pixel, one after the other.
+TEST_F(CodedPack, TakesNoMoreForSamplesOnThePlaneOfTheOneBefore) {
+  const Capture once = wallAndFloor();
+  Capture twice = once;
+  static_cast<CaptureSamples&>(twice) = {};
+  twice.planes = once.planes, twice.columnStart = {0};
+  for (std::size_t k = 0; k + 1 < once.columnStart.size(); ++k) {
+    for (std::size_t i = once.columnStart[k]; i < once.columnStart[k + 1]; ++i)
+      for (int look = 0; look < 2; ++look) {
+        twice.row.push_back(once.row[i]), twice.inverseDistance.push_back(once.inverseDistance[i]);
+        twice.colour.push_back(packColour({0.5f, 0.5f, 0.5f, 0.25f}));
+        twice.roles.push_back(std::uint8_t(1 << look));
+        twice.coverage.push_back(once.coverage[i]), twice.plane.push_back(once.plane[i]);
+      }
+    twice.columnStart.push_back(std::uint32_t(twice.sampleCount()));
+  }
+  const auto back = thereAndBack(twice, kLosslessColours);
+  ASSERT_TRUE(back) << back.error().describe();
+  EXPECT_EQ(*back, twice);
+  const SampleShape shape{twice.camera, twice.sampleCount(), false, twice.planes.size(),
+                          codedStep(twice, twice.distanceStep)};
+  EXPECT_LT(codeSamples(twice, shape).size(), once.sampleCount() / 40);
 }
 
 TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
