@@ -5,7 +5,8 @@
 
 #include "engine/base/contract.h"
 #include "engine/store/capture_store.h"
-#include "engine/store/colour_tiles.h"
+#include "engine/store/colour_picture.h"
+#include "engine/store/deep_colours.h"
 #include "engine/store/pack_parts.h"
 #include "engine/store/sample_coder.h"
 #include "engine/store/still_picture.h"
@@ -13,11 +14,9 @@
 namespace acentric {
 namespace {
 
-/// Pictures are cut into strips of rows with at most so many pixels, each a file of its own.
-constexpr int kMostStripPixels = 1 << 22;
 constexpr std::uint64_t kPixelBytes = 6;  ///< of a picture's three planes
-/// Of a sample, with all that it may have, and its place in a picture.
-constexpr std::uint64_t kHeldBytes = 26;
+/// Of a sample, with all that it may have, and what is kept of it while colours are read.
+constexpr std::uint64_t kHeldBytes = 29;
 
 const ColourCoder& colourCoder() {
   static const ColourCoder coder;
@@ -31,76 +30,71 @@ std::uint64_t claimOf(const SampleShape& shape) {
   return std::uint64_t(shape.camera.columns) * std::uint64_t(shape.camera.rows) + kHeldBytes * shape.samples +
          kHeldPlaneBytes * shape.planes;
 }
-std::uint64_t pictureBytes(const ColourTiles& tiles) {
-  return kPixelBytes * std::uint64_t(tiles.width) * std::uint64_t(tiles.height);
-}
-
-int stripRows(int width) {
-  return std::max(kColourTile, kMostStripPixels / width / kColourTile * kColourTile);
-}
-
 template <class Samples>
 auto colourLanes(Samples& samples) {
   return std::array{laneOf(samples.colour, 0, 2), laneOf(samples.colour, 2, 2), laneOf(samples.colour, 4, 2)};
 }
 
 struct ListHead {
-  std::uint64_t samples = 0, planes = 0, streamBytes = 0;
+  std::uint64_t samples = 0, planes = 0, streamBytes = 0, deepBytes = 0;
   bool stepped = false;  ///< distances are numbered by the capture's steps
 };
-
-Status addPictures(BlockFileWriter& file, const CaptureSamples& samples, const ColourTiles& tiles,
-                   int quality, const std::stop_token& stop) {
-  const StillPicture whole = pictureOf(samples, tiles, colourCoder());
-  const std::size_t width = std::size_t(whole.width);
-  for (int top = 0; top < whole.height; top += stripRows(whole.width)) {
-    if (stop.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped");
-    StillPicture strip{whole.width, std::min(stripRows(whole.width), whole.height - top), {}};
-    for (int p = 0; p < 3; ++p) {
-      const auto begin = whole.planes[p].begin() + std::ptrdiff_t(std::size_t(top) * width);
-      strip.planes[p].assign(begin, begin + std::ptrdiff_t(std::size_t(strip.height) * width));
-    }
-    const auto coded = encodeStill(strip, quality);
-    if (!coded) return tl::unexpected(coded.error());
-    if (Status added = file.addBlock(*coded); !added) return added;
-  }
-  return {};
-}
 
 /// One list of samples on its way into a file.
 class ListWriter {
  public:
   ListWriter(const Capture& capture, const CaptureSamples& samples, int quality)
-      : samples_(samples), quality_(quality) {
-    shape_ = {capture.camera, samples.sampleCount(), !samples.mirror.empty(), samples.planes.size(),
-              codedStep(samples, capture.distanceStep)};
-    if (samples.columnStart.empty()) return;
-    stream_ = codeSamples(samples, shape_);
-    if (quality < kLosslessColours)
-      tiles_ = layOutColours(samples, shape_.camera.rows,
-                             &samples == static_cast<const CaptureSamples*>(&capture));
+      : samples_(samples),
+        quality_(quality),
+        shape_{capture.camera, samples.sampleCount(), !samples.mirror.empty(), samples.planes.size(),
+               codedStep(samples, capture.distanceStep)} {}
+
+  Status code(const std::stop_token& stop) {
+    if (samples_.columnStart.empty()) return {};
+    stream_ = codeSamples(samples_, shape_);
+    if (quality_ >= kLosslessColours) return {};
+    std::vector<ColourCodes> codes;
+    codes.reserve(samples_.sampleCount());
+    for (const HalfColour& colour : samples_.colour) codes.push_back(colourCoder().codesOf(colour));
+    area_ = areaOf(samples_);
+    const StillPicture picture = pictureOf(samples_, area_, codes);
+    for (const PictureArea& piece : piecesOf(area_)) {
+      if (stop.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped");
+      auto coded = encodeStill(pieceOf(picture, piece), quality_);
+      if (!coded) return tl::unexpected(coded.error());
+      const auto read = decodeStill(*coded, piece.columns, piece.rows);
+      if (!read) return tl::unexpected(read.error());
+      takePiece(*read, area_, piece, samples_, codes);
+      pieces_.push_back(std::move(*coded));
+    }
+    deep_ = codeDeepColours(samples_, shape_.camera.rows, quality_, codes);
+    return {};
   }
   void describe(BlockFileWriter& file) const {
     file.describe(std::uint64_t(shape_.samples));
     file.describe(std::uint64_t(shape_.planes));
     file.describe(std::uint64_t(stream_.size()));
+    file.describe(std::uint64_t(deep_.size()));
     file.describe(std::uint8_t(shape_.distanceStep > 0 ? 1 : 0));
   }
-  Status add(BlockFileWriter& file, const std::stop_token& stop) const {
+  Status add(BlockFileWriter& file) const {
     if (stream_.empty()) return {};
     file.claim(claimOf(shape_));
     if (Status added = file.addStream(stream_); !added) return added;
     if (quality_ >= kLosslessColours) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
-    file.claim(pictureBytes(tiles_));
-    return addPictures(file, samples_, tiles_, quality_, stop);
+    file.claim(kPixelBytes * area_.pixels());
+    for (const std::vector<std::byte>& piece : pieces_)
+      if (Status added = file.addBlock(piece); !added) return added;
+    return file.addStream(deep_);
   }
 
  private:
   const CaptureSamples& samples_;
   int quality_;
   SampleShape shape_;
-  std::vector<std::byte> stream_;
-  ColourTiles tiles_;
+  PictureArea area_;
+  std::vector<std::byte> stream_, deep_;
+  std::vector<std::vector<std::byte>> pieces_;
 };
 
 Status writeCoded(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
@@ -111,14 +105,16 @@ Status writeCoded(const Capture& capture, const ContentKey& key, const std::file
   describeHead(file, capture);
   file.describe(std::uint8_t(colourQuality));
   file.describe(capture.planeTolerance);
-  const ListWriter surfaces(capture, capture, colourQuality),
+  ListWriter surfaces(capture, capture, colourQuality),
       reflections(capture, capture.reflections, colourQuality);
+  for (ListWriter* list : {&surfaces, &reflections})
+    if (Status coded = list->code(stop); !coded) return coded;
   surfaces.describe(file);
   reflections.describe(file);
-  if (Status added = surfaces.add(file, stop); !added) return added;
+  if (Status added = surfaces.add(file); !added) return added;
   if (capture.background.runCount() > 0)
     if (Status added = addBackground(file, capture.background); !added) return added;
-  if (Status added = reflections.add(file, stop); !added) return added;
+  if (Status added = reflections.add(file); !added) return added;
   return file.write(path);
 }
 
@@ -127,6 +123,7 @@ ListHead describedList(BlockFileReader& file) {
   head.samples = file.described<std::uint64_t>();
   head.planes = file.described<std::uint64_t>();
   head.streamBytes = file.described<std::uint64_t>();
+  head.deepBytes = file.described<std::uint64_t>();
   head.stepped = file.described<std::uint8_t>() != 0;
   return head;
 }
@@ -140,37 +137,35 @@ Status takeStream(BlockFileReader& file, const ListHead& head, const SampleShape
   return {};
 }
 
-Status takePictures(BlockFileReader& file, const SampleShape& shape, bool whole, CaptureSamples& out) {
-  const ColourTiles tiles = layOutColours(out, shape.camera.rows, whole);
-  if (!file.mayHold(pictureBytes(tiles)))
+Status takeColours(BlockFileReader& file, const ListHead& head, int rows, int quality, CaptureSamples& out) {
+  const PictureArea area = areaOf(out);
+  if (!file.mayHold(kPixelBytes * area.pixels()))
     return file.malformed("its pictures are larger than its size allows");
-  const std::size_t width = std::size_t(tiles.width);
-  std::vector<StillPicture> strips;
+  std::vector<ColourCodes> codes(out.sampleCount());
   std::vector<std::byte> bytes;
-  const int rows = tiles.height > 0 ? stripRows(tiles.width) : 1;
-  for (int top = 0; top < tiles.height; top += rows) {
+  for (const PictureArea& piece : piecesOf(area)) {
     bytes.resize(file.nextSize());
     if (Status read = file.nextBlock(bytes); !read) return read;
-    auto decoded = decodeStill(bytes, tiles.width, std::min(rows, tiles.height - top));
+    const auto decoded = decodeStill(bytes, piece.columns, piece.rows);
     if (!decoded) return file.malformed(decoded.error().message);
-    strips.push_back(std::move(*decoded));
+    takePiece(*decoded, area, piece, out, codes);
   }
-  const std::size_t inStrip = width * std::size_t(rows);
+  const auto deep = file.nextStream(head.deepBytes);
+  if (!deep) return tl::unexpected(deep.error());
+  if (Status decoded = decodeDeepColours(*deep, out, rows, quality, codes); !decoded)
+    return file.malformed(decoded.error().message);
   for (std::size_t i = 0; i < out.sampleCount(); ++i) {
-    const StillPicture& from = strips[tiles.place[i] / inStrip];
-    const std::size_t at = tiles.place[i] % inStrip;
-    const HalfColour colour =
-        colourCoder().colourOf({from.planes[0][at], from.planes[1][at], from.planes[2][at]});
+    const HalfColour colour = colourCoder().colourOf(codes[i]);
     out.colour[i] = {colour.r, colour.g, colour.b, out.colour[i].a};
   }
   return {};
 }
 
 Status takeList(BlockFileReader& file, const ListHead& head, const SampleShape& shape, int quality,
-                bool whole, CaptureSamples& out) {
+                CaptureSamples& out) {
   if (Status read = takeStream(file, head, shape, out); !read) return read;
   if (quality >= kLosslessColours) return file.nextRecords(colourLanes(out), out.sampleCount());
-  return takePictures(file, shape, whole, out);
+  return takeColours(file, head, shape.camera.rows, quality, out);
 }
 
 Result<Capture> readCoded(BlockFileReader& file) {
@@ -183,7 +178,7 @@ Result<Capture> readCoded(BlockFileReader& file) {
   const ColumnCamera& camera = capture.camera;
   if (!file.describedAll() || !counts.sized || counts.samples != surfaces.samples ||
       quality > kLosslessColours || !camera.check() ||
-      (!mirrors && (reflections.planes > 0 || reflections.streamBytes > 0)))
+      (!mirrors && (reflections.planes > 0 || reflections.streamBytes > 0 || reflections.deepBytes > 0)))
     return file.malformed("its description makes no sense");
   const auto shapeOf = [&](const ListHead& list) {
     return SampleShape{camera, list.samples, mirrors, list.planes, list.stepped ? capture.distanceStep : 0};
@@ -191,7 +186,7 @@ Result<Capture> readCoded(BlockFileReader& file) {
   const SampleShape shapes[] = {shapeOf(surfaces), shapeOf(reflections)};
   for (const ListHead* list : {&surfaces, &reflections})
     if (list->samples > kMaxCaptureSamples || list->planes > kMaxCaptureSamples ||
-        list->streamBytes > file.rawBytes())
+        list->streamBytes > file.rawBytes() || list->deepBytes > file.rawBytes())
       return file.malformed("its number of samples contradicts its size");
   const auto columns = std::uint64_t(camera.columns);
   const std::uint64_t backgroundBytes =
@@ -199,13 +194,13 @@ Result<Capture> readCoded(BlockFileReader& file) {
   if (counts.runs > kMaxCaptureSamples || backgroundBytes > file.rawBytes() ||
       !file.mayHold(claimOf(shapes[0]) + (mirrors ? claimOf(shapes[1]) : 0)))
     return file.malformed("its number of samples contradicts its size");
-  if (Status read = takeList(file, surfaces, shapes[0], quality, true, capture); !read)
+  if (Status read = takeList(file, surfaces, shapes[0], quality, capture); !read)
     return tl::unexpected(read.error());
   if (counts.runs > 0)
     if (Status read = takeBackground(file, columns, counts.runs, capture.background); !read)
       return tl::unexpected(read.error());
   if (mirrors)
-    if (Status read = takeList(file, reflections, shapes[1], quality, false, capture.reflections); !read)
+    if (Status read = takeList(file, reflections, shapes[1], quality, capture.reflections); !read)
       return tl::unexpected(read.error());
   return capture;
 }

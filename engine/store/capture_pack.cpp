@@ -19,7 +19,12 @@ auto sampleLanes(AnySamples& samples) {
                     laneOf(samples.colour, 4, 2), laneOf(samples.colour, 6, 2),
                     laneOf(samples.roles)};
 }
-constexpr std::uint64_t kSampleBytes = 15, kMirrorBytes = 1, kSilhouetteBytes = 6;
+template <class AnyPlanes>
+auto planeLanes(AnyPlanes& planes) {
+  static_assert(sizeof(SurfacePlane) == 16);
+  return std::array{laneOf(planes, 0, 4), laneOf(planes, 4, 4), laneOf(planes, 8, 4), laneOf(planes, 12, 1)};
+}
+constexpr std::uint64_t kSampleBytes = 15, kMirrorBytes = 1, kSilhouetteBytes = 6, kPlaneBytes = 13;
 
 /// Columns, samples, where there are mirrors their numbers, and silhouettes if it knows them.
 Status add(BlockFileWriter& file, const CaptureSamples& samples) {
@@ -32,7 +37,7 @@ Status add(BlockFileWriter& file, const CaptureSamples& samples) {
           file.addRecords(std::array{laneOf(samples.coverage), laneOf(samples.plane)}, samples.sampleCount());
       !added)
     return added;
-  return addPlanes(file, samples.planes);
+  return file.addRecords(planeLanes(samples.planes), samples.planes.size());
 }
 
 Status writePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
@@ -73,7 +78,8 @@ Status take(BlockFileReader& file, std::size_t columns, std::uint64_t samples, b
   out.plane.resize(samples);
   if (Status read = file.nextRecords(std::array{laneOf(out.coverage), laneOf(out.plane)}, samples); !read)
     return read;
-  return takePlanes(file, planes, out.planes);
+  out.planes.resize(planes);
+  return file.nextRecords(planeLanes(out.planes), planes);
 }
 
 }  // namespace

@@ -6,12 +6,6 @@
 namespace acentric {
 namespace {
 
-template <class AnyPlanes>
-auto planeLanes(AnyPlanes& planes) {
-  static_assert(sizeof(SurfacePlane) == 16);
-  return std::array{laneOf(planes, 0, 4), laneOf(planes, 4, 4), laneOf(planes, 8, 4), laneOf(planes, 12, 1)};
-}
-
 /// First row, one below the last, roles.
 template <class AnyBackground>
 auto runLanes(AnyBackground& background) {
@@ -90,15 +84,6 @@ Status takeBackground(BlockFileReader& file, std::size_t columns, std::uint64_t 
   out.endRow.resize(runs);
   out.roles.resize(runs);
   return file.nextRecords(runLanes(out), runs);
-}
-
-Status addPlanes(BlockFileWriter& file, const std::vector<SurfacePlane>& planes) {
-  return file.addRecords(planeLanes(planes), planes.size());
-}
-
-Status takePlanes(BlockFileReader& file, std::uint64_t count, std::vector<SurfacePlane>& planes) {
-  planes.resize(count);
-  return file.nextRecords(planeLanes(planes), count);
 }
 
 }  // namespace acentric

@@ -1,6 +1,6 @@
 #pragma once
 /// What both versions of packed captures share (FORMAT.md, "Kind 1"): how their description begins, and the
-/// records of background and planes. Private to this folder.
+/// records of the background. Private to this folder.
 
 #include "engine/image/capture.h"
 #include "engine/store/block_file.h"
@@ -29,10 +29,6 @@ inline constexpr std::uint64_t kRunBytes = 5;
 Status addBackground(BlockFileWriter& file, const CaptureBackground& background);
 /// Numbers are known to agree with the file's size.
 Status takeBackground(BlockFileReader& file, std::size_t columns, std::uint64_t runs, CaptureBackground& out);
-
-inline constexpr std::uint64_t kPlaneBytes = 13;
-Status addPlanes(BlockFileWriter& file, const std::vector<SurfacePlane>& planes);
-Status takePlanes(BlockFileReader& file, std::uint64_t count, std::vector<SurfacePlane>& planes);
 
 /// Of version kPlainCapture (capture_pack.cpp), not checked yet. What `accept` refuses is not unpacked.
 Result<Capture> readPlain(BlockFileReader& file, const AcceptPack& accept = {});

@@ -5,10 +5,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "engine/image/capture.h"
 
 namespace acentric {
 
 inline constexpr std::size_t kNoSample = ~std::size_t(0);
+
+/// Of one column where each pixel's samples begin; behind the last row the end.
+inline void findPixels(const CaptureSamples& samples, std::size_t column, std::vector<std::uint32_t>& first) {
+  std::uint32_t at = samples.columnStart[column];
+  const std::uint32_t end = samples.columnStart[column + 1];
+  for (std::size_t row = 0; row < first.size(); ++row) {
+    first[row] = at;
+    while (at < end && samples.row[at] == row) ++at;
+  }
+}
 
 /// The samples of one pixel.
 struct PixelRange {

@@ -83,16 +83,6 @@ class LikeNeighbours {
   std::array<std::array<BitChance, 256>, kBits / 8> trees_;
 };
 
-/// Of one column where each pixel's samples begin; behind the last row the end.
-void findPixels(const CaptureSamples& samples, std::size_t column, std::vector<std::uint32_t>& first) {
-  std::uint32_t at = samples.columnStart[column];
-  const std::uint32_t end = samples.columnStart[column + 1];
-  for (std::size_t row = 0; row < first.size(); ++row) {
-    first[row] = at;
-    while (at < end && samples.row[at] == row) ++at;
-  }
-}
-
 /// Which parts of its pixel each sample covers: where the same plane goes on around it, mostly all; else part
 /// by part, each by those before it.
 template <class Coder>

@@ -11,7 +11,8 @@
 #include "engine/image/colour.h"
 #include "engine/image/plane_numbers.h"
 #include "engine/store/capture_store.h"
-#include "engine/store/colour_tiles.h"
+#include "engine/store/colour_picture.h"
+#include "engine/store/deep_colours.h"
 #include "engine/store/sample_coder.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
@@ -313,7 +314,7 @@ TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
     ASSERT_TRUE(writeCodedPack(withSilhouettes(syntheticCapture({32, 24, true, true, 1, true})), kKey, file(),
                                quality));
     const auto sound = readFile(file()).value();
-    constexpr std::size_t kHead = 56 + 183 + 8 * 9;
+    constexpr std::size_t kHead = 56 + 199 + 8 * 7;
     int refused = 0;
     for (int round = 0; round < 600; ++round) {
       auto bytes = sound;
@@ -386,26 +387,115 @@ TEST(ColourCodes, AreWithinAPartOfAnEighthBitCodeAndCoverAllThatHalvesHold) {
   EXPECT_NEAR(back.b, 0.02, 0.01);
 }
 
-TEST(ColourTiles, GiveEachSampleAPlaceOfItsOwnAndKeepTheFirstLayerAPicture) {
-  const Capture capture = syntheticCapture({300, 260, true, true, 6, true});
-  const ColourTiles whole = layOutColours(capture, 260, true);
-  EXPECT_EQ(whole.width, 304);
-  EXPECT_EQ(std::set(whole.place.begin(), whole.place.end()).size(), capture.sampleCount());
-  EXPECT_LT(*std::ranges::max_element(whole.place), std::uint32_t(whole.width * whole.height));
-  for (std::size_t k = 0; k < 300; ++k)
-    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i)
-      if (i == capture.columnStart[k] || capture.row[i] != capture.row[i - 1]) {
-        ASSERT_EQ(whole.place[i], capture.row[i] * 304u + k);
+std::vector<ColourCodes> codesOf(const CaptureSamples& samples) {
+  const ColourCoder coder;
+  std::vector<ColourCodes> codes;
+  for (const HalfColour& colour : samples.colour) codes.push_back(coder.codesOf(colour));
+  return codes;
+}
+bool isFirst(const CaptureSamples& samples, std::size_t column, std::size_t i) {
+  return i == samples.columnStart[column] || samples.row[i] != samples.row[i - 1];
+}
+
+TEST(ColourPicture, HoldsTheFirstSamplesWhereTheyAre) {
+  const Capture capture = smoothly(syntheticCapture({300, 260, true, true, 6, true}));
+  for (const CaptureSamples* list : {static_cast<const CaptureSamples*>(&capture), &capture.reflections}) {
+    const PictureArea area = areaOf(*list);
+    const std::vector<ColourCodes> codes = codesOf(*list);
+    const StillPicture picture = pictureOf(*list, area, codes);
+    std::vector<ColourCodes> back(codes.size());
+    for (const PictureArea& piece : piecesOf(area))
+      takePiece(pieceOf(picture, piece), area, piece, *list, back);
+    for (std::size_t k = 0; k < 300; ++k)
+      for (std::size_t i = list->columnStart[k]; i < list->columnStart[k + 1]; ++i) {
+        if (!isFirst(*list, k, i)) continue;
+        ASSERT_EQ(back[i], codes[i]);
+        ASSERT_EQ(picture.planes[0][std::size_t(list->row[i] - area.row) * std::size_t(area.columns) + k -
+                                    std::size_t(area.column)],
+                  codes[i][0]);
       }
-  // Two samples in far corners take two tiles, not a picture.
+  }
+}
+
+TEST(ColourPicture, IsNoLargerThanWhatHoldsSamples) {
   CaptureSamples few;
-  few.columnStart.assign(301, 1);
-  few.columnStart[0] = 0, few.columnStart[300] = 2;
-  few.row = {0, 259};
-  const ColourTiles tiles = layOutColours(few, 260, false);
-  EXPECT_EQ(tiles.height, kColourTile);
-  EXPECT_THAT(tiles.place,
-              testing::ElementsAre(0u, 304u * (259 % kColourTile) + kColourTile + 299 % kColourTile));
+  few.columnStart.assign(301, 0);
+  for (std::size_t k = 8; k <= 300; ++k) few.columnStart[k] = k <= 20 ? 1 : 2;
+  few.row = {100, 104};
+  const PictureArea area = areaOf(few);
+  EXPECT_EQ(area.column, 7);
+  EXPECT_EQ(area.columns, 14);
+  EXPECT_EQ(area.row, 100);
+  EXPECT_EQ(area.rows, 5);
+  EXPECT_EQ(areaOf(CaptureSamples{}).pixels(), 0u);
+  EXPECT_TRUE(piecesOf({}).empty());
+}
+
+TEST(ColourPicture, IsCutIntoPiecesThatPicturesMayBe) {
+  for (const PictureArea& area : {PictureArea{3, 5, 65535, 70}, PictureArea{0, 0, 1, 65535},
+                                  PictureArea{9, 2, 5000, 3000}, PictureArea{0, 0, 1, 1}}) {
+    std::uint64_t pixels = 0;
+    for (const PictureArea& piece : piecesOf(area)) {
+      pixels += piece.pixels();
+      EXPECT_LE(piece.pixels(), 1u << 22);
+      EXPECT_LE(std::max(piece.columns, piece.rows), kMostPictureSide);
+      EXPECT_GE(std::min(piece.columns, piece.rows), 1);
+    }
+    EXPECT_EQ(pixels, area.pixels());
+  }
+}
+
+TEST(DeepColours, AreWithinHalfAStepAndReadAsTheyWereWritten) {
+  for (const bool silhouettes : {false, true})
+    for (const int quality : {0, 50, 90, 94, 99}) {
+      Capture capture = smoothly(syntheticCapture({120, 90, true, true, 3}));
+      if (silhouettes) capture = withSilhouettes(capture);
+      const std::vector<ColourCodes> exact = codesOf(capture);
+      std::vector<ColourCodes> written = exact;
+      const auto bytes = codeDeepColours(capture, 90, quality, written);
+      std::vector<ColourCodes> read(exact.size());
+      int deep = 0;
+      for (std::size_t k = 0; k < 120; ++k)
+        for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i)
+          if (isFirst(capture, k, i))
+            read[i] = exact[i];
+          else
+            ++deep;
+      ASSERT_GT(deep, 500);
+      ASSERT_TRUE(decodeDeepColours(bytes, capture, 90, quality, read));
+      EXPECT_EQ(read, written);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        ASSERT_NEAR(written[i][0], exact[i][0], (100 - quality) / 2.0) << quality;
+        for (std::size_t p = 1; p < 3; ++p)
+          ASSERT_NEAR(written[i][p], exact[i][p], (1.5 * (100 - quality) + 1) / 2) << quality;
+      }
+      EXPECT_FALSE(decodeDeepColours(std::span(bytes).first(bytes.size() / 2), capture, 90, quality, read));
+    }
+}
+
+/// Behind the edge of what is before it a surface goes on as it is beside that.
+TEST(DeepColours, TakeNextToNothingWhereTheirSurfaceGoesOnBesideThem) {
+  Capture capture = wallAndFloor();
+  CaptureSamples edged;
+  edged.planes = capture.planes, edged.columnStart = {0};
+  std::size_t deep = 0;
+  for (std::size_t k = 0; k + 1 < capture.columnStart.size(); ++k) {
+    for (std::size_t i = capture.columnStart[k]; i < capture.columnStart[k + 1]; ++i)
+      for (int layer = k % 10 == 3 ? 0 : 1; layer < 2; ++layer) {  // an edge of a third surface
+        edged.row.push_back(capture.row[i]);
+        edged.inverseDistance.push_back(capture.inverseDistance[i] + (layer == 0 ? 1 : 0));
+        edged.plane.push_back(layer == 0 ? std::uint32_t(edged.planes.size()) : capture.plane[i]);
+        const float x = float(k) / 100;
+        edged.colour.push_back(layer == 0 ? packColour({5, 0.1f, 3, 1})
+                                          : packColour({x, 0.5f, 1 - x / 2, 1}));
+        edged.coverage.push_back(kWholePixel), edged.roles.push_back(1);
+        deep += layer == 0;
+      }
+    edged.columnStart.push_back(std::uint32_t(edged.sampleCount()));
+  }
+  edged.planes.push_back({{0.5f, 0.5f, 0}});
+  std::vector<ColourCodes> codes = codesOf(edged);
+  EXPECT_LT(codeDeepColours(edged, 160, kQuality, codes).size(), deep / 10);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+/// Colours of samples behind the first one of their pixel, as a range-coded stream (FORMAT.md, "Colours
+/// behind the first"). They lie along the edges of what is before them, where the surface that they are on
+/// mostly goes on beside it: each is predicted by its neighbours on the same plane, and what it is off by is
+/// coded in even steps. As pictures they take three times the bytes.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/image/capture.h"
+#include "engine/store/colour_codes.h"
+
+namespace acentric {
+
+/// `codes` are of all samples: of first ones as they will be read, of the others as they are; these become
+/// what will be read. `quality`: 0..99; off by at most half of 100 - quality codes of luma, of chroma by half
+/// as much again.
+std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, int rows, int quality,
+                                       std::vector<ColourCodes>& codes);
+
+/// Sets those of deeper samples. `malformed` without a place.
+Status decodeDeepColours(std::span<const std::byte> bytes, const CaptureSamples& samples, int rows,
+                         int quality, std::vector<ColourCodes>& codes);
+
+}  // namespace acentric
