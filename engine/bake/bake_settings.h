@@ -25,7 +25,7 @@ inline constexpr Quality kQualities[] = {Quality::preview, Quality::draft, Quali
 const char* nameOf(Quality quality);  ///< preview, draft, final
 
 struct BakeSettings {
-  double samplesPerDegree = 12;  ///< columns and rows per degree, 0.5..64
+  double samplesPerDegree = 16;  ///< columns and rows per degree, 0.5..64
   int ambientRays = 32;          ///< per place that light is gathered for, 0..1024; for occlusion and bounces
   double ambientRadius = 2.0;    ///< metres; occluders beyond fade out
   int shadowRays = 16;           ///< per sample towards each light with a size, 1..1024

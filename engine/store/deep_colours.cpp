@@ -32,8 +32,8 @@ class DeepColourWalk {
   DeepColourWalk(Coder& coder, const CaptureSamples& samples, int rows, int quality,
                  std::vector<ColourCodes>& codes)
       : coder_(coder), samples_(samples), codes_(codes), off_(samples.sampleCount(), 0) {
-    const int luma = 100 - quality;
-    steps_ = {luma, (3 * luma + 1) / 2, (3 * luma + 1) / 2};
+    const DeepColourSteps steps(quality);
+    steps_ = {steps.luma, steps.chroma, steps.chroma};
     pixels_.fill(std::vector<std::uint32_t>(std::size_t(rows) + 1, 0));
   }
 

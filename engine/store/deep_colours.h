@@ -14,9 +14,14 @@
 
 namespace acentric {
 
+/// By how many codes the values that can be read are apart. About as true as pictures of that quality.
+struct DeepColourSteps {
+  explicit DeepColourSteps(int quality) : luma((2 * (100 - quality) + 1) / 3), chroma((3 * luma + 1) / 2) {}
+  int luma, chroma;
+};
+
 /// `codes` are of all samples: of first ones as they will be read, of the others as they are; these become
-/// what will be read. `quality`: 0..99; off by at most half of 100 - quality codes of luma, of chroma by half
-/// as much again.
+/// what will be read. `quality`: 0..99.
 std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, int rows, int quality,
                                        std::vector<ColourCodes>& codes);
 

@@ -465,9 +465,10 @@ TEST(DeepColours, AreWithinHalfAStepAndReadAsTheyWereWritten) {
       ASSERT_TRUE(decodeDeepColours(bytes, capture, 90, quality, read));
       EXPECT_EQ(read, written);
       for (std::size_t i = 0; i < exact.size(); ++i) {
-        ASSERT_NEAR(written[i][0], exact[i][0], (100 - quality) / 2.0) << quality;
+        const DeepColourSteps steps(quality);
+        ASSERT_NEAR(written[i][0], exact[i][0], steps.luma / 2.0) << quality;
         for (std::size_t p = 1; p < 3; ++p)
-          ASSERT_NEAR(written[i][p], exact[i][p], (1.5 * (100 - quality) + 1) / 2) << quality;
+          ASSERT_NEAR(written[i][p], exact[i][p], steps.chroma / 2.0) << quality;
       }
       EXPECT_FALSE(decodeDeepColours(std::span(bytes).first(bytes.size() / 2), capture, 90, quality, read));
     }
