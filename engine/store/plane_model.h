@@ -22,17 +22,19 @@ class PlaneModel {
   PlaneModel(Coder& coder, std::size_t planes)
       : coder_(coder), bits_(planes > 1 ? int(std::bit_width(planes - 1)) : 1) {}
 
-  /// `planes` holds those of the samples before this one, `own` where those of its pixel begin.
+  /// `planes` holds those of the samples before this one; `own` are these of its pixel, which has `count` in
+  /// all.
   template <class Planes>
   std::uint32_t code(std::uint32_t value, const Planes& planes, const PixelsAround& around,
-                     const PixelRange& own) {
+                     const PixelRange& own, std::uint32_t count) {
     if (own.first < own.end) {
       const std::uint32_t last = planes[own.end - 1];
       if (coder_.bit(again_[againAround(planes, around, own)], value == last)) return last;
     }
     listCandidates(planes, around, own);
+    auto& isIt = isIt_[alikeAround(around, own, count)];
     for (std::size_t k = 0; k < count_; ++k)
-      if (coder_.bit(isIt_[std::min(k, kRanks - 1)][where_[k]], value == candidate_[k])) return candidate_[k];
+      if (coder_.bit(isIt[std::min(k, kRanks - 1)][where_[k]], value == candidate_[k])) return candidate_[k];
     if (coder_.bit(isNext_[std::min<std::size_t>(count_, 1)], value == next_)) return next_++;
     if (coder_.bit(isMet_, value < next_)) return next_ - 1 - codeBack(next_ - 1 - value);
     return coder_.plain(value, bits_);
@@ -53,6 +55,15 @@ class PlaneModel {
     };
     const bool own2 = layer > 1 && planes[own.end - 1] == planes[own.end - 2];
     return 9 * std::size_t(own2) + 3 * again(PixelsAround::kAbove) + again(PixelsAround::kBefore);
+  }
+
+  /// Pixels that hold as many samples as those beside them mostly hold the same planes.
+  static std::size_t alikeAround(const PixelsAround& around, const PixelRange& own, std::uint32_t count) {
+    const auto isAsFull = [&](PixelsAround::Place place) {
+      return std::size_t(around.pixel[place].end - around.pixel[place].first == count);
+    };
+    return isAsFull(PixelsAround::kBefore) | isAsFull(PixelsAround::kAbove) << 1 |
+           std::size_t(own.first < own.end) << 2;
   }
 
   /// Nearest surfaces first; not those that the pixel has already.
@@ -106,7 +117,7 @@ class PlaneModel {
   std::array<std::uint8_t, kMost> where_{};  ///< in which of the pixels around, by bits
   std::size_t count_ = 0;
   std::uint32_t next_ = 0;
-  std::array<std::array<BitChance, 1u << PixelsAround::kPlaces>, kRanks> isIt_;
+  std::array<std::array<std::array<BitChance, 1u << PixelsAround::kPlaces>, kRanks>, 8> isIt_;
   std::array<BitChance, 2> isNext_;
   BitChance isMet_;
   std::array<BitChance, 18> again_;

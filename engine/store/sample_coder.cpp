@@ -202,11 +202,13 @@ class AttributeWalk {
     const std::uint32_t first = now_[row];
     std::size_t above = around.pixel[PixelsAround::kAbove].at(i - first),
                 before = around.pixel[PixelsAround::kBefore].at(i - first);
+    std::size_t goesOn = 0;  // in how many of both pixels the plane does
     if (shape_.planes > 0) {
       if (!codePlane(i, row, around, above, before)) return false;
       const std::size_t a = onPlane(around.pixel[PixelsAround::kAbove], samples_.plane[i]),
                         b = onPlane(around.pixel[PixelsAround::kBefore], samples_.plane[i]);
       if (a != kNone || b != kNone) above = a, before = b;
+      goesOn = std::size_t(a != kNone) + std::size_t(b != kNone);
     }
     const auto w =
         shape_.planes > 0
@@ -217,7 +219,7 @@ class AttributeWalk {
       if (!w) return false;
       samples_.inverseDistance[i] = *w;
     }
-    codeLike(roles_, samples_.roles, i, above, before, 1);
+    codeLike(roles_[i > first ? 1 : 0][goesOn], samples_.roles, i, above, before, 1);
     codeAlpha(i, above, before);
     if (shape_.mirrors) codeLike(mirrors_, samples_.mirror, i, above, before, 0);
     return true;
@@ -235,7 +237,8 @@ class AttributeWalk {
   bool codePlane(std::uint32_t i, std::size_t row, const PixelsAround& around, std::size_t above,
                  std::size_t before) {
     const std::uint32_t first = now_[row];
-    const std::uint32_t plane = planes_.code(samples_.plane[i], samples_.plane, around, {first, i});
+    const std::uint32_t plane =
+        planes_.code(samples_.plane[i], samples_.plane, around, {first, i}, now_[row + 1] - first);
     if (plane >= shape_.planes) return false;
     if (!isMet_[plane]) {
       const std::size_t beside = i > first ? i - 1 : before != kNone ? before : above;
@@ -265,7 +268,8 @@ class AttributeWalk {
   Samples& samples_;
   const SampleShape& shape_;
   DistanceModel<Coder> distances_;
-  LikeNeighbours<Coder, 8> roles_, mirrors_;
+  std::array<std::array<LikeNeighbours<Coder, 8>, 3>, 2> roles_;
+  LikeNeighbours<Coder, 8> mirrors_;
   LikeNeighbours<Coder, 16> alphas_;
   PlaneModel<Coder> planes_;
   PlaneNumberModel<Coder> planeNumbers_;
