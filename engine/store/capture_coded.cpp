@@ -16,20 +16,19 @@ namespace {
 
 constexpr std::uint64_t kPixelBytes = 6;  ///< of a picture's three planes
 /// Of a sample, with all that it may have, and what is kept of it while colours are read.
-constexpr std::uint64_t kHeldBytes = 29;
+constexpr std::uint64_t kHeldBytes = 29, kHeldPlaneBytes = sizeof(SurfacePlane);
 
 const ColourCoder& colourCoder() {
   static const ColourCoder coder;
   return coder;
 }
 
-constexpr std::uint64_t kHeldPlaneBytes = sizeof(SurfacePlane);
-
 /// What reading a list takes besides its blocks: its pixels, its samples, their planes.
 std::uint64_t claimOf(const SampleShape& shape) {
   return std::uint64_t(shape.camera.columns) * std::uint64_t(shape.camera.rows) + kHeldBytes * shape.samples +
          kHeldPlaneBytes * shape.planes;
 }
+
 template <class Samples>
 auto colourLanes(Samples& samples) {
   return std::array{laneOf(samples.colour, 0, 2), laneOf(samples.colour, 2, 2), laneOf(samples.colour, 4, 2)};

@@ -53,8 +53,8 @@ class PlaneModel {
       const std::uint32_t at = around.pixel[place].first + layer;
       return at >= around.pixel[place].end ? 0 : planes[at] == planes[at - 1] ? 2 : 1;
     };
-    const bool own2 = layer > 1 && planes[own.end - 1] == planes[own.end - 2];
-    return 9 * std::size_t(own2) + 3 * again(PixelsAround::kAbove) + again(PixelsAround::kBefore);
+    const bool repeats = layer > 1 && planes[own.end - 1] == planes[own.end - 2];
+    return 9 * std::size_t(repeats) + 3 * again(PixelsAround::kAbove) + again(PixelsAround::kBefore);
   }
 
   /// Pixels that hold as many samples as those beside them mostly hold the same planes.
