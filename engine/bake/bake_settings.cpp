@@ -24,7 +24,7 @@ BakeSettings BakeSettings::at(Quality quality) const {
   const int part = preview ? 4 : 2;
   const auto fewer = [&](int& count, int least) { count = std::min(count, std::max(count / part, least)); };
   out.samplesPerDegree =
-      std::max(samplesPerDegree / (preview ? 6 : 2), std::min(samplesPerDegree, kCoarsest));
+      std::max(samplesPerDegree / (preview ? 8 : 2), std::min(samplesPerDegree, kCoarsest));
   fewer(out.ambientRays, 4);
   fewer(out.shadowRays, 4);
   fewer(out.bounces, 1);

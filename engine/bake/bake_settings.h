@@ -47,7 +47,7 @@ struct BakeSettings {
   /// where a benchmark times what else a bake does.
   bool silhouettes = true;
 
-  /// Those that a quality is baked with: a sixth or half of the resolution, fewer rays, layers and eyes.
+  /// Those that a quality is baked with: an eighth or half of the resolution, fewer rays, layers and eyes.
   BakeSettings at(Quality quality) const;
   Status check() const;
   void addTo(Hasher& hasher) const;
