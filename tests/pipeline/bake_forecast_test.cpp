@@ -69,7 +69,7 @@ TEST_F(BakeForecastTest, CountsPreviewsThatComeFirst) {
   BakeRequest request;
   EXPECT_EQ(missingOf(open, request).previews, 0);
   request.coarseFirst = true;
-  EXPECT_NEAR(missingOf(open, request).previews, 1.0 / 36, 0.005) << "a sixth of the resolution";
+  EXPECT_NEAR(missingOf(open, request).previews, 1.0 / 64, 0.003) << "an eighth of the resolution";
   request.surfaceLight = false;
   TaskRunner runner(1);
   ASSERT_TRUE(bakeProject(atQuality(open, Quality::preview), request, runner));
