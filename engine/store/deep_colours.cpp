@@ -17,11 +17,10 @@ constexpr int kWeights[kReach + 1][kReach + 1] = {{8, 4, 2}, {4, 3, 2}, {2, 2, 1
 /// Of neighbours on other planes: those that are as deep in their pixels count more.
 constexpr int kAsDeep = 4;
 
-/// What coding a sample goes by. No number of it depends on colours, so that the stream can be read before
-/// the picture is.
+/// What coding a sample goes by.
 struct Prediction {
   std::array<int, 3> colour{};
-  std::size_t unrest = 0;
+  std::size_t unrest = 0;  ///< depends on no colour, so that the stream can be read before the picture is
 };
 constexpr std::size_t kUnrests = 11;
 

@@ -97,18 +97,11 @@ class PlaneModel {
 
   /// By how many planes were met since.
   std::uint32_t codeBack(std::uint32_t back) {
-    const auto wanted = std::uint32_t(std::bit_width(back));
-    std::uint32_t digits = 0, tree = 1;
-    for (std::size_t d = kDigits; d-- > 0;) {
-      const bool one = coder_.bit(digits_[tree], (wanted >> d & 1u) != 0);
-      digits = digits << 1 | std::uint32_t(one), tree = tree << 1 | std::uint32_t(one);
-    }
+    const std::uint32_t digits = digits_.code(coder_, std::uint32_t(std::bit_width(back)));
     if (digits < 2) return digits;
-    const auto second = std::uint32_t(coder_.bit(second_[digits], (back >> (digits - 2) & 1u) != 0));
-    const std::uint32_t top = 2 | second;
-    if (digits == 2) return top;
     const int rest = int(digits) - 2;
-    return top << rest | coder_.plain(back & ((1u << rest) - 1), rest);
+    const auto second = std::uint32_t(coder_.bit(second_[digits], (back >> rest & 1u) != 0));
+    return (2 | second) << rest | coder_.plain(back & ((1u << rest) - 1), rest);
   }
 
   Coder& coder_;
@@ -121,7 +114,7 @@ class PlaneModel {
   std::array<BitChance, 2> isNext_;
   BitChance isMet_;
   std::array<BitChance, 18> again_;
-  std::array<BitChance, 1u << kDigits> digits_;
+  BitTree<kDigits> digits_;
   std::array<BitChance, 1u << kDigits> second_;
 };
 
@@ -148,7 +141,8 @@ class PlaneNumberModel {
     }
     SurfacePlane out;
     if (coder_.bit(hasNumbers_, numbers.has_value())) {
-      scale = {codeScale(across_, scale.across), codeScale(down_, scale.down)};
+      scale = {int(across_.code(coder_, std::uint32_t(scale.across))),
+               int(down_.code(coder_, std::uint32_t(scale.down)))};
       PlaneNumbers expected;
       if (beside != nullptr) expected = frame.numbersOf(*beside, scale).value_or(PlaneNumbers{});
       const PlaneNumbers own = numbers.value_or(PlaneNumbers{});
@@ -172,19 +166,11 @@ class PlaneNumberModel {
  private:
   static constexpr std::size_t kScaleBits = 4;
   static_assert(kMostLeftOut < 1 << kScaleBits);
-  using ScaleTree = std::array<BitChance, 1u << kScaleBits>;
-
-  int codeScale(ScaleTree& tree, int value) {
-    std::size_t at = 1;
-    for (std::size_t b = kScaleBits; b-- > 0;)
-      at = at << 1 | std::size_t(coder_.bit(tree[at], (value >> b & 1) != 0));
-    return int(at - (1u << kScaleBits));
-  }
 
   Coder& coder_;
   double step_;
   BitChance away_, hasNumbers_;
-  ScaleTree across_, down_;
+  BitTree<kScaleBits> across_, down_;
   DifferenceModel<1> ahead_;
   DifferenceModel<kMostLeftOut + 1> sideways_, upwards_;
 };

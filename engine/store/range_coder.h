@@ -3,6 +3,7 @@
 /// are written, a likely one taking a small part of a bit in the file. Writer and reader share the code that
 /// walks the data: both have `bit`, which takes what is to be written and gives what is in the file.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -137,6 +138,22 @@ class RangeReader {
   std::span<const std::byte> bytes_;
   std::size_t at_ = 0;
   std::uint32_t range_ = 0xffffffffu, code_ = 0;
+};
+
+/// A number of kBits bits, the highest first, each by those before it.
+template <std::size_t kBits>
+class BitTree {
+ public:
+  template <class Coder>
+  std::uint32_t code(Coder& coder, std::uint32_t value) {
+    std::uint32_t at = 1;
+    for (std::size_t b = kBits; b-- > 0;)
+      at = at << 1 | std::uint32_t(coder.bit(chances_[at], (value >> b & 1u) != 0));
+    return at - (1u << kBits);
+  }
+
+ private:
+  std::array<BitChance, 1u << kBits> chances_;
 };
 
 }  // namespace acentric

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -67,12 +66,8 @@ class LikeNeighbours {
     if (like) return before;
     if (alike == 0 && coder.bit(likeAbove_, value == above)) return above;
     std::uint32_t out = 0;
-    for (std::size_t byte = kBits / 8; byte-- > 0;) {
-      std::uint32_t tree = 1;
-      for (std::size_t b = 8; b-- > 0;)
-        tree = tree << 1 | std::uint32_t(coder.bit(trees_[byte][tree], (value >> (8 * byte + b) & 1u) != 0));
-      out = out << 8 | (tree & 0xffu);
-    }
+    for (std::size_t byte = kBits / 8; byte-- > 0;)
+      out = out << 8 | trees_[byte].code(coder, value >> (8 * byte) & 0xffu);
     return out;
   }
 
@@ -80,7 +75,7 @@ class LikeNeighbours {
   std::array<std::array<BitChance, 8>, 2> likeBefore_;
   BitChance likeAbove_;
   std::array<std::uint8_t, 2> past_{};
-  std::array<std::array<BitChance, 256>, kBits / 8> trees_;
+  std::array<BitTree<8>, kBits / 8> trees_;
 };
 
 /// Which parts of its pixel each sample covers: where the same plane goes on around it, mostly all; else part
