@@ -16,7 +16,7 @@ constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'
 /// Of each kind of file its own: one that changes leaves the others readable.
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
   if (kind == BlockFileKind::capture) return kPlainCapture;
-  if (kind == BlockFileKind::surfaceLight) return 3;
+  if (kind == BlockFileKind::surfaceLight) return 4;
   return kind == BlockFileKind::localGeometry || kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
 /// What a reader of the kind takes: captures in either version.

@@ -12,7 +12,7 @@ namespace acentric {
 
 inline constexpr int kCaptureExrVersion = 4;
 /// Value of channel W where a flat file's pixel has no sample.
-inline constexpr float kNoSample = -1.0f;
+inline constexpr float kNoDistance = -1.0f;
 
 /// Who needs a sample: bit r for role r.
 inline constexpr char kRolesChannel[] = "roles";

@@ -149,7 +149,7 @@ void readFlat(const Part& from) {
 
   CaptureSamples& out = from.samples;
   std::size_t samples = 0;
-  for (const Pixel& pixel : pixels) samples += pixel.w == kNoSample ? 0 : 1;
+  for (const Pixel& pixel : pixels) samples += pixel.w == kNoDistance ? 0 : 1;
   out.row.reserve(samples);
   out.inverseDistance.reserve(samples);
   out.colour.reserve(samples);
@@ -158,7 +158,7 @@ void readFlat(const Part& from) {
   for (std::size_t column = 0; column < columns; ++column) {
     const Pixel* pixel = &pixels[(columns - 1 - column) * rows];
     for (std::size_t row = 0; row < rows; ++row, ++pixel) {
-      if (pixel->w == kNoSample) continue;
+      if (pixel->w == kNoDistance) continue;
       out.row.push_back(static_cast<std::uint16_t>(row));
       out.inverseDistance.push_back(pixel->w);
       out.colour.push_back(pixel->colour);

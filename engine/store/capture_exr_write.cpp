@@ -147,7 +147,7 @@ void writeFlat(File&& file, const ColumnCamera& camera, const CaptureSamples& sa
     for (std::size_t x = 0; x < columns; ++x) {
       const auto [first, count] = walk.take(columns - 1 - x, row);
       if (count == 0) {
-        line[x] = {HalfColour(0), kInfinity, kNoSample, 0, 0};
+        line[x] = {HalfColour(0), kInfinity, kNoDistance, 0, 0};
         continue;
       }
       const float w = samples.inverseDistance[first];

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/store/difference_model.h"
+#include "engine/store/pixels_around.h"
 
 namespace acentric {
 
@@ -63,12 +64,11 @@ class DistanceModel {
     now_.assign(count, {});
   }
 
-  /// Of sample `i`; neighbours are ~0 where there is none. Nothing if what is read is no distance.
+  /// Of sample `i`; kNoSample for neighbours that are not there. Nothing if what is read is no distance.
   std::optional<float> code(float w, std::size_t i, std::size_t above, std::size_t before,
                             std::size_t inFront) {
-    constexpr std::size_t kNone = ~std::size_t(0);
-    const Trace* n = above == kNone ? nullptr : &now_[above - nowFirst_];
-    const Trace* b = before == kNone ? nullptr : &before_[before - beforeFirst_];
+    const Trace* n = above == kNoSample ? nullptr : &now_[above - nowFirst_];
+    const Trace* b = before == kNoSample ? nullptr : &before_[before - beforeFirst_];
     Trace own;
     // Three ways to foretell it: by the one before and what that one, or the one above, was apart from its
     // own one before; and by the one above.
@@ -82,7 +82,7 @@ class DistanceModel {
         if (offOf(other) < offOf(way)) way = other;
     }
     std::int64_t foretold = ways[way];
-    if (!n && !b) foretold = (inFront == kNone ? last_ : now_[inFront - nowFirst_].number) << kFraction;
+    if (!n && !b) foretold = (inFront == kNoSample ? last_ : now_[inFront - nowFirst_].number) << kFraction;
 
     const std::int64_t nearest = (foretold + kHalf) >> kFraction;
     const auto rest = std::size_t((foretold + kHalf - (nearest << kFraction)) >> (kFraction - 4));  // 0..15
@@ -117,9 +117,8 @@ class DistanceModel {
   /// on no number: another machine's rounding of a plane shifts one sample by a step.
   std::optional<float> codeBeside(std::int64_t foretold, float w, std::size_t i, std::size_t above,
                                   std::size_t before) {
-    constexpr std::size_t kNone = ~std::size_t(0);
-    const std::uint32_t offAbove = above == kNone ? 0 : now_[above - nowFirst_].off,
-                        offBefore = before == kNone ? 0 : before_[before - beforeFirst_].off;
+    const std::uint32_t offAbove = above == kNoSample ? 0 : now_[above - nowFirst_].off,
+                        offBefore = before == kNoSample ? 0 : before_[before - beforeFirst_].off;
     Trace own;
     const std::int64_t off =
         differences_.code(coder_, numbers_.numberOf(w) - foretold, classOf(offAbove + offBefore));

@@ -14,13 +14,13 @@ constexpr std::uint16_t kOne = 0x3c00;
 constexpr int kInfinite = 0x7c00;
 constexpr int kMostUnused = 4;
 
-/// Writer and reader in one, as the coder is.
+/// Writer and reader in one, as the coder is, of the fronts of triangles or of their backs.
 template <class Coder>
-class LightCoder {
+class SideCoder {
  public:
-  LightCoder(Coder& coder, int unusedBits) : coder_(coder), shift_(unusedBits) {}
+  SideCoder(Coder& coder, int unusedBits) : coder_(coder), shift_(unusedBits) {}
 
-  /// One side of a triangle. False where what is read is no light.
+  /// That of one triangle. False where what is read is no light.
   template <class Sample>
   bool code(Sample* samples, std::uint32_t resolution) {
     for (std::uint32_t i = 0; i <= resolution; ++i) {
@@ -42,7 +42,7 @@ class LightCoder {
   };
   struct Channel {
     std::vector<Trace> row, above;  ///< of samples with the same i, and with the one before
-    int last = 0;                   ///< the first value of the side before
+    int last = 0;                   ///< the first value of the triangle before
     DifferenceModel<30> model;
   };
   struct Guess {
@@ -94,15 +94,18 @@ class LightCoder {
   std::array<Channel, 3> channels_;
 };
 
-/// visit(first sample, resolution) for all sides that have light; false as soon as it is.
-template <class Visit>
-bool forSides(const SurfaceLight& light, const Visit& visit) {
-  for (std::size_t t = 0; t < light.resolution.size(); ++t) {
-    const std::uint32_t resolution = light.resolution[t];
+/// Backs have little in common with the fronts they lie behind: the two know nothing of each other. False
+/// where what is read is no light.
+template <class Coder, class Samples>
+bool codeSides(Coder& coder, int unusedBits, const SurfaceLight& tables, Samples* samples) {
+  std::array sides{SideCoder(coder, unusedBits), SideCoder(coder, unusedBits)};
+  for (std::size_t t = 0; t < tables.resolution.size(); ++t) {
+    const std::uint32_t resolution = tables.resolution[t];
     if (resolution == 0) continue;
-    const std::size_t first = light.firstSample[t];
-    if (!visit(first, resolution)) return false;
-    if (light.hasBack[t] != 0 && !visit(first + surfaceSampleCount(resolution), resolution)) return false;
+    Samples* const front = samples + tables.firstSample[t];
+    if (!sides[0].code(front, resolution)) return false;
+    if (tables.hasBack[t] != 0 && !sides[1].code(front + surfaceSampleCount(resolution), resolution))
+      return false;
   }
   return true;
 }
@@ -117,10 +120,7 @@ int unusedBits(const SurfaceLight& light) {
 
 std::vector<std::byte> codeLight(const SurfaceLight& light, int unusedBits) {
   RangeWriter writer;
-  LightCoder<RangeWriter> coder(writer, unusedBits);
-  forSides(light, [&](std::size_t first, std::uint32_t resolution) {
-    return coder.code(light.light.data() + first, resolution);
-  });
+  codeSides(writer, unusedBits, light, light.light.data());
   return std::move(writer).finish();
 }
 
@@ -130,10 +130,7 @@ Status decodeLight(std::span<const std::byte> stream, int unusedBits, SurfaceLig
   };
   if (unusedBits < 0 || unusedBits > kMostUnused) return malformed();
   RangeReader reader(stream);
-  LightCoder<RangeReader> coder(reader, unusedBits);
-  const bool sound = forSides(light, [&](std::size_t first, std::uint32_t resolution) {
-    return coder.code(light.light.data() + first, resolution);
-  });
+  const bool sound = codeSides(reader, unusedBits, light, light.light.data());
   return sound && reader.atEnd() ? Status() : Status(malformed());
 }
 

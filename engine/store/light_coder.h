@@ -1,6 +1,6 @@
 #pragma once
-/// The light of surfaces as a range-coded stream (FORMAT.md, "Kind 2"): each sample is foretold by those
-/// before it in its triangle, red by green and blue by both.
+/// The light of surfaces as a range-coded stream (FORMAT.md, "Kind 2"): each sample is predicted from those
+/// before it on its side of its triangle, red also from green and blue from both.
 
 #include <cstddef>
 #include <span>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "engine/store/distance_model.h"
@@ -15,7 +14,6 @@ namespace acentric {
 namespace {
 
 constexpr std::uint16_t kHalfOne = 0x3c00;
-constexpr std::size_t kNone = kNoSample;
 
 /// How many samples lie in each pixel, column by column: from the counts of pixels around it.
 template <class Coder>
@@ -151,7 +149,7 @@ class AttributeWalk {
       }
     }
     for (std::uint32_t plane = 0; plane < shape_.planes; ++plane)
-      if (!isMet_[plane] && !codeNewPlane(plane, 0, kNone)) return false;
+      if (!isMet_[plane] && !codeNewPlane(plane, 0, kNoSample)) return false;
     return true;
   }
 
@@ -171,16 +169,16 @@ class AttributeWalk {
   std::size_t onPlane(const PixelRange& pixel, std::uint32_t plane) const {
     for (std::uint32_t i = pixel.first; i < pixel.end; ++i)
       if (samples_.plane[i] == plane) return i;
-    return kNone;
+    return kNoSample;
   }
 
   template <class Model, class Array>
   void codeLike(Model& model, Array& array, std::size_t i, std::size_t above, std::size_t before,
                 std::uint32_t otherwise) {
-    if (above == kNone) above = before;
-    if (before == kNone) before = above;
-    const std::uint32_t a = above == kNone ? otherwise : array[above],
-                        b = before == kNone ? otherwise : array[before];
+    if (above == kNoSample) above = before;
+    if (before == kNoSample) before = above;
+    const std::uint32_t a = above == kNoSample ? otherwise : array[above],
+                        b = before == kNoSample ? otherwise : array[before];
     const std::uint32_t value = model.code(coder_, array[i], a, b);
     if constexpr (Coder::kReads) array[i] = static_cast<typename Array::value_type>(value);
   }
@@ -202,14 +200,14 @@ class AttributeWalk {
       if (!codePlane(i, row, around, above, before)) return false;
       const std::size_t a = onPlane(around.pixel[PixelsAround::kAbove], samples_.plane[i]),
                         b = onPlane(around.pixel[PixelsAround::kBefore], samples_.plane[i]);
-      if (a != kNone || b != kNone) above = a, before = b;
-      goesOn = std::size_t(a != kNone) + std::size_t(b != kNone);
+      if (a != kNoSample || b != kNoSample) above = a, before = b;
+      goesOn = std::size_t(a != kNoSample) + std::size_t(b != kNoSample);
     }
     const auto w =
         shape_.planes > 0
             ? distances_.codeBeside(numberOn(samples_.planes[samples_.plane[i]], row),
                                     samples_.inverseDistance[i], i, above, before)
-            : distances_.code(samples_.inverseDistance[i], i, above, before, i > first ? i - 1 : kNone);
+            : distances_.code(samples_.inverseDistance[i], i, above, before, i > first ? i - 1 : kNoSample);
     if constexpr (Coder::kReads) {
       if (!w) return false;
       samples_.inverseDistance[i] = *w;
@@ -222,7 +220,7 @@ class AttributeWalk {
 
   void codeAlpha(std::size_t i, std::size_t above, std::size_t before) {
     const auto of = [&](std::size_t n) -> std::uint32_t {
-      return n == kNone ? kHalfOne : std::uint32_t(samples_.colour[n].a);
+      return n == kNoSample ? kHalfOne : std::uint32_t(samples_.colour[n].a);
     };
     const std::uint32_t alpha = alphas_.code(coder_, samples_.colour[i].a, of(above), of(before));
     if constexpr (Coder::kReads) samples_.colour[i].a = std::uint16_t(alpha);
@@ -236,12 +234,12 @@ class AttributeWalk {
         planes_.code(samples_.plane[i], samples_.plane, around, {first, i}, now_[row + 1] - first);
     if (plane >= shape_.planes) return false;
     if (!isMet_[plane]) {
-      const std::size_t beside = i > first ? i - 1 : before != kNone ? before : above;
+      const std::size_t beside = i > first ? i - 1 : before != kNoSample ? before : above;
       if (!codeNewPlane(plane, row, beside)) return false;
     }
     std::array<std::optional<std::uint16_t>, PixelsAround::kPlaces> masks;
     for (std::size_t place = 0; place < masks.size(); ++place)
-      if (const std::size_t n = onPlane(around.pixel[place], plane); n != kNone)
+      if (const std::size_t n = onPlane(around.pixel[place], plane); n != kNoSample)
         masks[place] = samples_.coverage[n];
     const std::uint16_t mask = coverages_.code(coder_, samples_.coverage[i], masks);
     if constexpr (Coder::kReads) samples_.plane[i] = plane, samples_.coverage[i] = mask;
@@ -253,7 +251,7 @@ class AttributeWalk {
     isMet_[plane] = true;
     const auto coded = planeNumbers_.code(
         samples_.planes[plane], Coder::kReads ? PlaneReach{} : reaches_[plane], shape_.camera, direction_,
-        tangent_[row], beside == kNone ? nullptr : &samples_.planes[samples_.plane[beside]]);
+        tangent_[row], beside == kNoSample ? nullptr : &samples_.planes[samples_.plane[beside]]);
     if (!coded) return false;
     if constexpr (Coder::kReads) samples_.planes[plane] = *coded;
     return true;

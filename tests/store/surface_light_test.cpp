@@ -96,6 +96,34 @@ TEST_F(SurfaceLightFile, HoldsTheBrightestAndTheDarkestSideBySide) {
   }
 }
 
+/// Triangles with the given fronts, and backs a tenth as bright if so.
+SurfaceLight withDarkBacks(const SurfaceLight& fronts) {
+  SurfaceLight result = fronts;
+  result.light.clear();
+  for (std::size_t t = 0; t < fronts.resolution.size(); ++t) {
+    const auto begin = fronts.light.begin() + fronts.firstSample[t];
+    const auto end = fronts.light.begin() + fronts.firstSample[t + 1];
+    result.hasBack[t] = 1, result.firstSample[t] = std::uint32_t(result.light.size());
+    result.light.insert(result.light.end(), begin, end);
+    for (auto sample = begin; sample != end; ++sample) {
+      const glm::vec4 colour = unpackColour(*sample);
+      result.light.push_back(packColour({glm::vec3(colour) * 0.1f, 1}));
+    }
+  }
+  result.firstSample.back() = std::uint32_t(result.light.size());
+  return result;
+}
+
+TEST(LightCoder, DarkBacksDoNotMakeFrontsCostMore) {
+  const SurfaceLight fronts = smoothLight(4000, 1), both = withDarkBacks(fronts);
+  SurfaceLight backs = fronts;
+  backs.light.clear();
+  for (std::size_t i = 0; i < both.light.size(); ++i)
+    if (i / 3 % 2 == 1) backs.light.push_back(both.light[i]);
+  EXPECT_NEAR(double(codeLight(both, 0).size()),
+              double(codeLight(fronts, 0).size() + codeLight(backs, 0).size()), 16);
+}
+
 TEST_F(SurfaceLightFile, BrokenTablesAreNeverWritten) {
   const std::function<void(SurfaceLight&)> breakages[] = {
       [](SurfaceLight& l) { l.firstSample.pop_back(); }, [](SurfaceLight& l) { l.hasBack.pop_back(); },
