@@ -83,8 +83,7 @@ void BakeSettings::addTo(Hasher& hasher) const {
   hasher.value(int(pruning)).value(testEyes).value(pruningLoss).value(eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (distanceShift != kUsualDistanceShift) hasher.value(distanceShift);
-  // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
-  if (colourQuality != kUsualColourQuality) hasher.text("colours").value(colourQuality);
+  hasher.text("colours").value(colourQuality);
   if (silhouettes) hasher.text("silhouettes").value(kSilhouetteVersion);
 }
 

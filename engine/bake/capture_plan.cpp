@@ -35,8 +35,7 @@ KeyParts sharedParts(const Scene& scene, const EffectPlan& plan, const BakeSetti
   if (bake.pruning) settings.value(bake.testEyes).value(bake.pruningLoss).value(bake.eyeRange);
   // Captures of before this could be set are as those of the usual value.
   if (bake.distanceShift != kUsualDistanceShift) settings.value(bake.distanceShift);
-  // Captures of before this could be set have every bit of their colours: they serve as the usual ones do.
-  if (bake.colourQuality != kUsualColourQuality) settings.text("colours").value(bake.colourQuality);
+  settings.text("colours").value(bake.colourQuality);
   if (bake.silhouettes) settings.text("silhouettes").value(kSilhouetteVersion);
   // Counted on when what mirrors show changes, so that only captures of scenes with mirrors are baked anew.
   if (plan.on(Effect::mirrorReflection)) settings.text("mirrors 3");
