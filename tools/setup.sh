@@ -99,9 +99,26 @@ build() {
     die "the build failed (the first error above is why)."
 }
 
+# buildWebModule: what the page has of the engine, build/page/page.wasm. Quiet when there is nothing to do.
+buildWebModule() {
+  local source=$root/web/runtime folder=$root/build/page log status=0
+  log=$(mktemp)
+  if [[ ! -f $folder/build.ninja ]]; then
+    cmake -S "$source" -B "$folder" -G Ninja --toolchain "$source/toolchain.cmake" < /dev/null > "$log" 2>&1 || status=$?
+  fi
+  ((status != 0)) || cmake --build "$folder" -j "$(buildJobs)" < /dev/null >> "$log" 2>&1 || status=$?
+  if ((status != 0)); then
+    cat "$log" >&2
+    rm -f "$log"
+    die "the page's module could not be built (above is why)."
+  fi
+  rm -f "$log"
+}
+
 # buildWeb: the page of `acentric export --to web`, with the packages of its lock file. Quiet when there is nothing to do.
 buildWeb() {
   local web=$root/web newer
+  buildWebModule
   if [[ ! -f $web/node_modules/.package-lock.json || $web/package-lock.json -nt $web/node_modules/.package-lock.json ]]; then
     say "Installing the page's packages (npm ci)."
     (cd "$web" && npm ci --no-audit --no-fund) < /dev/null >&2 ||
@@ -109,7 +126,7 @@ buildWeb() {
     touch "$web/node_modules/.package-lock.json"
   fi
   newer=$web/dist/index.html
-  if [[ -f $newer && -z $(find "$web/src" "$web"/*.* "$root/shaders" -newer "$newer" -type f -print -quit) ]]; then return 0; fi
+  if [[ -f $newer && -z $(find "$web/src" "$web"/*.* "$root/shaders" "$root/build/page/page.wasm" -newer "$newer" -type f -print -quit) ]]; then return 0; fi
   say "Building the page."
   (cd "$web" && npm run --silent build) < /dev/null >&2 || die "the page could not be built (above is why)."
 }

@@ -15,7 +15,9 @@ export default defineConfig({
   base: './',
   plugins: [classicScript()],
   worker: { format: 'iife' },
+  assetsInclude: ['**/*.wasm'],
   build: {
+    chunkSizeWarningLimit: 1500, // kB, with the engine's module in it
     target: 'es2020',
     modulePreload: false,
     cssCodeSplit: false,

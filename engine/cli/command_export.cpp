@@ -23,6 +23,7 @@ Result<BundleReport> writeBundleOf(const ExportOptions& options, const fs::path&
   const auto runner = common.runner();
   ExportBundleOptions bundle;
   bundle.allowMissing = options.allowMissing;
+  bundle.colourQuality = options.colourQuality;
   bundle.generator = "Acentric " ACENTRIC_VERSION;
   auto done = exportBundle(*storeys, folder, bundle, *runner, common.progress, common.stop);
   if (!done) return done;

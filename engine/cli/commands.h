@@ -131,11 +131,12 @@ struct ExportOptions {
   std::filesystem::path project, output;
   std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; "exr"; or pictures
   bool allowMissing = false;
-  bool singleFile = false;   ///< of "web": `output` is one HTML file with everything in it
-  double meshError = 0.5;    ///< of "gltf"
-  int texturePixels = 4096;  ///< of "gltf"
-  int region = -1;           ///< of "gltf" and pictures: this one alone
-  int facePixels = 512;      ///< of pictures
+  std::optional<int> colourQuality;  ///< of "bundle" and "web"; none: the project's
+  bool singleFile = false;           ///< of "web": `output` is one HTML file with everything in it
+  double meshError = 0.5;            ///< of "gltf"
+  int texturePixels = 4096;          ///< of "gltf"
+  int region = -1;                   ///< of "gltf" and pictures: this one alone
+  int facePixels = 512;              ///< of pictures
 };
 Result<Report> runExport(const ExportOptions& options, const Common& common);
 Result<Report> runExportImages(const ExportOptions& options, const Common& common);

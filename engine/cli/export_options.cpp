@@ -24,6 +24,10 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
        "and their cameras; panoramas, OpenEXR with distances")
       ->check(CLI::IsMember({"bundle", "web", "gltf", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
       ->capture_default_str();
+  c->add_option("--colour-quality", o.colourQuality,
+                "bundle and web: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
+                "unless given, as the project says")
+      ->check(CLI::Range(0, kLosslessColours));
   c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
       ->check(CLI::Range(0.01, 64.0))
       ->capture_default_str();

@@ -18,7 +18,8 @@
 namespace acentric {
 
 inline constexpr const char* kBundleFormat = "acentric bundle";
-inline constexpr int kBundleVersion = 1;
+/// Version 1 had other packs, which are read too.
+inline constexpr int kBundleVersion = 2, kFirstBundleVersion = 1;
 inline constexpr const char* kBundleIndex = "bundle.json";
 
 /// A file of the bundle.

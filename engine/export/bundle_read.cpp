@@ -83,7 +83,7 @@ Result<Capture> readBundleCapture(const BundleFiles& files, const BundleStorey& 
                                   const BundleCapture& capture) {
   auto bytes = readChecked(files, capture.file);
   if (!bytes) return tl::unexpected(bytes.error());
-  return withoutKey(plainCaptureOf(std::move(*bytes), capture.file.path, [&](const PackHead& head) {
+  return withoutKey(keyedCaptureOf(std::move(*bytes), capture.file.path, [&](const PackHead& head) {
     return agree(head, capture, storey.layout.cameras[camera], storey.cameras[camera]);
   }));
 }

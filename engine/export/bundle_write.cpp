@@ -122,9 +122,11 @@ class BundleWriter {
     features.background |= capture.background.runCount() > 0;
   }
 
-  /// Plain, whatever the store's is: runtimes read no other.
   Status writePack(const Capture& capture, const ContentKey& key, const std::string& path) const {
-    return writeCapturePack(capture, key, folder_ / path, stop_);
+    const fs::path file = folder_ / path;
+    return input_.colourQuality < kLosslessColours
+               ? writeDisplayPack(capture, key, file, input_.colourQuality, input_.exposure, stop_)
+               : writeCodedPack(capture, key, file, kLosslessColours, stop_);
   }
 
   Status writeCamera(const CameraPlace& place) {

@@ -37,6 +37,7 @@ struct BundleInput {
   double fov = 0;  ///< radians
   ViewSettings view;
   const CaptureStore* store = nullptr;
+  int colourQuality = kUsualColourQuality;  ///< of captures (colour_quality.h); below 100 as they are shown
   std::vector<BundleStoreyInput> storeys;
   int storey = 0;
   std::vector<BundleBookmark> bookmarks;

@@ -149,6 +149,7 @@ struct Capture : CaptureSamples {
   CaptureBackground background;
   CaptureSamples reflections;  ///< opaque; all arrays empty where there are none
   double planeTolerance = 0;   ///< 1/m, of captures with silhouettes: see makePatches
+  bool shown = false;          ///< colours are what is shown, linear in [0, 1], in place of radiance
 
   bool hasReflections() const { return !reflections.row.empty(); }
   /// What all arrays hold.

@@ -91,7 +91,10 @@ glm::vec3 toneMap(const glm::vec3& radiance, float exposure) {
 }
 
 Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha) {
-  const glm::vec3 display = toneMap(radiance, exposure);
+  return encodeShown(toneMap(radiance, exposure), alpha);
+}
+
+Rgba8 encodeShown(const glm::vec3& display, float alpha) {
   const CodeTable& table = codeTable();
   return Rgba8(table.codeOf(display.x), table.codeOf(display.y), table.codeOf(display.z),
                alpha == 1 ? std::uint8_t(255) : roundToByte(alpha));

@@ -29,7 +29,9 @@ DisplayCodes displayCodes();
 /// a factor. NaN and negative radiance count as 0, infinity as very bright.
 glm::vec3 toneMap(const glm::vec3& radiance, float exposure);
 
-/// toneMap, then sRGB codes; alpha is rounded as it is.
+/// sRGB codes of display-linear values; alpha is rounded as it is.
+Rgba8 encodeShown(const glm::vec3& display, float alpha = 1);
+/// The same after toneMap.
 Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha = 1);
 
 /// Straight-alpha "source over destination" in display-linear light, both sRGB coded; the result's alpha is

@@ -104,7 +104,7 @@ KeyParts surfaceLightKeyParts(const OpenProject& open) {
   if (open.plan.on(Effect::softShadows)) settings.value(bake.shadowRays);
   for (const Region& region : open.layout->regions)
     regions.array(std::span<const glm::dvec2>(region.grown.corners));
-  KeyParts parts = sceneKeyParts("surface light 7", *open.scene, open.plan);
+  KeyParts parts = sceneKeyParts("surface light 8", *open.scene, open.plan);
   parts.push_back({"settings", settings.finish()});
   parts.push_back({"place", Hasher().value(open.layout->eyeZ()).finish()});
   parts.push_back({"regions", regions.finish()});

@@ -19,13 +19,15 @@ constexpr std::uint32_t versionOf(BlockFileKind kind) {
   if (kind == BlockFileKind::surfaceLight) return 4;
   return kind == BlockFileKind::localGeometry || kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
-/// What a reader of the kind takes: captures in either version.
+/// What a reader of the kind takes: captures in all of their versions.
 bool isRead(BlockFileKind kind, std::uint32_t version) {
-  return version == versionOf(kind) || (kind == BlockFileKind::capture && version == kCodedCapture);
+  return version == versionOf(kind) ||
+         (kind == BlockFileKind::capture && (version == kCodedCapture || version == kDisplayCapture));
 }
 std::string versionsOf(BlockFileKind kind) {
-  return kind == BlockFileKind::capture ? fmt::format("{} and {}", kPlainCapture, kCodedCapture)
-                                        : fmt::format("{}", versionOf(kind));
+  return kind == BlockFileKind::capture
+             ? fmt::format("{}, {} and {}", kPlainCapture, kCodedCapture, kDisplayCapture)
+             : fmt::format("{}", versionOf(kind));
 }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;

@@ -30,8 +30,9 @@ enum class BlockFileKind : std::uint32_t {
   surfaceLightPart = 5,
 };
 
-/// Of captures: colours as they are and arrays of records, or all of it coded (FORMAT.md).
-inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 6;
+/// Of captures: colours as they are and arrays of records; all of it coded; the same with colours as they are
+/// shown (FORMAT.md).
+inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 6, kDisplayCapture = 7;
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;

@@ -1,5 +1,4 @@
-// Packed captures of version kCodedCapture: pictures of colours, range-coded samples. What reads them is
-// apart from what reads plain ones, so that runtimes of bundles need no codec.
+// Packed captures of versions kCodedCapture and kDisplayCapture: pictures of colours, range-coded samples.
 #include <algorithm>
 #include <array>
 
@@ -18,10 +17,18 @@ constexpr std::uint64_t kPixelBytes = 6;  ///< of a picture's three planes
 /// Of a sample, with all that it may have, and what is kept of it while colours are read.
 constexpr std::uint64_t kHeldBytes = 29, kHeldPlaneBytes = sizeof(SurfacePlane);
 
-const ColourCoder& colourCoder() {
-  static const ColourCoder coder;
-  return coder;
-}
+/// How the colours of a pack are kept.
+struct Colours {
+  ColourScale scale;
+  int quality;
+  float exposure = 1;  ///< of what is shown
+  bool asPictures() const { return quality < kLosslessColours; }
+  ColourCoder coder() const {
+    static const ColourCoder radiance(ColourScale::radiance);
+    return scale == ColourScale::radiance ? radiance : ColourCoder(scale, exposure);
+  }
+  DeepColourShape deep(int rows) const { return {rows, quality, mostCodeOf(scale)}; }
+};
 
 /// What reading a list takes besides its blocks: its pixels, its samples, their planes.
 std::uint64_t claimOf(const SampleShape& shape) {
@@ -42,31 +49,33 @@ struct ListHead {
 /// One list of samples on its way into a file.
 class ListWriter {
  public:
-  ListWriter(const Capture& capture, const CaptureSamples& samples, int quality)
+  ListWriter(const Capture& capture, const CaptureSamples& samples, const Colours& colours)
       : samples_(samples),
-        quality_(quality),
+        colours_(colours),
         shape_{capture.camera, samples.sampleCount(), !samples.mirror.empty(), samples.planes.size(),
                codedStep(samples, capture.distanceStep)} {}
 
   Status code(const std::stop_token& stop) {
     if (samples_.columnStart.empty()) return {};
     stream_ = codeSamples(samples_, shape_);
-    if (quality_ >= kLosslessColours) return {};
+    if (!colours_.asPictures()) return {};
     std::vector<ColourCodes> codes;
     codes.reserve(samples_.sampleCount());
-    for (const HalfColour& colour : samples_.colour) codes.push_back(colourCoder().codesOf(colour));
+    const ColourCoder coder = colours_.coder();
+    for (const HalfColour& colour : samples_.colour) codes.push_back(coder.codesOf(colour));
     area_ = areaOf(samples_);
-    const StillPicture picture = pictureOf(samples_, area_, codes);
+    const int bits = bitsOf(colours_.scale);
+    const StillPicture picture = pictureOf(samples_, area_, codes, bits);
     for (const PictureArea& piece : piecesOf(area_)) {
       if (stop.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped");
-      auto coded = encodeStill(pieceOf(picture, piece), quality_);
+      auto coded = encodeStill(pieceOf(picture, piece), colours_.quality);
       if (!coded) return tl::unexpected(coded.error());
-      const auto read = decodeStill(*coded, piece.columns, piece.rows);
+      const auto read = decodeStill(*coded, piece.columns, piece.rows, bits);
       if (!read) return tl::unexpected(read.error());
       takePiece(*read, area_, piece, samples_, codes);
       pieces_.push_back(std::move(*coded));
     }
-    deep_ = codeDeepColours(samples_, shape_.camera.rows, quality_, codes);
+    deep_ = codeDeepColours(samples_, colours_.deep(shape_.camera.rows), codes);
     return {};
   }
   void describe(BlockFileWriter& file) const {
@@ -80,7 +89,7 @@ class ListWriter {
     if (stream_.empty()) return {};
     file.claim(claimOf(shape_));
     if (Status added = file.addStream(stream_); !added) return added;
-    if (quality_ >= kLosslessColours) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
+    if (!colours_.asPictures()) return file.addRecords(colourLanes(samples_), samples_.sampleCount());
     file.claim(kPixelBytes * area_.pixels());
     for (const std::vector<std::byte>& piece : pieces_)
       if (Status added = file.addBlock(piece); !added) return added;
@@ -89,7 +98,7 @@ class ListWriter {
 
  private:
   const CaptureSamples& samples_;
-  int quality_;
+  Colours colours_;
   SampleShape shape_;
   PictureArea area_;
   std::vector<std::byte> stream_, deep_;
@@ -97,15 +106,16 @@ class ListWriter {
 };
 
 Status writeCoded(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
-                  int colourQuality, const std::stop_token& stop) {
-  require(colourQuality >= 0 && colourQuality <= kLosslessColours, "a quality of colours is 0..100");
+                  const Colours& colours, const std::stop_token& stop) {
+  require(colours.quality >= 0 && colours.quality <= kLosslessColours, "a quality of colours is 0..100");
+  require(!capture.shown, "what is written has radiance");
   if (Status sound = capture.check(); !sound) return sound;
-  BlockFileWriter file(BlockFileKind::capture, key, stop, kCodedCapture);
+  BlockFileWriter file(BlockFileKind::capture, key, stop,
+                       colours.scale == ColourScale::display ? kDisplayCapture : kCodedCapture);
   describeHead(file, capture);
-  file.describe(std::uint8_t(colourQuality));
+  file.describe(std::uint8_t(colours.quality));
   file.describe(capture.planeTolerance);
-  ListWriter surfaces(capture, capture, colourQuality),
-      reflections(capture, capture.reflections, colourQuality);
+  ListWriter surfaces(capture, capture, colours), reflections(capture, capture.reflections, colours);
   for (ListWriter* list : {&surfaces, &reflections})
     if (Status coded = list->code(stop); !coded) return coded;
   surfaces.describe(file);
@@ -136,7 +146,8 @@ Status takeStream(BlockFileReader& file, const ListHead& head, const SampleShape
   return {};
 }
 
-Status takeColours(BlockFileReader& file, const ListHead& head, int rows, int quality, CaptureSamples& out) {
+Status takeColours(BlockFileReader& file, const ListHead& head, int rows, const Colours& colours,
+                   CaptureSamples& out) {
   const PictureArea area = areaOf(out);
   if (!file.mayHold(kPixelBytes * area.pixels()))
     return file.malformed("its pictures are larger than its size allows");
@@ -145,42 +156,46 @@ Status takeColours(BlockFileReader& file, const ListHead& head, int rows, int qu
   for (const PictureArea& piece : piecesOf(area)) {
     bytes.resize(file.nextSize());
     if (Status read = file.nextBlock(bytes); !read) return read;
-    const auto decoded = decodeStill(bytes, piece.columns, piece.rows);
+    const auto decoded = decodeStill(bytes, piece.columns, piece.rows, bitsOf(colours.scale));
     if (!decoded) return file.malformed(decoded.error().message);
     takePiece(*decoded, area, piece, out, codes);
   }
   const auto deep = file.nextStream(head.deepBytes);
   if (!deep) return tl::unexpected(deep.error());
-  if (Status decoded = decodeDeepColours(*deep, out, rows, quality, codes); !decoded)
+  if (Status decoded = decodeDeepColours(*deep, out, colours.deep(rows), codes); !decoded)
     return file.malformed(decoded.error().message);
+  const ColourCoder coder = colours.coder();
   for (std::size_t i = 0; i < out.sampleCount(); ++i) {
-    const HalfColour colour = colourCoder().colourOf(codes[i]);
+    const HalfColour colour = coder.colourOf(codes[i]);
     out.colour[i] = {colour.r, colour.g, colour.b, out.colour[i].a};
   }
   return {};
 }
 
-Status takeList(BlockFileReader& file, const ListHead& head, const SampleShape& shape, int quality,
+Status takeList(BlockFileReader& file, const ListHead& head, const SampleShape& shape, const Colours& colours,
                 CaptureSamples& out) {
   if (Status read = takeStream(file, head, shape, out); !read) return read;
-  if (quality >= kLosslessColours) return file.nextRecords(colourLanes(out), out.sampleCount());
-  return takeColours(file, head, shape.camera.rows, quality, out);
+  if (!colours.asPictures()) return file.nextRecords(colourLanes(out), out.sampleCount());
+  return takeColours(file, head, shape.camera.rows, colours, out);
 }
 
-Result<Capture> readCoded(BlockFileReader& file) {
+Result<Capture> readCoded(BlockFileReader& file, const AcceptPack& accept) {
   Capture capture;
   const PackCounts counts = describedHead(file, capture);
-  const int quality = file.described<std::uint8_t>();
+  const Colours colours{file.version() == kDisplayCapture ? ColourScale::display : ColourScale::radiance,
+                        file.described<std::uint8_t>()};
   capture.planeTolerance = file.described<double>();
+  capture.shown = colours.scale == ColourScale::display;
   const ListHead surfaces = describedList(file), reflections = describedList(file);
   const bool mirrors = reflections.samples > 0;
   const ColumnCamera& camera = capture.camera;
   if (!file.describedAll() || !counts.sized || counts.samples != surfaces.samples ||
-      quality > kLosslessColours || !camera.check() ||
+      colours.quality > kLosslessColours || !camera.check() ||
       (!mirrors && (reflections.planes > 0 || reflections.streamBytes > 0 || reflections.deepBytes > 0)))
     return file.malformed("its description makes no sense");
   const auto shapeOf = [&](const ListHead& list) {
-    return SampleShape{camera, list.samples, mirrors, list.planes, list.stepped ? capture.distanceStep : 0};
+    return SampleShape{camera, std::size_t(list.samples), mirrors, std::size_t(list.planes),
+                       list.stepped ? capture.distanceStep : 0};
   };
   const SampleShape shapes[] = {shapeOf(surfaces), shapeOf(reflections)};
   for (const ListHead* list : {&surfaces, &reflections})
@@ -193,36 +208,52 @@ Result<Capture> readCoded(BlockFileReader& file) {
   if (counts.runs > kMaxCaptureSamples || backgroundBytes > file.rawBytes() ||
       !file.mayHold(claimOf(shapes[0]) + (mirrors ? claimOf(shapes[1]) : 0)))
     return file.malformed("its number of samples contradicts its size");
-  if (Status read = takeList(file, surfaces, shapes[0], quality, capture); !read)
+  if (accept)
+    if (Status accepted = accept({camera, surfaces.samples, reflections.samples}); !accepted)
+      return tl::unexpected(accepted.error());
+  if (Status read = takeList(file, surfaces, shapes[0], colours, capture); !read)
     return tl::unexpected(read.error());
   if (counts.runs > 0)
     if (Status read = takeBackground(file, columns, counts.runs, capture.background); !read)
       return tl::unexpected(read.error());
   if (mirrors)
-    if (Status read = takeList(file, reflections, shapes[1], quality, capture.reflections); !read)
+    if (Status read = takeList(file, reflections, shapes[1], colours, capture.reflections); !read)
       return tl::unexpected(read.error());
   return capture;
 }
 
-Result<Keyed<Capture>> readEither(Result<BlockFileReader> file) {
+Result<Keyed<Capture>> readAny(Result<BlockFileReader> file, const AcceptPack& accept = {}) {
   if (!file) return tl::unexpected(file.error());
-  return wholePack(*file, file->version() == kCodedCapture ? readCoded(*file) : readPlain(*file));
+  return wholePack(*file,
+                   file->version() == kPlainCapture ? readPlain(*file, accept) : readCoded(*file, accept));
 }
 
 }  // namespace
 
 Status writeCodedPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                       int colourQuality, const std::stop_token& stop) {
-  return withinMemory(path, [&] { return writeCoded(capture, key, path, colourQuality, stop); });
+  return withinMemory(path, [&] {
+    return writeCoded(capture, key, path, {ColourScale::radiance, colourQuality}, stop);
+  });
+}
+
+Status writeDisplayPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                        int colourQuality, float exposure, const std::stop_token& stop) {
+  require(colourQuality < kLosslessColours, "what is shown is kept as pictures");
+  return withinMemory(path, [&] {
+    return writeCoded(capture, key, path, {ColourScale::display, colourQuality, exposure}, stop);
+  });
 }
 
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return readEither(BlockFileReader::open(path, BlockFileKind::capture)); });
+  return withinMemory(path, [&] { return readAny(BlockFileReader::open(path, BlockFileKind::capture)); });
 }
 
-Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name) {
-  return withinMemory(
-      name, [&] { return readEither(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture)); });
+Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name,
+                                      const AcceptPack& accept) {
+  return withinMemory(name, [&] {
+    return readAny(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture), accept);
+  });
 }
 
 Result<Capture> readCapturePack(const std::filesystem::path& path) {

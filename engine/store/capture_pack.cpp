@@ -135,16 +135,4 @@ Status writeCapturePack(const Capture& capture, const ContentKey& key, const std
   return withinMemory(path, [&] { return writePack(capture, key, path, stop); });
 }
 
-Result<Keyed<Capture>> plainCaptureOf(std::vector<std::byte> bytes, const std::string& name,
-                                      const AcceptPack& accept) {
-  return withinMemory(name, [&]() -> Result<Keyed<Capture>> {
-    auto file = BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture);
-    if (!file) return tl::unexpected(file.error());
-    if (file->version() != kPlainCapture)
-      return fail(ErrorKind::unsupported, "is coded as stores keep captures, which bundles do not hold",
-                  name);
-    return wholePack(*file, readPlain(*file, accept));
-  });
-}
-
 }  // namespace acentric

@@ -32,13 +32,17 @@ Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std:
                        const std::stop_token& stop = {});
 Result<Capture> readCaptureExr(const std::filesystem::path& path);
 
-/// All as it is, in arrays of records: what runtimes of bundles read.
+/// All as it is, in arrays of records.
 Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
 /// As stores keep captures: several times smaller. Colours by a quality (colour_quality.h), the rest exactly.
 Status writeCodedPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                       int colourQuality, const std::stop_token& stop = {});
-/// Either.
+/// The same, but colours as they are shown at an exposure, in 8 bits: what bundles hold. `colourQuality`:
+/// 0..99.
+Status writeDisplayPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
+                        int colourQuality, float exposure, const std::stop_token& stop = {});
+/// Any of these.
 Result<Capture> readCapturePack(const std::filesystem::path& path);
 
 Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,

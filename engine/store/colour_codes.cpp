@@ -22,41 +22,58 @@ float radianceOf(float code) {
 /// BT.709.
 constexpr float kRed = 0.2126f, kBlue = 0.0722f, kGreen = 1 - kRed - kBlue;
 constexpr float kFromBlue = 2 * (1 - kBlue), kFromRed = 2 * (1 - kRed);
-constexpr int kMiddle = 1 << (kColourBits - 1);
 /// Parts of 2^16, for the way back.
 constexpr std::int64_t fixed(float value) { return std::int64_t(value * 65536 + 0.5f); }
 constexpr std::int64_t kRedFromCr = fixed(kFromRed), kBlueFromCb = fixed(kFromBlue),
                        kGreenFromCr = fixed(kRed * kFromRed / kGreen),
                        kGreenFromCb = fixed(kBlue * kFromBlue / kGreen);
 
-std::uint16_t rounded(float code) { return std::uint16_t(std::clamp(int(code + 0.5f), 0, kMostColourCode)); }
-
 }  // namespace
 
-ColourCoder::ColourCoder() : codeOfHalf_(kHalfInfinity), halfOfCode_((kMostColourCode << kFraction) + 1) {
-  for (std::size_t half = 0; half < codeOfHalf_.size(); ++half)
-    codeOfHalf_[half] = codeOf(floatFromHalf(std::uint16_t(half)));
-  for (std::size_t code = 0; code < halfOfCode_.size(); ++code)
-    halfOfCode_[code] = packColour(glm::vec4(radianceOf(float(code) / (1 << kFraction)))).r;
+ColourCoder::ColourCoder(ColourScale scale, float exposure) : scale_(scale), exposure_(exposure) {
+  const std::size_t parts = (std::size_t(mostCodeOf(scale)) << kFraction) + 1;
+  const auto codeOfPart = [](std::size_t part) { return float(part) / (1 << kFraction); };
+  if (scale == ColourScale::display) {
+    for (std::size_t part = 0; part < parts; ++part)
+      shownOfCode_.push_back(linearFromSrgb(codeOfPart(part) / float(mostCodeOf(scale))));
+    return;
+  }
+  for (std::uint16_t half = 0; half < kHalfInfinity; ++half)
+    codeOfHalf_.push_back(codeOf(floatFromHalf(half)));
+  for (std::size_t part = 0; part < parts; ++part)
+    halfOfCode_.push_back(packColour(glm::vec4(radianceOf(codeOfPart(part)))).r);
 }
 
-ColourCodes ColourCoder::codesOf(const HalfColour& colour) const {
-  const float r = codeOfHalf_[colour.r], g = codeOfHalf_[colour.g], b = codeOfHalf_[colour.b];
-  const float luma = kRed * r + kGreen * g + kBlue * b;
-  return {rounded(luma), rounded((b - luma) / kFromBlue + kMiddle), rounded((r - luma) / kFromRed + kMiddle)};
+ColourCodes ColourCoder::codesOf(const HalfColour& radiance) const {
+  glm::vec3 codes;
+  if (scale_ == ColourScale::radiance) {
+    codes = {codeOfHalf_[radiance.r], codeOfHalf_[radiance.g], codeOfHalf_[radiance.b]};
+  } else {
+    const glm::vec3 shown = toneMap(glm::vec3(unpackColour(radiance)), exposure_);
+    for (int c = 0; c < 3; ++c) codes[c] = float(mostCodeOf(scale_)) * srgbFromLinear(shown[c]);
+  }
+  const auto rounded = [&](float code) {
+    return std::uint16_t(std::clamp(int(code + 0.5f), 0, mostCodeOf(scale_)));
+  };
+  const float luma = kRed * codes.r + kGreen * codes.g + kBlue * codes.b;
+  const float middle = float(1 << (bitsOf(scale_) - 1));
+  return {rounded(luma), rounded((codes.b - luma) / kFromBlue + middle),
+          rounded((codes.r - luma) / kFromRed + middle)};
 }
 
 HalfColour ColourCoder::colourOf(const ColourCodes& codes) const {
-  const std::int64_t luma = std::int64_t(std::min<int>(codes[0], kMostColourCode)) << 16,
-                     cb = std::min<int>(codes[1], kMostColourCode) - kMiddle,
-                     cr = std::min<int>(codes[2], kMostColourCode) - kMiddle;
-  const auto half = [&](std::int64_t code) {
+  const int most = mostCodeOf(scale_), middle = 1 << (bitsOf(scale_) - 1);
+  const std::int64_t luma = std::int64_t(std::min<int>(codes[0], most)) << 16,
+                     cb = std::min<int>(codes[1], most) - middle, cr = std::min<int>(codes[2], most) - middle;
+  const auto partOf = [&](std::int64_t code) {
     const std::int64_t part = (code + (1 << (15 - kFraction))) >> (16 - kFraction);
-    return halfOfCode_[std::size_t(
-        std::clamp<std::int64_t>(part, 0, std::int64_t(kMostColourCode) << kFraction))];
+    return std::size_t(std::clamp<std::int64_t>(part, 0, std::int64_t(most) << kFraction));
   };
-  return {half(luma + kRedFromCr * cr), half(luma - kGreenFromCr * cr - kGreenFromCb * cb),
-          half(luma + kBlueFromCb * cb), kHalfOne};
+  const std::size_t r = partOf(luma + kRedFromCr * cr),
+                    g = partOf(luma - kGreenFromCr * cr - kGreenFromCb * cb),
+                    b = partOf(luma + kBlueFromCb * cb);
+  if (scale_ == ColourScale::radiance) return {halfOfCode_[r], halfOfCode_[g], halfOfCode_[b], kHalfOne};
+  return packColour({shownOfCode_[r], shownOfCode_[g], shownOfCode_[b], 1});
 }
 
 }  // namespace acentric

@@ -5,8 +5,6 @@
 namespace acentric {
 namespace {
 
-constexpr int kMostPiecePixels = 1 << 22;
-
 /// visit(sample, column, row) of the first sample of each pixel in the columns [first, end).
 template <class Visit>
 void forFirst(const CaptureSamples& samples, std::size_t first, std::size_t end, const Visit& visit) {
@@ -72,8 +70,8 @@ std::vector<PictureArea> piecesOf(const PictureArea& area) {
 }
 
 StillPicture pictureOf(const CaptureSamples& samples, const PictureArea& area,
-                       const std::vector<ColourCodes>& codes) {
-  StillPicture picture{area.columns, area.rows, {}};
+                       const std::vector<ColourCodes>& codes, int bits) {
+  StillPicture picture{area.columns, area.rows, bits, {}};
   if (area.pixels() == 0) return picture;
   for (auto& plane : picture.planes) plane.resize(area.pixels());
   std::vector<std::uint8_t> known(area.pixels(), 0);
@@ -88,7 +86,7 @@ StillPicture pictureOf(const CaptureSamples& samples, const PictureArea& area,
 }
 
 StillPicture pieceOf(const StillPicture& picture, const PictureArea& piece) {
-  StillPicture out{piece.columns, piece.rows, {}};
+  StillPicture out{piece.columns, piece.rows, picture.bits, {}};
   for (int p = 0; p < 3; ++p)
     for (int y = piece.row; y < piece.row + piece.rows; ++y) {
       const auto line = picture.planes[p].begin() + std::ptrdiff_t(y) * picture.width + piece.column;

@@ -18,12 +18,14 @@ struct PictureArea {
 };
 PictureArea areaOf(const CaptureSamples& samples);
 
+/// A piece has so many at most.
+inline constexpr int kMostPiecePixels = 1 << 22;
 /// Pieces that are a file each, in rows from the upper left, in pixels of the area.
 std::vector<PictureArea> piecesOf(const PictureArea& area);
 
-/// Of all samples, as codes; what no sample lies on continues what is beside it.
+/// Of all samples, as codes of so many bits; what no sample lies on continues what is beside it.
 StillPicture pictureOf(const CaptureSamples& samples, const PictureArea& area,
-                       const std::vector<ColourCodes>& codes);
+                       const std::vector<ColourCodes>& codes, int bits);
 StillPicture pieceOf(const StillPicture& picture, const PictureArea& piece);
 
 /// Sets the codes of the first samples that lie in a piece.

@@ -28,12 +28,16 @@ constexpr std::size_t kUnrests = 11;
 template <class Coder>
 class DeepColourWalk {
  public:
-  DeepColourWalk(Coder& coder, const CaptureSamples& samples, int rows, int quality,
+  DeepColourWalk(Coder& coder, const CaptureSamples& samples, const DeepColourShape& shape,
                  std::vector<ColourCodes>& codes)
-      : coder_(coder), samples_(samples), codes_(codes), off_(samples.sampleCount(), 0) {
-    const DeepColourSteps steps(quality);
+      : coder_(coder),
+        samples_(samples),
+        codes_(codes),
+        mostCode_(shape.mostCode),
+        off_(samples.sampleCount(), 0) {
+    const DeepColourSteps steps(shape.quality);
     steps_ = {steps.luma, steps.chroma, steps.chroma};
-    pixels_.fill(std::vector<std::uint32_t>(std::size_t(rows) + 1, 0));
+    pixels_.fill(std::vector<std::uint32_t>(std::size_t(shape.rows) + 1, 0));
   }
 
   void walk() {
@@ -64,7 +68,7 @@ class DeepColourWalk {
       const int steps = (std::abs(off) + step / 2) / step;
       const std::int64_t coded =
           differences_[p].code(coder_, off < 0 ? -steps : steps, prediction.unrest, lumaOff);
-      codes_[i][p] = std::uint16_t(std::clamp<std::int64_t>(expected + coded * step, 0, kMostColourCode));
+      codes_[i][p] = std::uint16_t(std::clamp<std::int64_t>(expected + coded * step, 0, mostCode_));
       if (p > 0) continue;
       off_[i] = std::uint8_t(std::min<std::int64_t>(std::abs(coded), 255));
       lumaOff = std::min<std::size_t>(off_[i], kLumaOffs - 1);
@@ -132,6 +136,7 @@ class DeepColourWalk {
   Coder& coder_;
   const CaptureSamples& samples_;
   std::vector<ColourCodes>& codes_;
+  int mostCode_;
   std::array<int, 3> steps_{};
   std::vector<std::uint8_t> off_;  ///< steps that the luma of a deeper sample was off by
   /// Where pixels begin, of the column that is walked in the middle and of those beside it.
@@ -141,17 +146,17 @@ class DeepColourWalk {
 
 }  // namespace
 
-std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, int rows, int quality,
+std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, const DeepColourShape& shape,
                                        std::vector<ColourCodes>& codes) {
   RangeWriter writer;
-  DeepColourWalk(writer, samples, rows, quality, codes).walk();
+  DeepColourWalk(writer, samples, shape, codes).walk();
   return std::move(writer).finish();
 }
 
-Status decodeDeepColours(std::span<const std::byte> bytes, const CaptureSamples& samples, int rows,
-                         int quality, std::vector<ColourCodes>& codes) {
+Status decodeDeepColours(std::span<const std::byte> bytes, const CaptureSamples& samples,
+                         const DeepColourShape& shape, std::vector<ColourCodes>& codes) {
   RangeReader reader(bytes);
-  DeepColourWalk(reader, samples, rows, quality, codes).walk();
+  DeepColourWalk(reader, samples, shape, codes).walk();
   if (!reader.atEnd())
     return fail(ErrorKind::malformed, "its colours take more or fewer bytes than there are");
   return {};

@@ -20,13 +20,20 @@ struct DeepColourSteps {
   int luma, chroma;
 };
 
+/// How codes are kept, and which there are.
+struct DeepColourShape {
+  int rows = 0;     ///< of the capture
+  int quality = 0;  ///< 0..99
+  int mostCode = 0;
+};
+
 /// `codes` are of all samples: of first ones as they will be read, of the others as they are; these become
-/// what will be read. `quality`: 0..99.
-std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, int rows, int quality,
+/// what will be read.
+std::vector<std::byte> codeDeepColours(const CaptureSamples& samples, const DeepColourShape& shape,
                                        std::vector<ColourCodes>& codes);
 
 /// Sets those of deeper samples. `malformed` without a place.
-Status decodeDeepColours(std::span<const std::byte> bytes, const CaptureSamples& samples, int rows,
-                         int quality, std::vector<ColourCodes>& codes);
+Status decodeDeepColours(std::span<const std::byte> bytes, const CaptureSamples& samples,
+                         const DeepColourShape& shape, std::vector<ColourCodes>& codes);
 
 }  // namespace acentric

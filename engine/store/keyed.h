@@ -20,16 +20,14 @@ struct Keyed {
 
 Result<Keyed<Capture>> readKeyedCaptureExr(const std::filesystem::path& path);
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path);
-/// Of a pack's bytes; `name` is for messages.
-Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name);
 /// What a pack says of itself before its samples.
 struct PackHead {
   ColumnCamera camera;
   std::uint64_t samples = 0, reflections = 0;
 };
 using AcceptPack = std::function<Status(const PackHead&)>;
-/// Of a plain pack alone, as bundles hold. What `accept` refuses is not unpacked.
-Result<Keyed<Capture>> plainCaptureOf(std::vector<std::byte> bytes, const std::string& name,
+/// Of a pack's bytes; `name` is for messages. What `accept` refuses is not unpacked.
+Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name,
                                       const AcceptPack& accept = {});
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
 Status writeSurfaceLightPart(const SurfaceLightPart& part, const ContentKey& key,

@@ -2,13 +2,13 @@
 
 #include <avif/avif.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
 
 #include "engine/base/contract.h"
-#include "engine/store/colour_codes.h"
 
 namespace acentric {
 namespace {
@@ -35,9 +35,27 @@ struct Output {
   ~Output() { avifRWDataFree(&data); }
 };
 
-int quantiserOf(int quality) {
-  return int(std::lround(double(kBestPictureQuality - quality) * AVIF_QUANTIZER_WORST_QUALITY /
-                         kBestPictureQuality));
+/// What 8 bits show takes 3.8 times the codes in 10 bits of radiance, and the codec's steps, at 8 bits a
+/// quarter, rise with the quantiser from 8 to 40 as 1 to 4.
+int quantiserOf(int quality, int bits) {
+  const double coarser = bits == 8 ? 2.6 : 1;
+  const double part = double(kBestPictureQuality - quality) / kBestPictureQuality;
+  return std::min(int(std::lround(coarser * part * AVIF_QUANTIZER_WORST_QUALITY)),
+                  AVIF_QUANTIZER_WORST_QUALITY);
+}
+
+/// Rows of samples of one byte or two, as they lie in an image.
+void copyRow(const std::uint16_t* from, std::uint8_t* to, std::size_t count, int bits) {
+  if (bits > 8)
+    std::memcpy(to, from, count * sizeof *from);
+  else
+    std::copy_n(from, count, to);
+}
+void copyRow(const std::uint8_t* from, std::uint16_t* to, std::size_t count, int bits) {
+  if (bits > 8)
+    std::memcpy(to, from, count * sizeof *to);
+  else
+    std::copy_n(from, count, to);
 }
 
 tl::unexpected<Error> malformed(const char* message) { return fail(ErrorKind::malformed, message); }
@@ -46,8 +64,8 @@ tl::unexpected<Error> malformed(const char* message) { return fail(ErrorKind::ma
 
 Result<std::vector<std::byte>> encodeStill(const StillPicture& picture, int quality) {
   require(quality >= 0 && quality <= kBestPictureQuality, "a picture's quality is 0..99");
-  const Image image(avifImageCreate(std::uint32_t(picture.width), std::uint32_t(picture.height), kColourBits,
-                                    AVIF_PIXEL_FORMAT_YUV444));
+  const Image image(avifImageCreate(std::uint32_t(picture.width), std::uint32_t(picture.height),
+                                    std::uint32_t(picture.bits), AVIF_PIXEL_FORMAT_YUV444));
   const Encoder encoder(avifEncoderCreate());
   if (!image || !encoder) return fail(ErrorKind::outOfSpace, "not enough memory");
   image->yuvRange = AVIF_RANGE_FULL;
@@ -59,13 +77,13 @@ Result<std::vector<std::byte>> encodeStill(const StillPicture& picture, int qual
     if (image->yuvPlanes[p] == nullptr) return fail(ErrorKind::outOfSpace, "not enough memory");
     const std::size_t row = std::size_t(picture.width);
     for (std::size_t y = 0; y < std::size_t(picture.height); ++y)
-      std::memcpy(image->yuvPlanes[p] + y * image->yuvRowBytes[p], picture.planes[p].data() + y * row,
-                  row * sizeof(std::uint16_t));
+      copyRow(picture.planes[p].data() + y * row, image->yuvPlanes[p] + y * image->yuvRowBytes[p], row,
+              picture.bits);
   }
   encoder->codecChoice = AVIF_CODEC_CHOICE_AOM;
   encoder->maxThreads = 1;
   encoder->speed = kEncoderSpeed;
-  encoder->minQuantizer = encoder->maxQuantizer = quantiserOf(quality);
+  encoder->minQuantizer = encoder->maxQuantizer = quantiserOf(quality, picture.bits);
   Output out;
   if (const avifResult done = avifEncoderAddImage(encoder.get(), image.get(), 1, AVIF_ADD_IMAGE_FLAG_SINGLE);
       done != AVIF_RESULT_OK)
@@ -76,7 +94,7 @@ Result<std::vector<std::byte>> encodeStill(const StillPicture& picture, int qual
   return std::vector<std::byte>(bytes, bytes + out.data.size);
 }
 
-Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int height) {
+Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int height, int bits) {
   const Decoder decoder(avifDecoderCreate());
   if (!decoder) return fail(ErrorKind::outOfSpace, "not enough memory");
   decoder->maxThreads = 1;
@@ -92,20 +110,19 @@ Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int
   const avifImage& image = *decoder->image;
   const auto fits = [&] {
     return image.width == std::uint32_t(width) && image.height == std::uint32_t(height) &&
-           image.depth == kColourBits && image.yuvFormat == AVIF_PIXEL_FORMAT_YUV444;
+           image.depth == std::uint32_t(bits) && image.yuvFormat == AVIF_PIXEL_FORMAT_YUV444;
   };
   if (!fits() || decoder->alphaPresent || decoder->imageCount != 1)
     return malformed("a picture of its colours has another size or kind than it needs");
   if (avifDecoderNextImage(decoder.get()) != AVIF_RESULT_OK || !fits())
     return malformed("a picture of its colours is damaged");
-  StillPicture picture{width, height, {}};
+  StillPicture picture{width, height, bits, {}};
   const std::size_t row = std::size_t(width);
   for (int p = 0; p < 3; ++p) {
     if (image.yuvPlanes[p] == nullptr) return malformed("a picture of its colours is damaged");
     picture.planes[p].resize(row * std::size_t(height));
     for (std::size_t y = 0; y < std::size_t(height); ++y)
-      std::memcpy(picture.planes[p].data() + y * row, image.yuvPlanes[p] + y * image.yuvRowBytes[p],
-                  row * sizeof(std::uint16_t));
+      copyRow(image.yuvPlanes[p] + y * image.yuvRowBytes[p], picture.planes[p].data() + y * row, row, bits);
   }
   return picture;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of three planes of kColourBits each as AVIF files in memory, by libavif: one still, intra only,
+/// Pictures of three planes of 8 or 10 bits each as AVIF files in memory, by libavif: one still, intra only,
 /// 4:4:4, full range. On one thread, and the same bytes each time.
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace acentric {
 
 /// Rows of the planes lie one behind the other.
 struct StillPicture {
-  int width = 0, height = 0;
+  int width = 0, height = 0, bits = 0;
   std::vector<std::uint16_t> planes[3];  ///< luma, blue and red chroma
 };
 
@@ -21,9 +21,9 @@ struct StillPicture {
 inline constexpr int kMostPictureSide = 32768;
 inline constexpr int kBestPictureQuality = 99;
 
-/// `quality`: 0..kBestPictureQuality.
+/// `quality`: 0..kBestPictureQuality; means about the same of both scales that colour_codes.h has.
 Result<std::vector<std::byte>> encodeStill(const StillPicture& picture, int quality);
 /// Refused before it is decoded unless its header says that it is of this size and kind.
-Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int height);
+Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int height, int bits);
 
 }  // namespace acentric

@@ -18,8 +18,9 @@ glm::vec2 rangeOf(std::span<const PackedSample> samples) {
   return range;
 }
 
-DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture, double planeTolerance,
-                       float exposure) {
+/// `whole` says how the colours of its samples or reflections are to be taken.
+DisplayCapture prepare(const Capture& whole, const CaptureSamples& capture, float exposure) {
+  const ColumnCamera& camera = whole.camera;
   const std::size_t columns = static_cast<std::size_t>(camera.columns);
   const std::size_t rows = static_cast<std::size_t>(camera.rows);
   require(capture.columnStart.size() == columns + 1, "a capture needs one offset per column and one more");
@@ -35,13 +36,14 @@ DisplayCapture prepare(const ColumnCamera& camera, const CaptureSamples& capture
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
     const glm::vec4 linear = unpackColour(capture.colour[i]);
-    display.colour[i] = encodeForDisplay(glm::vec3(linear), exposure, linear.a);
+    display.colour[i] = whole.shown ? encodeShown(glm::vec3(linear), linear.a)
+                                    : encodeForDisplay(glm::vec3(linear), exposure, linear.a);
     display.blended = display.blended || display.colour[i].a < 255;
   }
 
   if (capture.hasSilhouettes())
     display.patches = std::make_shared<const DisplayPatches>(
-        displayPatches(camera, capture, planeTolerance, display.colour));
+        displayPatches(camera, capture, whole.planeTolerance, display.colour));
 
   display.rowTangent.resize(rows);
   for (std::size_t r = 0; r < rows; ++r)
@@ -68,7 +70,7 @@ std::size_t bytesOf(const std::vector<T, Allocator>& values) {
 
 DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
   const ColumnCamera& camera = capture.camera;
-  DisplayCapture display = prepare(camera, capture, capture.planeTolerance, exposure);
+  DisplayCapture display = prepare(capture, capture, exposure);
   if (capture.background.runCount() > 0) {
     DisplayBackground& background = display.background;
     background.runs = capture.background;
@@ -76,8 +78,8 @@ DisplayCapture prepareForDisplay(const Capture& capture, float exposure) {
     for (int y = 0; y <= camera.rows; ++y) background.rowBorder.push_back(camera.tangentAt(y));
   }
   if (capture.hasReflections())
-    display.reflections = std::make_shared<const DisplayCapture>(
-        prepare(camera, capture.reflections, capture.planeTolerance, exposure));
+    display.reflections =
+        std::make_shared<const DisplayCapture>(prepare(capture, capture.reflections, exposure));
   return display;
 }
 

@@ -22,7 +22,7 @@ class CapiTest : public testing::Test {
     fs::create_directories(room);
     runner = new TaskRunner(1);
     project = new OpenProject(test::bakedProject(room / "walk.acentric.json", *runner));
-    const auto written = exportBundle({project, 1}, room / "bundle", {}, *runner);
+    const auto written = exportBundle({project, 1}, room / "bundle", {false, "", kLosslessColours}, *runner);
     ASSERT_TRUE(written) << written.error().describe();
   }
   static void TearDownTestSuite() {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
@@ -24,6 +25,21 @@ std::map<std::string, std::string> filesIn(const fs::path& folder) {
   return files;
 }
 
+/// Every bit of colours.
+const ExportBundleOptions kExactly{false, "a test", kLosslessColours};
+
+/// Of what is shown, over all frames of both, which have the same views.
+double psnr(const std::vector<Frame>& a, const std::vector<Frame>& b) {
+  double squares = 0, count = 0;
+  for (std::size_t f = 0; f < a.size(); ++f)
+    for (std::size_t i = 0; i < a[f].colour.pixels.size(); ++i)
+      for (int c = 0; c < 3; ++c, ++count) {
+        const double off = double(a[f].colour.pixels[i][c]) - double(b[f].colour.pixels[i][c]);
+        squares += off * off;
+      }
+  return 10 * std::log10(255 * 255 * count / squares);
+}
+
 /// Baked once; each test has its own bundles.
 class BundleTest : public testing::Test {
  protected:
@@ -32,7 +48,7 @@ class BundleTest : public testing::Test {
     fs::create_directories(room);
     runner = new TaskRunner(1);
     plain = new OpenProject(test::bakedProject(room / "plain.acentric.json", *runner));
-    const auto written = exportBundle({plain, 1}, room / "bundle", {false, "a test"}, *runner);
+    const auto written = exportBundle({plain, 1}, room / "bundle", kExactly, *runner);
     ASSERT_TRUE(written) << written.error().describe();
     report = *written;
   }
@@ -126,10 +142,25 @@ TEST_F(BundleTest, GivesTheFramesOfSimplifiedRegions) {
   simplified.project.budget.trianglesPerRegion = 60;
   simplified.project.budget.maxErrorMetres = 0.2;
   simplified.project.budget.simplify = true;
-  const auto written = exportBundle({&simplified, 1}, room / "simple", {}, *runner);
+  const auto written = exportBundle({&simplified, 1}, room / "simple", kExactly, *runner);
   ASSERT_TRUE(written) << written.error().describe();
   EXPECT_LT(written->triangles, report.triangles);
   expectSameFrames(simplified, room / "simple");
+}
+
+TEST_F(BundleTest, OfTheUsualQualityShowsItsProjectInFewerBytes) {
+  const auto written = exportBundle({plain, 1}, room / "usual", {false, "", kUsualColourQuality}, *runner);
+  ASSERT_TRUE(written) << written.error().describe();
+  EXPECT_LT(written->fullBytes, report.fullBytes / 2);
+  const auto loaded = loadWalk(*plain, nullptr, *runner);
+  ASSERT_TRUE(loaded) << loaded.error().describe();
+  const WalkScene walk = walkOf(room / "usual");
+  std::vector<Frame> expected, actual;
+  for (const PerspectiveView& view : test::everyView(*plain->layout)) {
+    expected.push_back(*renderFrame(loaded->walk, view, plain->project.view, *runner));
+    actual.push_back(*renderFrame(walk, view, plain->project.view, *runner));
+  }
+  EXPECT_GT(psnr(expected, actual), 42);
 }
 
 TEST_F(BundleTest, SaysWhatItsProjectUses) {
@@ -183,7 +214,7 @@ TEST_F(BundleTest, HoldsTheStoresCapturesAndCoarseOnesOfThem) {
 }
 
 TEST_F(BundleTest, IsTheSameBytesEachTimeAndHoldsNoPath) {
-  const auto again = exportBundle({plain, 1}, room / "again", {false, "a test"}, *runner);
+  const auto again = exportBundle({plain, 1}, room / "again", kExactly, *runner);
   ASSERT_TRUE(again) << again.error().describe();
   const auto first = filesIn(room / "bundle"), second = filesIn(room / "again");
   EXPECT_EQ(first, second);
@@ -225,7 +256,7 @@ TEST_F(BundleTest, RefusesToLeaveCapturesOutUnlessTold) {
   EXPECT_NE(why.find("2 of "), std::string::npos) << why;
   EXPECT_NE(why.find("`acentric bake "), std::string::npos) << why;
   EXPECT_FALSE(fs::exists(room / "missing"));
-  const auto told = exportBundle({&missing, 1}, room / "missing", {true, ""}, *runner);
+  const auto told = exportBundle({&missing, 1}, room / "missing", {true, "", std::nullopt}, *runner);
   ASSERT_TRUE(told) << told.error().describe();
   EXPECT_EQ(told->missing, 2u);
   const auto bundle = readBundle(room / "missing");
@@ -247,7 +278,7 @@ TEST_F(BundleTest, RefusesAnIndexThatIsWrongWithItsPlace) {
     return text.find(part) != std::string::npos ? "" : text;
   };
   EXPECT_EQ(has(refusal("acentric bundle", "other"), "/format"), "");
-  EXPECT_EQ(has(refusal("\"version\": 1", "\"version\": 2"), "/version"), "");
+  EXPECT_EQ(has(refusal("\"version\": 2", "\"version\": 3"), "/version"), "");
   EXPECT_EQ(has(refusal("\"exposure\"", "\"exposed\""), "lacks 'exposure'"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"../"), "/storeys/0/cameras/0/full/file"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"/tmp/"), "path within"), "");

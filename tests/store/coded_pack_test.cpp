@@ -45,8 +45,9 @@ double psnr(const Capture& a, const Capture& b, float exposure = 1) {
   double squares = 0, count = 0;
   const auto add = [&](const CaptureSamples& x, const CaptureSamples& y) {
     for (std::size_t i = 0; i < x.sampleCount(); ++i) {
+      const glm::vec3 second(unpackColour(y.colour[i]));
       const glm::vec3 p = toneMap(glm::vec3(unpackColour(x.colour[i])), exposure),
-                      q = toneMap(glm::vec3(unpackColour(y.colour[i])), exposure);
+                      q = b.shown ? second : toneMap(second, exposure);
       for (int c = 0; c < 3; ++c, ++count)
         squares += std::pow(double(srgbFromLinear(p[c])) - double(srgbFromLinear(q[c])), 2);
     }
@@ -350,25 +351,43 @@ TEST_F(CodedPack, OfAHugeEmptyPictureIsRefusedUnlessItsFileIsAsLarge) {
   EXPECT_THAT(read.error().message, testing::HasSubstr("contradicts its size"));
 }
 
+TEST_F(CodedPack, OfDisplaysShowsWhatTheCaptureDoesAtItsExposure) {
+  for (const Capture& shape : everyShape())
+    for (const float exposure : {1.0f, 2.5f}) {
+      const Capture capture = smoothly(shape);
+      ASSERT_TRUE(writeDisplayPack(capture, kKey, file(), kQuality, exposure));
+      const auto back = readCapturePack(file());
+      ASSERT_TRUE(back) << back.error().describe();
+      ASSERT_TRUE(back->shown);
+      Capture expected = withColoursOf(capture, *back);
+      expected.shown = true;
+      EXPECT_EQ(expected, *back);
+      EXPECT_GT(psnr(capture, *back, exposure), 38);
+    }
+}
+
 TEST(StillPictures, OfAnotherSizeOrDamagedAreRefused) {
-  StillPicture picture{32, 16, {}};
-  for (auto& plane : picture.planes)
-    for (int n = 0; n < 32 * 16; ++n) plane.push_back(std::uint16_t(300 + n % 32));
-  const auto file = encodeStill(picture, 90);
-  ASSERT_TRUE(file) << file.error().describe();
-  const auto back = decodeStill(*file, 32, 16);
-  ASSERT_TRUE(back) << back.error().describe();
-  for (int p = 0; p < 3; ++p)
-    for (std::size_t n = 0; n < 32 * 16; ++n)
-      ASSERT_NEAR(back->planes[p][n], picture.planes[p][n], 12) << p << ' ' << n;
-  for (const auto& [width, height] : {std::pair{16, 32}, {32, 32}, {31, 16}, {64, 8}})
-    EXPECT_FALSE(decodeStill(*file, width, height)) << width << 'x' << height;
-  EXPECT_FALSE(decodeStill(std::span(*file).first(file->size() / 2), 32, 16));
-  EXPECT_FALSE(decodeStill({}, 32, 16));
+  for (const int bits : {8, 10}) {
+    StillPicture picture{32, 16, bits, {}};
+    for (auto& plane : picture.planes)
+      for (int n = 0; n < 32 * 16; ++n) plane.push_back(std::uint16_t((75 << (bits - 8)) + n % 32));
+    const auto file = encodeStill(picture, 90);
+    ASSERT_TRUE(file) << file.error().describe();
+    const auto back = decodeStill(*file, 32, 16, bits);
+    ASSERT_TRUE(back) << back.error().describe();
+    for (int p = 0; p < 3; ++p)
+      for (std::size_t n = 0; n < 32 * 16; ++n)
+        ASSERT_NEAR(back->planes[p][n], picture.planes[p][n], 12) << bits << ' ' << p << ' ' << n;
+    for (const auto& [width, height] : {std::pair{16, 32}, {32, 32}, {31, 16}, {64, 8}})
+      EXPECT_FALSE(decodeStill(*file, width, height, bits)) << width << 'x' << height;
+    EXPECT_FALSE(decodeStill(*file, 32, 16, 18 - bits));
+    EXPECT_FALSE(decodeStill(std::span(*file).first(file->size() / 2), 32, 16, bits));
+    EXPECT_FALSE(decodeStill({}, 32, 16, bits));
+  }
 }
 
 TEST(ColourCodes, AreWithinAPartOfAnEighthBitCodeAndCoverAllThatHalvesHold) {
-  const ColourCoder coder;
+  const ColourCoder coder(ColourScale::radiance);
   for (std::uint16_t half = 0; half < 0x7c00; half = std::uint16_t(half + 7)) {
     const float radiance = floatFromHalf(half);
     const HalfColour back = coder.colourOf(coder.codesOf(HalfColour(half, half, half, 0x3c00)));
@@ -386,8 +405,22 @@ TEST(ColourCodes, AreWithinAPartOfAnEighthBitCodeAndCoverAllThatHalvesHold) {
   EXPECT_NEAR(back.b, 0.02, 0.01);
 }
 
+TEST(ColourCodes, OfDisplaysAreShownWithinACode) {
+  for (const float exposure : {0.25f, 1.0f, 8.0f}) {
+    const ColourCoder coder(ColourScale::display, exposure);
+    for (float bright = 0.01f; bright < 60; bright *= 1.3f)
+      for (const glm::vec3& tint : {glm::vec3(1), glm::vec3(1, 0.5f, 0.2f), glm::vec3(0.05f, 0.3f, 1)}) {
+        const HalfColour colour = packColour(glm::vec4(bright * tint, 1));
+        const glm::vec3 shown = toneMap(glm::vec3(unpackColour(colour)), exposure),
+                        back = glm::vec3(unpackColour(coder.colourOf(coder.codesOf(colour))));
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(srgbFromLinear(back[c]), srgbFromLinear(shown[c]), 1.6 / 255) << bright << ' ' << c;
+      }
+  }
+}
+
 std::vector<ColourCodes> codesOf(const CaptureSamples& samples) {
-  const ColourCoder coder;
+  const ColourCoder coder(ColourScale::radiance);
   std::vector<ColourCodes> codes;
   for (const HalfColour& colour : samples.colour) codes.push_back(coder.codesOf(colour));
   return codes;
@@ -401,7 +434,7 @@ TEST(ColourPicture, HoldsTheFirstSamplesWhereTheyAre) {
   for (const CaptureSamples* list : {static_cast<const CaptureSamples*>(&capture), &capture.reflections}) {
     const PictureArea area = areaOf(*list);
     const std::vector<ColourCodes> codes = codesOf(*list);
-    const StillPicture picture = pictureOf(*list, area, codes);
+    const StillPicture picture = pictureOf(*list, area, codes, 10);
     std::vector<ColourCodes> back(codes.size());
     for (const PictureArea& piece : piecesOf(area))
       takePiece(pieceOf(picture, piece), area, piece, *list, back);
@@ -451,7 +484,8 @@ TEST(DeepColours, AreWithinHalfAStepAndReadAsTheyWereWritten) {
       if (silhouettes) capture = withSilhouettes(capture);
       const std::vector<ColourCodes> exact = codesOf(capture);
       std::vector<ColourCodes> written = exact;
-      const auto bytes = codeDeepColours(capture, 90, quality, written);
+      const DeepColourShape shape{90, quality, mostCodeOf(ColourScale::radiance)};
+      const auto bytes = codeDeepColours(capture, shape, written);
       std::vector<ColourCodes> read(exact.size());
       int deep = 0;
       for (std::size_t k = 0; k < 120; ++k)
@@ -461,7 +495,7 @@ TEST(DeepColours, AreWithinHalfAStepAndReadAsTheyWereWritten) {
           else
             ++deep;
       ASSERT_GT(deep, 500);
-      ASSERT_TRUE(decodeDeepColours(bytes, capture, 90, quality, read));
+      ASSERT_TRUE(decodeDeepColours(bytes, capture, shape, read));
       EXPECT_EQ(read, written);
       for (std::size_t i = 0; i < exact.size(); ++i) {
         const DeepColourSteps steps(quality);
@@ -469,7 +503,7 @@ TEST(DeepColours, AreWithinHalfAStepAndReadAsTheyWereWritten) {
         for (std::size_t p = 1; p < 3; ++p)
           ASSERT_NEAR(written[i][p], exact[i][p], steps.chroma / 2.0) << quality;
       }
-      EXPECT_FALSE(decodeDeepColours(std::span(bytes).first(bytes.size() / 2), capture, 90, quality, read));
+      EXPECT_FALSE(decodeDeepColours(std::span(bytes).first(bytes.size() / 2), capture, shape, read));
     }
 }
 
@@ -495,7 +529,8 @@ TEST(DeepColours, TakeNextToNothingWhereTheirSurfaceGoesOnBesideThem) {
   }
   edged.planes.push_back({{0.5f, 0.5f, 0}});
   std::vector<ColourCodes> codes = codesOf(edged);
-  EXPECT_LT(codeDeepColours(edged, 160, kQuality, codes).size(), deep / 10);
+  EXPECT_LT(codeDeepColours(edged, {160, kQuality, mostCodeOf(ColourScale::radiance)}, codes).size(),
+            deep / 10);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { contentHash } from '../src/bundle/block_file';
+import type { PageModule } from '../src/bundle/page_module';
 import { loadFile } from '../src/stream/load_file';
 
 /** Of a PNG all that comes before its pixels. */
@@ -10,9 +11,11 @@ function headerOf(width: number, height: number): Uint8Array {
   return bytes;
 }
 
+const noModule = new Promise<PageModule>(() => {}); // textures need none
+
 async function load(bytes: Uint8Array, width: number, height: number) {
   const file = { file: 'textures/a.png', bytes: bytes.length, hash: await contentHash(bytes) };
-  return loadFile({ id: 1, task: { kind: 'texture', width, height }, file, url: undefined, bytes, again: false });
+  return loadFile({ id: 1, task: { kind: 'texture', width, height }, file, url: undefined, bytes, again: false }, noModule);
 }
 
 describe('a texture', () => {

@@ -4,7 +4,6 @@ import { xxhash128 } from 'hash-wasm';
 import { ZSTDDecoder } from 'zstddec';
 
 export enum BlockFileKind {
-  capture = 1,
   local = 4,
 }
 
@@ -18,7 +17,7 @@ const kRecordsPerBlock = 65536;
 const kLargestBlock = 16 << 20;
 
 let decoder: Promise<ZSTDDecoder> | undefined;
-function zstd(): Promise<ZSTDDecoder> {
+export function zstd(): Promise<ZSTDDecoder> {
   decoder ??= (async () => {
     const made = new ZSTDDecoder();
     await made.init();

@@ -3,6 +3,7 @@
 import { contentHash, DamagedFile } from '../bundle/block_file';
 import { readCapture } from '../bundle/capture';
 import { readLocal } from '../bundle/local';
+import type { PageModule } from '../bundle/page_module';
 import type { FileRef } from '../bundle/types';
 import type { Loaded, Request } from './messages';
 
@@ -36,10 +37,10 @@ export function checkPictureSize(bytes: Uint8Array, width: number, height: numbe
   if (w !== width || h !== height) throw new DamagedFile(`it is ${w} × ${h} pixels large, and the index says ${width} × ${height}`);
 }
 
-export async function loadFile(request: Request): Promise<Loaded> {
+export async function loadFile(request: Request, module: Promise<PageModule>): Promise<Loaded> {
   const { task, file } = request;
   const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
-  if (task.kind === 'capture') return { kind: 'capture', capture: await readCapture(bytes, task.exposure) };
+  if (task.kind === 'capture') return { kind: 'capture', capture: await readCapture(await module, bytes, task.exposure) };
   if (task.kind === 'local') return { kind: 'local', local: await readLocal(bytes, task.materials, task.origin) };
   checkPictureSize(bytes, task.width, task.height);
   const blob = new Blob([bytes as BlobPart], { type: 'image/png' });

@@ -10,6 +10,11 @@ export type Task =
   | { kind: 'local'; materials: Material[]; origin: Vec3 }
   | { kind: 'texture'; width: number; height: number };
 
+/** Before all requests: the bytes of the engine's module. */
+export interface Start {
+  module: Uint8Array;
+}
+
 export interface Request {
   id: number;
   task: Task;

@@ -1,8 +1,9 @@
 /** Workers that load files. */
 
+import moduleSource from '../../../build/page/page.wasm?inline';
 import type { FileRef } from '../bundle/types';
-import type { Answer, Loaded, Request, Task } from './messages';
-import type { Source } from './source';
+import type { Answer, Loaded, Request, Start, Task } from './messages';
+import { decodedBase64, type Source } from './source';
 import LoaderWorker from './worker?worker&inline';
 
 /** So many files at once for each worker: one comes while another is unpacked. */
@@ -14,6 +15,7 @@ export class LoaderPool {
   private next = 0;
 
   constructor(private readonly source: Source, count: number) {
+    const module = decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1));
     for (let i = 0; i < count; ++i) {
       const entry = { worker: new LoaderWorker(), busy: 0 };
       entry.worker.onmessage = (event: MessageEvent<Answer>) => {
@@ -23,6 +25,7 @@ export class LoaderPool {
         if ('loaded' in event.data) waiting?.resolve(event.data.loaded);
         else waiting?.reject(new Error(event.data.error));
       };
+      entry.worker.postMessage({ module } satisfies Start);
       this.workers.push(entry);
     }
   }

@@ -10,7 +10,7 @@ export interface Source {
 /** Elements of a page that holds its bundle: <script type="application/octet-stream" data-file="NAME">base64</script>. */
 const elementOf = (file: string) => document.querySelector(`script[data-file="${CSS.escape(file)}"]`);
 
-function decoded(base64: string): Uint8Array {
+export function decodedBase64(base64: string): Uint8Array {
   const text = atob(base64);
   return Uint8Array.from({ length: text.length }, (_, i) => text.charCodeAt(i));
 }
@@ -20,7 +20,7 @@ class WithinPage implements Source {
   url = () => undefined;
   bytes(file: string): Uint8Array {
     const element = elementOf(file);
-    return element ? decoded((element.textContent ?? '').trim()) : new Uint8Array(0);
+    return element ? decodedBase64((element.textContent ?? '').trim()) : new Uint8Array(0);
   }
 }
 

@@ -1,8 +1,9 @@
 /** A worker: requests in, answers out, their arrays handed over instead of copied. */
 
-import { warmUp } from '../bundle/block_file';
+import { warmUp, zstd } from '../bundle/block_file';
+import { PageModule } from '../bundle/page_module';
 import { loadFile } from './load_file';
-import type { Answer, Loaded, Request } from './messages';
+import type { Answer, Loaded, Request, Start } from './messages';
 
 function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transferable> {
   if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
@@ -13,9 +14,15 @@ function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transf
 
 const answer = (message: Answer, loaded?: Loaded) => self.postMessage(message, { transfer: [...handedOver(loaded)] });
 
-self.onmessage = (event: MessageEvent<Request>) => {
-  const { id } = event.data;
-  loadFile(event.data).then(
+let module: Promise<PageModule>;
+
+self.onmessage = ({ data }: MessageEvent<Start | Request>) => {
+  if ('module' in data) {
+    module = (async () => new PageModule(await WebAssembly.compile(data.module as BufferSource), await zstd()))();
+    return;
+  }
+  const { id } = data;
+  loadFile(data, module).then(
     (loaded) => answer({ id, loaded }, loaded),
     (error: unknown) => answer({ id, error: error instanceof Error ? error.message : String(error) }),
   );
