@@ -13,6 +13,8 @@ export class LoaderPool {
   private readonly workers: { worker: Worker; busy: number }[] = [];
   private readonly waiting = new Map<number, { resolve: (loaded: Loaded) => void; reject: (error: Error) => void }>();
   private next = 0;
+  /** A file has come, and another may be asked for. */
+  onRoom: () => void = () => undefined;
 
   constructor(private readonly source: Source, count: number) {
     const module = decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1));
@@ -24,6 +26,7 @@ export class LoaderPool {
         this.waiting.delete(event.data.id);
         if ('loaded' in event.data) waiting?.resolve(event.data.loaded);
         else waiting?.reject(new Error(event.data.error));
+        this.onRoom();
       };
       entry.worker.postMessage({ module } satisfies Start);
       this.workers.push(entry);

@@ -38,6 +38,7 @@ export class Stream {
     private readonly bundle: Bundle, private readonly storey: Storey, private readonly renderer: Renderer,
     private readonly pool: LoaderPool, private readonly changed: () => void, private readonly failed: (failure: Failure) => void,
   ) {
+    pool.onRoom = () => this.pump(); // also where what came was for a stream before this one
     this.cache = new Cache((held) => (held.kind === 'capture' ? renderer.deleteCapture(held.gpu) : renderer.deleteLocal(held.gpu)));
   }
 
