@@ -6,7 +6,7 @@ namespace acentric {
 /// 0 to 99: as pictures, of which 99 are the truest. 100: as they are, every bit.
 inline constexpr int kLosslessColours = 100;
 
-/// XX dB from what was baked (docs/captures.md).
+/// About 45 dB from what was baked (docs/captures.md).
 inline constexpr int kUsualColourQuality = 96;
 
 }  // namespace acentric

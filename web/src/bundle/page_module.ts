@@ -50,6 +50,9 @@ export const decodeByBrowser: DecodePicture = async (file) => {
   return { width, height, rgba: canvas.getImageData(0, 0, width, height).data };
 };
 
+/** A module's memory never shrinks: with more of it than this a new one takes its place. */
+const kMostMemory = 64 << 20; // bytes
+
 export class PageModule {
   private instance: Exports;
 
@@ -124,7 +127,9 @@ export class PageModule {
       }
       const address = this.instance.readPack(exposure);
       if (address === 0) throw new DamagedFile(this.message);
-      return this.packAt(address);
+      const read = this.packAt(address);
+      if (this.instance.memory.buffer.byteLength > kMostMemory) this.instance = this.start();
+      return read;
     });
   }
 
