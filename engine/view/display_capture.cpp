@@ -3,6 +3,7 @@
 #include <span>
 
 #include "engine/base/contract.h"
+#include "engine/image/shown_colour.h"
 #include "engine/view/walk_scene.h"
 
 namespace acentric {
@@ -35,9 +36,7 @@ DisplayCapture prepare(const Capture& whole, const CaptureSamples& capture, floa
 
   display.colour.resize(capture.sampleCount());
   for (std::size_t i = 0; i < capture.sampleCount(); ++i) {
-    const glm::vec4 linear = unpackColour(capture.colour[i]);
-    display.colour[i] = whole.shown ? encodeShown(glm::vec3(linear), linear.a)
-                                    : encodeForDisplay(glm::vec3(linear), exposure, linear.a);
+    display.colour[i] = shownColour(capture.colour[i], whole.shown, exposure);
     display.blended = display.blended || display.colour[i].a < 255;
   }
 

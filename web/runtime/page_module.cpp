@@ -5,17 +5,18 @@
 /// One pack at a time. What is wrong with it is told by message(). A module that traps, because memory is
 /// out, is not used again.
 
-#include <cstdlib>
+#include <bit>
 #include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "engine/image/colour.h"
+#include "engine/image/shown_colour.h"
 #include "engine/store/block_file.h"
 #include "engine/store/colour_picture.h"
 #include "engine/store/keyed.h"
 #include "engine/store/still_picture.h"
+#include "engine/view/walk_scene.h"
 
 namespace acentric {
 namespace {
@@ -87,13 +88,11 @@ PageSamples pageSamplesOf(const CaptureSamples& samples, bool isShown, float exp
   out.words.reserve(3 * samples.sampleCount());
   for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column)
     for (std::size_t i = samples.columnStart[column]; i < samples.columnStart[column + 1]; ++i) {
-      const glm::vec4 linear = unpackColour(samples.colour[i]);
-      const Rgba8 shown = isShown ? encodeShown(glm::vec3(linear), linear.a)
-                                  : encodeForDisplay(glm::vec3(linear), exposure, linear.a);
-      std::uint32_t distance, colour;
-      std::memcpy(&distance, &samples.inverseDistance[i], 4), std::memcpy(&colour, &shown, 4);
-      out.words.insert(out.words.end(), {((distance + 0x80u) & ~0xffu) | samples.roles[i],
-                                         samples.row[i] | std::uint32_t(column) << 16, colour});
+      const PackedSample packed = packSample(samples.inverseDistance[i], samples.roles[i], samples.row[i]);
+      const Rgba8 shown = shownColour(samples.colour[i], isShown, exposure);
+      out.words.insert(out.words.end(),
+                       {packed.inverseDistanceAndRoles, packed.row | std::uint32_t(column) << 16,
+                        std::bit_cast<std::uint32_t>(shown)});
     }
   return out;
 }
