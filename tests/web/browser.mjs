@@ -169,6 +169,27 @@ await test('a walk through ten regions shows no blank frame', async () => {
   await close();
 });
 
+await test('a camera that was not baked is told, and the rest is drawn at full size', async () => {
+  const partial = structuredClone(index), { storeys, storey: start } = partial;
+  const answer = (file, response) => {
+    if (file !== 'bundle.json') return false;
+    response.writeHead(200, { 'Content-Type': 'application/json' }).end(JSON.stringify(partial));
+    return true;
+  };
+  const whole = await open();
+  await started(whole.page);
+  const [seen] = await whole.page.evaluate(() => window.acentric.facts.captures);
+  await whole.close();
+  Object.assign(storeys[start].cameras[seen], { full: null, coarse: null });
+  const { page, close } = await open({ answer });
+  await started(page);
+  await settled(page);
+  expect((await page.locator('.message[data-name=unbaked] p').textContent()).includes('not baked'), 'no message');
+  const { drawing, missing } = await page.evaluate(() => ({ drawing: window.acentric.drawing, missing: window.acentric.facts.missing }));
+  expect(drawing.width === 640 && missing.length === 1 && missing[0] === seen, JSON.stringify({ drawing, missing }));
+  await close();
+});
+
 await test('missing and damaged files are named, their coarse captures stand in, and asking again heals', async () => {
   let broken = true;
   const spoiled = { missing: undefined, damaged: undefined };

@@ -1,8 +1,8 @@
 /** The page: opens the bundle beside it (or within it) and connects the walk with buttons, keys and messages. */
 
+import { addressOf, parseAddress } from './address';
 import { kIndexName, readIndex } from './bundle/read_index';
 import type { Bundle } from './bundle/types';
-import type { Pose } from './geometry/view';
 import { keepSettings, loadSettings, type Settings } from './settings';
 import { LoaderPool } from './stream/pool';
 import { sourceFor } from './stream/source';
@@ -14,14 +14,6 @@ import { Walk } from './walk';
 
 const canvas = element<HTMLCanvasElement>('view');
 const messages = new Messages(element('messages'));
-
-/** #at=x,y,yaw,pitch in metres and degrees. */
-function poseOfAddress(eyeZ: number): Pose | undefined {
-  const numbers = /^#at=(-?[\d.]+),(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)$/.exec(location.hash)?.slice(1).map(Number);
-  if (!numbers || !numbers.every(Number.isFinite)) return undefined;
-  const [x, y, yaw, pitch] = numbers;
-  return { eye: [x, y, eyeZ], yaw: (yaw * Math.PI) / 180, pitch: (pitch * Math.PI) / 180 };
-}
 
 function openGraphics(): WebGL2RenderingContext {
   const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, stencil: false, powerPreference: 'high-performance' });
@@ -36,6 +28,7 @@ function openGraphics(): WebGL2RenderingContext {
 class Page {
   private readonly walk: Walk;
   private readonly panel: SettingsPanel;
+  private unbakedTold = 0;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
   constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool) {
@@ -73,16 +66,16 @@ class Page {
   }
 
   private goToAddress(): void {
-    const pose = poseOfAddress(this.walk.current.eyeZ);
-    if (pose) this.walk.go(pose);
+    const { bundle } = this.walk;
+    const address = parseAddress(location.hash, bundle.storeys.length, bundle.storey);
+    if (address) this.walk.go({ eye: [...address.eye, 0], yaw: address.yaw, pitch: address.pitch }, address.storey);
   }
 
   /** So that a reload, or a copied address, shows the same view. */
   private keepAddress(): void {
-    const { eye, yaw, pitch } = this.walk.pose;
-    const degrees = (radians: number) => ((radians * 180) / Math.PI).toFixed(1);
+    const { bundle, pose, storey } = this.walk;
     try {
-      history.replaceState(null, '', `#at=${eye[0].toFixed(2)},${eye[1].toFixed(2)},${degrees(yaw)},${degrees(pitch)}`);
+      history.replaceState(null, '', addressOf(pose.eye, pose.yaw, pose.pitch, storey, bundle.storey));
     } catch {
       // Some browsers refuse it to pages within pages, or when it comes too often.
     }
@@ -151,7 +144,16 @@ class Page {
         region, captures: facts.captures, isFull: walk.isFull,
       });
     }
+    this.tellUnbaked();
     this.panel.show();
+  }
+
+  private tellUnbaked(): void {
+    const { unbaked } = this.walk;
+    if (unbaked === this.unbakedTold) return;
+    this.unbakedTold = unbaked;
+    if (unbaked === 0) return messages.hide('unbaked');
+    messages.show('unbaked', `${unbaked === 1 ? 'A capture' : `${unbaked} captures`} of this place ${unbaked === 1 ? 'was' : 'were'} not baked: parts of it stay empty.`);
   }
 
   private failed(): void {

@@ -23,9 +23,9 @@ const kFirstScale = 0.5;
 export class Walk {
   pose: Pose;
   storey: number;
-  facts: FrameFacts = { samples: 0, captures: [], missing: [], localTriangles: 0 };
+  facts: FrameFacts = { samples: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
   readonly times = new FrameTimes();
-  /** Milliseconds from the page's beginning to the first picture without a capture missing. */
+  /** Milliseconds from the page's beginning to the first picture without a capture missing that may come. */
   firstPicture: number | undefined;
   framesDrawn = 0;
   drawing = { width: 0, height: 0, full: true };
@@ -89,6 +89,11 @@ export class Walk {
     const { start, eyeZ } = this.current;
     const [x, y] = this.index.nearestStanding(start.position);
     return { eye: [x, y, eyeZ], yaw: start.yaw, pitch: 0 };
+  }
+
+  /** Captures that the picture lacks and the bundle does not hold. */
+  get unbaked(): number {
+    return this.facts.missing.filter((camera) => !this.current.cameras[camera].full && !this.current.cameras[camera].coarse).length;
   }
 
   private indexOf(storey: number): RegionIndex {
@@ -184,7 +189,7 @@ export class Walk {
     const { eye, yaw } = this.pose, region = this.region;
     if (this.firstPicture !== undefined || region < 0) return false;
     const cameras = camerasInOrder(this.current, region, [eye[0], eye[1]], yaw);
-    if (cameras.every((camera) => this.stream.capture(camera, false))) return false;
+    if (cameras.every((camera) => this.stream.capture(camera, false) || !this.stream.mayCome(camera))) return false;
     return now - this.lastDraw < Math.max(kWhileLoading, kShareWhileLoading * this.lastTook);
   }
 
@@ -236,7 +241,10 @@ export class Walk {
     if (region < 0) return;
     this.drawing = { width: view.width, height: view.height, full };
     this.facts = this.renderer.draw(
-      { storey: this.current, region, captureOf: (camera) => this.stream.capture(camera, full), local: this.stream.local(region) },
+      {
+        storey: this.current, region, captureOf: (camera) => this.stream.capture(camera, full),
+        mayCome: (camera) => this.stream.mayCome(camera), local: this.stream.local(region),
+      },
       view,
       { maxSplatPixels: this.settings.maxSplat, holes: this.settings.holes, local: true },
     );
@@ -268,7 +276,7 @@ export class Walk {
     this.times.add(now, took);
     this.lastTook = took;
     this.adapt(pending.full, took);
-    if (this.firstPicture === undefined && this.facts.missing.length === 0) {
+    if (this.firstPicture === undefined && !this.facts.awaited) {
       this.firstPicture = now;
       this.dirty = true; // sharp, now
     }

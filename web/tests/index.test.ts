@@ -69,6 +69,15 @@ describe('the index', () => {
     expect(bundle.materials[0].baseTexture?.transform).toEqual([1, 0, 0, 0, 1, 0]);
   });
 
+  it('is read with 200,000 cameras', () => {
+    const index = sound();
+    const [storey] = index.storeys;
+    storey.cameras = Array.from({ length: 200_000 }, (_, i) => ({ ...storey.cameras[0], topElevation: i / 200_000 }));
+    const { topElevation, bottomElevation } = readIndex(JSON.stringify(index)).storeys[0];
+    expect(topElevation).toBeCloseTo(1, 4);
+    expect(bottomElevation).toBe(-1);
+  });
+
   it.each<[string, (index: Index) => unknown, string]>([
     ['another format', (i) => (i.format = 'zip'), '/format'],
     ['another version', (i) => (i.version = 3), 'version 3'],

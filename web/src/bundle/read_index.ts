@@ -130,15 +130,16 @@ const region = (at: At, cameras: number, regions: number): Region => ({
 function storey(at: At): Storey {
   const cameras = at.get('cameras').list(1), regions = at.get('regions').list(1);
   const limit = Math.PI / 2;
-  const elevations = (name: string) => cameras.map((camera) => camera.get(name).number(-limit, limit));
+  const extreme = (name: string, of: (a: number, b: number) => number) =>
+    cameras.map((camera) => camera.get(name).number(-limit, limit)).reduce((a, b) => of(a, b));
   return {
     name: at.get('name').text(),
     eyeZ: at.get('eyeZ').number(),
     nearBand: at.get('nearBand').number(0),
     start: { position: at.get('start').get('position').vec2(), yaw: at.get('start').get('yaw').number() },
     outline: at.get('outline').optional((rings) => rings.list().map(polygon)) ?? [],
-    topElevation: Math.max(...elevations('topElevation')),
-    bottomElevation: Math.min(...elevations('bottomElevation')),
+    topElevation: extreme('topElevation', Math.max),
+    bottomElevation: extreme('bottomElevation', Math.min),
     cameras: cameras.map(cameraRef),
     regions: regions.map((one) => region(one, cameras.length, regions.length)),
   };

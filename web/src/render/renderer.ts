@@ -22,6 +22,7 @@ export interface Scene {
   region: number;
   /** The best that is loaded of a camera. */
   captureOf: (camera: number) => GpuCapture | undefined;
+  mayCome: (camera: number) => boolean; // one that is not there yet
   local: GpuLocal | undefined;
 }
 
@@ -35,6 +36,7 @@ export interface FrameFacts {
   samples: number;
   captures: number[]; // cameras drawn
   missing: number[]; // cameras that are needed and not there
+  awaited: boolean; // may any of these still come?
   localTriangles: number;
 }
 
@@ -92,7 +94,7 @@ export class Renderer {
     const region = scene.storey.regions[scene.region];
     this.nearBand = scene.storey.nearBand;
     this.points.samplesDrawn = 0;
-    const facts: FrameFacts = { samples: 0, captures: [], missing: [], localTriangles: 0 };
+    const facts: FrameFacts = { samples: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
     const drawn = (covers: readonly (Cover | undefined)[]): DrawnPiece[] =>
       covers.flatMap((cover) => cover?.pieces ?? []).flatMap((piece) => {
         const capture = scene.captureOf(piece.camera);
@@ -102,6 +104,7 @@ export class Renderer {
       });
     const covers = coversFor(region, [view.eye[0], view.eye[1]], view.yaw);
     const first = drawn([covers.first]), behind = drawn(covers.behind);
+    facts.awaited = facts.missing.some((camera) => scene.mayCome(camera));
 
     target.resize(view.width, view.height);
     target.begin();
@@ -120,7 +123,7 @@ export class Renderer {
       this.locals.drawOpaque(local, view, marked);
       facts.localTriangles = local.geometry.triangles;
     }
-    this.fill.draw(target, facts.missing.length > 0 ? kFillReachWhileLoading : kFillReach, options.holes, this.nearest());
+    this.fill.draw(target, facts.awaited ? kFillReachWhileLoading : kFillReach, options.holes, this.nearest());
     if (local) this.drawGlass(local, view);
     target.present();
     facts.samples = this.points.samplesDrawn;

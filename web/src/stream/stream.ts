@@ -60,6 +60,14 @@ export class Stream {
     return held?.kind === 'local' ? held.gpu : undefined;
   }
 
+  /** Is a capture of the camera on its way, or to be asked for? */
+  mayCome(camera: number): boolean {
+    const renditions = this.storey.cameras[camera];
+    return (['coarse', 'full'] as const).some(
+      (grade) => renditions[grade] !== undefined && !this.failedItems.has(keyOf({ grade, number: camera })),
+    );
+  }
+
   fileOf(item: Item): FileRef {
     return item.grade === 'local' ? this.storey.regions[item.number].local! : this.storey.cameras[item.number][item.grade]!;
   }
