@@ -20,6 +20,9 @@ const kWhileLoading = 400, kShareWhileLoading = 4;
 /** Until then it is drawn at this scale: coarse captures have a quarter of the samples along each side. */
 const kFirstScale = 0.5;
 
+/** Did the user ask the browser to save data? Not all browsers tell. */
+const savesData = (): boolean => (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
+
 export class Walk {
   pose: Pose;
   storey: number;
@@ -179,7 +182,7 @@ export class Walk {
     }
     const { eye, yaw } = this.pose, region = this.region;
     const full = this.settings.quality !== 'coarse';
-    this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full });
+    this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData() });
     if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving);
     if (moving || (this.dirty && !this.pending)) this.schedule();
   }

@@ -28,7 +28,7 @@ function row(count: number, outline: Storey['outline'] = []): Storey {
     topElevation: 1, bottomElevation: -1,
   };
 }
-const viewer = (change: Partial<Viewer> = {}): Viewer => ({ eye: [9, 1], yaw: 0, velocity: [0, 0], region: 4, full: true, ...change });
+const viewer = (change: Partial<Viewer> = {}): Viewer => ({ eye: [9, 1], yaw: 0, velocity: [0, 0], region: 4, full: true, saving: false, ...change });
 const keys = (items: Item[]) => items.map(keyOf);
 
 describe('regions', () => {
@@ -69,6 +69,14 @@ describe('what is loaded', () => {
     expect(items.indexOf('coarse/10')).toBeLessThan(items.indexOf('coarse/6')); // before what lies behind
     expect(items.lastIndexOf('coarse/6')).toBeLessThan(items.indexOf('full/10'));
     expect(new Set(items).size).toBe(items.length);
+  });
+  it('is full only where the eye is, and in the next two regions', () => {
+    const full = keys(wantedItems(storey, viewer())).filter((key) => key.startsWith('full'));
+    expect(full.sort()).toEqual(['full/10', 'full/11', 'full/12', 'full/13', 'full/8', 'full/9']);
+  });
+  it('is what the picture needs where data is to be saved', () => {
+    expect(keys(wantedItems(storey, viewer({ saving: true })))).toEqual(['coarse/8', 'coarse/9', 'local/4', 'full/8', 'full/9']);
+    expect(keys(wantedItems(storey, viewer({ saving: true, velocity: [1.4, 0] })))).toContain('coarse/10');
   });
   it('runs ahead of a walk', () => {
     const items = keys(wantedItems(storey, viewer({ velocity: [-1.4, 0] })));

@@ -24,6 +24,7 @@ export interface Viewer {
   velocity: Vec2; // metres per second
   region: number;
   full: boolean; // false: coarse captures are enough
+  saving: boolean; // the viewer pays for each byte, or asked to save them
 }
 
 /** Beyond this nothing is loaded ahead, metres from the eye in cell sizes of its region. */
@@ -70,6 +71,9 @@ export function camerasInOrder(storey: Storey, number: number, eye: Vec2, yaw: n
   return order;
 }
 
+/** Regions ahead of the eye whose full captures are loaded, and whose coarse ones come first while it walks. */
+const kNext = 2;
+
 /** Everything worth having at this place, most urgent first; not what cannot be had. */
 export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Item) => boolean = () => false): Item[] {
   if (viewer.region < 0) return [];
@@ -91,7 +95,7 @@ export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Item)
   own.forEach(addCoarse);
   add('local', viewer.region);
   const ahead = regionsAhead(storey, viewer);
-  const next = ahead.slice(0, 2);
+  const next = ahead.slice(0, kNext);
   const around = (regions: number[]) =>
     regions.forEach((number) => {
       camerasInOrder(storey, number, viewer.eye, viewer.yaw).forEach(addCoarse);
@@ -101,7 +105,8 @@ export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Item)
   // A walk that has begun must not outrun its coarse captures; one that stands still sharpens first.
   if (Math.hypot(...viewer.velocity) > 0.1) around(next);
   ownFull();
+  if (viewer.saving) return items;
   around(ahead);
-  if (viewer.full) for (const number of ahead) camerasOf(storey.regions[number]).forEach((camera) => add('full', camera));
+  if (viewer.full) for (const number of next) camerasOf(storey.regions[number]).forEach((camera) => add('full', camera));
   return items;
 }
