@@ -190,7 +190,7 @@ Result<Capture> readCoded(BlockFileReader& file, const AcceptPack& accept) {
   const bool mirrors = reflections.samples > 0;
   const ColumnCamera& camera = capture.camera;
   if (!file.describedAll() || !counts.sized || counts.samples != surfaces.samples ||
-      colours.quality > kLosslessColours || !camera.check() ||
+      colours.quality > kLosslessColours || (capture.shown && !colours.asPictures()) || !camera.check() ||
       (!mirrors && (reflections.planes > 0 || reflections.streamBytes > 0 || reflections.deepBytes > 0)))
     return file.malformed("its description makes no sense");
   const auto shapeOf = [&](const ListHead& list) {

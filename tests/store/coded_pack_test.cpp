@@ -366,6 +366,17 @@ TEST_F(CodedPack, OfDisplaysShowsWhatTheCaptureDoesAtItsExposure) {
     }
 }
 
+TEST_F(CodedPack, OfDisplaysHasPictures) {
+  ASSERT_TRUE(writeDisplayPack(smoothly(everyShape().front()), kKey, file(), kQuality, 1));
+  std::vector<std::byte> bytes = *readFile(file());
+  bytes[56 + 124] = std::byte(kLosslessColours);
+  seal(bytes);
+  writeQuickly(file(), bytes);
+  const auto read = readCapturePack(file());
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, testing::HasSubstr("makes no sense"));
+}
+
 TEST(StillPictures, OfAnotherSizeOrDamagedAreRefused) {
   for (const int bits : {8, 10}) {
     StillPicture picture{32, 16, bits, {}};
