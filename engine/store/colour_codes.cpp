@@ -30,6 +30,16 @@ constexpr std::int64_t kRedFromCr = fixed(kFromRed), kBlueFromCb = fixed(kFromBl
 
 }  // namespace
 
+ColourCodes lumaAndChroma(const glm::vec3& codes, int bits) {
+  const auto rounded = [&](float code) {
+    return std::uint16_t(std::clamp(int(code + 0.5f), 0, (1 << bits) - 1));
+  };
+  const float luma = kRed * codes.r + kGreen * codes.g + kBlue * codes.b;
+  const float middle = float(1 << (bits - 1));
+  return {rounded(luma), rounded((codes.b - luma) / kFromBlue + middle),
+          rounded((codes.r - luma) / kFromRed + middle)};
+}
+
 ColourCoder::ColourCoder(ColourScale scale, float exposure) : scale_(scale), exposure_(exposure) {
   const std::size_t parts = (std::size_t(mostCodeOf(scale)) << kFraction) + 1;
   const auto codeOfPart = [](std::size_t part) { return float(part) / (1 << kFraction); };
@@ -52,13 +62,7 @@ ColourCodes ColourCoder::codesOf(const HalfColour& radiance) const {
     const glm::vec3 shown = toneMap(glm::vec3(unpackColour(radiance)), exposure_);
     for (int c = 0; c < 3; ++c) codes[c] = float(mostCodeOf(scale_)) * srgbFromLinear(shown[c]);
   }
-  const auto rounded = [&](float code) {
-    return std::uint16_t(std::clamp(int(code + 0.5f), 0, mostCodeOf(scale_)));
-  };
-  const float luma = kRed * codes.r + kGreen * codes.g + kBlue * codes.b;
-  const float middle = float(1 << (bitsOf(scale_) - 1));
-  return {rounded(luma), rounded((codes.b - luma) / kFromBlue + middle),
-          rounded((codes.r - luma) / kFromRed + middle)};
+  return lumaAndChroma(codes, bitsOf(scale_));
 }
 
 HalfColour ColourCoder::colourOf(const ColourCodes& codes) const {

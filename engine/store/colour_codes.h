@@ -22,6 +22,9 @@ inline constexpr float kCodesToOne = 271;
 /// Luma, blue and red chroma of a sample.
 using ColourCodes = std::array<std::uint16_t, 3>;
 
+/// Of red, green and blue as codes of so many bits.
+ColourCodes lumaAndChroma(const glm::vec3& codes, int bits);
+
 class ColourCoder {
  public:
   /// `exposure` at which display codes show radiance.

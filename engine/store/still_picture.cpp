@@ -45,15 +45,10 @@ int quantiserOf(int quality, int bits) {
 }
 
 /// Rows of samples of one byte or two, as they lie in an image.
-void copyRow(const std::uint16_t* from, std::uint8_t* to, std::size_t count, int bits) {
+template <class From, class To>
+void copyRow(const From* from, To* to, std::size_t count, int bits) {
   if (bits > 8)
-    std::memcpy(to, from, count * sizeof *from);
-  else
-    std::copy_n(from, count, to);
-}
-void copyRow(const std::uint8_t* from, std::uint16_t* to, std::size_t count, int bits) {
-  if (bits > 8)
-    std::memcpy(to, from, count * sizeof *to);
+    std::memcpy(to, from, count * sizeof(std::uint16_t));
   else
     std::copy_n(from, count, to);
 }

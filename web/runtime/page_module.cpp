@@ -27,17 +27,14 @@ struct Picture {
   std::vector<std::uint8_t> rgba;
 };
 
-/// Samples as the page sends them to the graphics card.
-struct PageSamples {
-  std::vector<std::uint32_t> words;  ///< three each: inverse distance and roles; row, column << 16; RGBA8
-};
-
 struct State {
   std::vector<std::byte> pack;
   std::vector<Picture> pictures;
   std::size_t taken = 0;  ///< of the pictures
   std::optional<Capture> capture;
-  PageSamples samples, reflections;
+  /// Of samples as the page sends them to the graphics card, three each: inverse distance and roles; row,
+  /// column << 16; RGBA8.
+  std::vector<std::uint32_t> samples, reflections;
   std::string message;
 } state;
 
@@ -71,6 +68,7 @@ bool hasSensibleSize(std::span<const std::byte> file) {
 Status find() {
   auto file = BlockFileReader::of(state.pack, "", BlockFileKind::capture);
   if (!file) return tl::unexpected(file.error());
+  if (file->version() == kPlainCapture) return {};
   while (!file->atEnd()) {
     Picture picture;
     picture.file.resize(file->nextSize());
@@ -83,16 +81,15 @@ Status find() {
   return {};
 }
 
-PageSamples pageSamplesOf(const CaptureSamples& samples, bool isShown, float exposure) {
-  PageSamples out;
-  out.words.reserve(3 * samples.sampleCount());
+std::vector<std::uint32_t> wordsOf(const CaptureSamples& samples, bool isShown, float exposure) {
+  std::vector<std::uint32_t> out;
+  out.reserve(3 * samples.sampleCount());
   for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column)
     for (std::size_t i = samples.columnStart[column]; i < samples.columnStart[column + 1]; ++i) {
       const PackedSample packed = packSample(samples.inverseDistance[i], samples.roles[i], samples.row[i]);
       const Rgba8 shown = shownColour(samples.colour[i], isShown, exposure);
-      out.words.insert(out.words.end(),
-                       {packed.inverseDistanceAndRoles, packed.row | std::uint32_t(column) << 16,
-                        std::bit_cast<std::uint32_t>(shown)});
+      out.insert(out.end(), {packed.inverseDistanceAndRoles, packed.row | std::uint32_t(column) << 16,
+                             std::bit_cast<std::uint32_t>(shown)});
     }
   return out;
 }
@@ -107,14 +104,11 @@ Result<StillPicture> decodeStill(std::span<const std::byte>, int width, int heig
   const std::vector<std::uint8_t>& rgba = state.pictures[state.taken++].rgba;
   StillPicture picture{width, height, bits, {}};
   for (auto& plane : picture.planes) plane.resize(rgba.size() / 4);
-  // BT.709, full range, as engine/store/colour_codes.cpp.
-  const float scale = float((1 << bits) - 1) / 255, middle = float(1 << (bits - 1));
+  const float scale = float((1 << bits) - 1) / 255;
   for (std::size_t i = 0; i < rgba.size() / 4; ++i) {
-    const float r = scale * rgba[4 * i], g = scale * rgba[4 * i + 1], b = scale * rgba[4 * i + 2];
-    const float luma = 0.2126f * r + 0.7152f * g + 0.0722f * b;
-    picture.planes[0][i] = std::uint16_t(luma + 0.5f);
-    picture.planes[1][i] = std::uint16_t((b - luma) / 1.8556f + middle + 0.5f);
-    picture.planes[2][i] = std::uint16_t((r - luma) / 1.5748f + middle + 0.5f);
+    const ColourCodes codes =
+        lumaAndChroma(scale * glm::vec3(rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]), bits);
+    for (std::size_t p = 0; p < 3; ++p) picture.planes[p][i] = codes[p];
   }
   return picture;
 }
@@ -182,9 +176,9 @@ EXPORTED(readPack) const PageCapture* readPack(float exposure) {
   state.pictures.clear();
   state.capture = std::move(read->value);
   const Capture& capture = *state.capture;
-  const auto listOf = [&](const CaptureSamples& samples, PageSamples& shown) {
-    shown = pageSamplesOf(samples, capture.shown, exposure);
-    return PageList{std::uint32_t(samples.sampleCount()), samples.columnStart.data(), shown.words.data(),
+  const auto listOf = [&](const CaptureSamples& samples, std::vector<std::uint32_t>& words) {
+    words = wordsOf(samples, capture.shown, exposure);
+    return PageList{std::uint32_t(samples.sampleCount()), samples.columnStart.data(), words.data(),
                     samples.mirror.empty() ? nullptr : samples.mirror.data()};
   };
   const ColumnCamera& camera = capture.camera;
