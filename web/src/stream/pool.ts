@@ -26,7 +26,7 @@ export class LoaderPool {
         this.waiting.delete(event.data.id);
         if ('loaded' in event.data) waiting?.resolve(event.data.loaded);
         else waiting?.reject(new Error(event.data.error));
-        this.onRoom();
+        setTimeout(() => this.onRoom()); // once whoever waited has dealt with it
       };
       entry.worker.postMessage({ module } satisfies Start);
       this.workers.push(entry);

@@ -38,7 +38,7 @@ export class Stream {
     private readonly bundle: Bundle, private readonly storey: Storey, private readonly renderer: Renderer,
     private readonly pool: LoaderPool, private readonly changed: () => void, private readonly failed: (failure: Failure) => void,
   ) {
-    pool.onRoom = () => this.pump(); // also where what came was for a stream before this one
+    pool.onRoom = () => this.pump(); // whether what came was for this stream or one before it
     this.cache = new Cache((held) => (held.kind === 'capture' ? renderer.deleteCapture(held.gpu) : renderer.deleteLocal(held.gpu)));
   }
 
@@ -123,7 +123,6 @@ export class Stream {
       this.fail(file.file, error);
     } finally {
       this.underWay.delete(key);
-      this.pump();
     }
   }
 
