@@ -9,4 +9,20 @@ const uint kAllParts = 0xffu;
 // z: source of the surface that covers most parts, from bit 8 on; below how many it covers. 0: nothing is painted
 // w: inverse depth of that surface, a float
 
+// What they add up to: squared codes of what covers parts, and what comes through what is clear before the next.
+#ifdef GL_ES
+#define SUMS highp usampler2D
+vec4 sumsAt(SUMS sums, ivec2 at) { return uintBitsToFloat(texelFetch(sums, at, 0)); }
+#else
+#define SUMS sampler2D
+vec4 sumsAt(SUMS sums, ivec2 at) { return texelFetch(sums, at, 0); }
+#endif
+
+// How many of them.
+int partsIn(uint parts) {
+  parts -= parts >> 1 & 0x55u;
+  parts = (parts & 0x33u) + (parts >> 2 & 0x33u);
+  return int((parts + (parts >> 4)) & 15u);
+}
+
 uint mirrorPartsOf(uvec4 state) { return state.y & kAllParts; }

@@ -7,16 +7,17 @@
 #endif
 
 layout(location = 0) out vec4 colour;
-layout(location = 1) out uint source;
-
-uniform sampler2D sums;
-uniform usampler2D states;
+uniform SUMS sums;
+uniform highp usampler2D states;
 uniform sampler2D coloursBefore;
+#ifdef MIRRORS
+uniform bool local;  // those of local geometry alone, or all others
+#endif
+#ifndef GL_ES
+layout(location = 1) out uint source;
 uniform usampler2D sourcesBefore;
 uniform uint hole;
 uniform uint background;
-#ifdef MIRRORS
-uniform bool local;  // those of local geometry alone, or all others
 #endif
 
 void main() {
@@ -27,25 +28,33 @@ void main() {
 #else
   if (state.y != 0u) discard;
 #endif
-  vec4 sum = texelFetch(sums, at, 0);
-  uint before = texelFetch(sourcesBefore, at, 0).r;
+  vec4 sum = sumsAt(sums, at);
+  vec4 before = texelFetch(coloursBefore, at, 0);
+#ifdef GL_ES
+  bool wasHole = before.a == 0.0;
+#else
+  uint sourceBefore = texelFetch(sourcesBefore, at, 0).r;
+  bool wasHole = sourceBefore == hole;
+#endif
   bool painted = state.z != 0u;
-  int open = bitCount(state.x);
-  bool behind = open > 0 && before != hole;  // what lies behind shows between the parts that are covered
-  int shown = kPixelParts - open - bitCount(mirrorPartsOf(state));
+  int open = partsIn(state.x);
+  bool behind = open > 0 && !wasHole;  // what lies behind shows between the parts that are covered
+  int shown = kPixelParts - open - partsIn(mirrorPartsOf(state));
   bool real = painted;
 #ifdef MIRRORS
   real = real || shown > 0;
 #endif
   int number = shown + (behind ? open : 0);
   if (!(behind || real) || number <= 0) discard;
-  float depth = max(kBackgroundDepthScale * (painted ? uintBitsToFloat(state.w) : 0.0), kSkyDepth);
+  float depth = captureDepth(painted ? uintBitsToFloat(state.w) : 0.0);
 #ifdef IN_CRACKS
   if (liesBehindCrack(depth)) discard;
 #endif
-  vec3 codes = texelFetch(coloursBefore, at, 0).rgb * 255.0;
+  vec3 codes = before.rgb * 255.0;
   vec3 mean = (sum.rgb + codes * codes * (behind ? float(open) * sum.w : 0.0)) / float(number);
   colour = vec4(min(floor(sqrt(mean) + 0.5), 255.0) / 255.0, 1.0);
-  source = painted ? state.z >> 8 : before == hole ? background : before;
+#ifndef GL_ES
+  source = painted ? state.z >> 8 : wasHole ? background : sourceBefore;
+#endif
   gl_FragDepth = depth;
 }

@@ -145,5 +145,5 @@ void main() {
   // sub-pixel rounding has no say.
   vec2 centre = floor(position + 0.5 - 0.5 * side) + 0.5 * side;
   vec2 clip = 2.0 * (centre + clipMargin) / (pictureSize + 2.0 * clipMargin) - 1.0;
-  gl_Position = vec4(clip.x, -clip.y, max(kBackgroundDepthScale * w / q.z, kSkyDepth), 1.0);
+  gl_Position = vec4(clip.x, -clip.y, captureDepth(w / q.z), 1.0);
 }

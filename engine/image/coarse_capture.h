@@ -8,8 +8,9 @@ namespace acentric {
 /// Coarse renditions made of captures have, as previews do, a quarter of the columns and rows.
 inline constexpr int kCoarseFactor = 4;
 
-/// Of every `factor` x `factor` pixels the one in their middle with all its layers, of the whole camera's
-/// view; at least one column and row. `factor` >= 1; 1 gives the capture itself.
+/// Of the whole camera's view; at least one column and row. `factor` >= 1; 1 gives the capture itself. A
+/// capture that knows its silhouettes has in each pixel the surfaces of `factor` x `factor` ones: their mean
+/// colours, and the parts that they cover. Of others the pixel in the middle is kept, with all its layers.
 Capture coarsened(const Capture& capture, int factor);
 
 }  // namespace acentric

@@ -129,13 +129,15 @@ class StripPlanner {
     column.middleTangent = capture_.patches->rowBorder[std::size_t(middleRow)];
     column.rowOffset = float(middleRow - patch.row);
     column.columns = patch.columns, column.rows = patch.rows;
-    column.colour =
-        reinterpret_cast<const std::uint32_t*>(capture_.patches->colour.data() + patch.firstTexel);
-    column.cover = capture_.patches->cover.data() + patch.firstTexel;
+    if (!capture_.patches->cover.empty()) {  // else they are on a graphics card alone
+      column.colour =
+          reinterpret_cast<const std::uint32_t*>(capture_.patches->colour.data() + patch.firstTexel);
+      column.cover = capture_.patches->cover.data() + patch.firstTexel;
+    }
     column.mirror = patch.mirror;
     column.blended = patch.blended;
     draw.x0 = std::min(draw.x0, polygon.x0()), draw.x1 = std::max(draw.x1, polygon.x1());
-    draw.patches.push_back({column, polygon});
+    draw.patches.push_back({column, polygon, patch.firstTexel});
   }
 
   std::span<const glm::dvec3> cornersOf(const DisplayPatch& patch) {

@@ -43,6 +43,7 @@ class PolygonRows {
 struct PatchDraw {
   PatchColumn column;  ///< what is the same for all columns; places are those of column 0
   PolygonRows polygon;
+  std::uint32_t firstTexel = 0;  ///< DisplayPatch::firstTexel
 };
 
 /// What the patches of one piece and strip have in common.

@@ -4,7 +4,7 @@
 
 namespace acentric {
 
-void PatchTiles::find(std::span<const StripDraw> strips, int width, int height) {
+void PatchTiles::find(std::span<const StripDraw> strips, int width, int height, bool all) {
   const int across = (width + kSide - 1) / kSide, down = (height + kSide - 1) / kSide;
   touches_.clear();
   next_.assign(std::size_t(across) * std::size_t(down) + 1, 0);
@@ -34,7 +34,7 @@ void PatchTiles::find(std::span<const StripDraw> strips, int width, int height) 
   tiles.clear();
   for (std::size_t tile = 0; tile + 1 < next_.size(); ++tile) {
     const std::uint32_t first = next_[tile], end = next_[tile + 1] += first;
-    if (first == end) continue;
+    if (first == end && !all) continue;
     tiles.push_back({std::uint16_t(tile % std::size_t(across) * kSide),
                      std::uint16_t(tile / std::size_t(across) * kSide), first, end});
   }

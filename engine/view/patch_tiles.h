@@ -17,11 +17,11 @@ struct PatchTile {
 struct PatchTiles {
   static constexpr int kSide = 16;  ///< pixels; fewer at the right and lower border of the picture
 
-  std::vector<PatchTile> tiles;        ///< those that any patch may touch
+  std::vector<PatchTile> tiles;        ///< those that any patch may touch, or all
   std::vector<std::uint32_t> patches;  ///< tile after tile, each in the order of the strips
 
   /// `patches` are numbered through the strips.
-  void find(std::span<const StripDraw> strips, int width, int height);
+  void find(std::span<const StripDraw> strips, int width, int height, bool all = false);
 
  private:
   /// Tiles of one column of tiles that a patch may touch.

@@ -23,7 +23,6 @@ int roleIn(const Cover& cover, const OrderedPiece& ordered) {
 Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings) {
   require(scene.layout != nullptr, "a walk scene needs a layout");
   if (auto status = view.check(); !status) return tl::unexpected(status.error());
-  if (auto status = settings.check(); !status) return tl::unexpected(status.error());
   const Layout& layout = *scene.layout;
   const glm::dvec2 eye(view.eye);
   const auto regionIndex = layout.regionAt(eye);
@@ -38,9 +37,16 @@ Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, c
                             eye.x, eye.y, nearest.point.x, nearest.point.y),
                 "view");
   }
+  return planRegion(scene, view, settings, *regionIndex);
+}
 
+Result<ViewPlan> planRegion(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                            int number) {
+  if (auto status = view.check(); !status) return tl::unexpected(status.error());
+  if (auto status = settings.check(); !status) return tl::unexpected(status.error());
+  const Layout& layout = *scene.layout;
   ViewPlan plan;
-  plan.region = *regionIndex;
+  plan.region = number;
   const Region& region = layout.regions[static_cast<std::size_t>(plan.region)];
   const ViewSector sector = sectorOf(view);
   const PiecePlanner planner(scene, view, settings);

@@ -61,6 +61,9 @@ struct ViewPlan {
 };
 
 Result<ViewPlan> planView(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
+/// Of one of the layout's regions, from an eye in it or close to it.
+Result<ViewPlan> planRegion(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings,
+                            int region);
 
 /// Of how many captures it shows something.
 int imagesOf(const ViewPlan& plan);

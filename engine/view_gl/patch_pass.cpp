@@ -1,6 +1,8 @@
 #include "engine/view_gl/patch_pass.h"
 
 #include <array>
+#include <bit>
+#include <cstddef>
 
 #include "engine/view/display_patches.h"
 #include "engine/view_gl/gl_check.h"
@@ -9,26 +11,15 @@
 namespace acentric {
 namespace {
 
-glm::vec4 placeOf(const float* direction, float inverseDepth) {
-  return {direction[0], direction[1], direction[2], inverseDepth};
-}
-
-GlPatch packed(const PatchColumn& column, const DisplayPatches& patches) {
-  const auto* texels = reinterpret_cast<const std::uint32_t*>(patches.colour.data());
-  return {placeOf(column.start, column.depthStart),
-          placeOf(column.step, column.depthStep),
-          placeOf(column.across, column.depthAcross),
-          {column.columnOffset, column.rowOffset, column.middleTangent, 0},
-          {GLuint(column.colour - texels), GLuint(column.columns) | GLuint(column.rows) << 16, column.mirror,
-           column.blended ? 1u : 0u}};
-}
-
 /// Anew each time: what is being drawn from keeps its memory.
 template <class Value>
-void send(const GlBuffer& buffer, const std::vector<Value>& values, GLuint binding) {
-  glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
-  glBufferData(GL_SHADER_STORAGE_BUFFER, GLsizeiptr(values.size() * sizeof(Value)), values.data(),
-               GL_STREAM_DRAW);
+void send(const GlBuffer& buffer, const std::vector<Value>& values, GLenum target) {
+  glBindBuffer(target, buffer.name());
+  glBufferData(target, GLsizeiptr(values.size() * sizeof(Value)), values.data(), GL_STREAM_DRAW);
+}
+template <class Value>
+void sendForShaders(const GlBuffer& buffer, const std::vector<Value>& values, GLuint binding) {
+  send(buffer, values, GL_SHADER_STORAGE_BUFFER);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
@@ -40,6 +31,7 @@ PatchPass::PatchPass(ProgramCache& programs, CaptureResidency& captures, TaskRun
       runner_(runner),
       cracks_(programs),
       noAttributes_(GlVertexArray::make()),
+      tileArray_(GlVertexArray::make()),
       patchBuffer_(GlBuffer::make()),
       listBuffer_(GlBuffer::make()),
       tileBuffer_(GlBuffer::make()),
@@ -86,6 +78,15 @@ Status PatchPass::resize(int width, int height) {
     constexpr std::array<GLenum, 2> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
   }
+  glBindVertexArray(tileArray_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, tileBuffer_.name());
+  const auto attribute = [](GLuint index, GLenum type, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribIPointer(index, 2, type, sizeof(PatchTile), reinterpret_cast<const void*>(offset));
+    glVertexAttribDivisor(index, 1);
+  };
+  attribute(0, GL_UNSIGNED_SHORT, offsetof(PatchTile, x));
+  attribute(1, GL_UNSIGNED_INT, offsetof(PatchTile, first));
   noAttachments_ = GlFramebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, noAttachments_.name());
   glFramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
@@ -135,26 +136,15 @@ Status PatchPass::paint(const std::vector<StripDraw>& strips, bool mirrors, bool
 Status PatchPass::paintPiece(std::span<const StripDraw> strips, bool mirrors, bool reflect,
                              FrameStats& stats) {
   const StripDraw& one = strips.front();
-  const PatchColumn* any = nullptr;  // what is the same for all of them
-  patches_.clear();
-  for (const StripDraw& strip : strips)
-    for (const PatchDraw& draw : strip.patches) {
-      any = &draw.column;
-      patches_.push_back(packed(draw.column, *one.capture->patches));
-    }
-  if (any == nullptr) return {};
-  tiles_.find(strips, width_, height_);
-  if (tiles_.tiles.empty()) return {};
-  stats.samplesRead += patches_.size();
+  tables_.set(strips, width_, height_, [](const DisplayCapture&) { return 0; });
+  if (tables_.tiles.tiles.empty()) return {};
+  stats.samplesRead += tables_.patches.size();
 
-  const PieceDraw& piece = *one.piece;
   const Result<const CaptureBuffers*> buffers =
-      captures_.get(one.capture, captureName(piece.camera, reflect ? Mirrors::reflect : Mirrors::none),
+      captures_.get(one.capture, captureName(one.piece->camera, reflect ? Mirrors::reflect : Mirrors::none),
                     CaptureParts::patches);
   if (!buffers) return tl::unexpected(buffers.error());
   Defines defines;
-  if (one.limited) defines.push_back("CLIP_TO_PART");
-  if (one.capture->blended) defines.push_back("BLENDED");
   if (reflect)
     defines.push_back("REFLECT");
   else if (mirrors)
@@ -163,31 +153,24 @@ Status PatchPass::paintPiece(std::span<const StripDraw> strips, bool mirrors, bo
   if (!found) return tl::unexpected(found.error());
   GlProgram& program = **found;
   program.use();
-  const PatchColumn& column = *any;
   setUniform(program, "pictureSize", glm::vec2(width_, height_));
   glUniform1f(program.location("side"), float(PatchTiles::kSide));
   glUniform1f(program.location("pictureHeight"), float(height_));
-  setUniform(program, "perRadian", glm::vec2(column.columnsPerRadian, column.rowsPerRadian));
-  glUniform1ui(program.location("roles"), column.wantedRoles);
-  glUniform1ui(program.location("sourceOfPiece"), GLuint(sourceOfCamera(piece.camera)));
-  if (one.limited) {
-    setUniform(program, "low", glm::vec3(one.lowStart, one.lowAcross, column.lowStep));
-    setUniform(program, "high", glm::vec3(one.highStart, one.highAcross, column.highStep));
-    glUniform1i(program.location("partIsWide"), column.eitherSide ? 1 : 0);
-  }
-  send(patchBuffer_, patches_, 0);
-  send(listBuffer_, tiles_.patches, 1);
+  const auto piece = std::bit_cast<std::array<GLuint, 12>>(tables_.pieces.front());
+  glUniform4uiv(program.location("pieceWords"), 3, piece.data());
+  sendForShaders(patchBuffer_, tables_.patches, 0);
+  sendForShaders(listBuffer_, tables_.tiles.patches, 1);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, (*buffers)->patchColours.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, (*buffers)->patchCovers.name());
-  send(tileBuffer_, tiles_.tiles, 5);
   glBindImageTexture(0, now_.sums.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
   glBindImageTexture(1, now_.states.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
   glBindFramebuffer(GL_FRAMEBUFFER, noAttachments_.name());
   glViewport(0, 0, width_, height_);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_STENCIL_TEST);
-  glBindVertexArray(noAttributes_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tiles_.tiles.size()));
+  glBindVertexArray(tileArray_.name());
+  send(tileBuffer_, tables_.tiles.tiles, GL_ARRAY_BUFFER);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, GLsizei(tables_.tiles.tiles.size()));
   glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   return checkGl("painting patches");
 }

@@ -7,7 +7,7 @@
 
 #include "engine/base/task_runner.h"
 #include "engine/view/frame.h"
-#include "engine/view/patch_tiles.h"
+#include "engine/view/patch_tables.h"
 #include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/capture_residency.h"
 #include "engine/view_gl/crack_pass.h"
@@ -16,14 +16,6 @@
 #include "engine/view_gl/pass_texture.h"
 
 namespace acentric {
-
-/// One patch of a frame; the layout of `Patch` in shaders/patches.frag.
-struct GlPatch {
-  glm::vec4 start, down, across;
-  glm::vec4 places;
-  glm::uvec4 texels;
-};
-static_assert(sizeof(GlPatch) == 80, "the shader reads a stride of 80 bytes");
 
 class PatchPass {
  public:
@@ -48,7 +40,7 @@ class PatchPass {
   CaptureResidency& captures_;
   TaskRunner& runner_;
   CrackPass cracks_;
-  GlVertexArray noAttributes_;
+  GlVertexArray noAttributes_, tileArray_;
   GlBuffer patchBuffer_, listBuffer_, tileBuffer_;
   /// Of pixels: what patches are painted on, and what it was before the second cover.
   struct Pixels {
@@ -59,8 +51,7 @@ class PatchPass {
   GlFramebuffer noAttachments_;  ///< patches are stored, not drawn
   int width_ = 0, height_ = 0;
   PassTexture colours_, sources_;  ///< the picture before a settling
-  PatchTiles tiles_;               // kept between pieces for their memory
-  std::vector<GlPatch> patches_;
+  PatchTables tables_;             // kept between pieces for their memory
 };
 
 }  // namespace acentric

@@ -1,11 +1,13 @@
 /** The page: opens the bundle beside it (or within it) and connects the walk with buttons, keys and messages. */
 
+import moduleSource from '../../build/page/page.wasm?inline';
 import { addressOf, parseAddress } from './address';
 import { kIndexName, readIndex } from './bundle/read_index';
 import type { Bundle } from './bundle/types';
+import { Planner } from './engine/planner';
 import { keepSettings, loadSettings, type Settings } from './settings';
 import { LoaderPool } from './stream/pool';
-import { sourceFor } from './stream/source';
+import { decodedBase64, sourceFor } from './stream/source';
 import { Controls } from './ui/controls';
 import { Minimap } from './ui/minimap';
 import { Messages } from './ui/messages';
@@ -31,11 +33,11 @@ class Page {
   private unbakedTold = 0;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
-  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool) {
+  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool, planner: Planner) {
     const controls: Controls = new Controls(
       canvas, (dx, dy) => this.walk.look(dx, dy), () => this.walk.wake(), (key) => this.command(key, controls),
     );
-    this.walk = new Walk(canvas, gl, bundle, settings, pool, () => controls.takeMovement(), {
+    this.walk = new Walk(canvas, gl, bundle, settings, pool, planner, () => controls.takeMovement(), {
       drawn: () => this.drawn(),
       failed: () => this.failed(),
       stopped: () => this.keepAddress(),
@@ -136,7 +138,7 @@ class Page {
     const times = walk.times.summary;
     if (times)
       element('times').textContent =
-        `${times.median.toFixed(0)} ms a frame, worst ${times.worst.toFixed(0)} · ${(facts.samples / 1e6).toFixed(1)} M samples`;
+        `${times.median.toFixed(0)} ms a frame, worst ${times.worst.toFixed(0)} · ${Math.round(facts.patches / 1000)},000 patches`;
     if (walk.settings.map) {
       const view = walk.view();
       this.map.draw(walk.current, walk.regions.box, {
@@ -172,9 +174,11 @@ class Page {
 async function open(): Promise<void> {
   const source = sourceFor(kIndexName);
   const gl = openGraphics();
-  const pool = new LoaderPool(source, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
-  const bundle = readIndex(await source.text(kIndexName));
-  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI, bundle.maxSplatPixels), gl, pool);
+  const module = await WebAssembly.compile(decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1)) as BufferSource);
+  const pool = new LoaderPool(source, module, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
+  const index = await source.text(kIndexName);
+  const bundle = readIndex(index);
+  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI), gl, pool, new Planner(module, index));
 }
 
 open().catch((error: unknown) => {

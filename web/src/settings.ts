@@ -1,9 +1,8 @@
 /** What a viewer can set; kept in the browser where it allows that. */
 
 export interface Settings {
-  quality: 'auto' | 'full' | 'coarse';
+  quality: 'full' | 'coarse';
   scale: number; // of the resolution, 0.25..1
-  maxSplat: number; // pixels
   fov: number; // degrees, of the picture's longer side
   memory: number; // MB of captures on the graphics card
   map: boolean;
@@ -18,16 +17,16 @@ export function defaultMemory(deviceGigabytes: number | undefined, smallScreen: 
   return Math.min(smallScreen ? 512 : 2048, Math.max(256, Math.round(share / 64) * 64));
 }
 
-export function loadSettings(fov: number, maxSplat: number): Settings {
+export function loadSettings(fov: number): Settings {
   const { deviceMemory } = navigator as { deviceMemory?: number };
   const standard: Settings = {
-    quality: 'auto', scale: 1, maxSplat, fov: Math.round(fov), holes: false, map: true,
+    quality: 'full', scale: 1, fov: Math.round(fov), holes: false, map: true,
     memory: defaultMemory(deviceMemory, Math.min(screen.width, screen.height) < 700),
   };
   try {
     const kept = JSON.parse(localStorage.getItem(kName) ?? '{}') as Partial<Settings>;
     for (const key of Object.keys(standard) as (keyof Settings)[])
-      if (typeof kept[key] === typeof standard[key] && key !== 'holes') Object.assign(standard, { [key]: kept[key] });
+      if (typeof kept[key] === typeof standard[key] && key !== 'holes' && (key !== 'quality' || kept.quality === 'coarse')) Object.assign(standard, { [key]: kept[key] });
   } catch {
     // Nothing is kept: private windows, pages opened as files.
   }

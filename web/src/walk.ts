@@ -3,6 +3,7 @@
 import type { Bundle, Storey } from './bundle/types';
 import { chooseCover, RegionIndex } from './geometry/regions';
 import { viewAt, type Pose, type View } from './geometry/view';
+import type { Planner } from './engine/planner';
 import { Renderer, type FrameFacts } from './render/renderer';
 import type { Settings } from './settings';
 import type { LoaderPool } from './stream/pool';
@@ -13,7 +14,7 @@ import { isStill, type Movement } from './ui/controls';
 
 const kMetresPerSecond = 1.4, kRadiansPerSecond = 1.4, kFaster = 2.5;
 const kMostPitch = (85 * Math.PI) / 180;
-/** Frames that take longer than this with full captures are drawn from coarse ones while the eye moves, milliseconds. */
+/** Frames that take longer than this are drawn smaller while the eye moves, milliseconds. */
 const kSlow = 60, kQuick = 30;
 /** While captures of the first picture come, it is drawn no more often than this, milliseconds; nor in more than a quarter of the time. */
 const kWhileLoading = 400, kShareWhileLoading = 4;
@@ -26,12 +27,12 @@ const savesData = (): boolean => (navigator as { connection?: { saveData?: boole
 export class Walk {
   pose: Pose;
   storey: number;
-  facts: FrameFacts = { samples: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
+  facts: FrameFacts = { patches: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
   readonly times = new FrameTimes();
   /** Milliseconds from the page's beginning to the first picture without a capture missing that may come. */
   firstPicture: number | undefined;
   framesDrawn = 0;
-  drawing = { width: 0, height: 0, full: true };
+  drawing = { width: 0, height: 0 };
   readonly failures = new Map<string, Failure>();
 
   private renderer: Renderer;
@@ -40,25 +41,25 @@ export class Walk {
   private readonly indices = new Map<number, RegionIndex>();
   private dirty = true;
   private scheduled = false;
-  private pending: { sync: WebGLSync; began: number; full: boolean } | undefined;
+  private pending: { sync: WebGLSync; began: number; moving: boolean } | undefined;
   private lastTick: number | undefined;
   private lastDraw = 0; // the page's beginning
   private lastTook = 0;
   private lastRegion = -1; // drawn
   private velocity: [number, number] = [0, 0];
-  private slow = false;
   private movingScale = 1;
   private lost = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext, readonly bundle: Bundle,
-    readonly settings: Settings, private readonly pool: LoaderPool, private readonly movement: () => Movement,
+    readonly settings: Settings, private readonly pool: LoaderPool,
+    private readonly planner: Planner, private readonly movement: () => Movement,
     private readonly events: { drawn: () => void; failed: () => void; stopped: () => void },
   ) {
     this.storey = bundle.storey;
     this.index = this.indexOf(this.storey);
     this.pose = this.startPose();
-    this.renderer = new Renderer(gl, bundle);
+    this.renderer = new Renderer(gl, bundle, planner);
     this.stream = this.openStream();
     new ResizeObserver(() => this.redraw()).observe(canvas);
     this.redraw();
@@ -86,7 +87,7 @@ export class Walk {
   get bytes(): number {
     return this.stream.bytes;
   }
-  isFull = (camera: number) => this.drawing.full && this.stream.isFull(camera);
+  isFull = (camera: number) => this.stream.isFull(camera);
 
   startPose(): Pose {
     const { start, eyeZ } = this.current;
@@ -192,7 +193,7 @@ export class Walk {
     const { eye, yaw } = this.pose, region = this.region;
     if (this.firstPicture !== undefined || region < 0) return false;
     const cameras = camerasInOrder(this.current, region, [eye[0], eye[1]], yaw);
-    if (cameras.every((camera) => this.stream.capture(camera, false) || !this.stream.mayCome(camera))) return false;
+    if (cameras.every((camera) => this.stream.capture(camera) || !this.stream.mayCome(camera))) return false;
     return now - this.lastDraw < Math.max(kWhileLoading, kShareWhileLoading * this.lastTook);
   }
 
@@ -219,22 +220,20 @@ export class Walk {
   }
 
   private drawFrame(moving: boolean): void {
-    const { quality } = this.settings;
-    const full = quality === 'full' || (quality === 'auto' && !(moving && this.slow));
     const began = performance.now();
     const first = this.firstPicture === undefined;
-    this.drawNow(this.view(first ? kFirstScale : moving && !full ? this.movingScale : 1), full);
+    this.drawNow(this.view(first ? kFirstScale : moving ? this.movingScale : 1));
     this.lastDraw = began;
     this.dirty = false;
     const sync = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
     if (sync) {
-      this.pending = { sync, began, full };
+      this.pending = { sync, began, moving };
       this.poll();
     }
   }
 
-  private drawNow(view: View, full: boolean): void {
+  private drawNow(view: View): void {
     const density = Math.min(2, window.devicePixelRatio || 1);
     const width = Math.max(1, Math.round(this.canvas.clientWidth * density));
     const height = Math.max(1, Math.round(this.canvas.clientHeight * density));
@@ -242,14 +241,14 @@ export class Walk {
     if (this.canvas.height !== height) this.canvas.height = height;
     const region = this.drawnRegion();
     if (region < 0) return;
-    this.drawing = { width: view.width, height: view.height, full };
+    this.drawing = { width: view.width, height: view.height };
     this.facts = this.renderer.draw(
       {
-        storey: this.current, region, captureOf: (camera) => this.stream.capture(camera, full),
+        storey: this.storey, region, captureOf: (camera) => this.stream.capture(camera),
         mayCome: (camera) => this.stream.mayCome(camera), local: this.stream.local(region),
       },
       view,
-      { maxSplatPixels: this.settings.maxSplat, holes: this.settings.holes, local: true },
+      this.settings.holes,
     );
     ++this.framesDrawn;
   }
@@ -259,7 +258,7 @@ export class Walk {
     const { region } = this, { regions } = this.current, { eye, yaw } = this.pose;
     const missing = (number: number) => {
       const pieces = chooseCover(regions[number], [eye[0], eye[1]], yaw)?.pieces ?? [];
-      return pieces.length === 0 ? 1 : pieces.filter((piece) => !this.stream.capture(piece.camera, false)).length / pieces.length;
+      return pieces.length === 0 ? 1 : pieces.filter((piece) => !this.stream.capture(piece.camera)).length / pieces.length;
     };
     if (region >= 0 && (this.lastRegion < 0 || missing(region) <= missing(this.lastRegion))) this.lastRegion = region;
     return this.lastRegion;
@@ -278,7 +277,7 @@ export class Walk {
     const now = performance.now(), took = now - pending.began;
     this.times.add(now, took);
     this.lastTook = took;
-    this.adapt(pending.full, took);
+    if (pending.moving) this.adapt(took);
     if (this.firstPicture === undefined && !this.facts.awaited) {
       this.firstPicture = now;
       this.dirty = true; // sharp, now
@@ -287,16 +286,15 @@ export class Walk {
     if (this.dirty) this.schedule();
   }
 
-  private adapt(full: boolean, took: number): void {
-    if (full) this.slow = took > kSlow || (this.slow && took > kQuick);
-    else if (took > kSlow) this.movingScale = Math.max(0.4, 0.8 * this.movingScale);
+  private adapt(took: number): void {
+    if (took > kSlow) this.movingScale = Math.max(0.4, 0.8 * this.movingScale);
     else if (took < kQuick) this.movingScale = Math.min(1, 1.25 * this.movingScale);
   }
 
   /** The picture as it would be drawn now, as a PNG's data address, and how long it took, milliseconds. */
   picture(): { address: string; took: number } {
     const began = performance.now();
-    this.drawNow(this.view(), this.settings.quality !== 'coarse');
+    this.drawNow(this.view());
     this.gl.finish();
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits
     return { address: this.canvas.toDataURL('image/png'), took: performance.now() - began };
@@ -310,7 +308,7 @@ export class Walk {
 
   contextRestored(): void {
     this.lost = false;
-    this.renderer = new Renderer(this.gl, this.bundle);
+    this.renderer = new Renderer(this.gl, this.bundle, this.planner);
     this.stream = this.openStream();
     this.redraw();
   }

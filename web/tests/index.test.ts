@@ -65,7 +65,6 @@ describe('the index', () => {
   it('is read', () => {
     const bundle = readIndex(JSON.stringify(sound()));
     expect(bundle.storeys[0].cameras[0]).toMatchObject({ middle: 0.5, full: { samples: 7 }, coarse: undefined });
-    expect(bundle.storeys[0].regions[0].covers[0].pieces[0].clip).toEqual({ from: [0, 0], to: [1, 1], left: true });
     expect(bundle.materials[0].baseTexture?.transform).toEqual([1, 0, 0, 0, 1, 0]);
   });
 

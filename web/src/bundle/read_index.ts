@@ -3,7 +3,7 @@
 import type { Polygon } from '../geometry/polygon';
 import type { Vec2, Vec3 } from '../geometry/vector';
 import type {
-  Bookmark, Bundle, CameraRef, CaptureRef, Cover, FileRef, HalfPlane, LocalRef, Material, MirrorPlane, Piece, Region,
+  Bookmark, Bundle, CameraRef, CaptureRef, Cover, FileRef, LocalRef, Material, MirrorPlane, Piece, Region,
   Storey, Texture, TextureUse,
 } from './types';
 
@@ -102,15 +102,8 @@ const cameraRef = (at: At): CameraRef => ({
   coarse: at.get('coarse').optional(captureRef),
 });
 
-function halfPlane(at: At): HalfPlane {
-  const [from, to] = at.get('line').list(2, 2);
-  return { from: from.vec2(), to: to.vec2(), left: at.get('left').flag() };
-}
-
 const piece = (at: At, cameras: number): Piece => ({
   camera: at.get('camera').integer(0, cameras - 1),
-  clip: at.get('clip').optional(halfPlane),
-  roles: at.get('roles').integer(0, 255),
 });
 
 const cover = (at: At, cameras: number): Cover => ({
@@ -120,7 +113,6 @@ const cover = (at: At, cameras: number): Cover => ({
 
 const region = (at: At, cameras: number, regions: number): Region => ({
   polygon: polygon(at.get('polygon')),
-  grown: polygon(at.get('grown')),
   neighbours: at.get('neighbours').list().map((one) => one.integer(0, regions - 1)),
   covers: at.get('covers').list(1).map((one) => cover(one, cameras)),
   panoramas: at.get('panoramas').optional((list) => list.list().map((one) => cover(one, cameras))) ?? [],
@@ -208,7 +200,6 @@ export function readIndex(text: string): Bundle {
     name: at.get('name').text(),
     exposure: at.get('exposure').number(0),
     fov: at.get('fov').number(0.01, 3.13),
-    maxSplatPixels: at.get('view').get('maxSplatPixels').integer(1, 64),
     sky: { zenith: sky.get('zenith').vec3(), horizon: sky.get('horizon').vec3(), ground: sky.get('ground').vec3() },
     bounds: bounds && bounds.min.some((low, k) => low < bounds.max[k]) ? bounds : undefined,
     storeys: storeys.map(storey),

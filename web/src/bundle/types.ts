@@ -9,17 +9,6 @@ export interface FileRef {
   hash: string; // XXH3-128 of the file
 }
 
-/** A camera whose picture's columns are vertical half-planes (engine/geometry/column_camera.h). */
-export interface ColumnCamera {
-  centre: Vec3;
-  lowAzimuth: number;
-  fov: number;
-  topElevation: number;
-  bottomElevation: number;
-  columns: number;
-  rows: number;
-}
-
 export interface CaptureRef extends FileRef {
   samples: number; // reflections included
 }
@@ -31,17 +20,8 @@ export interface CameraRef {
   coarse: CaptureRef | undefined;
 }
 
-/** One side of the line through two points; with `left`, points left of it. */
-export interface HalfPlane {
-  from: Vec2;
-  to: Vec2;
-  left: boolean;
-}
-
 export interface Piece {
   camera: number;
-  clip: HalfPlane | undefined; // samples beyond it are another piece's
-  roles: number; // bits of the samples that it draws
 }
 
 export type Hand = 'counterClockwise' | 'clockwise';
@@ -57,7 +37,6 @@ export interface LocalRef extends FileRef {
 
 export interface Region {
   polygon: Polygon; // where the eye stands
-  grown: Polygon; // nothing in it is drawn from captures
   neighbours: number[];
   covers: Cover[];
   panoramas: Cover[];
@@ -132,7 +111,6 @@ export interface Bundle {
   name: string;
   exposure: number;
   fov: number; // horizontal, that the walk begins with
-  maxSplatPixels: number;
   sky: Sky;
   bounds: { min: Vec3; max: Vec3 } | undefined;
   storeys: Storey[];

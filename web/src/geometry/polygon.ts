@@ -63,24 +63,6 @@ export function distanceTo(polygon: Polygon, point: Vec2): number {
   return contains(polygon, point) ? 0 : distance2(nearestOnBorder(polygon, point), point);
 }
 
-/** Where the ray from `origin` leaves the polygon, in lengths of `direction`; undefined if it misses it or only touches behind. */
-export function exitOf(polygon: Polygon, origin: Vec2, direction: Vec2): number | undefined {
-  let enter = -Infinity, leave = Infinity;
-  for (let i = 0; i < polygon.length; ++i) {
-    const a = polygon[i], along = subtract2(polygon[(i + 1) % polygon.length], a);
-    const inside = cross(along, subtract2(origin, a)); // >= 0: on the inner side
-    const rate = cross(along, direction);
-    if (rate === 0) {
-      if (inside < 0) return undefined;
-    } else if (rate > 0) {
-      enter = Math.max(enter, -inside / rate);
-    } else {
-      leave = Math.min(leave, -inside / rate);
-    }
-  }
-  return enter <= leave && leave > 0 ? leave : undefined;
-}
-
 /** Is the point inside closed rings (the outer border and its holes), by the number of borders that a ray crosses? */
 export function insideRings(rings: readonly Polygon[], point: Vec2): boolean {
   let inside = false;

@@ -5,7 +5,7 @@ import type { Bundle, Texture, TextureUse, Wrap } from '../bundle/types';
 import { dot3, subtract3, type Vec3 } from '../geometry/vector';
 import { viewFromWorld, type View } from '../geometry/view';
 import { arrayTexture, type Program, type Programs } from './program';
-import { kCovered, type Target } from './target';
+import { kCovered, kReflection, type Target } from './target';
 
 export interface GpuLocal {
   geometry: LocalGeometry;
@@ -83,7 +83,7 @@ export class LocalPass {
     private readonly bundle: Bundle, private readonly nearest: (view: View) => number,
   ) {}
 
-  private prepare(gpu: GpuLocal, batch: LocalBatch, view: View, what: 'looks' | 'mirror', unreflected = false): Program {
+  private prepare(gpu: GpuLocal, batch: LocalBatch, view: View, what: 'looks' | 'mirror'): Program {
     const { gl, bundle } = this, material = bundle.materials[batch.material], looks = what === 'looks';
     const clear = canBeClear(material), masked = material.alphaMode === 'mask', coloured = looks || masked;
     const textureOf = (use: TextureUse | undefined, has: boolean) => (use && has ? this.textures[use.texture] : undefined);
@@ -103,7 +103,6 @@ export class LocalPass {
     define(looks && gpu.light && !material.unlit, 'SURFACE_LIGHT');
     define(clear, 'CLEAR');
     define(!looks, 'MARK_MIRROR');
-    define(unreflected, 'UNREFLECTED');
     const program = this.programs.get('local.vert', 'local.frag', defines).use();
     program.vec3('originFromEye', subtract3(gpu.geometry.origin, view.eye));
     program.mat3('viewFromWorld', viewFromWorld(view));
@@ -117,7 +116,6 @@ export class LocalPass {
     if (base) program.texture('baseTexture', 0, base);
     if (emission) program.texture('emissionTexture', 1, emission);
     if (gpu.light) program.texture('lightSamples', 2, gpu.light);
-    if (unreflected) program.texture('reflected', 3, this.target.reflected);
     if (!looks) program.uint('mirrorNumber', this.mirrorSeen(batch.plane, view.eye));
     gl.bindVertexArray(gpu.arrays);
     return program;
@@ -136,19 +134,16 @@ export class LocalPass {
     this.gl.drawArrays(this.gl.TRIANGLES, 3 * batch.firstTriangle, 3 * batch.triangles);
   }
 
-  /** Which mirrors the local geometry shows, and its depth there; without its colours. */
+  /** Which mirrors the local geometry shows, and its depth. */
   markMirrors(gpu: GpuLocal, view: View): void {
     const { gl } = this;
-    this.target.bindForPieces(true);
+    this.target.beginMirrors();
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.GREATER);
-    // Colour must stay, and WebGL masks all attachments alike: so the mirrors' numbers alone are drawn into.
-    gl.drawBuffers([gl.NONE, gl.COLOR_ATTACHMENT1]);
     for (const batch of this.opaqueBatches(gpu)) {
       this.prepare(gpu, batch, view, 'mirror');
       this.drawBatch(batch);
     }
-    gl.drawBuffers([gl.COLOR_ATTACHMENT0, gl.COLOR_ATTACHMENT1]);
     gl.disable(gl.DEPTH_TEST);
   }
 
@@ -159,17 +154,11 @@ export class LocalPass {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(marked ? gl.GEQUAL : gl.GREATER);
     gl.enable(gl.STENCIL_TEST);
-    gl.stencilFunc(gl.ALWAYS, kCovered, 0xff);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.REPLACE);
     for (const batch of this.opaqueBatches(gpu)) {
-      const mirror = marked && batch.plane !== kNoPlane;
-      if (mirror) {
-        gl.colorMask(false, false, false, false);
-        this.prepare(gpu, batch, view, 'looks');
-        this.drawBatch(batch);
-        gl.colorMask(true, true, true, true);
-      }
-      this.prepare(gpu, batch, view, 'looks', mirror);
+      if (marked && batch.plane !== kNoPlane) gl.stencilFunc(gl.NOTEQUAL, kCovered | kReflection, kReflection);
+      else gl.stencilFunc(gl.ALWAYS, kCovered, 0xff);
+      this.prepare(gpu, batch, view, 'looks');
       this.drawBatch(batch);
     }
     gl.disable(gl.DEPTH_TEST);

@@ -1,30 +1,33 @@
 /** Shader programs by their files and the effects compiled in, made when first used. */
 
-import background from './shaders/background.frag?raw';
-import backgroundVert from './shaders/background.vert?raw';
-import clearLayer from './shaders/clear_layer.frag?raw';
+import captureDepth from './shaders/capture_depth.glsl?raw';
 import copy from './shaders/copy.frag?raw';
+import cracks from './shaders/cracks.glsl?raw';
 import cracksFind from './shaders/cracks_find.frag?raw';
-import cracksOpen from './shaders/cracks_open.frag?raw';
-import depth from './shaders/depth.glsl?raw';
 import fillApply from './shaders/fill_apply.frag?raw';
 import fillReduce from './shaders/fill_reduce.frag?raw';
 import localFrag from './shaders/local.frag?raw';
 import localVert from './shaders/local.vert?raw';
-import pointsFrag from './shaders/points.frag?raw';
-import pointsVert from './shaders/points.vert?raw';
+import patches from './shaders/patches.frag?raw';
 // As the engine's own renderer has them.
+import background from '../../../shaders/background.frag?raw';
 import colour from '../../../shaders/colour.glsl?raw';
 import fill from '../../../shaders/fill.glsl?raw';
 import fillExpand from '../../../shaders/fill_expand.frag?raw';
+import part from '../../../shaders/part.glsl?raw';
+import patch from '../../../shaders/patch.glsl?raw';
+import patchBegin from '../../../shaders/patch_begin.glsl?raw';
+import patchState from '../../../shaders/patch_state.glsl?raw';
+import patchTile from '../../../shaders/patch_tile.vert?raw';
+import patchesSettle from '../../../shaders/patches_settle.frag?raw';
 import wholePicture from '../../../shaders/whole_picture.vert?raw';
 
 const sources = {
-  'background.frag': background, 'background.vert': backgroundVert,
-  'clear_layer.frag': clearLayer, 'colour.glsl': colour, 'copy.frag': copy,
-  'cracks_find.frag': cracksFind, 'cracks_open.frag': cracksOpen, 'depth.glsl': depth, 'fill.glsl': fill,
-  'fill_apply.frag': fillApply, 'fill_expand.frag': fillExpand, 'fill_reduce.frag': fillReduce,
-  'local.frag': localFrag, 'local.vert': localVert, 'points.frag': pointsFrag, 'points.vert': pointsVert,
+  'background.frag': background, 'capture_depth.glsl': captureDepth, 'colour.glsl': colour, 'copy.frag': copy,
+  'cracks.glsl': cracks, 'cracks_find.frag': cracksFind, 'fill.glsl': fill, 'fill_apply.frag': fillApply,
+  'fill_expand.frag': fillExpand, 'fill_reduce.frag': fillReduce, 'local.frag': localFrag, 'local.vert': localVert,
+  'part.glsl': part, 'patch.glsl': patch, 'patch_begin.glsl': patchBegin, 'patch_state.glsl': patchState,
+  'patch_tile.vert': patchTile, 'patches.frag': patches, 'patches_settle.frag': patchesSettle,
   'whole_picture.vert': wholePicture,
 };
 export type ShaderFile = keyof typeof sources;
@@ -61,9 +64,9 @@ export class Program {
   /** `m` row by row. */
   mat3 = (name: string, m: readonly number[]) => this.gl.uniformMatrix3fv(this.at(name), true, m);
   /** A texture at a unit of its own. */
-  texture(name: string, unit: number, texture: WebGLTexture): void {
+  texture(name: string, unit: number, texture: WebGLTexture, target: number = this.gl.TEXTURE_2D): void {
     this.gl.activeTexture(this.gl.TEXTURE0 + unit);
-    this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
+    this.gl.bindTexture(target, texture);
     this.gl.uniform1i(this.at(name), unit);
   }
 }
@@ -142,18 +145,45 @@ export function makeTexture(gl: WebGL2RenderingContext, format: number, width: n
 
 export const kTexelsAcross = 2048; // of textures that hold arrays, as shaders have it
 
+/** Sends an array of texels of `channels` values to what is bound, kTexelsAcross wide. */
+function sendArray(gl: WebGL2RenderingContext, format: number, type: number, channels: number, values: Float32Array | Uint32Array | Uint16Array): void {
+  const width = kTexelsAcross, texels = values.length / channels, whole = Math.floor(texels / width), rest = texels - whole * width;
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  if (whole > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, whole, format, type, values, 0);
+  if (rest > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, whole, rest, 1, format, type, values, whole * width * channels);
+}
+const rowsFor = (texels: number): number => Math.max(1, Math.ceil(texels / kTexelsAcross));
+
 /** An array of texels of `channels` values as a texture kTexelsAcross wide. */
 export function arrayTexture(
   gl: WebGL2RenderingContext, internal: number, format: number, type: number, channels: number,
   values: Float32Array | Uint32Array | Uint16Array,
 ): WebGLTexture {
-  const texels = Math.max(1, values.length / channels), width = Math.min(kTexelsAcross, texels);
-  const height = Math.ceil(texels / width);
-  const texture = makeTexture(gl, internal, width, height);
-  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-  const whole = Math.floor(values.length / channels / width);
-  if (whole > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, whole, format, type, values, 0);
-  const rest = values.length / channels - whole * width;
-  if (rest > 0) gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, whole, rest, 1, format, type, values, whole * width * channels);
+  const texture = makeTexture(gl, internal, kTexelsAcross, rowsFor(values.length / channels));
+  sendArray(gl, format, type, channels, values);
   return texture;
+}
+
+/** Words that change with every frame, as such a texture. */
+export class DataTexture {
+  private texture: WebGLTexture | undefined;
+  private rows = 0;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext, private readonly internal: number, private readonly format: number,
+    private readonly channels: number,
+  ) {}
+
+  with(values: Uint32Array): WebGLTexture {
+    const { gl } = this, rows = rowsFor(values.length / this.channels);
+    if (rows > this.rows) {
+      if (this.texture) gl.deleteTexture(this.texture);
+      this.rows = Math.ceil(1.5 * rows);
+      this.texture = makeTexture(gl, this.internal, kTexelsAcross, this.rows);
+    } else {
+      gl.bindTexture(gl.TEXTURE_2D, this.texture!);
+    }
+    sendArray(gl, this.format, gl.UNSIGNED_INT, this.channels, values);
+    return this.texture!;
+  }
 }

@@ -1,24 +1,34 @@
 /** One frame: covers, mirrors, local geometry and holes, as engine/view_gl does it, on WebGL2. */
 
-import type { Capture } from '../bundle/capture';
+import { bytesOfCapture, type Capture } from '../engine/pack_reader';
+import { kPatchTexels, type Planner, type PlannedBackground } from '../engine/planner';
 import type { LocalGeometry } from '../bundle/local';
-import type { Bundle, Cover, Piece, Region, Storey } from '../bundle/types';
-import { frustumPlanes } from '../geometry/culling';
-import { coversFor } from '../geometry/regions';
-import { pictureFromWorld, rayThrough, type View } from '../geometry/view';
+import type { Bundle, Storey } from '../bundle/types';
+import { camerasOf } from '../geometry/regions';
+import { pictureFromWorld, rayThrough, worldFromPicture, type View } from '../geometry/view';
+import type { Vec3 } from '../geometry/vector';
 import { FillPass } from './fill_pass';
 import { deleteLocal, LocalPass, uploadLocal, uploadTexture, type GpuLocal } from './local_pass';
-import { columnLimits, cornersExtent, type ColumnLimits } from './plan';
-import { deleteCapture, PointPass, setSky, uploadCapture, type DrawnPiece, type GpuCapture, type MirrorUse } from './point_pass';
-import { Programs } from './program';
-import { kCovered, kInFront, Target } from './target';
+import { PatchPass } from './patch_pass';
+import { cornersExtent } from './pixel_box';
+import { arrayTexture, DataTexture, kTexelsAcross, Programs, type Program } from './program';
+import { Target } from './target';
+import { TexelPool, type Rows } from './texel_pool';
 
 /** As engine/view/cracks.h. */
 const kCrackReach = 3, kCrackBefore = 1.03;
 const kFillReach = 4096, kFillReachWhileLoading = 8;
 
+/** A capture on the graphics card. */
+export interface GpuCapture {
+  number: number; // the planner's
+  rows: Rows; // of the pool
+  runs: WebGLTexture | undefined; // of the background
+  bytes: number;
+}
+
 export interface Scene {
-  storey: Storey;
+  storey: number;
   region: number;
   /** The best that is loaded of a camera. */
   captureOf: (camera: number) => GpuCapture | undefined;
@@ -26,16 +36,10 @@ export interface Scene {
   local: GpuLocal | undefined;
 }
 
-export interface FrameOptions {
-  maxSplatPixels: number;
-  holes: boolean; // in a loud colour
-  local: boolean;
-}
-
 export interface FrameFacts {
-  samples: number;
-  captures: number[]; // cameras drawn
-  missing: number[]; // cameras that are needed and not there
+  patches: number;
+  captures: number[]; // cameras that the region shows
+  missing: number[]; // cameras that it needs and that are not there
   awaited: boolean; // may any of these still come?
   localTriangles: number;
 }
@@ -43,23 +47,28 @@ export interface FrameFacts {
 export class Renderer {
   private readonly programs: Programs;
   private readonly target: Target;
-  private readonly points: PointPass;
+  private readonly pool: TexelPool;
+  private readonly patches: PatchPass;
   private readonly fill: FillPass;
   private readonly locals: LocalPass;
-  private readonly limits = new WeakMap<Piece, WeakMap<GpuCapture, ColumnLimits>>();
+  private readonly columns: DataTexture;
+  private readonly captures = new Map<number, GpuCapture>();
   private nearBand = 1;
 
-  constructor(private readonly gl: WebGL2RenderingContext, private readonly bundle: Bundle) {
+  constructor(private readonly gl: WebGL2RenderingContext, private readonly bundle: Bundle, private readonly planner: Planner) {
     this.programs = new Programs(gl);
     this.target = new Target(gl);
-    this.points = new PointPass(gl, this.programs, this.target);
+    this.pool = new TexelPool(gl);
+    this.patches = new PatchPass(gl, this.programs, this.target, this.pool);
     this.fill = new FillPass(gl, this.programs);
     this.locals = new LocalPass(gl, this.programs, this.target, bundle, () => this.nearest());
-    for (const defines of [[], ['OPAQUE']]) this.programs.start('points.vert', 'points.frag', defines);
-    for (const file of ['cracks_find.frag', 'cracks_open.frag', 'fill_reduce.frag', 'fill_expand.frag', 'fill_apply.frag', 'copy.frag'] as const)
+    this.columns = new DataTexture(gl, gl.RG32UI, gl.RG_INTEGER, 2);
+    for (const defines of [[], ['BEHIND']]) this.programs.start('patch_tile.vert', 'patches.frag', defines);
+    for (const file of ['patches_settle.frag', 'cracks_find.frag', 'fill_reduce.frag', 'fill_expand.frag', 'fill_apply.frag', 'copy.frag'] as const)
       this.programs.start('whole_picture.vert', file);
+    this.programs.start('whole_picture.vert', 'patches_settle.frag', ['IN_CRACKS']);
     this.programs.start('whole_picture.vert', 'fill_reduce.frag', ['FROM_FRAME']);
-    this.programs.start('background.vert', 'background.frag', ['CAPTURED']);
+    this.programs.start('whole_picture.vert', 'background.frag', ['CAPTURED']);
   }
 
   /** Can holes be filled at all on this driver? */
@@ -67,8 +76,20 @@ export class Renderer {
     return this.fill.possible;
   }
 
-  uploadCapture = (capture: Capture): GpuCapture => uploadCapture(this.gl, capture);
-  deleteCapture = (gpu: GpuCapture): void => deleteCapture(this.gl, gpu);
+  uploadCapture(capture: Capture): GpuCapture {
+    const { gl } = this, rows = this.pool.add(capture.colours, capture.covers);
+    const number = this.planner.addCapture(capture.part, rows.first * kTexelsAcross);
+    const runs = capture.runs.length > 0 ? arrayTexture(gl, gl.RG32UI, gl.RG_INTEGER, gl.UNSIGNED_INT, 2, capture.runs) : undefined;
+    const gpu = { number, rows, runs, bytes: bytesOfCapture(capture) };
+    this.captures.set(number, gpu);
+    return gpu;
+  }
+  deleteCapture(gpu: GpuCapture): void {
+    this.captures.delete(gpu.number);
+    this.planner.dropCapture(gpu.number);
+    this.pool.remove(gpu.rows);
+    if (gpu.runs) this.gl.deleteTexture(gpu.runs);
+  }
   uploadLocal = (geometry: LocalGeometry): GpuLocal => uploadLocal(this.gl, geometry);
   deleteLocal = (gpu: GpuLocal): void => deleteLocal(this.gl, gpu);
   uploadTexture(number: number, picture: ImageBitmap): void {
@@ -80,112 +101,112 @@ export class Renderer {
     return 0.01 * Math.min(this.nearBand, 1);
   }
 
-  private limitsOf(piece: Piece, capture: GpuCapture, region: Region): ColumnLimits {
-    let known = this.limits.get(piece);
-    if (!known) this.limits.set(piece, (known = new WeakMap()));
-    let limits = known.get(capture);
-    if (!limits) known.set(capture, (limits = columnLimits(capture.capture.camera, region, piece)));
-    return limits;
-  }
-
-  /** Draws the view and shows it on the canvas, scaled to it. */
-  draw(scene: Scene, view: View, options: FrameOptions): FrameFacts {
-    const { gl, target } = this;
-    const region = scene.storey.regions[scene.region];
-    this.nearBand = scene.storey.nearBand;
-    this.points.samplesDrawn = 0;
-    const facts: FrameFacts = { samples: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
-    const drawn = (covers: readonly (Cover | undefined)[]): DrawnPiece[] =>
-      covers.flatMap((cover) => cover?.pieces ?? []).flatMap((piece) => {
-        const capture = scene.captureOf(piece.camera);
-        const list = capture ? facts.captures : facts.missing;
-        if (!list.includes(piece.camera)) list.push(piece.camera);
-        return capture ? [{ capture, limits: this.limitsOf(piece, capture, region), roles: piece.roles }] : [];
-      });
-    const covers = coversFor(region, [view.eye[0], view.eye[1]], view.yaw);
-    const first = drawn([covers.first]), behind = drawn(covers.behind);
+  /** Draws the view and shows it on the canvas, scaled to it. `loudHoles`: they are not filled, but shown. */
+  draw(scene: Scene, view: View, loudHoles: boolean): FrameFacts {
+    const { gl, target } = this, storey = this.bundle.storeys[scene.storey];
+    this.nearBand = storey.nearBand;
+    const facts: FrameFacts = { patches: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
+    const used: [number, number][] = [];
+    for (const camera of camerasOf(storey.regions[scene.region])) {
+      const capture = scene.captureOf(camera);
+      (capture ? facts.captures : facts.missing).push(camera);
+      if (capture) used.push([camera, capture.number]);
+    }
     facts.awaited = facts.missing.some((camera) => scene.mayCome(camera));
 
     target.resize(view.width, view.height);
     target.begin();
-    this.drawBeyondRows(scene.storey, view);
-    const anyMirror = [...first, ...behind].some((piece) => piece.capture.reflections);
-    if (anyMirror) target.beginMirrors();
-    this.drawCover(first, view, options, anyMirror, false);
-    if (behind.length > 0) {
-      this.openCracks();
-      this.drawCover(behind, view, options, anyMirror, true);
-    }
-    const local = options.local ? scene.local : undefined;
-    const marked = anyMirror && local !== undefined && local.geometry.mirrors;
-    if (anyMirror) this.drawReflections([...behind, ...first], view, options, marked ? local : undefined);
+    this.drawBeyondRows(storey, view);
+    const { local } = scene;
+    const marked = this.drawCaptures(scene, view, used, facts);
     if (local) {
       this.locals.drawOpaque(local, view, marked);
       facts.localTriangles = local.geometry.triangles;
     }
-    this.fill.draw(target, facts.awaited ? kFillReachWhileLoading : kFillReach, options.holes, this.nearest());
+    this.fill.draw(target, facts.awaited ? kFillReachWhileLoading : kFillReach, loudHoles, this.nearest());
     if (local) this.drawGlass(local, view);
     target.present();
-    facts.samples = this.points.samplesDrawn;
     gl.bindVertexArray(null);
     return facts;
   }
 
+  /** Returns whether mirrors of local geometry are marked. */
+  private drawCaptures(scene: Scene, view: View, used: [number, number][], facts: FrameFacts): boolean {
+    const plan = this.planner.plan(scene.storey, scene.region, view, used);
+    if (!plan) return false;
+    for (const background of plan.backgrounds) this.drawCaptured(background, view);
+    const marked = plan.mirrors && scene.local !== undefined && scene.local.geometry.mirrors;
+    if (marked) this.locals.markMirrors(scene.local!, view);
+    this.patches.draw('surfaces', plan.surfaces, plan.mirrors, marked);
+    if (plan.behind.patches.length > 0) {
+      this.findCracks();
+      this.patches.draw('behind', plan.behind, plan.mirrors, marked);
+    }
+    if (plan.mirrors) this.patches.draw('reflections', plan.reflections, true, marked);
+    facts.patches = [plan.surfaces, plan.behind, plan.reflections].reduce((sum, tables) => sum + tables.patches.length / (4 * kPatchTexels), 0);
+    return marked;
+  }
+
   /** Steeper than any capture has rows there is nothing but the background. */
   private drawBeyondRows(storey: Storey, view: View): void {
-    const { bounds, sky, exposure } = this.bundle;
+    const { bounds, sky } = this.bundle;
     if (!bounds || !(storey.nearBand > 0)) return;
     const steepest = (z: number) => (z - view.eye[2]) / storey.nearBand;
     const above = Math.max(0, steepest(bounds.max[2]), Math.tan(storey.topElevation));
     const below = Math.min(0, steepest(bounds.min[2]), Math.tan(storey.bottomElevation));
     if (!showsSteeper(view, above, below)) return;
-    this.beginBackground();
-    const program = this.programs.get('background.vert', 'background.frag').use();
-    setSky(program, view, sky, exposure);
+    const program = this.beginBackground([], view, sky);
     program.float('above', above);
     program.float('below', below);
-    this.programs.drawWhole();
-    this.endPainting();
+    this.drawBackground();
   }
 
-  private beginBackground(): void {
+  private drawCaptured(background: PlannedBackground, view: View): void {
+    const { gl } = this, runs = this.captures.get(background.capture)?.runs;
+    if (!runs) return;
+    const columns = this.columns.with(background.columns);
+    const program = this.beginBackground(background.part === 0 ? ['CAPTURED'] : ['CAPTURED', 'CLIP_TO_PART'], view, background);
+    program.texture('columns', 0, columns);
+    program.texture('runs', 1, runs);
+    program.vec2('middle', ...background.middle);
+    program.vec2('columnsAndPerRadian', background.columns.length / 2, background.columnsPerRadian);
+    program.vec2('topAndRowsPerRadian', background.topElevation, background.rowsPerRadian);
+    program.uint('roles', background.roles);
+    if (background.part !== 0) {
+      program.vec2('partLow', ...background.low);
+      program.vec2('partHigh', ...background.high);
+      program.int('partIsWide', background.part === 2 ? 1 : 0);
+    }
+    this.drawBackground();
+    gl.activeTexture(gl.TEXTURE0);
+  }
+
+  private beginBackground(defines: string[], view: View, sky: { zenith: Vec3; horizon: Vec3; ground: Vec3 }): Program {
+    const program = this.programs.whole('background.frag', defines);
+    program.mat3('worldFromPicture', worldFromPicture(view));
+    program.float('pictureHeight', view.height);
+    for (const name of ['zenith', 'horizon', 'ground'] as const) program.vec3(name, sky[name]);
+    program.float('exposure', this.bundle.exposure);
+    return program;
+  }
+
+  /** Where nothing is yet. */
+  private drawBackground(): void {
     const { gl } = this;
+    this.target.bindForDrawing();
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.ALWAYS);
     gl.enable(gl.STENCIL_TEST);
     gl.stencilFunc(gl.EQUAL, 0, 0xff);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
-  }
-
-  private endPainting(): void {
-    const { gl } = this;
+    this.programs.drawWhole();
     gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.STENCIL_TEST);
   }
 
-  private drawCover(pieces: readonly DrawnPiece[], view: View, options: FrameOptions, anyMirror: boolean, behind: boolean): void {
-    const { gl, target } = this, maxSide = options.maxSplatPixels;
-    const planes = frustumPlanes(view, 0.5 * maxSide + 1.5);
-    const mirrors: MirrorUse = anyMirror ? 'mark' : 'none';
-    target.bindForPieces(anyMirror);
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.GREATER);
-    gl.enable(gl.STENCIL_TEST);
-    if (behind) gl.stencilFunc(gl.EQUAL, kCovered, kInFront);
-    else gl.stencilFunc(gl.ALWAYS, kCovered | kInFront, 0xff);
-    gl.stencilOp(gl.KEEP, gl.KEEP, gl.REPLACE);
-    for (const piece of pieces) this.points.draw(piece, view, planes, maxSide, { mirrors });
-    // The background lies behind all samples: only what they left open is looked up.
-    target.bindForDrawing();
-    this.beginBackground();
-    for (const piece of pieces) this.points.drawBackground(piece, view, planes, this.bundle.exposure);
-    this.endPainting();
-    this.points.drawClear(pieces, view, planes, maxSide, { mirrors: anyMirror, behind });
-  }
-
   /** Where samples of a surface do not reach each other, the other cover may show it. */
-  private openCracks(): void {
-    const { gl, target } = this;
+  private findCracks(): void {
+    const { target } = this;
     target.bindForCracks();
     const find = this.programs.whole('cracks_find.frag');
     find.texture('depths', 0, target.depth);
@@ -193,32 +214,6 @@ export class Renderer {
     find.float('before', kCrackBefore);
     find.float('nearest', this.nearest());
     this.programs.drawWhole();
-    target.bindForDrawing();
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.ALWAYS);
-    gl.enable(gl.STENCIL_TEST);
-    gl.stencilFunc(gl.ALWAYS, 0, 0xff);
-    gl.stencilOp(gl.KEEP, gl.KEEP, gl.ZERO);
-    gl.stencilMask(kInFront);
-    gl.colorMask(false, false, false, false);
-    const open = this.programs.whole('cracks_open.frag');
-    open.texture('leastDepths', 0, target.leastDepths);
-    this.programs.drawWhole();
-    gl.colorMask(true, true, true, true);
-    gl.stencilMask(0xff);
-    this.endPainting();
-  }
-
-  private drawReflections(pieces: readonly DrawnPiece[], view: View, options: FrameOptions, local: GpuLocal | undefined): void {
-    const { gl } = this;
-    if (local) this.locals.markMirrors(local, view);
-    this.target.beginReflections();
-    gl.enable(gl.DEPTH_TEST);
-    gl.depthFunc(gl.GREATER);
-    const planes = frustumPlanes(view, 0.5 * options.maxSplatPixels + 1.5);
-    for (const piece of pieces)
-      this.points.draw(piece, view, planes, options.maxSplatPixels, { mirrors: 'reflect' });
-    gl.disable(gl.DEPTH_TEST);
   }
 
   /** Glass, blended in linear light where it may be seen. */

@@ -1,10 +1,10 @@
-/** What a frame is drawn into: sRGB codes, depth with a stencil, and for mirrors which of them each pixel shows. */
+/** What a frame is drawn into: sRGB codes, alpha 0 in holes; depth with a stencil; and which mirror of local geometry each pixel shows. */
 
-import type { PixelBox } from './plan';
+import type { PixelBox } from './pixel_box';
 import { makeTexture } from './program';
 
-/** The stencil: 0 in holes; covered, and inFront where the first cover shows something; tinted where its blended samples lie over an open pixel. */
-export const kCovered = 1, kInFront = 2, kTinted = 4;
+/** The stencil: 0 in holes; covered, and inFront where the first cover shows something; reflection where a mirror of local geometry shows one. */
+export const kCovered = 1, kInFront = 2, kReflection = 8;
 
 export class Target {
   width = 0;
@@ -15,9 +15,8 @@ export class Target {
   private draw!: WebGLFramebuffer;
   private extra: Partial<{
     crackBuffer: WebGLFramebuffer; leastDepths: WebGLTexture;
-    pieces: WebGLFramebuffer; mirrors: WebGLTexture;
-    reflections: WebGLFramebuffer; reflected: WebGLTexture;
-    clear: WebGLFramebuffer; clearLayer: WebGLTexture; behind: WebGLTexture; behindBuffer: WebGLFramebuffer;
+    marks: WebGLFramebuffer; mirrors: WebGLTexture;
+    copy: WebGLTexture; copyBuffer: WebGLFramebuffer;
     lit: WebGLTexture; litBuffer: WebGLFramebuffer;
   }> = {};
 
@@ -31,7 +30,7 @@ export class Target {
     this.height = height;
     this.colour = this.texture(gl.RGBA8);
     this.depth = this.texture(gl.DEPTH24_STENCIL8);
-    this.draw = this.framebuffer([this.colour], this.depth);
+    this.draw = this.own([this.colour], this.depth);
   }
 
   release(): void {
@@ -50,17 +49,22 @@ export class Target {
     return texture;
   }
 
-  private framebuffer(colours: WebGLTexture[], depthStencil?: WebGLTexture, depthOnly = false): WebGLFramebuffer {
+  framebuffer(colours: WebGLTexture[], depthStencil?: WebGLTexture): WebGLFramebuffer {
     const { gl } = this, framebuffer = gl.createFramebuffer()!;
-    this.made.push(framebuffer);
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
     colours.forEach((texture, i) => gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, texture, 0));
-    if (depthStencil)
-      gl.framebufferTexture2D(gl.FRAMEBUFFER, depthOnly ? gl.DEPTH_ATTACHMENT : gl.DEPTH_STENCIL_ATTACHMENT, gl.TEXTURE_2D, depthStencil, 0);
+    if (depthStencil) gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_STENCIL_ATTACHMENT, gl.TEXTURE_2D, depthStencil, 0);
     gl.drawBuffers(colours.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
     const status = gl.checkFramebufferStatus(gl.FRAMEBUFFER);
     if (status !== gl.FRAMEBUFFER_COMPLETE && !gl.isContextLost())
       throw new Error(`this graphics driver does not draw into the viewer's picture (status ${status.toString(16)})`);
+    return framebuffer;
+  }
+
+  /** One that goes with the picture's size. */
+  private own(colours: WebGLTexture[], depthStencil?: WebGLTexture): WebGLFramebuffer {
+    const framebuffer = this.framebuffer(colours, depthStencil);
+    this.made.push(framebuffer);
     return framebuffer;
   }
 
@@ -96,42 +100,24 @@ export class Target {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
   }
 
-  /** Pieces that say which mirror each pixel shows draw into two pictures. */
+  /** For which mirror of local geometry each pixel shows, first none; and for its depth. */
   beginMirrors(): void {
     const { gl } = this;
-    if (!this.extra.pieces) {
+    if (!this.extra.marks) {
       this.extra.mirrors = this.texture(gl.R8UI);
-      this.extra.pieces = this.framebuffer([this.colour, this.extra.mirrors], this.depth);
+      this.extra.marks = this.own([this.extra.mirrors], this.depth);
     }
-    this.bindForPieces(true);
-    gl.clearBufferuiv(gl.COLOR, 1, [0, 0, 0, 0]);
-  }
-  bindForPieces(mirrors: boolean): void {
-    this.bind(mirrors ? this.extra.pieces! : this.draw);
+    this.bind(this.extra.marks);
+    gl.clearBufferuiv(gl.COLOR, 0, [0, 0, 0, 0]);
   }
   get mirrors(): WebGLTexture {
     return this.extra.mirrors!;
   }
 
-  /** Reflections are drawn by a depth of their own; `reflected` is where. */
-  beginReflections(): void {
-    const { gl } = this;
-    if (!this.extra.reflections) {
-      this.extra.reflected = this.texture(gl.R8UI);
-      this.extra.reflections = this.framebuffer([this.colour, this.extra.reflected], this.texture(gl.DEPTH_COMPONENT24), true);
-    }
-    this.bind(this.extra.reflections);
-    gl.clearBufferuiv(gl.COLOR, 1, [0, 0, 0, 0]);
-    gl.clearBufferfv(gl.DEPTH, 0, [0]);
-  }
-  get reflected(): WebGLTexture {
-    return this.extra.reflected!;
-  }
-
   bindForCracks(): void {
     if (!this.extra.crackBuffer) {
       this.extra.leastDepths = this.texture(this.gl.R32UI);
-      this.extra.crackBuffer = this.framebuffer([this.extra.leastDepths]);
+      this.extra.crackBuffer = this.own([this.extra.leastDepths]);
     }
     this.bind(this.extra.crackBuffer);
   }
@@ -139,32 +125,24 @@ export class Target {
     return this.extra.leastDepths!;
   }
 
-  /** An empty layer for blended samples, with the picture's depth and stencil. */
-  beginClearLayer(): void {
+  /** A copy of the picture as it is now, for what is laid over it. */
+  copyColours(): WebGLTexture {
     const { gl } = this;
-    if (!this.extra.clear) {
-      this.extra.clearLayer = this.texture(gl.RGBA8);
-      this.extra.clear = this.framebuffer([this.extra.clearLayer], this.depth);
-      this.extra.behind = this.texture(gl.RGBA8);
-      this.extra.behindBuffer = this.framebuffer([this.extra.behind]);
+    if (!this.extra.copyBuffer) {
+      this.extra.copy = this.texture(gl.RGBA8);
+      this.extra.copyBuffer = this.own([this.extra.copy]);
     }
-    this.bind(this.extra.clear);
-    gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
-  }
-  /** The picture as it is now, for what is laid over it. */
-  copyBehind(): { layer: WebGLTexture; behind: WebGLTexture } {
-    const { gl } = this;
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.draw);
-    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.extra.behindBuffer!);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.extra.copyBuffer);
     gl.blitFramebuffer(0, 0, this.width, this.height, 0, 0, this.width, this.height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-    return { layer: this.extra.clearLayer!, behind: this.extra.behind! };
+    return this.extra.copy!;
   }
 
   /** For a copy of the picture that blends in linear light, with its depth and stencil. */
   bindForBlending(): WebGLTexture {
     if (!this.extra.litBuffer) {
       this.extra.lit = this.texture(this.gl.SRGB8_ALPHA8);
-      this.extra.litBuffer = this.framebuffer([this.extra.lit], this.depth);
+      this.extra.litBuffer = this.own([this.extra.lit], this.depth);
     }
     this.bind(this.extra.litBuffer);
     return this.extra.lit!;

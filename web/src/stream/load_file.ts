@@ -1,10 +1,9 @@
 /** Fetches a file, checks that it is what the index says, and makes of it what is drawn. */
 
 import { contentHash, DamagedFile } from '../bundle/block_file';
-import { readCapture } from '../bundle/capture';
 import { readLocal } from '../bundle/local';
-import type { PageModule } from '../bundle/page_module';
 import type { FileRef } from '../bundle/types';
+import type { PackReader } from '../engine/pack_reader';
 import type { Loaded, Request } from './messages';
 
 async function fetched(url: string, file: FileRef, again: boolean): Promise<Uint8Array> {
@@ -37,10 +36,10 @@ export function checkPictureSize(bytes: Uint8Array, width: number, height: numbe
   if (w !== width || h !== height) throw new DamagedFile(`it is ${w} × ${h} pixels large, and the index says ${width} × ${height}`);
 }
 
-export async function loadFile(request: Request, module: Promise<PageModule>): Promise<Loaded> {
+export async function loadFile(request: Request, packs: Promise<PackReader>): Promise<Loaded> {
   const { task, file } = request;
   const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
-  if (task.kind === 'capture') return { kind: 'capture', capture: await readCapture(await module, bytes, task.exposure) };
+  if (task.kind === 'capture') return { kind: 'capture', capture: await (await packs).read(bytes, task.exposure) };
   if (task.kind === 'local') return { kind: 'local', local: await readLocal(bytes, task.materials, task.origin) };
   checkPictureSize(bytes, task.width, task.height);
   const blob = new Blob([bytes as BlobPart], { type: 'image/png' });

@@ -1,7 +1,7 @@
 /** What the page and its workers tell each other. */
 
-import type { Capture } from '../bundle/capture';
 import type { LocalGeometry } from '../bundle/local';
+import type { Capture } from '../engine/pack_reader';
 import type { FileRef, Material } from '../bundle/types';
 import type { Vec3 } from '../geometry/vector';
 
@@ -10,9 +10,9 @@ export type Task =
   | { kind: 'local'; materials: Material[]; origin: Vec3 }
   | { kind: 'texture'; width: number; height: number };
 
-/** Before all requests: the bytes of the engine's module. */
+/** Before all requests: the engine's module. */
 export interface Start {
-  module: Uint8Array;
+  module: WebAssembly.Module;
 }
 
 export interface Request {

@@ -1,9 +1,8 @@
 /** Workers that load files. */
 
-import moduleSource from '../../../build/page/page.wasm?inline';
 import type { FileRef } from '../bundle/types';
 import type { Answer, Loaded, Request, Start, Task } from './messages';
-import { decodedBase64, type Source } from './source';
+import type { Source } from './source';
 import LoaderWorker from './worker?worker&inline';
 
 /** So many files at once for each worker: one comes while another is unpacked. */
@@ -16,8 +15,7 @@ export class LoaderPool {
   /** A file has come, and another may be asked for. */
   onRoom: () => void = () => undefined;
 
-  constructor(private readonly source: Source, count: number) {
-    const module = decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1));
+  constructor(private readonly source: Source, module: WebAssembly.Module, count: number) {
     for (let i = 0; i < count; ++i) {
       const entry = { worker: new LoaderWorker(), busy: 0 };
       entry.worker.onmessage = (event: MessageEvent<Answer>) => {

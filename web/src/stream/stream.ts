@@ -1,18 +1,16 @@
 /** Keeps what the eye needs and is walking towards on the graphics card, within a limit of memory. */
 
-import { bytesOfCapture } from '../bundle/capture';
 import { bytesOfLocal } from '../bundle/local';
 import type { Bundle, FileRef, Storey } from '../bundle/types';
 import { centroid, distanceTo } from '../geometry/polygon';
 import { distance2 } from '../geometry/vector';
 import type { GpuLocal } from '../render/local_pass';
-import type { GpuCapture } from '../render/point_pass';
-import type { Renderer } from '../render/renderer';
+import type { GpuCapture, Renderer } from '../render/renderer';
 import { Cache } from './cache';
 import type { LoaderPool } from './pool';
 import { camerasInOrder, keyOf, wantedItems, type Item, type Viewer } from './wanted';
 
-const kSampleBytes = 12, kTriangleBytes = 3 * 64; // on the graphics card, about
+const kSampleBytes = 12 /* of texels, with the borders of patches */, kTriangleBytes = 3 * 64; // on the graphics card, about
 
 type Held = { kind: 'capture'; gpu: GpuCapture } | { kind: 'local'; gpu: GpuLocal };
 
@@ -49,9 +47,10 @@ export class Stream {
     return this.underWay.size;
   }
 
-  capture(camera: number, full: boolean): GpuCapture | undefined {
+  /** The best of a camera that is there. */
+  capture(camera: number): GpuCapture | undefined {
     const of = (grade: 'full' | 'coarse') => this.cache.get({ grade, number: camera });
-    const held = full ? of('full') ?? of('coarse') : of('coarse') ?? of('full');
+    const held = of('full') ?? of('coarse');
     return held?.kind === 'capture' ? held.gpu : undefined;
   }
   isFull = (camera: number) => this.cache.has({ grade: 'full', number: camera });
@@ -113,9 +112,9 @@ export class Stream {
       else {
         const loaded = await this.pool.load({ kind: 'capture', exposure: this.bundle.exposure }, file, this.retrying);
         if (loaded.kind !== 'capture' || this.closed) return;
-        const bytes = bytesOfCapture(loaded.capture);
-        this.measured.set(key, bytes);
-        this.cache.add(item, { kind: 'capture', gpu: this.renderer.uploadCapture(loaded.capture) }, bytes);
+        const gpu = this.renderer.uploadCapture(loaded.capture);
+        this.measured.set(key, gpu.bytes);
+        this.cache.add(item, { kind: 'capture', gpu }, gpu.bytes);
       }
       this.changed();
     } catch (error) {

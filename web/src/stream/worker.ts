@@ -1,7 +1,7 @@
 /** A worker: requests in, answers out, their arrays handed over instead of copied. */
 
 import { warmUp, zstd } from '../bundle/block_file';
-import { PageModule } from '../bundle/page_module';
+import { PackReader } from '../engine/pack_reader';
 import { loadFile } from './load_file';
 import type { Answer, Loaded, Request, Start } from './messages';
 
@@ -14,15 +14,15 @@ function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transf
 
 const answer = (message: Answer, loaded?: Loaded) => self.postMessage(message, { transfer: [...handedOver(loaded)] });
 
-let module: Promise<PageModule>;
+let packs: Promise<PackReader>;
 
 self.onmessage = ({ data }: MessageEvent<Start | Request>) => {
   if ('module' in data) {
-    module = (async () => new PageModule(await WebAssembly.compile(data.module as BufferSource), await zstd()))();
+    packs = zstd().then((zstandard) => new PackReader(data.module, zstandard));
     return;
   }
   const { id } = data;
-  loadFile(data, module).then(
+  loadFile(data, packs).then(
     (loaded) => answer({ id, loaded }, loaded),
     (error: unknown) => answer({ id, error: error instanceof Error ? error.message : String(error) }),
   );

@@ -30,7 +30,6 @@ export class SettingsPanel {
       });
     };
     range('scale', () => Math.round(100 * settings.scale), (v) => (settings.scale = v / 100), (v) => `${v} %`);
-    range('splat', () => settings.maxSplat, (v) => (settings.maxSplat = v), (v) => `${v} px`);
     range('fov', () => settings.fov, (v) => (settings.fov = v), (v) => `${v}°`);
     range('memory', () => settings.memory, (v) => (settings.memory = v), (v) => megabytes(v * 1e6));
     this.places();

@@ -1,6 +1,6 @@
 // How near a sample must be to lie in a crack: before what shows there, if nearer pixels lie on both sides of it, left and right
 // or above and below (engine/view/cracks.h). Elsewhere 0.
-#include "depth.glsl"
+#include "capture_depth.glsl"
 
 layout(location = 0) out uint least;
 uniform highp sampler2D depths;
@@ -28,5 +28,5 @@ void main() {
   float own = before * inverseOfDepth(depth, nearest);
   float across = min(nearestAlong(at, ivec2(-1, 0)), nearestAlong(at, ivec2(1, 0)));
   float along = min(nearestAlong(at, ivec2(0, -1)), nearestAlong(at, ivec2(0, 1)));
-  if (max(across, along) > own) least = floatBitsToUint(max(depthOfSample(own), kSky));
+  if (max(across, along) > own) least = floatBitsToUint(captureDepth(own));
 }

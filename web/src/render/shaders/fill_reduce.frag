@@ -1,5 +1,5 @@
 // One level of the fill's pyramid from the next finer one. Define FROM_FRAME: from the frame itself.
-#include "depth.glsl"
+#include "capture_depth.glsl"
 #include "fill.glsl"
 
 layout(location = 0) out vec4 texel;

@@ -1,16 +1,14 @@
 // A point of local geometry: base colour times baked light, plus emission (engine/view/local_shading.h).
 // Defines, one per effect that is on: TEXTURE, VERTEX_COLOURS, ALPHA_TEST, ALPHA_BLEND, EMISSION, EMISSION_TEXTURE,
 // FRESNEL (transmission), SURFACE_LIGHT. CLEAR: blended, so the framebuffer encodes; else the shader does. MARK_MIRROR says
-// which mirror the surface is and nothing more; UNREFLECTED leaves out the pixels in which a mirror's reflection was drawn.
+// which mirror the surface is and nothing more.
 #include "colour.glsl"
 
-layout(location = 0) out vec4 pixel;
 #ifdef MARK_MIRROR
-layout(location = 1) out uint mirrorShown;
+layout(location = 0) out uint mirrorShown;
 uniform uint mirrorNumber;
-#endif
-#ifdef UNREFLECTED
-uniform highp usampler2D reflected;
+#else
+layout(location = 0) out vec4 pixel;
 #endif
 
 in vec2 atBarycentric;
@@ -90,11 +88,7 @@ void main() {
 #ifdef ALPHA_TEST
   if (base.a < alphaCutoff) discard;
 #endif
-#ifdef UNREFLECTED
-  if (texelFetch(reflected, ivec2(gl_FragCoord.xy), 0).r != 0u) discard;
-#endif
 #ifdef MARK_MIRROR
-  pixel = vec4(0.0);
   mirrorShown = mirrorNumber;
 #else
   vec3 radiance = base.rgb;
