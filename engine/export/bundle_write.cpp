@@ -19,6 +19,10 @@
 namespace acentric {
 namespace {
 
+/// Of columns and rows: what a page shows first is what it waits for.
+constexpr int kBundleCoarseFactor = 8;
+constexpr int kCoarseColourQuality = 85;
+
 namespace fs = std::filesystem;
 
 class BundleWriter {
@@ -122,11 +126,11 @@ class BundleWriter {
     features.background |= capture.background.runCount() > 0;
   }
 
-  Status writePack(const Capture& capture, const ContentKey& key, const std::string& path) const {
+  Status writePack(const Capture& capture, const ContentKey& key, const std::string& path,
+                   int quality) const {
     const fs::path file = folder_ / path;
-    return input_.colourQuality < kLosslessColours
-               ? writeDisplayPack(capture, key, file, input_.colourQuality, input_.exposure, stop_)
-               : writeCodedPack(capture, key, file, kLosslessColours, stop_);
+    return quality < kLosslessColours ? writeDisplayPack(capture, key, file, quality, input_.exposure, stop_)
+                                      : writeCodedPack(capture, key, file, kLosslessColours, stop_);
   }
 
   Status writeCamera(const CameraPlace& place) {
@@ -142,14 +146,16 @@ class BundleWriter {
     camera.bottomElevation = capture->camera.bottomElevation;
     const std::string coarsePath = fmt::format("coarse/{}.pack", key->toHex());
     if (!full) {
-      if (Status written = writePack(*capture, *key, coarsePath); !written) return written;
+      if (Status written = writePack(*capture, *key, coarsePath, input_.colourQuality); !written)
+        return written;
       return describeInto(*capture, coarsePath, camera.coarse);
     }
     const std::string path = fmt::format("captures/{}.pack", key->toHex());
-    if (Status written = writePack(*capture, *key, path); !written) return written;
+    if (Status written = writePack(*capture, *key, path, input_.colourQuality); !written) return written;
     if (Status described = describeInto(*capture, path, camera.full); !described) return described;
-    const Capture coarse = coarsened(*capture, kCoarseFactor);
-    if (Status written = writePack(coarse, *key, coarsePath); !written) return written;
+    const Capture coarse = coarsened(*capture, kBundleCoarseFactor);
+    const int quality = std::min(input_.colourQuality, kCoarseColourQuality);
+    if (Status written = writePack(coarse, *key, coarsePath, quality); !written) return written;
     return describeInto(coarse, coarsePath, camera.coarse);
   }
 

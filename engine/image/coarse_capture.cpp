@@ -1,6 +1,7 @@
 #include "engine/image/coarse_capture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "engine/base/contract.h"
@@ -57,6 +58,10 @@ CaptureBackground chosenBackground(const CaptureBackground& all, const Raster& r
   return std::move(few).finish(all.sky);
 }
 
+/// Of planes, times the factor: planes are most of what a coarse capture takes on disk, and nobody sees it
+/// for long.
+constexpr double kCoarseTolerance = 4;
+
 /// Of one axis: which of `all` columns or rows each of `few` is made of, and which of them each of its
 /// parts shows.
 struct Blocks {
@@ -90,6 +95,7 @@ struct CoarseSurface {
   int covered = 0, most = 0;  ///< parts of the samples' pixels, of all and of the one that gave its plane
   glm::vec4 colour{0};        ///< sums over these
   double inverse = 0;
+  float stored = 0;  ///< of the capture's inverse distances
 };
 
 /// Surfaces of coarse pixels, one after the other.
@@ -110,6 +116,8 @@ class SurfaceGatherer {
     few_.columnStart.push_back(0);
     for (int column = 0; column < coarse_.columns; ++column) {
       for (int row = 0; row < coarse_.rows; ++row) gatherPixel(column, row);
+      std::swap(beside_, column_);
+      column_.clear();
       few_.columnStart.push_back(std::uint32_t(few_.sampleCount()));
     }
     few_.planes = all_.planes;
@@ -130,10 +138,34 @@ class SurfaceGatherer {
         addPixel(column, row, x, y, parts);
       }
     std::erase_if(surfaces_, [](const CoarseSurface& surface) { return surface.parts == 0; });
-    std::ranges::sort(surfaces_, [](const CoarseSurface& a, const CoarseSurface& b) {
-      return a.inverse / a.covered > b.inverse / b.covered;
-    });
+    column_.emplace_back();
+    for (CoarseSurface& surface : surfaces_) {
+      surface.plane = planeBeside(surface.plane, column, row);
+      column_.back().push_back(surface.plane);
+      surface.stored = storedInverseDistance(inverseOf(surface, column, row), step_);
+    }
+    std::ranges::sort(surfaces_, std::ranges::greater(), &CoarseSurface::stored);
     for (const CoarseSurface& surface : surfaces_) put(surface, row);
+  }
+
+  /// Where its plane is, or else the mean of what it is made of.
+  double inverseOf(const CoarseSurface& surface, int column, int row) const {
+    const double onPlane = all_.planes[surface.plane].inverseDistance(coarse_.directionAt(column + 0.5),
+                                                                      coarse_.tangentAt(row + 0.5));
+    return onPlane > 0 && surface.inverse > 0 ? onPlane : surface.inverse / surface.covered;
+  }
+
+  /// The plane with which a surface goes on in the pixel above or in the column before; else its own.
+  std::uint32_t planeBeside(std::uint32_t own, int column, int row) const {
+    const auto find = [&](const std::vector<std::uint32_t>& planes) {
+      const auto found = std::ranges::find_if(planes, [&](std::uint32_t plane) {
+        return areOne(all_.planes[plane], all_.planes[own], column, row);
+      });
+      return found == planes.end() ? own : *found;
+    };
+    if (row > 0)
+      if (const std::uint32_t above = find(column_[std::size_t(row) - 1]); above != own) return above;
+    return column > 0 ? find(beside_[std::size_t(row)]) : own;
   }
 
   /// `parts` of the coarse pixel show this one.
@@ -163,7 +195,7 @@ class SurfaceGatherer {
           areOne(all_.planes[surface.plane], all_.planes[all_.plane[sample]], column, row))
         return surface;
     return surfaces_.emplace_back(
-        CoarseSurface{all_.plane[sample], all_.roles[sample], mirror, blended, 0, 0, 0, glm::vec4(0), 0});
+        CoarseSurface{all_.plane[sample], all_.roles[sample], mirror, blended, 0, 0, 0, glm::vec4(0), 0, 0});
   }
 
   /// At the pixel's corners.
@@ -185,7 +217,7 @@ class SurfaceGatherer {
     glm::vec4 colour = surface.colour / float(surface.covered);
     if (!surface.blended) colour.a = 1;
     few_.row.push_back(std::uint16_t(row));
-    few_.inverseDistance.push_back(storedInverseDistance(surface.inverse / surface.covered, step_));
+    few_.inverseDistance.push_back(surface.stored);
     few_.colour.push_back(packColour(colour));
     few_.roles.push_back(surface.roles);
     if (!all_.mirror.empty()) few_.mirror.push_back(surface.mirror);
@@ -199,7 +231,8 @@ class SurfaceGatherer {
   PixelSamples pixels_;
   Blocks across_, down_;
   CaptureSamples& few_;
-  std::vector<CoarseSurface> surfaces_;  ///< of the pixel
+  std::vector<CoarseSurface> surfaces_;                      ///< of the pixel
+  std::vector<std::vector<std::uint32_t>> column_, beside_;  ///< planes of the column's pixels, of the last's
 };
 
 /// Only those that samples lie on, in the order of the first of them.
@@ -237,8 +270,8 @@ Capture coarsened(const Capture& capture, int factor) {
   coarse.camera = capture.camera;
   coarse.camera.columns = (capture.camera.columns + factor - 1) / factor;
   coarse.camera.rows = (capture.camera.rows + factor - 1) / factor;
-  coarse.distanceStep = capture.distanceStep;
-  coarse.planeTolerance = factor * capture.planeTolerance;
+  coarse.distanceStep = capture.distanceStep * std::bit_floor(unsigned(factor));
+  coarse.planeTolerance = kCoarseTolerance * factor * capture.planeTolerance;
   coarse.shown = capture.shown;
   const Raster raster{middles(capture.camera.columns, coarse.camera.columns),
                       middles(capture.camera.rows, coarse.camera.rows)};

@@ -15,6 +15,7 @@ project=$work/walk.acentric.json
 sed -e 's/"samplesPerDegree": [0-9.]*/"samplesPerDegree": 2.0/' -e 's/"ambientRays": [0-9]*/"ambientRays": 4/' \
   -e 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.2/' "$here/../../projects/gallery/gallery.acentric.json" > "$project"
 "$acentric" bake "$project"
-rm -rf site
+rm -rf site site-lossless
 "$acentric" export "$project" site --to web
+"$acentric" export "$project" site-lossless --to web --colour-quality 100
 exec node "$here/browser.mjs" "$acentric" "$project" "$web" "$work" "$chromium"

@@ -174,6 +174,7 @@ export class DataTexture {
     private readonly channels: number,
   ) {}
 
+  /** Bound to what unit is active: to be called before textures are set. */
   with(values: Uint32Array): WebGLTexture {
     const { gl } = this, rows = rowsFor(values.length / this.channels);
     if (rows > this.rows) {
