@@ -4,6 +4,7 @@ import { realpath, stat } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join, normalize, resolve, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { createGzip } from 'node:zlib';
 
 const kTypes = {
   '.html': 'text/html; charset=utf-8', '.js': 'text/javascript; charset=utf-8', '.css': 'text/css; charset=utf-8',
@@ -51,12 +52,18 @@ export function serve(folder, port = 0, before = () => false) {
       response.writeHead(304, { ETag: tag, 'Cache-Control': 'no-cache' }).end();
       return;
     }
+    const type = kTypes[extname(file)] ?? 'application/octet-stream';
+    // As most hosts do with text.
+    const packed = /^text|json/.test(type) && /\bgzip\b/.test(request.headers['accept-encoding'] ?? '');
     response.writeHead(200, {
-      'Content-Type': kTypes[extname(file)] ?? 'application/octet-stream', 'Content-Length': Number(found.size),
+      'Content-Type': type, ...(packed ? { 'Content-Encoding': 'gzip' } : { 'Content-Length': Number(found.size) }),
       'Cache-Control': 'no-cache', ETag: tag,
     });
     if (request.method === 'HEAD') response.end();
-    else createReadStream(file).on('error', () => response.destroy()).pipe(response);
+    else {
+      const content = createReadStream(file).on('error', () => response.destroy());
+      (packed ? content.pipe(createGzip()) : content).pipe(response);
+    }
   });
   return new Promise((done, failed) => {
     server.on('error', failed);

@@ -18,8 +18,7 @@
 namespace acentric {
 
 inline constexpr const char* kBundleFormat = "acentric bundle";
-/// Version 1 had other packs, which are read too.
-inline constexpr int kBundleVersion = 2, kFirstBundleVersion = 1;
+inline constexpr int kBundleVersion = 3;
 inline constexpr const char* kBundleIndex = "bundle.json";
 
 /// A file of the bundle.

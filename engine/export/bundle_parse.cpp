@@ -287,9 +287,9 @@ void readWalks(const Node& root, Bundle& bundle) {
 Bundle bundleOf(const Node& root) {
   if (root["format"].text() != kBundleFormat) root["format"].refuse("is no Acentric bundle");
   const auto version = root["version"].integer(0, 1 << 30);
-  if (version < kFirstBundleVersion || version > kBundleVersion)
+  if (version != kBundleVersion)
     root["version"].refuse(
-        fmt::format("is {}, and this program reads {} to {}", version, kFirstBundleVersion, kBundleVersion));
+        fmt::format("is {}, and this program reads {}: export the walk anew", version, kBundleVersion));
   Bundle bundle;
   bundle.generator = root["generator"].text();
   bundle.name = root["name"].text();

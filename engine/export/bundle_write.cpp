@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/folder.h"
 #include "engine/export/bundle_materials.h"
+#include "engine/export/crop_light.h"
 #include "engine/export/export_target.h"
 #include "engine/export/local_file.h"
 #include "engine/export/region_order.h"
@@ -188,8 +189,8 @@ class BundleWriter {
     const auto local = storey.local(place.source);
     if (!local) return tl::unexpected(local.error());
     if ((*local)->triangles.empty()) return {};
-    const LocalGeometry own =
-        selfContained(**local, *input_.scene, input_.plan, storey.light.get(), input_.mirrors.get());
+    const LocalGeometry own = croppedLight(
+        selfContained(**local, *input_.scene, input_.plan, storey.light.get(), input_.mirrors.get()));
     const std::string path = fmt::format("regions/{}.local", index);
     if (Status written = writeLocalFile(own, folder_ / path); !written) return written;
     auto file = fileOf(path);

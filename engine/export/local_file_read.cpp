@@ -4,6 +4,7 @@
 #include "engine/export/bundle_read.h"
 #include "engine/export/local_lanes.h"
 #include "engine/store/keyed.h"
+#include "engine/store/light_coder.h"
 
 namespace acentric {
 namespace {
@@ -19,12 +20,11 @@ struct MeshCounts {
 };
 
 std::uint64_t recordBytesOf(std::uint8_t flags, std::uint64_t vertices, std::uint64_t triangles,
-                            std::uint64_t places, std::uint64_t sources, std::uint64_t samples) {
+                            std::uint64_t places, std::uint64_t sources, std::uint64_t streamBytes) {
   const std::uint64_t perPlace =
       24 + (flags & kUv0 ? 8u : 0u) + (flags & kUv1 ? 8u : 0u) + (flags & kColours ? 4u : 0u);
-  const std::uint64_t perSource = 12 + (flags & kLight ? 7u : 0u) + (flags & kMirrors ? 1u : 0u);
-  return 20 * vertices + 16 * triangles + perPlace * places + perSource * sources +
-         (flags & kLight ? 6 * samples : 0);
+  const std::uint64_t perSource = 12 + (flags & kLight ? 3u : 0u) + (flags & kMirrors ? 1u : 0u);
+  return 20 * vertices + 16 * triangles + perPlace * places + perSource * sources + streamBytes;
 }
 
 class LocalFileReader {
@@ -33,9 +33,8 @@ class LocalFileReader {
       : file_(file), materials_(materials), mirrors_(mirrors) {}
 
   Result<LocalGeometry> read() {
-    for (const auto& step :
-         {&LocalFileReader::readCounts, &LocalFileReader::readArrays, &LocalFileReader::makeMeshes,
-          &LocalFileReader::checkTriangles, &LocalFileReader::checkLight})
+    for (const auto& step : {&LocalFileReader::readCounts, &LocalFileReader::readArrays,
+                             &LocalFileReader::makeMeshes, &LocalFileReader::checkTriangles})
       if (Status done = (this->*step)(); !done) return tl::unexpected(done.error());
     local_.surfaces = std::make_shared<const LocalSurfaces>(std::move(surfaces_));
     return std::move(local_);
@@ -47,6 +46,7 @@ class LocalFileReader {
                places = file_.described<std::uint32_t>(), sources = file_.described<std::uint32_t>(),
                samples = file_.described<std::uint32_t>(), meshes = file_.described<std::uint32_t>();
     arrays_.flags = file_.described<std::uint8_t>();
+    streamBytes_ = file_.described<std::uint32_t>(), unusedBits_ = file_.described<std::uint8_t>();
     std::uint64_t ofVertices = 0, ofTriangles = 0;
     for (std::uint32_t m = 0; m < meshes && file_.describesMore(); ++m) {
       MeshCounts mesh;
@@ -60,9 +60,10 @@ class LocalFileReader {
     }
     constexpr std::uint8_t kKnown = kLight | kMirrors | kUv0 | kUv1 | kColours;
     if (!file_.describedAll() || meshes_.size() != meshes || ofVertices != places || ofTriangles != sources ||
-        (arrays_.flags & ~kKnown) != 0)
+        (arrays_.flags & ~kKnown) != 0 || (streamBytes_ > 0) != ((arrays_.flags & kLight) != 0) ||
+        !file_.mayHold(samples * std::uint64_t(sizeof(HalfColour))))
       return file_.malformed("its description makes no sense");
-    if (file_.rawBytes() != recordBytesOf(arrays_.flags, vertices, triangles, places, sources, samples))
+    if (file_.rawBytes() != recordBytesOf(arrays_.flags, vertices, triangles, places, sources, streamBytes_))
       return file_.malformed("its counts contradict its size");
     local_.vertices.resize(vertices), arrays_.triangle.resize(triangles);
     arrays_.place.resize(places), arrays_.source.resize(sources);
@@ -72,8 +73,8 @@ class LocalFileReader {
     if (arrays_.flags & kMirrors) arrays_.plane.resize(sources);
     if (arrays_.flags & kLight) {
       SurfaceLight& light = surfaces_.light;
-      light.firstSample.resize(sources), light.resolution.resize(sources), light.hasBack.resize(sources);
-      light.light.resize(samples);
+      light.resolution.resize(sources), light.hasBack.resize(sources);
+      samples_ = samples;
     }
     return {};
   }
@@ -83,8 +84,31 @@ class LocalFileReader {
     forEachArray(local_.vertices, arrays_, surfaces_.light, [&](const auto& lanes, std::size_t count) {
       if (read) read = file_.nextRecords(lanes, count);
     });
+    if (read && (arrays_.flags & kLight)) read = readLight();
     if (read && !file_.atEnd()) return file_.malformed("has more blocks than its description needs");
     return read;
+  }
+
+  Status readLight() {
+    SurfaceLight& light = surfaces_.light;
+    std::uint64_t next = 0;
+    for (std::size_t t = 0; t < light.resolution.size(); ++t) {
+      light.firstSample.push_back(std::uint32_t(next));
+      const std::uint64_t resolution = light.resolution[t];
+      if (light.hasBack[t] > 1) return file_.malformed("has a triangle with neither one side nor two");
+      if (resolution > 0) next += (resolution + 1) * (resolution + 2) / 2 << light.hasBack[t];
+      if (next > samples_) break;
+    }
+    // Without any there is one, so that surfaces are lit.
+    if (std::max<std::uint64_t>(next, 1) != samples_)
+      return file_.malformed("has other light samples than its resolutions need");
+    light.firstSample.push_back(std::uint32_t(next));
+    light.light.assign(samples_, HalfColour(0));
+    const auto stream = file_.nextStream(streamBytes_);
+    if (!stream) return tl::unexpected(stream.error());
+    if (Status decoded = decodeLight(*stream, unusedBits_, light); !decoded)
+      return file_.malformed(decoded.error().message);
+    return {};
   }
 
   Status makeMeshes() {
@@ -141,24 +165,11 @@ class LocalFileReader {
     return {};
   }
 
-  Status checkLight() {
-    if (!(arrays_.flags & kLight)) return {};
-    SurfaceLight& light = surfaces_.light;
-    for (std::size_t t = 0; t < light.resolution.size(); ++t) {
-      const std::uint64_t resolution = light.resolution[t];
-      const std::uint64_t oneSide = resolution == 0 ? 0 : (resolution + 1) * (resolution + 2) / 2;
-      if (light.hasBack[t] > 1 || light.firstSample[t] + (oneSide << light.hasBack[t]) > light.light.size())
-        return file_.malformed("has a triangle with fewer light samples than its resolution needs");
-    }
-    for (const HalfColour& colour : light.light)
-      if (colour.r >= 0x7c00 || colour.g >= 0x7c00 || colour.b >= 0x7c00)
-        return file_.malformed("has light that is negative or not finite");
-    light.firstSample.push_back(std::uint32_t(light.light.size()));
-    return {};
-  }
-
   BlockFileReader& file_;
   const std::size_t materials_, mirrors_;
+  std::uint32_t streamBytes_ = 0;  ///< of coded light
+  std::uint32_t samples_ = 0;
+  std::uint8_t unusedBits_ = 0;
   std::vector<MeshCounts> meshes_;
   std::vector<std::uint32_t> firstTriangle_;  ///< by mesh
   Arrays arrays_;

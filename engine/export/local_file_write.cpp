@@ -4,6 +4,7 @@
 #include "engine/export/local_file.h"
 #include "engine/export/local_lanes.h"
 #include "engine/store/keyed.h"
+#include "engine/store/light_coder.h"
 
 namespace acentric {
 namespace {
@@ -30,6 +31,12 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
                                   arrays.source.size(), surfaces.light.light.size(), surfaces.meshes.size()})
     file.describe(static_cast<std::uint32_t>(count));
   file.describe(arrays.flags);
+  const int unused = unusedBits(surfaces.light);
+  const std::vector<std::byte> light =
+      surfaces.light.empty() ? std::vector<std::byte>() : codeLight(surfaces.light, unused);
+  file.describe(static_cast<std::uint32_t>(light.size()));
+  file.describe(static_cast<std::uint8_t>(unused));
+  file.claim(surfaces.light.light.size() * sizeof(HalfColour));
   for (const Mesh& mesh : surfaces.meshes) {
     file.describe(static_cast<std::uint32_t>(mesh.material));
     file.describe(static_cast<std::uint32_t>(mesh.positions.size()));
@@ -41,6 +48,7 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
                            [&](const auto& lanes, std::size_t count) {
                              if (added) added = file.addRecords(lanes, count);
                            });
+  if (added && !light.empty()) added = file.addStream(light);
   if (!added) return added;
   return file.write(path);
 }

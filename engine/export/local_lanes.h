@@ -54,7 +54,7 @@ auto lanesOf(Records& records) {
   return lanes;
 }
 
-/// visit(lanes, records) of each array that the flags call for.
+/// visit(lanes, records) of each array that the flags call for; of light its tables.
 template <class Vertices, class AnyArrays, class AnyLight, class Visit>
 void forEachArray(Vertices& vertices, AnyArrays& arrays, AnyLight& light, const Visit& visit) {
   visit(lanesOf<5, 4>(vertices), vertices.size());
@@ -64,11 +64,8 @@ void forEachArray(Vertices& vertices, AnyArrays& arrays, AnyLight& light, const 
   if (arrays.flags & kUv1) visit(lanesOf<2, 4>(arrays.uv[1]), arrays.place.size());
   if (arrays.flags & kColours) visit(lanesOf<4, 1>(arrays.colour), arrays.place.size());
   visit(lanesOf<3, 4>(arrays.source), arrays.source.size());
-  if (arrays.flags & kLight) {
-    visit(std::array{laneOf(light.firstSample), laneOf(light.resolution), laneOf(light.hasBack)},
-          arrays.source.size());
-    visit(lanesOf<3, 2>(light.light), light.light.size());
-  }
+  if (arrays.flags & kLight)
+    visit(std::array{laneOf(light.resolution), laneOf(light.hasBack)}, arrays.source.size());
   if (arrays.flags & kMirrors) visit(std::array{laneOf(arrays.plane)}, arrays.source.size());
 }
 

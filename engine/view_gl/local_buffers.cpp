@@ -2,106 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <tuple>
-#include <unordered_map>
 
-#include "engine/scene/mesh_attributes.h"
 #include "engine/view_gl/gl_check.h"
 
 namespace acentric {
 namespace {
 
-constexpr std::uint32_t kHasBack = 1u << 16;
-
-/// Everything that the shader and we index by must exist; local geometry comes from our own clipping, but of
-/// a scene that may have been exchanged since.
-bool fits(const Scene& scene, const LocalGeometry& geometry) {
-  const std::vector<Mesh>& meshes = geometry.meshes(scene);
-  for (const Mesh& mesh : meshes)
-    if (mesh.material < 0 || std::size_t(mesh.material) >= scene.materials.size()) return false;
-  return std::all_of(geometry.triangles.begin(), geometry.triangles.end(), [&](const LocalTriangle& t) {
-    return t.mesh < meshes.size() && t.triangle < meshes[t.mesh].triangles.size() &&
-           std::max({t.vertices.x, t.vertices.y, t.vertices.z}) < geometry.vertices.size();
-  });
-}
-
-/// Whether some effect plan can make it clear.
-bool canBeClear(const Material& material) {
-  return material.alphaMode == AlphaMode::blend || material.transmission > 0;
-}
-
-glm::vec2 uvAt(const Mesh& mesh, const TextureUse& use, const glm::uvec3& corners, const glm::vec2& weights) {
-  if (!hasCoordinates(mesh, use)) return glm::vec2(0);
-  return use.transform * glm::vec3(interpolate(coordinatesOf(mesh, use), corners, weights), 1);
-}
-
-glm::u16vec4 colourAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
-  if (mesh.colours.empty()) return glm::u16vec4(65535);
-  return glm::u16vec4(glm::round(glm::clamp(vertexColourAt(mesh, corners, weights), 0.0f, 1.0f) * 65535.0f));
-}
-
-/// Without usable normals in the file, that of the triangle.
-glm::vec3 normalAt(const Mesh& mesh, const glm::uvec3& corners, const glm::vec2& weights) {
-  const glm::vec3 normal = mesh.normals.empty() ? glm::vec3(0) : interpolate(mesh.normals, corners, weights);
-  if (glm::dot(normal, normal) > 0) return normal;
-  return glm::cross(mesh.positions[corners.y] - mesh.positions[corners.x],
-                    mesh.positions[corners.z] - mesh.positions[corners.x]);
-}
-
-/// Copies the light of source triangles into one compact array, each triangle once.
-class LightGatherer {
- public:
-  LightGatherer(const std::vector<Mesh>& meshes, const SurfaceLight* light)
-      : light_(light), firstTriangles_(firstTrianglesOf(meshes)) {}
-
-  struct Place {
-    std::uint32_t first = 0, resolution = 0;
-  };
-  Place place(const LocalTriangle& triangle) {
-    const std::uint32_t source = firstTriangles_[triangle.mesh] + triangle.triangle;
-    if (light_ == nullptr || source >= light_->resolution.size() || light_->resolution[source] == 0)
-      return {};
-    const auto [found, isNew] = places_.try_emplace(source);
-    if (isNew) {
-      const std::uint32_t resolution = light_->resolution[source];
-      const bool back = light_->hasBack[source] != 0;
-      const std::size_t first = light_->firstSample[source];
-      const std::size_t count = std::size_t(surfaceSampleCount(resolution)) * (back ? 2 : 1);
-      if (first + count > light_->light.size()) return {};
-      found->second = {std::uint32_t(samples.size()), resolution | (back ? kHasBack : 0)};
-      samples.insert(samples.end(), light_->light.begin() + std::ptrdiff_t(first),
-                     light_->light.begin() + std::ptrdiff_t(first + count));
-    }
-    return found->second;
-  }
-
-  std::vector<HalfColour> samples;
-
- private:
-  const SurfaceLight* light_;
-  std::vector<std::uint32_t> firstTriangles_;
-  std::unordered_map<std::uint32_t, Place> places_;
-};
-
 void describeVertices(const LocalBuffers& buffers) {
   const auto attribute = [](GLuint index, GLint size, GLenum type, std::size_t offset) {
     glEnableVertexAttribArray(index);
     glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_SHORT ? GL_TRUE : GL_FALSE,
-                          sizeof(LocalGpuVertex), reinterpret_cast<const void*>(offset));
+                          sizeof(LocalCorner), reinterpret_cast<const void*>(offset));
   };
   glBindVertexArray(buffers.vertexArray.name());
   glBindBuffer(GL_ARRAY_BUFFER, buffers.vertices.name());
-  attribute(0, 3, GL_FLOAT, offsetof(LocalGpuVertex, position));
-  attribute(1, 2, GL_FLOAT, offsetof(LocalGpuVertex, barycentric));
-  attribute(2, 2, GL_FLOAT, offsetof(LocalGpuVertex, baseUv));
-  attribute(3, 2, GL_FLOAT, offsetof(LocalGpuVertex, emissiveUv));
-  attribute(4, 4, GL_UNSIGNED_SHORT, offsetof(LocalGpuVertex, colour));
+  attribute(0, 3, GL_FLOAT, offsetof(LocalCorner, position));
+  attribute(1, 2, GL_FLOAT, offsetof(LocalCorner, barycentric));
+  attribute(2, 2, GL_FLOAT, offsetof(LocalCorner, baseUv));
+  attribute(3, 2, GL_FLOAT, offsetof(LocalCorner, emissiveUv));
+  attribute(4, 4, GL_UNSIGNED_SHORT, offsetof(LocalCorner, colour));
   glEnableVertexAttribArray(5);
-  glVertexAttribIPointer(5, 2, GL_UNSIGNED_INT, sizeof(LocalGpuVertex),
-                         reinterpret_cast<const void*>(offsetof(LocalGpuVertex, lightFirst)));
-  attribute(6, 3, GL_FLOAT, offsetof(LocalGpuVertex, normal));
+  glVertexAttribIPointer(5, 2, GL_UNSIGNED_INT, sizeof(LocalCorner),
+                         reinterpret_cast<const void*>(offsetof(LocalCorner, lightFirst)));
+  attribute(6, 3, GL_FLOAT, offsetof(LocalCorner, normal));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers.indices.name());
 }
 
@@ -117,84 +41,35 @@ GlBuffer makeBuffer(GLenum target, const std::vector<Value>& values) {
 
 Result<LocalBuffers> uploadLocal(const WalkScene& walk,
                                  const std::shared_ptr<const LocalGeometry>& geometry) {
-  const Scene& scene = *walk.scene;
-  if (!fits(scene, *geometry))
-    return fail(ErrorKind::malformed, "the local geometry was not made from this scene: clip it again",
-                "local geometry");
   LocalBuffers buffers;
   buffers.owner = geometry;
   buffers.lightOwner = walk.surfaceLight;
   buffers.mirrorsOwner = walk.mirrors;
-  const std::vector<Mesh>& meshes = geometry->meshes(scene);
-  const SurfaceLight* const ownLight =
-      geometry->surfaces ? &geometry->surfaces->light : walk.surfaceLight.get();
-  buffers.lit = ownLight != nullptr && !ownLight->empty();
-
   if (!geometry->polygon.corners.empty()) buffers.origin = glm::dvec3(geometry->polygon.corners.front(), 0);
-  struct Placed {
-    LocalTriangle triangle;
-    std::uint8_t mirrorPlane;
-  };
-  std::vector<Placed> triangles;
-  triangles.reserve(geometry->triangles.size());
-  for (const LocalTriangle& t : geometry->triangles) {
-    triangles.push_back({t, walk.mirrors ? walk.mirrors->planeOf(*geometry, t) : FlatMirrors::kNoPlane});
-    buffers.mirrors = buffers.mirrors || triangles.back().mirrorPlane != FlatMirrors::kNoPlane;
-  }
-  const auto key = [&](const Placed& placed) {
-    const Mesh& mesh = meshes[placed.triangle.mesh];
-    const Material& material = scene.materials[std::size_t(mesh.material)];
-    return std::make_tuple(canBeClear(material), mesh.material, !mesh.colours.empty(),
-                           hasCoordinates(mesh, material.baseColourTexture),
-                           hasCoordinates(mesh, material.emissiveTexture), placed.mirrorPlane);
-  };
-  std::stable_sort(triangles.begin(), triangles.end(),
-                   [&](const Placed& a, const Placed& b) { return key(a) < key(b); });
-
-  LightGatherer gatherer(meshes, buffers.lit ? ownLight : nullptr);
-  std::vector<LocalGpuVertex> vertices;
-  vertices.reserve(3 * triangles.size());
-  for (std::size_t n = 0; n < triangles.size(); ++n) {
-    const LocalTriangle& triangle = triangles[n].triangle;
-    const Mesh& mesh = meshes[triangle.mesh];
-    const Material& material = scene.materials[std::size_t(mesh.material)];
-    const glm::uvec3 source = mesh.triangles[triangle.triangle];
-    const LightGatherer::Place place = gatherer.place(triangle);
-    const bool clear = canBeClear(material);
-    for (int corner = 0; corner < 3; ++corner) {
-      const LocalVertex& v = geometry->vertices[triangle.vertices[corner]];
-      const glm::vec3 position(glm::dvec3(v.position) - buffers.origin);
-      vertices.push_back(
-          {position, v.barycentric, uvAt(mesh, material.baseColourTexture, source, v.barycentric),
-           uvAt(mesh, material.emissiveTexture, source, v.barycentric), colourAt(mesh, source, v.barycentric),
-           place.first, place.resolution, normalAt(mesh, source, v.barycentric)});
-      if (clear) buffers.clearCorners.push_back(position);
-    }
-    if (n == 0 || key(triangles[n - 1]) != key(triangles[n])) {
-      const auto [isClear, index, colours, baseUv, emissiveUv, plane] = key(triangles[n]);
-      buffers.batches.push_back({index, colours, baseUv, emissiveUv, plane, std::uint32_t(n), 0});
-    }
-    ++buffers.batches.back().triangles;
-    if (!clear) buffers.firstClear = std::uint32_t(n) + 1;
-  }
-  buffers.triangles = std::uint32_t(triangles.size());
+  Result<LocalCorners> made = localCorners(walk, *geometry, buffers.origin);
+  if (!made) return tl::unexpected(made.error());
+  buffers.lit = made->lit, buffers.mirrors = made->mirrors;
+  buffers.batches = std::move(made->batches);
+  buffers.clearCorners = std::move(made->clearCorners);
+  buffers.firstClear = made->firstClear;
+  buffers.triangles = std::uint32_t(made->corners.size() / 3);
 
   GLint64 largest = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-  if (gatherer.samples.size() * sizeof(HalfColour) > std::size_t(std::max<GLint64>(largest, 0)))
+  if (made->light.size() * sizeof(HalfColour) > std::size_t(std::max<GLint64>(largest, 0)))
     return fail(
         ErrorKind::tooLarge,
         fmt::format(
             "{} light samples in one region are more than this driver's storage buffers hold ({} MiB): "
             "bake coarser surface light, smaller cells, or use a CPU renderer",
-            gatherer.samples.size(), largest >> 20),
+            made->light.size(), largest >> 20),
         "local geometry");
-  if (gatherer.samples.empty()) gatherer.samples.emplace_back(0);  // no buffer of size 0
+  if (made->light.empty()) made->light.emplace_back(0);  // no buffer of size 0
   buffers.vertexArray = GlVertexArray::make();
   glBindVertexArray(buffers.vertexArray.name());
-  buffers.vertices = makeBuffer(GL_ARRAY_BUFFER, vertices);
+  buffers.vertices = makeBuffer(GL_ARRAY_BUFFER, made->corners);
   buffers.indices = GlBuffer::make();
-  buffers.light = makeBuffer(GL_SHADER_STORAGE_BUFFER, gatherer.samples);
+  buffers.light = makeBuffer(GL_SHADER_STORAGE_BUFFER, made->light);
   describeVertices(buffers);
   if (Status uploaded = checkGl("uploading local geometry"); !uploaded)
     return tl::unexpected(uploaded.error());

@@ -7,35 +7,10 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/view/walk_scene.h"
+#include "engine/view/local_corners.h"
 #include "engine/view_gl/gl_object.h"
 
 namespace acentric {
-
-/// One corner as the shader reads it. All attributes of the source triangle are evaluated here, once.
-struct LocalGpuVertex {
-  glm::vec3 position;  ///< relative to LocalBuffers::origin
-  glm::vec2 barycentric;
-  glm::vec2 baseUv;               ///< transformed
-  glm::vec2 emissiveUv;           ///< transformed
-  glm::u16vec4 colour;            ///< vertex colour, 0..65535
-  std::uint32_t lightFirst;       ///< into the light buffer
-  std::uint32_t lightResolution;  ///< resolution, bit 16: has a back side
-  glm::vec3 normal;               ///< shading normal
-};
-static_assert(sizeof(LocalGpuVertex) == 64, "the vertex layout has no padding");
-
-/// Consecutive triangles of one material and one set of attributes.
-struct LocalBatch {
-  int material = 0;
-  bool vertexColours = false;
-  bool baseUv = false;
-  bool emissiveUv = false;
-  std::uint8_t mirrorPlane = FlatMirrors::kNoPlane;
-  std::uint32_t firstTriangle = 0;
-  std::uint32_t triangles = 0;
-  bool isMirror() const { return mirrorPlane != FlatMirrors::kNoPlane; }
-};
 
 struct LocalBuffers {
   std::weak_ptr<const LocalGeometry> owner;
@@ -44,7 +19,7 @@ struct LocalBuffers {
   bool lit = false;      ///< a surface light was there
   bool mirrors = false;  ///< some batch is a mirror
   GlVertexArray vertexArray;
-  GlBuffer vertices;     ///< LocalGpuVertex, three per triangle
+  GlBuffer vertices;     ///< LocalCorner, three per triangle
   GlBuffer indices;      ///< of the clear triangles, rewritten in each frame's order
   GlBuffer light;        ///< uvec2 (four halves) per sample
   glm::dvec3 origin{0};  ///< amid the region, so that floats do not lose digits far from the project's

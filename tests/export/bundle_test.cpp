@@ -191,7 +191,7 @@ TEST_F(BundleTest, HoldsTheStoresCapturesAndCoarseOnesOfThem) {
     const auto full = readCapturePack(room / "bundle" / camera.full->file.path);
     ASSERT_TRUE(full) << full.error().describe();
     EXPECT_EQ(*full, *store->get(plain->keys[c]));
-    EXPECT_EQ(camera.coarse->columns, (camera.full->columns + 3) / 4);
+    EXPECT_EQ(camera.coarse->columns, (camera.full->columns + 7) / 8);
     EXPECT_LT(camera.coarse->samples, camera.full->samples / 4);
   }
   const WalkScene coarse = walkOf(room / "bundle", true);
@@ -266,7 +266,7 @@ TEST_F(BundleTest, RefusesAnIndexThatIsWrongWithItsPlace) {
     return text.find(part) != std::string::npos ? "" : text;
   };
   EXPECT_EQ(has(refusal("acentric bundle", "other"), "/format"), "");
-  EXPECT_EQ(has(refusal("\"version\": 2", "\"version\": 3"), "/version"), "");
+  EXPECT_EQ(has(refusal("\"version\": 3", "\"version\": 4"), "/version"), "");
   EXPECT_EQ(has(refusal("\"exposure\"", "\"exposed\""), "lacks 'exposure'"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"../"), "/storeys/0/cameras/0/full/file"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"/tmp/"), "path within"), "");

@@ -1,6 +1,6 @@
-/// What the page has of the engine, as a module of WebAssembly: it reads packs (read_pack.cpp) and plans
-/// frames (plan_frame.cpp). A module that traps is not used again: memory is out, or what it read is refused,
-/// and then message() says why.
+/// What the page has of the engine, as a module of WebAssembly: it reads files (read_pack.cpp,
+/// read_local.cpp) and plans frames (plan_frame.cpp). A module that traps is not used again: memory is out,
+/// or what it read is refused, and then message() says why.
 
 #include "web/runtime/module.h"
 
@@ -8,12 +8,15 @@
 #include <cstdlib>
 #include <typeinfo>
 
+#include "engine/export/bundle_read.h"
 #include "engine/export/checked_json.h"
 #include "engine/geometry/predicates/orientation.h"
 
 namespace acentric {
 
 std::string moduleMessage;
+std::vector<std::byte> moduleBytes;
+Bundle moduleBundle;
 
 /// In place of CGAL's: differences of coordinates are exact in this format where their exponents differ by
 /// less than 60, and so are the two products. Plans lie within a million metres of the origin.
@@ -28,6 +31,23 @@ int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 using namespace acentric;
 
 EXPORTED(message) const char* message() { return moduleMessage.c_str(); }
+/// Room for so many.
+EXPORTED(takeBytes) std::byte* takeBytes(std::size_t bytes) {
+  moduleBytes.resize(bytes);
+  return moduleBytes.data();
+}
+/// The index that was taken. 0 where it is refused.
+EXPORTED(openIndex) int openIndex() {
+  const std::string text(reinterpret_cast<const char*>(moduleBytes.data()), moduleBytes.size());
+  moduleBytes = {};
+  auto bundle = parseBundle(text, "");
+  if (!bundle) {
+    moduleMessage = bundle.error().message;
+    return 0;
+  }
+  moduleBundle = std::move(*bundle);
+  return 1;
+}
 
 // What is not in the module's standard library, or stays outside.
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 
-#include "engine/export/bundle_read.h"
 #include "engine/view/patch_tables.h"
 #include "web/runtime/capture_part.h"
 #include "web/runtime/module.h"
@@ -18,7 +17,6 @@ struct Loaded {
 };
 
 struct Planner {
-  std::vector<std::byte> taken;
   ViewSettings settings;
   std::vector<WalkScene> storeys;
   std::map<int, Loaded> captures;  ///< by their numbers
@@ -62,6 +60,18 @@ struct PageFrame {
   std::uint32_t showsMirrors;
 };
 
+/// Once for an index.
+void openStoreys() {
+  if (!planner.storeys.empty()) return;
+  planner.settings = moduleBundle.view;
+  planner.settings.reconstruction = Reconstruction::patches;
+  for (BundleStorey& storey : moduleBundle.storeys) {
+    WalkScene& walk = planner.storeys.emplace_back();
+    walk.layout = std::make_shared<const Layout>(std::move(storey.layout));
+    walk.captures.resize(walk.layout->cameras.size());
+  }
+}
+
 template <class From, std::size_t Count>
 void copy(const From& from, float (&into)[Count]) {
   for (std::size_t i = 0; i < Count; ++i) into[i] = float(from[int(i)]);
@@ -94,37 +104,14 @@ PageBackground backgroundOf(const PieceDraw& piece, const DisplayCapture& captur
 
 using namespace acentric;
 
-/// Room for `bytes` of an index or of a capture's part.
-EXPORTED(takeBytes) std::byte* takeBytes(std::size_t bytes) {
-  planner.taken.resize(bytes);
-  return planner.taken.data();
-}
-/// The index that was taken. How many storeys it has; -1 where it is refused.
-EXPORTED(openIndex) int openIndex() {
-  const std::string text(reinterpret_cast<const char*>(planner.taken.data()), planner.taken.size());
-  planner.taken = {};
-  auto bundle = parseBundle(text, "");
-  if (!bundle) {
-    moduleMessage = bundle.error().message;
-    return -1;
-  }
-  planner.settings = bundle->view;
-  planner.settings.reconstruction = Reconstruction::patches;
-  for (BundleStorey& storey : bundle->storeys) {
-    WalkScene& walk = planner.storeys.emplace_back();
-    walk.layout = std::make_shared<const Layout>(std::move(storey.layout));
-    walk.captures.resize(walk.layout->cameras.size());
-  }
-  return int(planner.storeys.size());
-}
 /// The part of a capture that was taken, whose texels begin there; its number.
 EXPORTED(addCapture) int addCapture(std::uint32_t firstTexel) {
-  PartReader reader(planner.taken);
+  PartReader reader(moduleBytes);
   Loaded loaded{nullptr, firstTexel, 0};
   reader(loaded.firstOfReflections);
   loaded.firstOfReflections += firstTexel;
   loaded.capture = readPart(reader);
-  planner.taken = {};
+  moduleBytes = {};
   planner.captures[planner.nextCapture] = std::move(loaded);
   return planner.nextCapture++;
 }
@@ -143,6 +130,7 @@ const PageFrame* planFrame(int storey, int region, double x, double y, double z,
   static std::vector<PageBackground> backgrounds;
   static std::vector<std::vector<glm::uvec2>> columns;
   static std::optional<PageFrame> page;
+  openStoreys();
   WalkScene& walk = planner.storeys[std::size_t(storey)];
   const PerspectiveView view{{x, y, z}, yaw, pitch, fov, width, height};
   std::map<const DisplayCapture*, std::uint32_t> firstTexels;

@@ -175,9 +175,9 @@ async function open(): Promise<void> {
   const source = sourceFor(kIndexName);
   const gl = openGraphics();
   const module = await WebAssembly.compile(decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1)) as BufferSource);
-  const pool = new LoaderPool(source, module, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
   const index = await source.text(kIndexName);
   const bundle = readIndex(index);
+  const pool = new LoaderPool(source, { module, index }, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
   new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI), gl, pool, new Planner(module, index));
 }
 

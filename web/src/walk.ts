@@ -18,8 +18,6 @@ const kMostPitch = (85 * Math.PI) / 180;
 const kSlow = 60, kQuick = 30;
 /** While captures of the first picture come, it is drawn no more often than this, milliseconds; nor in more than a quarter of the time. */
 const kWhileLoading = 400, kShareWhileLoading = 4;
-/** Until then it is drawn at this scale: coarse captures have a quarter of the samples along each side. */
-const kFirstScale = 0.5;
 
 /** Did the user ask the browser to save data? Not all browsers tell. */
 const savesData = (): boolean => (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
@@ -183,7 +181,8 @@ export class Walk {
     }
     const { eye, yaw } = this.pose, region = this.region;
     const full = this.settings.quality !== 'coarse';
-    this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData() });
+    const waiting = this.firstPicture === undefined;
+    this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData(), waiting });
     if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving);
     if (moving || (this.dirty && !this.pending)) this.schedule();
   }
@@ -221,8 +220,7 @@ export class Walk {
 
   private drawFrame(moving: boolean): void {
     const began = performance.now();
-    const first = this.firstPicture === undefined;
-    this.drawNow(this.view(first ? kFirstScale : moving ? this.movingScale : 1));
+    this.drawNow(this.view(moving ? this.movingScale : 1));
     this.lastDraw = began;
     this.dirty = false;
     const sync = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -280,7 +278,7 @@ export class Walk {
     if (pending.moving) this.adapt(took);
     if (this.firstPicture === undefined && !this.facts.awaited) {
       this.firstPicture = now;
-      this.dirty = true; // sharp, now
+      this.schedule(); // for what comes next
     }
     this.events.drawn();
     if (this.dirty) this.schedule();

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { readIndex } from '../src/bundle/read_index';
 import { checkedBytes } from '../src/stream/load_file';
-import { contentHash } from '../src/bundle/block_file';
+import { contentHash } from '../src/bundle/file';
 import { defaultMemory } from '../src/settings';
 import { FrameTimes } from '../src/ui/frame_times';
 import { isStill, movementOf } from '../src/ui/controls';
@@ -12,7 +12,7 @@ const file = (name: string) => ({ file: name, bytes: 10, hash: 'ab'.repeat(16) }
 function sound() {
   const corners = [[0, 0], [1, 0], [0, 1]];
   return {
-    format: 'acentric bundle', version: 2, name: 'room', exposure: 1, toneCurve: 'acentric neutral 1', fov: 1.05,
+    format: 'acentric bundle', version: 3, name: 'room', exposure: 1, toneCurve: 'acentric neutral 1', fov: 1.05,
     view: { maxSplatPixels: 16 }, storey: 0,
     sky: { zenith: [0, 0, 0], horizon: [0, 0, 0], ground: [0, 0, 0] },
     bounds: { min: [0, 0, 0], max: [1, 1, 1] },
@@ -79,7 +79,7 @@ describe('the index', () => {
 
   it.each<[string, (index: Index) => unknown, string]>([
     ['another format', (i) => (i.format = 'zip'), '/format'],
-    ['another version', (i) => (i.version = 3), 'version 3'],
+    ['another version', (i) => (i.version = 4), 'version 4'],
     ['another tone curve', (i) => (i.toneCurve = 'filmic'), '/toneCurve'],
     ['a path upwards', (i) => (i.textures[0].file = '../../etc/passwd.png'), '/textures/0/file'],
     ['an absolute path', (i) => (i.textures[0].file = '/etc/a.png'), '/textures/0/file'],

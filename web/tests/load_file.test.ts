@@ -1,7 +1,6 @@
 import { afterEach, describe, expect, it, vi } from 'vitest';
-import { contentHash } from '../src/bundle/block_file';
-import type { PackReader } from '../src/engine/pack_reader';
-import { loadFile } from '../src/stream/load_file';
+import { contentHash } from '../src/bundle/file';
+import { loadFile, type Readers } from '../src/stream/load_file';
 
 /** Of a PNG all that comes before its pixels. */
 function headerOf(width: number, height: number): Uint8Array {
@@ -11,7 +10,7 @@ function headerOf(width: number, height: number): Uint8Array {
   return bytes;
 }
 
-const noModule = new Promise<PackReader>(() => {}); // textures need none
+const noModule = new Promise<Readers>(() => {}); // textures need none
 
 async function load(bytes: Uint8Array, width: number, height: number) {
   const file = { file: 'textures/a.png', bytes: bytes.length, hash: await contentHash(bytes) };

@@ -9,7 +9,7 @@ import type {
 
 export const kIndexName = 'bundle.json';
 const kFormat = 'acentric bundle';
-const kVersions: readonly unknown[] = [1, 2];
+const kVersion = 3;
 const kToneCurve = 'acentric neutral 1';
 const kMost = 1 << 20; // of anything in a list
 const kLargestFile = 2 ** 31;
@@ -190,8 +190,8 @@ export function readIndex(text: string): Bundle {
   }
   const at = new At(json, '');
   if (at.get('format').value !== kFormat) at.get('format').fail(`this is not "${kFormat}"`);
-  if (!kVersions.includes(at.get('version').value))
-    at.get('version').fail(`version ${String(at.get('version').value)}; this page reads versions ${kVersions.join(' and ')}: export it again`);
+  if (at.get('version').value !== kVersion)
+    at.get('version').fail(`version ${String(at.get('version').value)}; this page reads version ${kVersion}: export it again`);
   if (at.get('toneCurve').value !== kToneCurve) at.get('toneCurve').fail(`this page knows the curve "${kToneCurve}" alone`);
   const storeys = at.get('storeys').list(1), textures = at.get('textures').list();
   const sky = at.get('sky');

@@ -1,6 +1,7 @@
 /** The engine's part of the page, an instance of web/runtime: its memory, and what it refuses. */
 
-import { DamagedFile } from '../bundle/block_file';
+import type { ZSTDDecoder } from 'zstddec';
+import { DamagedFile } from '../bundle/file';
 
 interface Common {
   memory: WebAssembly.Memory;
@@ -11,8 +12,17 @@ interface Common {
 /** zstd: what it unpacks to, or nothing. */
 export type Unpack = (packed: Uint8Array, room: number) => Uint8Array | undefined;
 
+export const unpackWith = (zstandard: ZSTDDecoder): Unpack => (packed, room) => {
+  try {
+    return zstandard.decode(packed, room);
+  } catch {
+    return undefined;
+  }
+};
+
 export class EngineModule<Functions> {
   private exports: Functions & Common;
+  ended = false; // it began anew since: what it held is gone
 
   /** `module`: of build/page/page.wasm. Without `unpack` it reads no packs. */
   constructor(private readonly module: WebAssembly.Module, private readonly unpack: Unpack = () => undefined) {
@@ -67,6 +77,7 @@ export class EngineModule<Functions> {
       if (error instanceof DamagedFile) throw error;
       const why = this.message;
       this.restart();
+      this.ended = true;
       throw new DamagedFile(why || 'it takes more memory than there is');
     }
   }

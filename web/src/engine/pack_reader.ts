@@ -1,8 +1,8 @@
 /** Packs to what is drawn (web/runtime/read_pack.cpp). The pictures in a pack are decoded by the browser. */
 
 import type { ZSTDDecoder } from 'zstddec';
-import { DamagedFile } from '../bundle/block_file';
-import { EngineModule } from './module';
+import { DamagedFile } from '../bundle/file';
+import { EngineModule, unpackWith } from './module';
 
 /** A capture on its way to the graphics card. */
 export interface Capture {
@@ -49,13 +49,7 @@ export class PackReader {
   private readonly engine: EngineModule<Functions>;
 
   constructor(module: WebAssembly.Module, zstandard: ZSTDDecoder) {
-    this.engine = new EngineModule(module, (packed, room) => {
-      try {
-        return zstandard.decode(packed, room);
-      } catch {
-        return undefined;
-      }
-    });
+    this.engine = new EngineModule(module, unpackWith(zstandard));
   }
 
   private takePack(pack: Uint8Array): number {

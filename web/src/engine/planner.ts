@@ -1,6 +1,6 @@
 /** What a frame draws (web/runtime/plan_frame.cpp), from the index and what of each capture planning needs. */
 
-import { DamagedFile } from '../bundle/block_file';
+import { DamagedFile } from '../bundle/file';
 import type { View } from '../geometry/view';
 import { EngineModule } from './module';
 
@@ -59,7 +59,7 @@ export class Planner {
     const engine = (this.engine = new EngineModule<Functions>(module));
     engine.guarded(() => {
       engine.give(engine.call.takeBytes, new TextEncoder().encode(index));
-      if (engine.call.openIndex() < 0) throw new DamagedFile(engine.message);
+      if (engine.call.openIndex() === 0) throw new DamagedFile(engine.message);
     });
   }
 

@@ -1,6 +1,6 @@
 /** Local geometry: opaque, then blended back to front; and where a scene has them, which mirrors it shows. */
 
-import { canBeClear, kCornerBytes, kNoPlane, type LocalBatch, type LocalGeometry } from '../bundle/local';
+import { kCornerBytes, kNoPlane, type LocalBatch, type LocalGeometry } from '../engine/local_reader';
 import type { Bundle, Texture, TextureUse, Wrap } from '../bundle/types';
 import { dot3, subtract3, type Vec3 } from '../geometry/vector';
 import { viewFromWorld, type View } from '../geometry/view';
@@ -34,8 +34,8 @@ export function uploadLocal(gl: WebGL2RenderingContext, geometry: LocalGeometry)
   attribute(6, 3, gl.FLOAT, false, 52);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
   gl.bindVertexArray(null);
-  const light = geometry.light && arrayTexture(gl, gl.RGB16F, gl.RGB, gl.HALF_FLOAT, 3, geometry.light);
-  geometry.corners = new ArrayBuffer(0);
+  const light = geometry.light && arrayTexture(gl, gl.RGBA16F, gl.RGBA, gl.HALF_FLOAT, 4, geometry.light);
+  geometry.corners = new Uint8Array(0);
   geometry.light = undefined;
   return { geometry, arrays, vertices, indices, light };
 }
@@ -85,7 +85,7 @@ export class LocalPass {
 
   private prepare(gpu: GpuLocal, batch: LocalBatch, view: View, what: 'looks' | 'mirror'): Program {
     const { gl, bundle } = this, material = bundle.materials[batch.material], looks = what === 'looks';
-    const clear = canBeClear(material), masked = material.alphaMode === 'mask', coloured = looks || masked;
+    const { clear } = batch, masked = material.alphaMode === 'mask', coloured = looks || masked;
     const textureOf = (use: TextureUse | undefined, has: boolean) => (use && has ? this.textures[use.texture] : undefined);
     const base = coloured ? textureOf(material.baseTexture, batch.baseUv) : undefined;
     const emits = looks && !material.unlit && material.emissive.some((value) => value !== 0);
@@ -128,7 +128,7 @@ export class LocalPass {
   }
 
   private opaqueBatches = (gpu: GpuLocal) =>
-    gpu.geometry.batches.filter((batch) => !canBeClear(this.bundle.materials[batch.material]));
+    gpu.geometry.batches.filter((batch) => !batch.clear);
 
   private drawBatch(batch: LocalBatch): void {
     this.gl.drawArrays(this.gl.TRIANGLES, 3 * batch.firstTriangle, 3 * batch.triangles);

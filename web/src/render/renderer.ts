@@ -2,7 +2,7 @@
 
 import { bytesOfCapture, type Capture } from '../engine/pack_reader';
 import { kPatchTexels, type Planner, type PlannedBackground } from '../engine/planner';
-import type { LocalGeometry } from '../bundle/local';
+import type { LocalGeometry } from '../engine/local_reader';
 import type { Bundle, Storey } from '../bundle/types';
 import { camerasOf } from '../geometry/regions';
 import { pictureFromWorld, rayThrough, worldFromPicture, type View } from '../geometry/view';

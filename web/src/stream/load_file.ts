@@ -1,8 +1,8 @@
 /** Fetches a file, checks that it is what the index says, and makes of it what is drawn. */
 
-import { contentHash, DamagedFile } from '../bundle/block_file';
-import { readLocal } from '../bundle/local';
+import { contentHash, DamagedFile } from '../bundle/file';
 import type { FileRef } from '../bundle/types';
+import type { LocalReader } from '../engine/local_reader';
 import type { PackReader } from '../engine/pack_reader';
 import type { Loaded, Request } from './messages';
 
@@ -36,11 +36,16 @@ export function checkPictureSize(bytes: Uint8Array, width: number, height: numbe
   if (w !== width || h !== height) throw new DamagedFile(`it is ${w} × ${h} pixels large, and the index says ${width} × ${height}`);
 }
 
-export async function loadFile(request: Request, packs: Promise<PackReader>): Promise<Loaded> {
+export interface Readers {
+  packs: PackReader;
+  locals: LocalReader;
+}
+
+export async function loadFile(request: Request, readers: Promise<Readers>): Promise<Loaded> {
   const { task, file } = request;
   const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
-  if (task.kind === 'capture') return { kind: 'capture', capture: await (await packs).read(bytes, task.exposure) };
-  if (task.kind === 'local') return { kind: 'local', local: await readLocal(bytes, task.materials, task.origin) };
+  if (task.kind === 'capture') return { kind: 'capture', capture: await (await readers).packs.read(bytes, task.exposure) };
+  if (task.kind === 'local') return { kind: 'local', local: (await readers).locals.read(bytes, task.origin) };
   checkPictureSize(bytes, task.width, task.height);
   const blob = new Blob([bytes as BlobPart], { type: 'image/png' });
   return { kind: 'texture', picture: await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion: 'none' }) };

@@ -1,18 +1,19 @@
 /** What the page and its workers tell each other. */
 
-import type { LocalGeometry } from '../bundle/local';
+import type { LocalGeometry } from '../engine/local_reader';
 import type { Capture } from '../engine/pack_reader';
-import type { FileRef, Material } from '../bundle/types';
+import type { FileRef } from '../bundle/types';
 import type { Vec3 } from '../geometry/vector';
 
 export type Task =
   | { kind: 'capture'; exposure: number }
-  | { kind: 'local'; materials: Material[]; origin: Vec3 }
+  | { kind: 'local'; origin: Vec3 }
   | { kind: 'texture'; width: number; height: number };
 
-/** Before all requests: the engine's module. */
+/** Before all requests: the engine's module, and bundle.json. */
 export interface Start {
   module: WebAssembly.Module;
+  index: string;
 }
 
 export interface Request {

@@ -15,7 +15,7 @@ export class LoaderPool {
   /** A file has come, and another may be asked for. */
   onRoom: () => void = () => undefined;
 
-  constructor(private readonly source: Source, module: WebAssembly.Module, count: number) {
+  constructor(private readonly source: Source, { module, index }: Start, count: number) {
     for (let i = 0; i < count; ++i) {
       const entry = { worker: new LoaderWorker(), busy: 0 };
       entry.worker.onmessage = (event: MessageEvent<Answer>) => {
@@ -26,7 +26,7 @@ export class LoaderPool {
         else waiting?.reject(new Error(event.data.error));
         setTimeout(() => this.onRoom()); // once whoever waited has dealt with it
       };
-      entry.worker.postMessage({ module } satisfies Start);
+      entry.worker.postMessage({ module, index } satisfies Start);
       this.workers.push(entry);
     }
   }

@@ -1,6 +1,6 @@
 /** Keeps what the eye needs and is walking towards on the graphics card, within a limit of memory. */
 
-import { bytesOfLocal } from '../bundle/local';
+import { bytesOfLocal } from '../engine/local_reader';
 import type { Bundle, FileRef, Storey } from '../bundle/types';
 import { centroid, distanceTo } from '../geometry/polygon';
 import { distance2 } from '../geometry/vector';
@@ -128,7 +128,7 @@ export class Stream {
   private async fetchLocal(item: Item, file: FileRef): Promise<void> {
     const [x, y] = centroid(this.storey.regions[item.number].polygon);
     const { materials } = this.bundle;
-    const loaded = await this.pool.load({ kind: 'local', materials, origin: [x, y, this.storey.eyeZ] }, file, this.retrying);
+    const loaded = await this.pool.load({ kind: 'local', origin: [x, y, this.storey.eyeZ] }, file, this.retrying);
     if (loaded.kind !== 'local') return;
     const used = loaded.local.batches.flatMap((batch) => {
       const { baseTexture, emissiveTexture } = materials[batch.material];

@@ -25,6 +25,7 @@ export interface Viewer {
   region: number;
   full: boolean; // false: coarse captures are enough
   saving: boolean; // the viewer pays for each byte, or asked to save them
+  waiting?: boolean; // nothing is shown yet
 }
 
 /** Beyond this nothing is loaded ahead, metres from the eye in cell sizes of its region. */
@@ -93,6 +94,7 @@ export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Item)
   };
   const own = camerasInOrder(storey, viewer.region, viewer.eye, viewer.yaw);
   own.forEach(addCoarse);
+  if (viewer.waiting) return items;
   add('local', viewer.region);
   const ahead = regionsAhead(storey, viewer);
   const next = ahead.slice(0, kNext);

@@ -1,8 +1,9 @@
 /** A worker: requests in, answers out, their arrays handed over instead of copied. */
 
-import { warmUp, zstd } from '../bundle/block_file';
+import { warmUp, zstd } from '../bundle/file';
+import { LocalReader } from '../engine/local_reader';
 import { PackReader } from '../engine/pack_reader';
-import { loadFile } from './load_file';
+import { loadFile, type Readers } from './load_file';
 import type { Answer, Loaded, Request, Start } from './messages';
 
 function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transferable> {
@@ -14,15 +15,17 @@ function handedOver(value: unknown, found = new Set<Transferable>()): Set<Transf
 
 const answer = (message: Answer, loaded?: Loaded) => self.postMessage(message, { transfer: [...handedOver(loaded)] });
 
-let packs: Promise<PackReader>;
+let readers: Promise<Readers>;
 
 self.onmessage = ({ data }: MessageEvent<Start | Request>) => {
   if ('module' in data) {
-    packs = zstd().then((zstandard) => new PackReader(data.module, zstandard));
+    readers = zstd().then((zstandard) => ({
+      packs: new PackReader(data.module, zstandard), locals: new LocalReader(data.module, zstandard, data.index),
+    }));
     return;
   }
   const { id } = data;
-  loadFile(data, packs).then(
+  loadFile(data, readers).then(
     (loaded) => answer({ id, loaded }, loaded),
     (error: unknown) => answer({ id, error: error instanceof Error ? error.message : String(error) }),
   );
