@@ -19,7 +19,7 @@
 #include <stdint.h>
 
 #define ACENTRIC_RUNTIME_VERSION_MAJOR 1
-#define ACENTRIC_RUNTIME_VERSION_MINOR 0
+#define ACENTRIC_RUNTIME_VERSION_MINOR 1
 #define ACENTRIC_RUNTIME_VERSION_PATCH 0
 #define ACENTRIC_RUNTIME_VERSION                                                   \
   (ACENTRIC_RUNTIME_VERSION_MAJOR * 10000 + ACENTRIC_RUNTIME_VERSION_MINOR * 100 + \
@@ -71,6 +71,17 @@ typedef struct acentric_files {
 ACENTRIC_API acentric_status acentric_open_folder(const char* folder, acentric_bundle** bundle);
 /* `files` is copied. */
 ACENTRIC_API acentric_status acentric_open_files(const acentric_files* files, acentric_bundle** bundle);
+/* A walk: a bundle as one file (`acentric export --to walk`). */
+ACENTRIC_API acentric_status acentric_open_walk(const char* file, acentric_bundle** bundle);
+
+/* The same file wherever it is, such as behind HTTP range requests. Called as acentric_files are. */
+typedef struct acentric_ranges {
+  void* user;
+  acentric_status (*size)(void* user, uint64_t* bytes);
+  acentric_status (*read)(void* user, uint64_t offset, void* into, uint64_t bytes); /* all of them */
+} acentric_ranges;
+/* `ranges` is copied. */
+ACENTRIC_API acentric_status acentric_open_ranges(const acentric_ranges* ranges, acentric_bundle** bundle);
 ACENTRIC_API void acentric_close(acentric_bundle* bundle);
 /* What was wrong with the last call that failed: file, place in it, reason. "" if none was. Never NULL. */
 ACENTRIC_API const char* acentric_message(const acentric_bundle* bundle);

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "engine/capi/handle.h"
+#include "engine/export/walk_read.h"
 
 using namespace acentric;
 using namespace acentric::capi;
@@ -34,6 +35,31 @@ class CallerFiles final : public BundleFiles {
   acentric_files files_;
 };
 
+/// A walk that the caller reads.
+class CallerRanges final : public ByteRanges {
+ public:
+  explicit CallerRanges(const acentric_ranges& ranges) : ranges_(ranges) {}
+
+  Result<std::uint64_t> size() const override {
+    uint64_t bytes = 0;
+    if (const acentric_status code = ranges_.size(ranges_.user, &bytes); code != ACENTRIC_OK)
+      return failedWith(code);
+    return bytes;
+  }
+  Status read(std::uint64_t at, std::span<std::byte> into) const override {
+    const acentric_status code = ranges_.read(ranges_.user, at, into.data(), into.size());
+    return code == ACENTRIC_OK ? Status() : Status(failedWith(code));
+  }
+
+ private:
+  static tl::unexpected<Error> failedWith(acentric_status code) {
+    return fail(code == ACENTRIC_ERROR_NOT_FOUND ? ErrorKind::notFound : ErrorKind::unreadable,
+                std::string("the caller could not read it: ") + acentric_status_name(code), "walk");
+  }
+  acentric_ranges ranges_;
+};
+
+/// `makeFiles` gives a result of files, null where an argument is.
 template <class MakeFiles>
 acentric_status openWith(acentric_bundle** out, const MakeFiles& makeFiles) noexcept {
   if (out == nullptr) return ACENTRIC_ERROR_ARGUMENT;
@@ -41,9 +67,11 @@ acentric_status openWith(acentric_bundle** out, const MakeFiles& makeFiles) noex
   if (*out == nullptr) return ACENTRIC_ERROR_MEMORY;
   acentric_bundle& bundle = **out;
   try {
-    std::unique_ptr<BundleFiles> files = makeFiles();
-    if (!files) return failed(bundle, ACENTRIC_ERROR_ARGUMENT, "no folder, or no functions that read files");
-    if (const Status opened = bundle.runtime.open(std::move(files)); !opened)
+    Result<std::unique_ptr<BundleFiles>> files = makeFiles();
+    if (!files) return failed(bundle, files.error());
+    if (*files == nullptr)
+      return failed(bundle, ACENTRIC_ERROR_ARGUMENT, "no path, or no functions that read files");
+    if (const Status opened = bundle.runtime.open(std::move(*files)); !opened)
       return failed(bundle, opened.error());
     for (const BundlePath& path : bundle.runtime.bundle().paths) {
       bundle.poses.emplace_back();
@@ -118,13 +146,32 @@ const char* acentric_status_name(acentric_status status) {
 }
 
 acentric_status acentric_open_folder(const char* folder, acentric_bundle** bundle) {
-  return openWith(bundle, [&] { return folder != nullptr ? bundleFolder(folder) : nullptr; });
+  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+    if (folder == nullptr) return nullptr;
+    return bundleFolder(folder);
+  });
 }
 
 acentric_status acentric_open_files(const acentric_files* files, acentric_bundle** bundle) {
-  return openWith(bundle, [&]() -> std::unique_ptr<BundleFiles> {
+  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
     if (files == nullptr || files->size == nullptr || files->read == nullptr) return nullptr;
     return std::make_unique<CallerFiles>(*files);
+  });
+}
+
+acentric_status acentric_open_walk(const char* file, acentric_bundle** bundle) {
+  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+    if (file == nullptr) return nullptr;
+    auto ranges = fileRanges(file);
+    if (!ranges) return tl::unexpected(ranges.error());
+    return walkFiles(std::move(*ranges), file);
+  });
+}
+
+acentric_status acentric_open_ranges(const acentric_ranges* ranges, acentric_bundle** bundle) {
+  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+    if (ranges == nullptr || ranges->size == nullptr || ranges->read == nullptr) return nullptr;
+    return walkFiles(std::make_unique<CallerRanges>(*ranges), "walk");
   });
 }
 

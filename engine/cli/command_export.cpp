@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/cli/commands.h"
+#include "engine/export/walk_write.h"
 #include "engine/export/web_page.h"
 #include "engine/pipeline/export_bundle.h"
 
@@ -64,8 +65,8 @@ void addSingleFile(const fs::path& file, std::uint64_t size, Report& report) {
 Result<Report> runExport(const ExportOptions& options, const Common& common) {
   if (options.to == "gltf") return runExportGltf(options, common);
   if (options.to == "exr") return runExportExr(options, common);
-  if (options.to != "bundle" && options.to != "web") return runExportImages(options, common);
-  const bool web = options.to == "web";
+  const bool web = options.to == "web", walk = options.to == "walk";
+  if (options.to != "bundle" && !web && !walk) return runExportImages(options, common);
   if (options.singleFile && !web)
     return fail(ErrorKind::invalidArgument, "--single-file is a page: say --to web");
   fs::path page;
@@ -76,15 +77,22 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
     page = std::move(*found);
   }
   std::error_code error;
-  if (options.singleFile && fs::is_directory(options.output, error))
-    return fail(ErrorKind::invalidArgument, "is a folder: name an HTML file", options.output.string());
+  if ((options.singleFile || walk) && fs::is_directory(options.output, error))
+    return fail(ErrorKind::invalidArgument,
+                walk ? "is a folder: name a file, such as walk.acentric" : "is a folder: name an HTML file",
+                options.output.string());
   std::optional<TemporaryBundle> temporary;
-  if (options.singleFile) temporary.emplace(fs::absolute(options.output));
+  if (options.singleFile || walk) temporary.emplace(fs::absolute(options.output));
   const fs::path folder = temporary ? temporary->folder : options.output;
   const auto done = writeBundleOf(options, folder, common);
   if (!done) return tl::unexpected(done.error());
   std::uint64_t pageBytes = 0;
-  if (temporary) {
+  std::uint64_t walkBytes = 0;
+  if (walk) {
+    const auto written = writeWalk(folder, options.output, {options.regionsPerPage}, common.stop);
+    if (!written) return tl::unexpected(written.error());
+    walkBytes = *written;
+  } else if (temporary) {
     const auto written = writeSingleFile(page, folder, options.output);
     if (!written) return tl::unexpected(written.error());
     pageBytes = *written;
@@ -115,7 +123,12 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
       countText(done->samples), bytesText(done->fullBytes), bytesText(done->coarseBytes),
       countText(done->regions), countText(done->triangles), bytesText(done->localBytes),
       countText(done->textures), bytesText(done->textureBytes));
-  if (temporary) addSingleFile(options.output, pageBytes, report);
+  if (walk) {
+    report.json["walk"] = {{"file", options.output.string()}, {"bytes", walkBytes}};
+    report.text += fmt::format("  as one file: {}\n", bytesText(walkBytes));
+  } else if (temporary) {
+    addSingleFile(options.output, pageBytes, report);
+  }
   if (web && !temporary)
     report.text += "  any web server can serve it, such as `node web/serve.mjs` (docs/web.md)\n";
   if (done->missing > 0)

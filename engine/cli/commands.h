@@ -131,7 +131,8 @@ struct ExportOptions {
   std::filesystem::path project, output;
   std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; "exr"; or pictures
   bool allowMissing = false;
-  std::optional<int> colourQuality;  ///< of "bundle" and "web"; none: the project's
+  std::optional<int> colourQuality;  ///< of "bundle", "web" and "walk"; none: the project's
+  int regionsPerPage = 64;           ///< of "walk"
   bool singleFile = false;           ///< of "web": `output` is one HTML file with everything in it
   double meshError = 0.5;            ///< of "gltf"
   int texturePixels = 4096;          ///< of "gltf"

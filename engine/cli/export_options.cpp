@@ -5,29 +5,39 @@
 namespace acentric::cli {
 
 void addExportCommand(CLI::App& app, Chosen& chosen) {
-  auto [c, o] = add(app, chosen, "export", "Write what is baked for other programs to walk through",
-                    "  acentric export kitchen.acentric.json --to bundle kitchen-bundle\n"
-                    "  acentric export kitchen.acentric.json --to web kitchen-web    # for any web server\n"
-                    "  acentric export kitchen.acentric.json --to web --single-file kitchen.html\n"
-                    "  acentric export kitchen.acentric.json --to gltf kitchen-gltf",
-                    runExport);
+  auto [c, o] = add(
+      app, chosen, "export", "Write what is baked for other programs to walk through",
+      "  acentric export kitchen.acentric.json --to bundle kitchen-bundle\n"
+      "  acentric export kitchen.acentric.json --to web kitchen-web    # for any web server\n"
+      "  acentric export kitchen.acentric.json --to web --single-file kitchen.html\n"
+      "  acentric export kitchen.acentric.json --to walk kitchen.acentric      # one file, read by ranges\n"
+      "  acentric export kitchen.acentric.json --to gltf kitchen-gltf",
+      runExport);
   c->add_option("project", o.project, "Project file")->required();
   c->add_option(
        "output", o.output,
-       "Folder to write: a new one, or one to replace that holds the same; with --single-file an HTML file")
+       "Folder to write: a new one, or one to replace that holds the same; of --to walk a file, with "
+       "--single-file an HTML file")
       ->required();
   c->add_option(
        "--to", o.to,
        "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
-       "that walks through it (docs/web.md); gltf, a GLB for each region; exr, what each camera saw as "
+       "that walks through it (docs/web.md); walk, a bundle as one file that is read by ranges; gltf, a GLB "
+       "for each region; exr, what each camera saw as "
        "OpenEXR (engine/store/FORMAT.md); colmap, nerfstudio, seurat, ray-traced pictures with distances "
        "and their cameras; panoramas, OpenEXR with distances")
-      ->check(CLI::IsMember({"bundle", "web", "gltf", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
+      ->check(CLI::IsMember(
+          {"bundle", "web", "walk", "gltf", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
       ->capture_default_str();
-  c->add_option("--colour-quality", o.colourQuality,
-                "bundle and web: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
-                "unless given, as the project says")
+  c->add_option(
+       "--colour-quality", o.colourQuality,
+       "bundle, web and walk: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
+       "unless given, as the project says")
       ->check(CLI::Range(0, kLosslessColours));
+  c->add_option("--regions-per-page", o.regionsPerPage,
+                "walk: regions that a page of its index tells of; what is open holds one page")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
       ->check(CLI::Range(0.01, 64.0))
       ->capture_default_str();

@@ -5,7 +5,7 @@
 
 namespace acentric {
 
-/// Coarse renditions made of captures have, as previews do, a quarter of the columns and rows.
+/// What stands in for a capture in memory has a quarter of its columns and rows.
 inline constexpr int kCoarseFactor = 4;
 
 /// Of the whole camera's view; at least one column and row. `factor` >= 1; 1 gives the capture itself. A

@@ -12,7 +12,7 @@ namespace acentric {
 
 /// One corner as the shader reads it. All attributes of the source triangle are evaluated here, once.
 struct LocalCorner {
-  glm::vec3 position;  ///< relative to LocalBuffers::origin
+  glm::vec3 position;  ///< relative to an origin
   glm::vec2 barycentric;
   glm::vec2 baseUv;               ///< transformed
   glm::vec2 emissiveUv;           ///< transformed

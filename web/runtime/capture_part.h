@@ -77,20 +77,23 @@ void eachPartOfCapture(Archive& archive, Display& capture) {
   eachPartOfBackground(archive, capture.background);
 }
 
-/// Of a capture with patches.
 inline void writePart(PartWriter& writer, const DisplayCapture& capture) {
   eachPartOfCapture(writer, capture);
-  eachPart(writer, *capture.patches);
+  writer(capture.patches != nullptr);
+  if (capture.patches) eachPart(writer, *capture.patches);
   writer(capture.reflections != nullptr);
   if (capture.reflections) writePart(writer, *capture.reflections);
 }
 inline std::shared_ptr<const DisplayCapture> readPart(PartReader& reader) {
   auto capture = std::make_shared<DisplayCapture>();
-  auto patches = std::make_shared<DisplayPatches>();
   eachPartOfCapture(reader, *capture);
-  eachPart(reader, *patches);
-  capture->patches = std::move(patches);
-  bool reflects = false;
+  bool shows = false, reflects = false;
+  reader(shows);
+  if (shows) {
+    auto patches = std::make_shared<DisplayPatches>();
+    eachPart(reader, *patches);
+    capture->patches = std::move(patches);
+  }
   reader(reflects);
   if (reflects) capture->reflections = readPart(reader);
   return capture;

@@ -1,4 +1,4 @@
-/// What a frame draws, as tables that shaders read. web/src/render/planner.ts is the other side of these
+/// What a frame draws, as tables that shaders read. web/src/engine/planner.ts is the other side of these
 /// functions. Texels are on the graphics card alone.
 
 #include <map>

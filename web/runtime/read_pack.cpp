@@ -1,5 +1,5 @@
 /// Packs to what is drawn. The pictures in a pack are decoded by the browser: findPictures tells them, the
-/// page gives each back as RGBA8, and readPack takes them in their order. web/src/bundle/pack_reader.ts is
+/// page gives each back as RGBA8, and readPack takes them in their order. web/src/engine/pack_reader.ts is
 /// the other side of these functions. One pack at a time.
 
 #include <bit>
@@ -78,7 +78,9 @@ Status find() {
 }
 
 /// Texels of patches in whole rows of the texture that holds them.
-void addTexels(const DisplayPatches& patches) {
+void addTexels(const DisplayCapture& capture) {
+  if (!capture.patches) return;  // it shows the background alone
+  const DisplayPatches& patches = *capture.patches;
   const std::size_t texels = patches.cover.size();
   const std::size_t end = state.covers.size() + (texels + kTexelsAcross - 1) / kTexelsAcross * kTexelsAcross;
   state.colours.insert(state.colours.end(), patches.colour.begin(), patches.colour.end());
@@ -156,16 +158,16 @@ EXPORTED(readPack) const PageCapture* readPack(float exposure) {
     return nullptr;
   }
   state.pictures.clear();
-  if (!read->value.hasSilhouettes()) {
+  if (read->value.sampleCount() > 0 && !read->value.hasSilhouettes()) {
     moduleMessage = "it is of an earlier version of captures: export the walk again";
     return nullptr;
   }
   DisplayCapture capture = prepareForDisplay(read->value, exposure);
   read->value = {};
   PartWriter writer;
-  addTexels(*capture.patches);
+  addTexels(capture);
   writer(std::uint32_t(state.covers.size()));  // where the texels of reflections begin
-  if (capture.reflections) addTexels(*capture.reflections->patches);
+  if (capture.reflections) addTexels(*capture.reflections);
   writePart(writer, capture);
   state.part = std::move(writer.bytes);
   const CaptureBackground& background = capture.background.runs;

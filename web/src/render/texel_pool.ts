@@ -20,6 +20,7 @@ export class TexelPool {
 
   /** Whole rows of texels. */
   add(colours: Uint8Array, covers: Uint32Array): Rows {
+    if (covers.length === 0) return { first: 0, count: 0 };
     const { gl } = this, rows = this.take(covers.length / kTexelsAcross);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     for (let row = 0; row < rows.count; ) {

@@ -1,0 +1,79 @@
+#include "engine/export/walk_format.h"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <cstring>
+
+#include "engine/base/hash.h"
+#include "engine/base/json_text.h"
+
+namespace acentric::walk_format {
+namespace {
+
+constexpr int kCompressionLevel = 15;  // it is written once
+constexpr std::size_t kHashAt = kHeaderBytes - 16;
+
+ContentKey hashOf(std::span<const std::byte> bytes) {
+  return Hasher().bytes(bytes.data(), bytes.size()).finish();
+}
+
+}  // namespace
+
+HeaderBytes headerBytes(const Header& header) {
+  HeaderBytes bytes{};
+  std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
+  std::memcpy(bytes.data() + 8, &kVersion, sizeof kVersion);
+  static_assert(16 + sizeof(Header) == kHashAt);
+  std::memcpy(bytes.data() + 16, &header, sizeof header);
+  const ContentKey hash = hashOf(std::span(bytes).first(kHashAt));
+  std::memcpy(bytes.data() + kHashAt, &hash, 16);
+  return bytes;
+}
+
+Result<Header> headerOf(std::span<const std::byte> bytes, const std::string& name) {
+  const auto malformed = [&](std::string message) {
+    return fail(ErrorKind::malformed, std::move(message), name);
+  };
+  if (bytes.size() < kHeaderBytes || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0)
+    return malformed("is no walk");
+  std::uint32_t version = 0;
+  std::memcpy(&version, bytes.data() + 8, sizeof version);
+  if (version != kVersion)
+    return fail(
+        ErrorKind::unsupported,
+        fmt::format("has version {}, and this program reads {}: export the walk anew", version, kVersion),
+        name);
+  const ContentKey hash = hashOf(bytes.first(kHashAt));
+  if (std::memcmp(bytes.data() + kHashAt, &hash, 16) != 0) return malformed("its header is damaged");
+  Header header;
+  std::memcpy(&header, bytes.data() + 16, sizeof header);
+  const bool sound = header.rootBytes <= kMostRootBytes && header.rootRaw <= kMostRootBytes &&
+                     header.pageStart == kHeaderBytes + header.rootBytes &&
+                     header.dataStart >= header.pageStart && header.fileBytes >= header.dataStart;
+  if (!sound) return malformed("its header makes no sense");
+  return header;
+}
+
+std::string hashText(std::span<const std::byte> bytes) { return hashOf(bytes).toHex(); }
+
+std::vector<std::byte> packedText(const BundleJson& json, std::uint64_t& raw) {
+  const std::string text = jsonText(json);
+  raw = text.size();
+  std::vector<std::byte> packed(ZSTD_compressBound(text.size()));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), kCompressionLevel));
+  return packed;
+}
+
+Result<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t raw,
+                                 const std::string& hash, const std::string& name) {
+  if (hashText(packed) != hash)
+    return fail(ErrorKind::malformed, "is damaged: its contents do not fit its hash", name);
+  std::string text(raw, '\0');
+  const std::size_t size = ZSTD_decompress(text.data(), text.size(), packed.data(), packed.size());
+  if (ZSTD_isError(size) != 0 || size != raw)
+    return fail(ErrorKind::malformed, "does not unpack to what the walk says", name);
+  return text;
+}
+
+}  // namespace acentric::walk_format
