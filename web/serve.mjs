@@ -52,11 +52,22 @@ export function serve(folder, port = 0, before = () => false) {
       response.writeHead(304, { ETag: tag, 'Cache-Control': 'no-cache' }).end();
       return;
     }
+    const size = Number(found.size), range = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? '');
+    if (range) {
+      const first = Number(range[1]), last = Math.min(range[2] === '' ? Infinity : Number(range[2]), size - 1);
+      const headers = { 'Content-Range': `bytes ${first <= last ? `${first}-${last}` : '*'}/${size}`, 'Cache-Control': 'no-cache', ETag: tag };
+      if (first > last) response.writeHead(416, headers).end();
+      else {
+        response.writeHead(206, { ...headers, 'Content-Type': 'application/octet-stream', 'Content-Length': last - first + 1 });
+        createReadStream(file, { start: first, end: last }).on('error', () => response.destroy()).pipe(response);
+      }
+      return;
+    }
     const type = kTypes[extname(file)] ?? 'application/octet-stream';
     // As most hosts do with text.
     const packed = /^text|json/.test(type) && /\bgzip\b/.test(request.headers['accept-encoding'] ?? '');
     response.writeHead(200, {
-      'Content-Type': type, ...(packed ? { 'Content-Encoding': 'gzip' } : { 'Content-Length': Number(found.size) }),
+      'Content-Type': type, ...(packed ? { 'Content-Encoding': 'gzip' } : { 'Content-Length': size }),
       'Cache-Control': 'no-cache', ETag: tag,
     });
     if (request.method === 'HEAD') response.end();

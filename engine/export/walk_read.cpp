@@ -155,12 +155,11 @@ class IndexReader {
       regions.push_back(number(region.at("number")));
       if (regions.back() >= regions_.size()) return malformed("a page has a region beyond its count");
     }
-    const std::uint64_t own = number(leaf.at("own"));
-    if (own > regions.size()) return malformed("a page has fewer regions than its own");
-    for (std::size_t r = 0; r < own; ++r) {
+    for (std::size_t r = 0; r < regions.size(); ++r) {
       Json& region = leaf["regions"][r];
+      if (!region.at("own").get<bool>()) continue;
       take(region["local"]);
-      region.erase("number");
+      region.erase("number"), region.erase("own");
       bool known = true;
       const auto global = [&](Json& json, const std::vector<std::uint64_t>& numbers) {
         const std::uint64_t local = number(json);

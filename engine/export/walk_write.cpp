@@ -172,14 +172,17 @@ class WalkWriter {
   /// The regions themselves, those around them, and the cameras of all of these, by numbers within the page.
   Json leafOf(const Source& source, std::span<const int> regions) {
     const BundleStorey& storey = source.storey;
-    std::vector<int> all(regions.begin(), regions.end());
-    std::map<int, int> number;
+    const std::set<int> own(regions.begin(), regions.end());
+    std::set<int> all = own, last = own;
+    for (int step = 0; step < kStepsBeyond; ++step) {
+      std::set<int> next;
+      for (const int region : last)
+        for (const int neighbour : storey.neighbours[std::size_t(region)])
+          if (all.insert(neighbour).second) next.insert(neighbour);
+      last = std::move(next);
+    }
+    std::map<int, int> number;  // in the order of the storey: an eye is in the first that holds it
     for (const int region : all) number.emplace(region, int(number.size()));
-    std::size_t first = 0;
-    for (int step = 0; step < kStepsBeyond; ++step)
-      for (const std::size_t end = all.size(); first < end; ++first)
-        for (const int neighbour : storey.neighbours[std::size_t(all[first])])
-          if (number.emplace(neighbour, int(number.size())).second) all.push_back(neighbour);
     std::map<int, int> cameraNumber;
     Json cameras = Json::array(), listed = Json::array();
     const auto renumber = [&](Json covers) {
@@ -189,26 +192,26 @@ class WalkWriter {
           const auto [found, isNew] = cameraNumber.emplace(camera, int(cameraNumber.size()));
           piece["camera"] = found->second;
           if (!isNew) continue;
-          Json own = source.json["cameras"][std::size_t(camera)];
-          own["number"] = camera;
-          own["full"] = placed(own["full"]), own["coarse"] = placed(own["coarse"]);
-          cameras.push_back(std::move(own));
+          Json json = source.json["cameras"][std::size_t(camera)];
+          json["number"] = camera;
+          json["full"] = placed(json["full"]), json["coarse"] = placed(json["coarse"]);
+          cameras.push_back(std::move(json));
         }
       return covers;
     };
     for (const int region : all) {
-      Json own = source.json["regions"][std::size_t(region)];
-      own["number"] = region;
-      own["local"] = placed(own["local"]);
-      own["covers"] = renumber(own["covers"]), own["panoramas"] = renumber(own["panoramas"]);
+      Json json = source.json["regions"][std::size_t(region)];
+      json["number"] = region, json["own"] = own.contains(region);
+      json["local"] = placed(json["local"]);
+      json["covers"] = renumber(json["covers"]), json["panoramas"] = renumber(json["panoramas"]);
       Json neighbours = Json::array();
       for (const int neighbour : storey.neighbours[std::size_t(region)])
         if (const auto found = number.find(neighbour); found != number.end())
           neighbours.push_back(found->second);
-      own["neighbours"] = std::move(neighbours);
-      listed.push_back(std::move(own));
+      json["neighbours"] = std::move(neighbours);
+      listed.push_back(std::move(json));
     }
-    return {{"own", regions.size()}, {"cameras", std::move(cameras)}, {"regions", std::move(listed)}};
+    return {{"cameras", std::move(cameras)}, {"regions", std::move(listed)}};
   }
 
   /// Halves along the longer side.

@@ -345,6 +345,38 @@ await test('an address leads to a view', async () => {
   await close();
 });
 
+await test('a walk is one file, read by ranges, page after page of its index', async () => {
+  acentric('export', project, join(work, 'site', 'walk.acentric'), '--to', 'walk', '--regions-per-page', '2');
+  const bundled = await open();
+  await started(bundled.page);
+  await settled(bundled.page);
+  const expected = (await picture(bundled.page)).png;
+  await bundled.close();
+  const { page, requests, errors, close } = await open({ hash: '?walk=walk.acentric' });
+  await started(page);
+  await settled(page);
+  expect(psnr((await picture(page)).png, expected) > 60, 'another picture than from the bundle');
+  const opened = requests.filter((url) => url.startsWith('http')).map((url) => url.split('/').at(-1));
+  expect(opened.every((name) => !/\.(json|pack|local|png)$/.test(name)), opened.join(' '));
+  const first = await page.evaluate(() => ({ count: window.acentric.current.regions.length, all: window.acentric.current.regionCount }));
+  expect(first.count < first.all, `the page holds ${first.count} of ${first.all} regions`);
+  const crossed = new Set();
+  for (const at of wayThroughRegions(await page.evaluate(() => window.acentric.current.regions[window.acentric.region].number), 6)) {
+    await go(page, at, 1);
+    await settled(page);
+    const { number, missing } = await page.evaluate(() => {
+      const walk = window.acentric;
+      return { number: walk.current.regions[walk.region].number, missing: walk.facts.missing.length };
+    });
+    crossed.add(number);
+    expect(missing === 0, `${missing} captures are missing at ${at}`);
+    expect(blackShare((await picture(page)).png) < 0.01, `the picture at ${at} has holes`);
+  }
+  expect(crossed.size === 6, `only ${[...crossed]}`);
+  expect(errors.length === 0, errors.join('; '));
+  await close();
+});
+
 await test('as a single file it walks from the disk', async () => {
   const file = join(work, 'single.html');
   const report = JSON.parse(acentric('export', project, file, '--to', 'web', '--single-file', '--json'));

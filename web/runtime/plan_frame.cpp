@@ -60,9 +60,10 @@ struct PageFrame {
   std::uint32_t showsMirrors;
 };
 
-/// Once for an index.
+/// Once for each index that was opened.
 void openStoreys() {
-  if (!planner.storeys.empty()) return;
+  if (moduleBundle.storeys.empty()) return;
+  planner.storeys.clear();
   planner.settings = moduleBundle.view;
   planner.settings.reconstruction = Reconstruction::patches;
   for (BundleStorey& storey : moduleBundle.storeys) {
@@ -70,6 +71,7 @@ void openStoreys() {
     walk.layout = std::make_shared<const Layout>(std::move(storey.layout));
     walk.captures.resize(walk.layout->cameras.size());
   }
+  moduleBundle.storeys.clear();
 }
 
 template <class From, std::size_t Count>

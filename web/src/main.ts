@@ -7,7 +7,7 @@ import type { Bundle } from './bundle/types';
 import { Planner } from './engine/planner';
 import { keepSettings, loadSettings, type Settings } from './settings';
 import { LoaderPool } from './stream/pool';
-import { decodedBase64, sourceFor } from './stream/source';
+import { decodedBase64, sourceFor, WalkSource } from './stream/source';
 import { Controls } from './ui/controls';
 import { Minimap } from './ui/minimap';
 import { Messages } from './ui/messages';
@@ -33,11 +33,11 @@ class Page {
   private unbakedTold = 0;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
-  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool, planner: Planner) {
+  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool, planner: Planner, walk: WalkSource | undefined) {
     const controls: Controls = new Controls(
       canvas, (dx, dy) => this.walk.look(dx, dy), () => this.walk.wake(), (key) => this.command(key, controls),
     );
-    this.walk = new Walk(canvas, gl, bundle, settings, pool, planner, () => controls.takeMovement(), {
+    this.walk = new Walk(canvas, gl, bundle, settings, pool, planner, walk, () => controls.takeMovement(), {
       drawn: () => this.drawn(),
       failed: () => this.failed(),
       stopped: () => this.keepAddress(),
@@ -134,7 +134,7 @@ class Page {
     const { walk } = this, { facts, pose } = walk;
     const region = walk.region;
     const storey = walk.bundle.storeys.length > 1 ? `${walk.current.name}, ` : '';
-    element('place').textContent = `${storey}region ${region + 1} of ${walk.current.regions.length}` + (walk.loading > 0 ? ', loading …' : '');
+    element('place').textContent = `${storey}region ${region < 0 ? 'outside' : walk.current.regions[region].number + 1} of ${walk.current.regionCount}` + (walk.loading > 0 ? ', loading …' : '');
     const times = walk.times.summary;
     if (times)
       element('times').textContent =
@@ -172,13 +172,14 @@ class Page {
 }
 
 async function open(): Promise<void> {
-  const source = sourceFor(kIndexName);
+  const source = await sourceFor(kIndexName);
   const gl = openGraphics();
   const module = await WebAssembly.compile(decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1)) as BufferSource);
   const index = await source.text(kIndexName);
   const bundle = readIndex(index);
   const pool = new LoaderPool(source, { module, index }, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
-  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI), gl, pool, new Planner(module, index));
+  const walk = source instanceof WalkSource ? source : undefined;
+  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI), gl, pool, new Planner(module, index), walk);
 }
 
 open().catch((error: unknown) => {

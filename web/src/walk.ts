@@ -1,5 +1,6 @@
 /** The walk: where the eye is, what is loaded for it, and when a frame is drawn. Knows the canvas and no other element. */
 
+import { readIndex } from './bundle/read_index';
 import type { Bundle, Storey } from './bundle/types';
 import { chooseCover, RegionIndex } from './geometry/regions';
 import { viewAt, type Pose, type View } from './geometry/view';
@@ -7,6 +8,7 @@ import type { Planner } from './engine/planner';
 import { Renderer, type FrameFacts } from './render/renderer';
 import type { Settings } from './settings';
 import type { LoaderPool } from './stream/pool';
+import type { WalkSource } from './stream/source';
 import { Stream, type Failure } from './stream/stream';
 import { camerasInOrder } from './stream/wanted';
 import { FrameTimes } from './ui/frame_times';
@@ -47,14 +49,20 @@ export class Walk {
   private velocity: [number, number] = [0, 0];
   private movingScale = 1;
   private lost = false;
+  private own: readonly boolean[] | undefined; // regions of the index's page that is open: for others there is another page
+  private openPage: number | undefined;
+  private turning = 0; // to other pages
+  private turns: Promise<void> = Promise.resolve();
 
   constructor(
-    private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext, readonly bundle: Bundle,
+    private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext, public bundle: Bundle,
     readonly settings: Settings, private readonly pool: LoaderPool,
-    private readonly planner: Planner, private readonly movement: () => Movement,
+    private readonly planner: Planner, private readonly source: WalkSource | undefined, private readonly movement: () => Movement,
     private readonly events: { drawn: () => void; failed: () => void; stopped: () => void },
   ) {
     this.storey = bundle.storey;
+    this.own = source?.first.own;
+    this.openPage = source?.first.at;
     this.index = this.indexOf(this.storey);
     this.pose = this.startPose();
     this.renderer = new Renderer(gl, bundle, planner);
@@ -80,7 +88,7 @@ export class Walk {
   }
   /** Is all drawn and loaded that is worth having here? */
   get resting(): boolean {
-    return !this.dirty && !this.pending && this.stream.loading === 0;
+    return !this.dirty && !this.pending && this.stream.loading === 0 && this.turning === 0;
   }
   get bytes(): number {
     return this.stream.bytes;
@@ -118,6 +126,17 @@ export class Walk {
 
   /** To a place, or the nearest one where one may stand. */
   go(pose: Pose, storey = this.storey): void {
+    const place: [number, number] = [pose.eye[0], pose.eye[1]];
+    if (this.source && (storey !== this.storey || !this.isOwn(this.index.regionAt(place)))) {
+      void this.turnTo(storey, place).then(() => {
+        if (this.bundle.storeys[storey].regions.length > 0) this.stand(pose, storey); // else its page could not be had
+      });
+      return;
+    }
+    this.stand(pose, storey);
+  }
+
+  private stand(pose: Pose, storey: number): void {
     if (storey !== this.storey) {
       this.storey = storey;
       this.index = this.indexOf(storey);
@@ -128,6 +147,36 @@ export class Walk {
     const [x, y] = this.index.nearestStanding([pose.eye[0], pose.eye[1]]);
     this.pose = { eye: [x, y, this.current.eyeZ], yaw: pose.yaw, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, pose.pitch)) };
     this.redraw();
+  }
+
+  private isOwn = (region: number): boolean => region >= 0 && (this.own?.[region] ?? true);
+
+  /** To the page of a walk's index that tells of a place; one turn after another. */
+  private turnTo(storey: number, place: [number, number]): Promise<void> {
+    ++this.turning;
+    return (this.turns = this.turns.then(() => this.turn(storey, place)).finally(() => --this.turning));
+  }
+
+  private async turn(storey: number, place: [number, number]): Promise<void> {
+    try {
+      const page = await this.source!.walk.pageAt(storey, place);
+      if (page.at === this.openPage) return;
+      const bundle = readIndex(page.text);
+      this.planner.open(page.text);
+      const last = this.lastRegion < 0 ? -1 : this.current.regions[this.lastRegion].number;
+      this.bundle = bundle;
+      this.own = page.own;
+      this.openPage = page.at;
+      this.indices.clear();
+      if (storey !== this.storey) return; // there is no stream of it yet
+      this.index = this.indexOf(storey);
+      this.lastRegion = bundle.storeys[storey].regions.findIndex((region) => region.number === last);
+      this.stream.showPage(this.current);
+      this.redraw();
+    } catch (error) {
+      this.failures.set('index', { file: 'the index', reason: (error as Error).message });
+      this.events.failed();
+    }
   }
 
   /** Turned by a drag of so many pixels: what is under the pointer stays there. */
@@ -183,6 +232,7 @@ export class Walk {
     const full = this.settings.quality !== 'coarse';
     const waiting = this.firstPicture === undefined;
     this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData(), waiting });
+    if (this.source && this.turning === 0 && region >= 0 && !this.isOwn(region)) void this.turnTo(this.storey, [eye[0], eye[1]]);
     if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving);
     if (moving || (this.dirty && !this.pending)) this.schedule();
   }
@@ -242,7 +292,7 @@ export class Walk {
     this.drawing = { width: view.width, height: view.height };
     this.facts = this.renderer.draw(
       {
-        storey: this.storey, region, captureOf: (camera) => this.stream.capture(camera),
+        number: this.storey, storey: this.current, region, captureOf: (camera) => this.stream.capture(camera),
         mayCome: (camera) => this.stream.mayCome(camera), local: this.stream.local(region),
       },
       view,

@@ -14,7 +14,7 @@ const noModule = new Promise<Readers>(() => {}); // textures need none
 
 async function load(bytes: Uint8Array, width: number, height: number) {
   const file = { file: 'textures/a.png', bytes: bytes.length, hash: await contentHash(bytes) };
-  return loadFile({ id: 1, task: { kind: 'texture', width, height }, file, url: undefined, bytes, again: false }, noModule);
+  return loadFile({ id: 1, task: { kind: 'texture', width, height }, file, url: undefined, from: undefined, bytes, again: false }, noModule);
 }
 
 describe('a texture', () => {

@@ -42,3 +42,14 @@ it('answers 304 to who has the file, until it changes', async () => {
   expect(changed.status).toBe(200);
   expect(await changed.text()).toBe('another page');
 });
+
+it('sends parts of files', async () => {
+  const part = async (range) => {
+    const response = await fetch(`${at}/index.html`, { headers: { Range: range } });
+    return [response.status, await response.text(), response.headers.get('Content-Range')];
+  };
+  expect(await part('bytes=1-2')).toEqual([206, 'ag', 'bytes 1-2/4']);
+  expect(await part('bytes=2-')).toEqual([206, 'ge', 'bytes 2-3/4']);
+  expect(await part('bytes=2-90')).toEqual([206, 'ge', 'bytes 2-3/4']);
+  expect(await part('bytes=4-5')).toEqual([416, '', 'bytes */4']);
+});

@@ -3,7 +3,7 @@ import type { CameraRef, Region, Storey } from '../src/bundle/types';
 import { chooseCover, RegionIndex } from '../src/geometry/regions';
 import type { Vec2 } from '../src/geometry/vector';
 import { Cache } from '../src/stream/cache';
-import { keyOf, regionsAhead, wantedItems, type Item, type Viewer } from '../src/stream/wanted';
+import { keyOf, regionsAhead, wantedItems, type Item, type Name, type Viewer } from '../src/stream/wanted';
 
 /** A row of square regions along x, each with a camera of its own to the east and one to the west. */
 function row(count: number, outline: Storey['outline'] = []): Storey {
@@ -11,21 +11,21 @@ function row(count: number, outline: Storey['outline'] = []): Storey {
   const cameras: CameraRef[] = [];
   const regions: Region[] = Array.from({ length: count }, (_, n) => {
     for (const middle of [0, Math.PI])
-      cameras.push({ position: [2 * n + 1, 1], middle, full: file(`f${cameras.length}`), coarse: file(`c${cameras.length}`) });
+      cameras.push({ number: cameras.length, position: [2 * n + 1, 1], middle, full: file(`f${cameras.length}`), coarse: file(`c${cameras.length}`) });
     const polygon: Vec2[] = [[2 * n, 0], [2 * n + 2, 0], [2 * n + 2, 2], [2 * n, 2]];
     return {
-      polygon, grown: polygon, panoramas: [],
+      number: n, polygon, panoramas: [],
       neighbours: [n - 1, n + 1].filter((m) => m >= 0 && m < count),
       covers: [
-        { hand: 'counterClockwise', pieces: [{ camera: 2 * n, clip: undefined, roles: 1 }] },
-        { hand: 'clockwise', pieces: [{ camera: 2 * n + 1, clip: undefined, roles: 1 }] },
+        { hand: 'counterClockwise', pieces: [{ camera: 2 * n }] },
+        { hand: 'clockwise', pieces: [{ camera: 2 * n + 1 }] },
       ],
       local: { file: `regions/${n}.local`, bytes: 10, hash: '0'.repeat(32), triangles: 10 },
     };
   });
   return {
     name: 'floor', eyeZ: 1.6, nearBand: 1, start: { position: [1, 1], yaw: 0 }, outline, cameras, regions,
-    topElevation: 1, bottomElevation: -1,
+    topElevation: 1, bottomElevation: -1, regionCount: count,
   };
 }
 const viewer = (change: Partial<Viewer> = {}): Viewer => ({ eye: [9, 1], yaw: 0, velocity: [0, 0], region: 4, full: true, saving: false, ...change });
@@ -90,7 +90,7 @@ describe('what is loaded', () => {
     expect(keys(wantedItems(storey, viewer({ full: false }))).some((key) => key.startsWith('full'))).toBe(false);
   });
   it('takes the full capture in place of a coarse one that cannot be had', () => {
-    const failed = (item: Item) => keyOf(item) === 'coarse/8';
+    const failed = (item: Name) => keyOf(item) === 'coarse/8';
     expect(keys(wantedItems(storey, viewer({ full: false }), failed)).slice(0, 2)).toEqual(['full/8', 'coarse/9']);
   });
 });
@@ -100,7 +100,7 @@ describe('memory', () => {
     const dropped: string[] = [];
     return { cache: new Cache<string>((value) => dropped.push(value)), dropped };
   };
-  const item = (number: number): Item => ({ grade: 'full', number });
+  const item = (number: number): Item => ({ grade: 'full', number, file: { file: '', bytes: 1, hash: '' }, place: [number, 0], bytes: 10 });
   const plan = (cache: Cache<string>, wanted: number[], needed: number, limit: number) =>
     cache.plan(wanted.map(item), needed, limit, () => 10, (one) => one.number).map((one) => one.number);
 

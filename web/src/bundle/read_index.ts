@@ -11,7 +11,7 @@ export const kIndexName = 'bundle.json';
 const kFormat = 'acentric bundle';
 const kVersion = 3;
 const kToneCurve = 'acentric neutral 1';
-const kMost = 1 << 20; // of anything in a list
+const kMost = 1 << 24; // of anything in a list
 const kLargestFile = 2 ** 31;
 
 /** Says where: file and JSON pointer. */
@@ -85,7 +85,7 @@ function fileRef(at: At): FileRef {
   if (!/^[\w-]+(\/[\w-]+)*\.[\w.]+$/.test(file) || file.includes('..')) at.get('file').fail(`"${file}" is no file of the bundle`);
   const hash = at.get('hash').text();
   if (!/^[0-9a-f]{32}$/.test(hash)) at.get('hash').fail('32 hexadecimal digits belong here');
-  return { file, hash, bytes: at.get('bytes').integer(1, kLargestFile) };
+  return { file, hash, bytes: at.get('bytes').integer(1, kLargestFile), at: at.get('at').optional((n) => n.integer(0, 2 ** 53 - 1)) };
 }
 
 const captureRef = (at: At): CaptureRef => ({
@@ -95,7 +95,8 @@ const captureRef = (at: At): CaptureRef => ({
 
 const localRef = (at: At): LocalRef => ({ ...fileRef(at), triangles: at.get('triangles').integer(0, 2 ** 31) });
 
-const cameraRef = (at: At): CameraRef => ({
+const cameraRef = (at: At, own: number): CameraRef => ({
+  number: at.get('number').optional((n) => n.integer(0, kMost)) ?? own,
   position: at.get('position').vec2(),
   middle: at.get('lowAzimuth').number() + 0.5 * at.get('fov').number(0, Math.PI + 1e-6),
   full: at.get('full').optional(captureRef),
@@ -111,7 +112,8 @@ const cover = (at: At, cameras: number): Cover => ({
   pieces: at.get('pieces').list().map((one) => piece(one, cameras)),
 });
 
-const region = (at: At, cameras: number, regions: number): Region => ({
+const region = (at: At, own: number, cameras: number, regions: number): Region => ({
+  number: at.get('number').optional((n) => n.integer(0, kMost)) ?? own,
   polygon: polygon(at.get('polygon')),
   neighbours: at.get('neighbours').list().map((one) => one.integer(0, regions - 1)),
   covers: at.get('covers').list(1).map((one) => cover(one, cameras)),
@@ -120,10 +122,11 @@ const region = (at: At, cameras: number, regions: number): Region => ({
 });
 
 function storey(at: At): Storey {
-  const cameras = at.get('cameras').list(1), regions = at.get('regions').list(1);
+  const cameras = at.get('cameras').list(), regions = at.get('regions').list(); // of a walk those of one page
   const limit = Math.PI / 2;
   const extreme = (name: string, of: (a: number, b: number) => number) =>
-    cameras.map((camera) => camera.get(name).number(-limit, limit)).reduce((a, b) => of(a, b));
+    at.get(name).optional((n) => n.number(-limit, limit)) ??
+    cameras.map((camera) => camera.get(name).number(-limit, limit)).reduce((a, b) => of(a, b), 0);
   return {
     name: at.get('name').text(),
     eyeZ: at.get('eyeZ').number(),
@@ -133,7 +136,8 @@ function storey(at: At): Storey {
     topElevation: extreme('topElevation', Math.max),
     bottomElevation: extreme('bottomElevation', Math.min),
     cameras: cameras.map(cameraRef),
-    regions: regions.map((one) => region(one, cameras.length, regions.length)),
+    regions: regions.map((one, own) => region(one, own, cameras.length, regions.length)),
+    regionCount: at.get('regionCount').optional((n) => n.integer(0, kMost)) ?? regions.length,
   };
 }
 
@@ -196,6 +200,7 @@ export function readIndex(text: string): Bundle {
   const storeys = at.get('storeys').list(1), textures = at.get('textures').list();
   const sky = at.get('sky');
   const bounds = at.get('bounds').optional((box) => ({ min: box.get('min').vec3(), max: box.get('max').vec3() }));
+  if (storeys.every((one) => one.get('regions').list().length === 0)) storeys[0].get('regions').fail('there is no region to stand in');
   return {
     name: at.get('name').text(),
     exposure: at.get('exposure').number(0),

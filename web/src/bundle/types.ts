@@ -7,6 +7,7 @@ export interface FileRef {
   file: string; // relative to bundle.json
   bytes: number;
   hash: string; // XXH3-128 of the file
+  at?: number; // in a walk: where it begins among the data
 }
 
 export interface CaptureRef extends FileRef {
@@ -14,6 +15,7 @@ export interface CaptureRef extends FileRef {
 }
 
 export interface CameraRef {
+  number: number; // of all of the storey's
   middle: number; // azimuth that it looks to
   position: Vec2;
   full: CaptureRef | undefined;
@@ -36,6 +38,7 @@ export interface LocalRef extends FileRef {
 }
 
 export interface Region {
+  number: number; // of all of the storey's
   polygon: Polygon; // where the eye stands
   neighbours: number[];
   covers: Cover[];
@@ -58,6 +61,7 @@ export interface Storey {
   topElevation: number; // of its captures: what lies steeper is the sky
   bottomElevation: number;
   regions: Region[];
+  regionCount: number; // of all of the storey's
 }
 
 export interface TextureUse {

@@ -56,7 +56,13 @@ export class Planner {
 
   /** `index`: bundle.json. */
   constructor(module: WebAssembly.Module, index: string) {
-    const engine = (this.engine = new EngineModule<Functions>(module));
+    this.engine = new EngineModule<Functions>(module);
+    this.open(index);
+  }
+
+  /** Another part of the same walk: captures stay. */
+  open(index: string): void {
+    const { engine } = this;
     engine.guarded(() => {
       engine.give(engine.call.takeBytes, new TextEncoder().encode(index));
       if (engine.call.openIndex() === 0) throw new DamagedFile(engine.message);

@@ -28,7 +28,8 @@ export interface GpuCapture {
 }
 
 export interface Scene {
-  storey: number;
+  number: number; // of the storey
+  storey: Storey;
   region: number;
   /** The best that is loaded of a camera. */
   captureOf: (camera: number) => GpuCapture | undefined;
@@ -103,7 +104,7 @@ export class Renderer {
 
   /** Draws the view and shows it on the canvas, scaled to it. `loudHoles`: they are not filled, but shown. */
   draw(scene: Scene, view: View, loudHoles: boolean): FrameFacts {
-    const { gl, target } = this, storey = this.bundle.storeys[scene.storey];
+    const { gl, target } = this, { storey } = scene;
     this.nearBand = storey.nearBand;
     const facts: FrameFacts = { patches: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
     const used: [number, number][] = [];
@@ -132,7 +133,7 @@ export class Renderer {
 
   /** Returns whether mirrors of local geometry are marked. */
   private drawCaptures(scene: Scene, view: View, used: [number, number][], facts: FrameFacts): boolean {
-    const plan = this.planner.plan(scene.storey, scene.region, view, used);
+    const plan = this.planner.plan(scene.number, scene.region, view, used);
     if (!plan) return false;
     for (const background of plan.backgrounds) this.drawCaptured(background, view);
     const marked = plan.mirrors && scene.local !== undefined && scene.local.geometry.mirrors;

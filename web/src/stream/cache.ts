@@ -1,7 +1,6 @@
 /** What is loaded, within a limit of memory. Eviction takes what the eye is farthest from; what the picture needs stays. */
 
-import type { Item } from './wanted';
-import { keyOf } from './wanted';
+import { keyOf, type Item, type Name } from './wanted';
 
 export interface Entry<Value> {
   item: Item;
@@ -21,10 +20,10 @@ export class Cache<Value> {
   get size(): number {
     return this.entries.size;
   }
-  get(item: Item): Value | undefined {
+  get(item: Name): Value | undefined {
     return this.entries.get(keyOf(item))?.value;
   }
-  has(item: Item): boolean {
+  has(item: Name): boolean {
     return this.entries.has(keyOf(item));
   }
   values(): Value[] {
@@ -37,7 +36,7 @@ export class Cache<Value> {
     this.sum += bytes;
   }
 
-  remove(item: Item): void {
+  remove(item: Name): void {
     const entry = this.entries.get(keyOf(item));
     if (!entry) return;
     this.entries.delete(keyOf(item));

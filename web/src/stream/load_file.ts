@@ -6,14 +6,16 @@ import type { LocalReader } from '../engine/local_reader';
 import type { PackReader } from '../engine/pack_reader';
 import type { Loaded, Request } from './messages';
 
-async function fetched(url: string, file: FileRef, again: boolean): Promise<Uint8Array> {
+async function fetched(url: string, file: FileRef, from: number | undefined, again: boolean): Promise<Uint8Array> {
   let response: Response;
+  const headers = from === undefined ? undefined : { Range: `bytes=${from}-${from + file.bytes - 1}` };
   try {
-    response = await fetch(url, { cache: again ? 'reload' : 'default' });
+    response = await fetch(url, { cache: again ? 'reload' : 'default', headers });
   } catch {
     throw new DamagedFile('the server does not answer');
   }
   if (response.status === 404) throw new DamagedFile('it is missing on the server');
+  if (headers && response.status === 200) throw new DamagedFile('the server does not send parts of files (HTTP range requests)');
   if (!response.ok) throw new DamagedFile(`the server answers ${response.status}`);
   const declared = Number(response.headers.get('Content-Length') ?? 0);
   if (declared > 4 * file.bytes + 65536) throw new DamagedFile('it is far larger than the index says');
@@ -43,7 +45,7 @@ export interface Readers {
 
 export async function loadFile(request: Request, readers: Promise<Readers>): Promise<Loaded> {
   const { task, file } = request;
-  const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.again)), file);
+  const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.from, request.again)), file);
   if (task.kind === 'capture') return { kind: 'capture', capture: await (await readers).packs.read(bytes, task.exposure) };
   if (task.kind === 'local') return { kind: 'local', local: (await readers).locals.read(bytes, task.origin) };
   checkPictureSize(bytes, task.width, task.height);

@@ -21,6 +21,7 @@ export interface Request {
   task: Task;
   file: FileRef;
   url: string | undefined; // absolute; undefined: `bytes` has the file
+  from: number | undefined; // of a walk: where the file begins in it
   bytes: Uint8Array | undefined;
   again: boolean; // past what caches say
 }

@@ -40,7 +40,7 @@ export class LoaderPool {
     ++entry.busy;
     const id = this.next++;
     const bytes = this.source.bytes(file.file);
-    const request: Request = { id, task, file, url: this.source.url(file.file), bytes, again };
+    const request: Request = { id, task, file, url: this.source.url(file.file), from: this.source.from(file), bytes, again };
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve, reject });
       entry.worker.postMessage(request, bytes ? [bytes.buffer] : []);

@@ -1,6 +1,11 @@
-/** Where the bundle's files are: beside the page, or within it (export --single-file). */
+/** Where the bundle's files are: beside the page, within it (export --single-file), or in a walk. */
+
+import type { FileRef } from '../bundle/types';
+import { rangesOf, WalkFile, type WalkPage } from '../bundle/walk_file';
 
 export interface Source {
+  /** Where a file begins in the walk that holds all of them; undefined: it is one itself. */
+  from(file: FileRef): number | undefined;
   text(file: string): Promise<string>;
   /** Absolute address of a file; undefined: `bytes` has it. */
   url(file: string): string | undefined;
@@ -18,6 +23,7 @@ export function decodedBase64(base64: string): Uint8Array {
 class WithinPage implements Source {
   text = async (file: string) => new TextDecoder().decode(this.bytes(file));
   url = () => undefined;
+  from = () => undefined;
   bytes(file: string): Uint8Array {
     const element = elementOf(file);
     return element ? decodedBase64((element.textContent ?? '').trim()) : new Uint8Array(0);
@@ -42,6 +48,30 @@ class BesidePage implements Source {
   }
   url = (file: string) => new URL(file, document.baseURI).href;
   bytes = () => undefined;
+  from = () => undefined;
 }
 
-export const sourceFor = (index: string): Source => (elementOf(index) ? new WithinPage() : new BesidePage());
+/** One file that is read by ranges. */
+export class WalkSource implements Source {
+  private constructor(private readonly address: string, readonly walk: WalkFile, readonly first: WalkPage) {}
+
+  static async open(address: string): Promise<WalkSource> {
+    try {
+      const walk = await WalkFile.open(rangesOf(address));
+      return new WalkSource(address, walk, await walk.firstPage());
+    } catch (error) {
+      throw new Error(`${address}: ${(error as Error).message}`);
+    }
+  }
+  text = (): Promise<string> => Promise.resolve(this.first.text);
+  url = () => this.address;
+  bytes = () => undefined;
+  from = ({ at }: FileRef) => (at === undefined ? undefined : this.walk.dataStart + at);
+}
+
+/** The walk that the page's address names (?walk=FILE), or the bundle within the page or beside it. */
+export async function sourceFor(index: string): Promise<Source> {
+  const walk = new URLSearchParams(location.search).get('walk');
+  if (walk !== null) return WalkSource.open(new URL(walk, document.baseURI).href);
+  return elementOf(index) ? new WithinPage() : new BesidePage();
+}

@@ -2,15 +2,12 @@
 
 import { bytesOfLocal } from '../engine/local_reader';
 import type { Bundle, FileRef, Storey } from '../bundle/types';
-import { centroid, distanceTo } from '../geometry/polygon';
 import { distance2 } from '../geometry/vector';
 import type { GpuLocal } from '../render/local_pass';
 import type { GpuCapture, Renderer } from '../render/renderer';
 import { Cache } from './cache';
 import type { LoaderPool } from './pool';
 import { camerasInOrder, keyOf, wantedItems, type Item, type Viewer } from './wanted';
-
-const kSampleBytes = 12 /* of texels, with the borders of patches */, kTriangleBytes = 3 * 64; // on the graphics card, about
 
 type Held = { kind: 'capture'; gpu: GpuCapture } | { kind: 'local'; gpu: GpuLocal };
 
@@ -33,7 +30,7 @@ export class Stream {
   limit = 1 << 30; // bytes
 
   constructor(
-    private readonly bundle: Bundle, private readonly storey: Storey, private readonly renderer: Renderer,
+    private readonly bundle: Bundle, private storey: Storey, private readonly renderer: Renderer,
     private readonly pool: LoaderPool, private readonly changed: () => void, private readonly failed: (failure: Failure) => void,
   ) {
     pool.onRoom = () => this.pump(); // whether what came was for this stream or one before it
@@ -49,13 +46,13 @@ export class Stream {
 
   /** The best of a camera that is there. */
   capture(camera: number): GpuCapture | undefined {
-    const of = (grade: 'full' | 'coarse') => this.cache.get({ grade, number: camera });
+    const of = (grade: 'full' | 'coarse') => this.cache.get({ grade, number: this.storey.cameras[camera].number });
     const held = of('full') ?? of('coarse');
     return held?.kind === 'capture' ? held.gpu : undefined;
   }
-  isFull = (camera: number) => this.cache.has({ grade: 'full', number: camera });
+  isFull = (camera: number) => this.cache.has({ grade: 'full', number: this.storey.cameras[camera].number });
   local(region: number): GpuLocal | undefined {
-    const held = this.cache.get({ grade: 'local', number: region });
+    const held = this.cache.get({ grade: 'local', number: this.storey.regions[region].number });
     return held?.kind === 'local' ? held.gpu : undefined;
   }
 
@@ -63,26 +60,18 @@ export class Stream {
   mayCome(camera: number): boolean {
     const renditions = this.storey.cameras[camera];
     return (['coarse', 'full'] as const).some(
-      (grade) => renditions[grade] !== undefined && !this.failedItems.has(keyOf({ grade, number: camera })),
+      (grade) => renditions[grade] !== undefined && !this.failedItems.has(keyOf({ grade, number: renditions.number })),
     );
   }
 
-  fileOf(item: Item): FileRef {
-    return item.grade === 'local' ? this.storey.regions[item.number].local! : this.storey.cameras[item.number][item.grade]!;
-  }
-
   /** What it took when it was there; were only the guess believed, what does not quite fit would come and go for ever. */
-  private bytesOf(item: Item): number {
-    const known = this.measured.get(keyOf(item));
-    if (known !== undefined) return known;
-    if (item.grade === 'local') return this.storey.regions[item.number].local!.triangles * kTriangleBytes;
-    return this.storey.cameras[item.number][item.grade]!.samples * kSampleBytes;
-  }
+  private bytesOf = (item: Item): number => this.measured.get(keyOf(item)) ?? item.bytes;
+  private distanceOf = (item: Item): number => distance2(item.place, this.viewer!.eye);
 
-  private distanceOf(item: Item): number {
-    const { eye } = this.viewer!;
-    if (item.grade === 'local') return distanceTo(this.storey.regions[item.number].polygon, eye);
-    return distance2(this.storey.cameras[item.number].position, eye);
+  /** The same storey, of which the index tells of other parts now. */
+  showPage(storey: Storey): void {
+    this.storey = storey;
+    this.viewer = undefined; // until it knows its region there
   }
 
   /** After the eye has moved, or settings have changed. */
@@ -97,7 +86,7 @@ export class Stream {
     const wanted = wantedItems(this.storey, viewer, (item) => this.failedItems.has(keyOf(item)));
     // What the picture cannot do without: one capture of each camera, and what is near.
     const needed = new Set(camerasInOrder(this.storey, viewer.region, viewer.eye, viewer.yaw)).size + 1;
-    const missing = this.cache.plan(wanted, needed, this.limit, (item) => this.bytesOf(item), (item) => this.distanceOf(item));
+    const missing = this.cache.plan(wanted, needed, this.limit, this.bytesOf, this.distanceOf);
     for (const item of missing) {
       if (this.pool.room === 0) break;
       if (!this.underWay.has(keyOf(item))) void this.fetch(item);
@@ -105,7 +94,7 @@ export class Stream {
   }
 
   private async fetch(item: Item): Promise<void> {
-    const key = keyOf(item), file = this.fileOf(item);
+    const key = keyOf(item), { file } = item;
     this.underWay.add(key);
     try {
       if (item.grade === 'local') await this.fetchLocal(item, file);
@@ -126,7 +115,7 @@ export class Stream {
   }
 
   private async fetchLocal(item: Item, file: FileRef): Promise<void> {
-    const [x, y] = centroid(this.storey.regions[item.number].polygon);
+    const [x, y] = item.place;
     const { materials } = this.bundle;
     const loaded = await this.pool.load({ kind: 'local', origin: [x, y, this.storey.eyeZ] }, file, this.retrying);
     if (loaded.kind !== 'local') return;

@@ -3,7 +3,7 @@
  * the eye has moved, something has come, or failed.
  */
 
-import type { Storey } from '../bundle/types';
+import type { FileRef, Storey } from '../bundle/types';
 import { distanceTo, centroid } from '../geometry/polygon';
 import { camerasOf, coversFor } from '../geometry/regions';
 import { directionOf, dot2, subtract2, type Vec2 } from '../geometry/vector';
@@ -11,12 +11,17 @@ import { directionOf, dot2, subtract2, type Vec2 } from '../geometry/vector';
 export type Grade = 'coarse' | 'full' | 'local';
 
 /** A capture of a camera, or the local geometry of a region. */
-export interface Item {
+export interface Name {
   grade: Grade;
-  number: number; // of the camera, or of the region
+  number: number; // of the camera, or of the region, in all of its storey
+}
+export interface Item extends Name {
+  file: FileRef;
+  place: Vec2; // where it belongs
+  bytes: number; // on the graphics card, about
 }
 
-export const keyOf = (item: Item): string => `${item.grade}/${item.number}`;
+export const keyOf = (item: Name): string => `${item.grade}/${item.number}`;
 
 export interface Viewer {
   eye: Vec2;
@@ -27,6 +32,9 @@ export interface Viewer {
   saving: boolean; // the viewer pays for each byte, or asked to save them
   waiting?: boolean; // nothing is shown yet
 }
+
+/** On the graphics card, about: a sample with the borders of patches; a triangle. */
+const kSampleBytes = 12, kTriangleBytes = 3 * 64;
 
 /** Beyond this nothing is loaded ahead, metres from the eye in cell sizes of its region. */
 const kReach = 2.5;
@@ -76,20 +84,25 @@ export function camerasInOrder(storey: Storey, number: number, eye: Vec2, yaw: n
 const kNext = 2;
 
 /** Everything worth having at this place, most urgent first; not what cannot be had. */
-export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Item) => boolean = () => false): Item[] {
+export function wantedItems(storey: Storey, viewer: Viewer, failed: (item: Name) => boolean = () => false): Item[] {
   if (viewer.region < 0) return [];
   const items: Item[] = [];
   const seen = new Set<string>();
   const add = (grade: Grade, number: number) => {
-    const there = grade === 'local' ? storey.regions[number].local : storey.cameras[number][grade];
-    const item: Item = { grade, number };
-    if (there === undefined || seen.has(keyOf(item)) || failed(item)) return;
-    seen.add(keyOf(item));
-    items.push(item);
+    const region = storey.regions[number], camera = storey.cameras[number];
+    const name: Name = { grade, number: grade === 'local' ? region.number : camera.number };
+    if (seen.has(keyOf(name)) || failed(name)) return;
+    seen.add(keyOf(name));
+    if (grade === 'local') {
+      if (region.local) items.push({ ...name, file: region.local, place: centroid(region.polygon), bytes: region.local.triangles * kTriangleBytes });
+    } else {
+      const file = camera[grade];
+      if (file) items.push({ ...name, file, place: camera.position, bytes: file.samples * kSampleBytes });
+    }
   };
   /** Where there is no coarse capture the full one takes its place. */
   const addCoarse = (camera: number) => {
-    const coarse = storey.cameras[camera].coarse !== undefined && !failed({ grade: 'coarse', number: camera });
+    const coarse = storey.cameras[camera].coarse !== undefined && !failed({ grade: 'coarse', number: storey.cameras[camera].number });
     add(coarse ? 'coarse' : 'full', camera);
   };
   const own = camerasInOrder(storey, viewer.region, viewer.eye, viewer.yaw);
