@@ -34,7 +34,7 @@ acentric_samples samplesOf(const DisplayCapture& capture) {
 template <class Body>
 acentric_status forLoaded(acentric_bundle* bundle, int32_t storey, int32_t region, const void* out,
                           const Body& body) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (out == nullptr || !within(storey, storeys.size()) ||
         !within(region, storeys[std::size_t(storey)].local.size()))
@@ -61,7 +61,7 @@ bool has(const std::vector<Item>& items, int32_t number, const void* out) {
 
 acentric_status acentric_get_capture_data(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                           int32_t detail, acentric_capture_data* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (out == nullptr || !within(storey, storeys.size()) ||
         !within(camera, storeys[std::size_t(storey)].cameras.size()) ||
@@ -121,7 +121,7 @@ acentric_status acentric_get_mesh_data(acentric_bundle* bundle, int32_t storey, 
 }
 
 acentric_status acentric_get_texture(acentric_bundle* bundle, int32_t texture, acentric_texture* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (!has(runtime.bundle().textures, texture, out)) return refused(bundle, "no such texture");
     const BundleTexture& from = runtime.bundle().textures[std::size_t(texture)];
     const ColourImage* image = runtime.texture(std::size_t(texture));
@@ -132,7 +132,7 @@ acentric_status acentric_get_texture(acentric_bundle* bundle, int32_t texture, a
 }
 
 acentric_status acentric_get_material(acentric_bundle* bundle, int32_t material, acentric_material* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (!has(runtime.bundle().materials, material, out)) return refused(bundle, "no such material");
     const Material& from = runtime.bundle().materials[std::size_t(material)];
     *out = {};
@@ -149,7 +149,7 @@ acentric_status acentric_get_material(acentric_bundle* bundle, int32_t material,
 }
 
 acentric_status acentric_get_mirror(acentric_bundle* bundle, int32_t plane, acentric_mirror* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (!has(runtime.bundle().mirrors, plane, out)) return refused(bundle, "no such mirror");
     const MirrorPlane& from = runtime.bundle().mirrors[std::size_t(plane)];
     for (int i = 0; i < 3; ++i) out->normal[i] = from.normal[i], out->point[i] = from.point[i];

@@ -26,7 +26,7 @@ acentric_rendition renditionOf(const std::optional<BundleCapture>& capture) {
 }  // namespace
 
 acentric_status acentric_get_info(acentric_bundle* bundle, acentric_info* info) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (info == nullptr) return refused(bundle, "info is NULL");
     const Bundle& from = runtime.bundle();
     *info = {};
@@ -51,7 +51,7 @@ acentric_status acentric_get_info(acentric_bundle* bundle, acentric_info* info) 
 }
 
 acentric_status acentric_get_storey(acentric_bundle* bundle, int32_t storey, acentric_storey* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (out == nullptr || !within(storey, runtime.bundle().storeys.size()))
       return refused(bundle, "no such storey");
     const BundleStorey& from = runtime.bundle().storeys[std::size_t(storey)];
@@ -71,7 +71,7 @@ acentric_status acentric_get_storey(acentric_bundle* bundle, int32_t storey, ace
 
 acentric_status acentric_get_camera(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                     acentric_camera* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (out == nullptr || !within(storey, storeys.size()) ||
         !within(camera, storeys[std::size_t(storey)].cameras.size()))
@@ -91,7 +91,7 @@ acentric_status acentric_get_camera(acentric_bundle* bundle, int32_t storey, int
 
 acentric_status acentric_get_region(acentric_bundle* bundle, int32_t storey, int32_t region,
                                     acentric_region* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (out == nullptr || !within(storey, storeys.size()) ||
         !within(region, storeys[std::size_t(storey)].local.size()))
@@ -109,7 +109,7 @@ acentric_status acentric_get_region(acentric_bundle* bundle, int32_t storey, int
 }
 
 acentric_status acentric_get_bookmark(acentric_bundle* bundle, int32_t bookmark, acentric_bookmark* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (out == nullptr || !within(bookmark, runtime.bundle().bookmarks.size()))
       return refused(bundle, "no such bookmark");
     const BundleBookmark& from = runtime.bundle().bookmarks[std::size_t(bookmark)];
@@ -123,7 +123,7 @@ acentric_status acentric_get_bookmark(acentric_bundle* bundle, int32_t bookmark,
 }
 
 acentric_status acentric_get_path(acentric_bundle* bundle, int32_t path, acentric_path* out) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (out == nullptr || !within(path, runtime.bundle().paths.size()))
       return refused(bundle, "no such path");
     const BundlePath& from = runtime.bundle().paths[std::size_t(path)];
@@ -134,7 +134,7 @@ acentric_status acentric_get_path(acentric_bundle* bundle, int32_t path, acentri
 }
 
 acentric_status acentric_storey_at(acentric_bundle* bundle, const double eye[3], int32_t* storey) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (eye == nullptr || storey == nullptr) return refused(bundle, "eye or storey is NULL");
     *storey = int32_t(runtime.storeyAt({eye[0], eye[1], eye[2]}));
     return kOk;
@@ -143,7 +143,7 @@ acentric_status acentric_storey_at(acentric_bundle* bundle, const double eye[3],
 
 acentric_status acentric_region_at(acentric_bundle* bundle, int32_t storey, const double place[2],
                                    int32_t* region) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (place == nullptr || region == nullptr || !within(storey, storeys.size()))
       return refused(bundle, "no such storey, or NULL");
@@ -154,7 +154,7 @@ acentric_status acentric_region_at(acentric_bundle* bundle, int32_t storey, cons
 }
 
 acentric_status acentric_clamp(acentric_bundle* bundle, int32_t storey, double place[2]) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (place == nullptr || !within(storey, storeys.size()))
       return refused(bundle, "no such storey, or NULL");

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "engine/capi/acentric_runtime.h"
-#include "engine/capi/runtime.h"
+#include "engine/export/bundle_player.h"
 
 struct acentric_bundle {
-  acentric::Runtime runtime;
+  acentric::BundlePlayer runtime;
   bool open = false;
   std::string message;
   std::vector<std::vector<acentric_pose>> poses;  ///< by path

@@ -182,7 +182,7 @@ const char* acentric_message(const acentric_bundle* bundle) {
 }
 
 acentric_status acentric_set_threads(acentric_bundle* bundle, int32_t threads) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     constexpr int32_t kMost = 1024;
     if (threads < 1 || threads > kMost) return refused(bundle, "threads: 1 to 1024");
     runtime.setThreads(threads);

@@ -20,10 +20,10 @@ acentric_status failedView(acentric_bundle& bundle, const Error& error) {
 struct Wanted {
   PerspectiveView view;
   ViewSettings settings;
-  Runtime::Needs needs;
+  BundlePlayer::Needs needs;
 };
 
-Result<Wanted> wantedOf(const Runtime& runtime, const acentric_view& view,
+Result<Wanted> wantedOf(const BundlePlayer& runtime, const acentric_view& view,
                         const acentric_settings* settings) {
   const auto chosen = settingsOf(runtime.bundle(), settings);
   if (!chosen) return tl::unexpected(chosen.error());
@@ -64,7 +64,7 @@ std::uint32_t rolesOf(const Layout& layout, std::size_t region, int camera) {
 template <class Body>
 acentric_status forCapture(acentric_bundle* bundle, int32_t storey, int32_t camera, int32_t detail,
                            const Body& body) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (!within(storey, storeys.size()) || !within(camera, storeys[std::size_t(storey)].cameras.size()))
       return refused(bundle, "no such camera");
@@ -76,7 +76,7 @@ acentric_status forCapture(acentric_bundle* bundle, int32_t storey, int32_t came
 
 template <class Body>
 acentric_status forRegion(acentric_bundle* bundle, int32_t storey, int32_t region, const Body& body) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     const auto& storeys = runtime.bundle().storeys;
     if (!within(storey, storeys.size()) || !within(region, storeys[std::size_t(storey)].local.size()))
       return refused(bundle, "no such region");
@@ -89,7 +89,7 @@ acentric_status done(acentric_bundle* bundle, const Status& status) {
 }
 
 /// The rendition that serves best; absent where there is none, or enough is loaded.
-Loaded choose(const Runtime& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
+Loaded choose(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
   const BundleCamera& has = runtime.bundle().storeys[storey].cameras[camera];
   if (!has.full && !has.coarse) return Loaded::absent;
   if (detail == Loaded::coarse && runtime.loaded(storey, camera) != Loaded::absent) return Loaded::absent;
@@ -138,7 +138,7 @@ PerspectiveView viewOf(const acentric_view& view) {
 }  // namespace acentric::capi
 
 acentric_status acentric_start_view(acentric_bundle* bundle, acentric_view* view) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (view == nullptr) return refused(bundle, "view is NULL");
     const BundleStorey& storey = runtime.bundle().storeys[std::size_t(runtime.bundle().storey)];
     const auto place = storey.layout.nearestRegion(storey.start).point;
@@ -148,7 +148,7 @@ acentric_status acentric_start_view(acentric_bundle* bundle, acentric_view* view
 }
 
 acentric_status acentric_default_settings(acentric_bundle* bundle, acentric_settings* settings) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (settings == nullptr) return refused(bundle, "settings is NULL");
     const ViewSettings& from = runtime.bundle().view;
     *settings = {ACENTRIC_LIST,      codeOf(from.reconstruction), from.maxSplatPixels,
@@ -160,12 +160,12 @@ acentric_status acentric_default_settings(acentric_bundle* bundle, acentric_sett
 acentric_status acentric_view_needs(acentric_bundle* bundle, const acentric_view* view,
                                     const acentric_settings* settings, acentric_need* list, size_t capacity,
                                     acentric_needs* needs) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (view == nullptr || needs == nullptr || (list == nullptr && capacity > 0))
       return refused(bundle, "view, list or needs is NULL");
     const auto wanted = wantedOf(runtime, *view, settings);
     if (!wanted) return failedView(*bundle, wanted.error());
-    const Runtime::Needs& found = wanted->needs;
+    const BundlePlayer::Needs& found = wanted->needs;
     std::size_t count = 0;
     const auto add = [&](int32_t kind, int number, Loaded loaded, std::uint32_t roles) {
       if (count < capacity) list[count] = {kind, number, int32_t(loaded), roles};
@@ -188,7 +188,7 @@ uint64_t acentric_memory(const acentric_bundle* bundle) {
 }
 
 acentric_status acentric_set_memory_limit(acentric_bundle* bundle, uint64_t bytes) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     runtime.setLimit(bytes);
     return kOk;
   });
@@ -197,7 +197,7 @@ acentric_status acentric_set_memory_limit(acentric_bundle* bundle, uint64_t byte
 acentric_status acentric_load_capture(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                       int32_t detail) {
   return forCapture(bundle, storey, camera, detail,
-                    [&](Runtime& runtime, std::size_t s, std::size_t c, Loaded d) {
+                    [&](BundlePlayer& runtime, std::size_t s, std::size_t c, Loaded d) {
                       return done(bundle, runtime.loadCapture(s, c, d));
                     });
 }
@@ -205,27 +205,27 @@ acentric_status acentric_load_capture(acentric_bundle* bundle, int32_t storey, i
 acentric_status acentric_unload_capture(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                         int32_t detail) {
   return forCapture(bundle, storey, camera, detail,
-                    [](Runtime& runtime, std::size_t s, std::size_t c, Loaded d) {
+                    [](BundlePlayer& runtime, std::size_t s, std::size_t c, Loaded d) {
                       runtime.unloadCapture(s, c, d);
                       return kOk;
                     });
 }
 
 acentric_status acentric_load_region(acentric_bundle* bundle, int32_t storey, int32_t region) {
-  return forRegion(bundle, storey, region, [&](Runtime& runtime, std::size_t s, std::size_t r) {
+  return forRegion(bundle, storey, region, [&](BundlePlayer& runtime, std::size_t s, std::size_t r) {
     return done(bundle, runtime.loadRegion(s, r));
   });
 }
 
 acentric_status acentric_unload_region(acentric_bundle* bundle, int32_t storey, int32_t region) {
-  return forRegion(bundle, storey, region, [](Runtime& runtime, std::size_t s, std::size_t r) {
+  return forRegion(bundle, storey, region, [](BundlePlayer& runtime, std::size_t s, std::size_t r) {
     runtime.unloadRegion(s, r);
     return kOk;
   });
 }
 
 acentric_status acentric_unload_textures(acentric_bundle* bundle) {
-  return guarded(bundle, [](Runtime& runtime) {
+  return guarded(bundle, [](BundlePlayer& runtime) {
     runtime.unloadTextures();
     return kOk;
   });
@@ -233,13 +233,13 @@ acentric_status acentric_unload_textures(acentric_bundle* bundle) {
 
 acentric_status acentric_load_view(acentric_bundle* bundle, const acentric_view* view,
                                    const acentric_settings* settings, int32_t detail) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (view == nullptr) return refused(bundle, "view is NULL");
     if (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL)
       return refused(bundle, "detail: ACENTRIC_COARSE or ACENTRIC_FULL");
     const auto wanted = wantedOf(runtime, *view, settings);
     if (!wanted) return failedView(*bundle, wanted.error());
-    const Runtime::Needs& needs = wanted->needs;
+    const BundlePlayer::Needs& needs = wanted->needs;
     for (const int camera : needs.cameras) {
       const Loaded chosen = choose(runtime, needs.storey, std::size_t(camera), Loaded(detail));
       if (chosen == Loaded::absent) continue;
@@ -253,7 +253,7 @@ acentric_status acentric_load_view(acentric_bundle* bundle, const acentric_view*
 
 acentric_status acentric_render(acentric_bundle* bundle, const acentric_view* view,
                                 const acentric_settings* settings, const acentric_picture* picture) {
-  return guarded(bundle, [&](Runtime& runtime) {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
     if (view == nullptr || picture == nullptr || picture->rgba == nullptr)
       return refused(bundle, "view, picture or its rgba is NULL");
     if (picture->row_bytes > 0 && (view->width < 0 || picture->row_bytes < 4 * std::size_t(view->width)))

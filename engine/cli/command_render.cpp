@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/stopwatch.h"
+#include "engine/cli/bundle_picture.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/frame_pictures.h"
 #include "engine/geometry/conventions.h"
@@ -11,9 +12,30 @@
 namespace acentric::cli {
 namespace {
 
-/// "x,y" or "x,y,z"; z defaults to the eye height of the storey.
-Result<glm::dvec3> parseEye(const std::string& text, const Layout& layout) {
-  glm::dvec3 eye(0, 0, layout.eyeZ());
+/// Where the eye is and where it looks.
+Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProject& open) {
+  if (!options.bookmark.empty()) {
+    const auto bookmark = bookmarkOf(open.project, options.bookmark);
+    if (!bookmark) return tl::unexpected(bookmark.error());
+    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, {});
+  }
+  PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
+                options.yawDegrees    ? radians(*options.yawDegrees)
+                : options.eye.empty() ? open.project.spawn().yawRadians
+                                      : 0,
+                radians(options.pitchDegrees)};
+  if (!options.eye.empty()) {
+    const auto eye = parseEye(options.eye, open.layout->eyeZ());
+    if (!eye) return tl::unexpected(eye.error());
+    pose.eye = *eye;
+  }
+  return viewAt(pose, options.fovDegrees, {});
+}
+
+}  // namespace
+
+Result<glm::dvec3> parseEye(const std::string& text, double eyeZ) {
+  glm::dvec3 eye(0, 0, eyeZ);
   const char* at = text.data();
   const char* const end = at + text.size();
   int count = 0;
@@ -33,28 +55,6 @@ Result<glm::dvec3> parseEye(const std::string& text, const Layout& layout) {
   return eye;
 }
 
-/// Where the eye is and where it looks.
-Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProject& open) {
-  if (!options.bookmark.empty()) {
-    const auto bookmark = bookmarkOf(open.project, options.bookmark);
-    if (!bookmark) return tl::unexpected(bookmark.error());
-    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, {});
-  }
-  PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
-                options.yawDegrees    ? radians(*options.yawDegrees)
-                : options.eye.empty() ? open.project.spawn().yawRadians
-                                      : 0,
-                radians(options.pitchDegrees)};
-  if (!options.eye.empty()) {
-    const auto eye = parseEye(options.eye, *open.layout);
-    if (!eye) return tl::unexpected(eye.error());
-    pose.eye = *eye;
-  }
-  return viewAt(pose, options.fovDegrees, {});
-}
-
-}  // namespace
-
 Result<PictureSize> parseSize(const std::string& text) {
   PictureSize size;
   const auto cross = text.find('x');
@@ -70,6 +70,7 @@ Result<PictureSize> parseSize(const std::string& text) {
 }
 
 Result<Report> runRender(const RenderOptions& options, const Common& common) {
+  if (isBundle(options.project)) return renderBundle(options, common);
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
   const PictureMode mode = pictureModes({{options.mode}}).front();

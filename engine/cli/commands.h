@@ -115,6 +115,8 @@ struct PictureSize {
   int width = 960, height = 540;
 };
 Result<PictureSize> parseSize(const std::string& text);
+/// "x,y" or "x,y,z"; without z at `eyeZ`.
+Result<glm::dvec3> parseEye(const std::string& text, double eyeZ);
 
 /// By which differences from the truth are amplified.
 inline constexpr int kDifferenceGain = 4;

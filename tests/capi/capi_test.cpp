@@ -8,6 +8,7 @@
 
 #include "engine/base/file.h"
 #include "engine/capi/acentric_runtime.h"
+#include "engine/export/walk_write.h"
 #include "tests/export/small_walk.h"
 
 namespace acentric {
@@ -245,6 +246,55 @@ TEST_F(CapiTest, ReadsFromWhereverTheCallerKeepsFiles) {
     if (name.starts_with("captures/")) bytes[bytes.size() / 2] ^= std::byte(1);
   EXPECT_EQ(acentric_load_capture(bundle, 0, 0, ACENTRIC_FULL), ACENTRIC_ERROR_MALFORMED);
   EXPECT_NE(std::string(acentric_message(bundle)).find("captures/"), std::string::npos);
+}
+
+TEST_F(CapiTest, OpensAWalkFromDiskAndByRanges) {
+  const fs::path walk = room / "room.acentric";
+  ASSERT_TRUE(writeWalk(room / "bundle", walk, {3}));
+  const acentric_view view = startView();
+  ASSERT_EQ(acentric_load_view(bundle, &view, nullptr, ACENTRIC_FULL), ACENTRIC_OK);
+  const auto expected = draw(view);
+  acentric_close(bundle);
+  ASSERT_EQ(acentric_open_walk(walk.c_str(), &bundle), ACENTRIC_OK) << acentric_message(bundle);
+  ASSERT_EQ(acentric_load_view(bundle, &view, nullptr, ACENTRIC_FULL), ACENTRIC_OK)
+      << acentric_message(bundle);
+  EXPECT_EQ(draw(view), expected);
+  acentric_close(bundle);
+
+  std::vector<std::byte> bytes = *readFile(walk);
+  acentric_ranges ranges;
+  ranges.user = &bytes;
+  ranges.size = [](void* user, std::uint64_t* size) -> acentric_status {
+    *size = static_cast<std::vector<std::byte>*>(user)->size();
+    return ACENTRIC_OK;
+  };
+  ranges.read = [](void* user, std::uint64_t offset, void* into, std::uint64_t count) -> acentric_status {
+    const auto& from = *static_cast<std::vector<std::byte>*>(user);
+    if (offset > from.size() || count > from.size() - offset) return ACENTRIC_ERROR_UNREADABLE;
+    std::memcpy(into, from.data() + offset, count);
+    return ACENTRIC_OK;
+  };
+  ASSERT_EQ(acentric_open_ranges(&ranges, &bundle), ACENTRIC_OK) << acentric_message(bundle);
+  ASSERT_EQ(acentric_load_view(bundle, &view, nullptr, ACENTRIC_FULL), ACENTRIC_OK);
+  EXPECT_EQ(draw(view), expected);
+  // A damaged range names the capture that lies in it.
+  for (std::byte& byte : std::span(bytes).last(bytes.size() / 2)) byte ^= std::byte(1);
+  int damaged = 0;
+  for (int camera = 0; camera < 4; ++camera) {
+    acentric_unload_capture(bundle, 0, camera, ACENTRIC_FULL);
+    if (acentric_load_capture(bundle, 0, camera, ACENTRIC_FULL) == ACENTRIC_OK) continue;
+    ++damaged;
+    EXPECT_NE(std::string(acentric_message(bundle)).find("captures/"), std::string::npos);
+  }
+  EXPECT_GT(damaged, 0);
+
+  acentric_bundle* other = nullptr;
+  EXPECT_EQ(acentric_open_walk((room / "none.acentric").c_str(), &other), ACENTRIC_ERROR_NOT_FOUND);
+  acentric_close(other);
+  EXPECT_EQ(acentric_open_walk((room / "bundle" / "bundle.json").c_str(), &other), ACENTRIC_ERROR_MALFORMED);
+  acentric_close(other);
+  EXPECT_EQ(acentric_open_ranges(nullptr, &other), ACENTRIC_ERROR_ARGUMENT);
+  acentric_close(other);
 }
 
 TEST_F(CapiTest, GivesTheDataThatARendererOfOnesOwnNeeds) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What a handle of the C library is: a bundle, and what of it is in memory. All of it in C++; the C
-/// functions translate (acentric_runtime.h has the meaning of each call).
+/// A bundle, and what of it is in memory to be drawn. A handle of the C library is one: acentric_runtime.h
+/// has the meaning of each call.
 
 #include "engine/base/task_runner.h"
 #include "engine/export/bundle_read.h"
@@ -11,7 +11,7 @@ namespace acentric {
 /// As in acentric_runtime.h.
 enum class Loaded { absent = 0, coarse = 1, full = 2 };
 
-class Runtime {
+class BundlePlayer {
  public:
   /// Reads the index. Nothing else may be called where this failed.
   Status open(std::unique_ptr<BundleFiles> files);

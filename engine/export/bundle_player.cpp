@@ -1,4 +1,4 @@
-#include "engine/capi/runtime.h"
+#include "engine/export/bundle_player.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ std::uint64_t bytesOf(const ColourImage& image) { return bytesIn(image.pixels); 
 
 }  // namespace
 
-Status Runtime::open(std::unique_ptr<BundleFiles> files) {
+Status BundlePlayer::open(std::unique_ptr<BundleFiles> files) {
   files_ = std::move(files);
   auto bundle = readBundle(*files_);
   if (!bundle) return tl::unexpected(bundle.error());
@@ -46,9 +46,9 @@ Status Runtime::open(std::unique_ptr<BundleFiles> files) {
   return {};
 }
 
-void Runtime::setThreads(int threads) { runner_ = std::make_unique<TaskRunner>(threads - 1); }
+void BundlePlayer::setThreads(int threads) { runner_ = std::make_unique<TaskRunner>(threads - 1); }
 
-std::size_t Runtime::storeyAt(const glm::dvec3& eye) const {
+std::size_t BundlePlayer::storeyAt(const glm::dvec3& eye) const {
   std::size_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; storeys_.size() > 1 && s < storeys_.size(); ++s) {
@@ -61,7 +61,8 @@ std::size_t Runtime::storeyAt(const glm::dvec3& eye) const {
   return best;
 }
 
-Result<Runtime::Needs> Runtime::needsOf(const PerspectiveView& view, const ViewSettings& settings) const {
+Result<BundlePlayer::Needs> BundlePlayer::needsOf(const PerspectiveView& view,
+                                                  const ViewSettings& settings) const {
   for (const Status& sound : {view.check(), settings.check()})
     if (!sound) return tl::unexpected(sound.error());
   Needs needs;
@@ -76,37 +77,38 @@ Result<Runtime::Needs> Runtime::needsOf(const PerspectiveView& view, const ViewS
   return needs;
 }
 
-std::shared_ptr<const DisplayCapture>& Runtime::slot(std::size_t storey, std::size_t camera, Loaded detail) {
+std::shared_ptr<const DisplayCapture>& BundlePlayer::slot(std::size_t storey, std::size_t camera,
+                                                          Loaded detail) {
   Camera& of = storeys_[storey].cameras[camera];
   return detail == Loaded::full ? of.full : of.coarse;
 }
 
-const DisplayCapture* Runtime::capture(std::size_t storey, std::size_t camera, Loaded detail) const {
+const DisplayCapture* BundlePlayer::capture(std::size_t storey, std::size_t camera, Loaded detail) const {
   const Camera& of = storeys_[storey].cameras[camera];
   return detail == Loaded::full ? of.full.get() : of.coarse.get();
 }
 
-const LocalGeometry* Runtime::region(std::size_t storey, std::size_t region) const {
+const LocalGeometry* BundlePlayer::region(std::size_t storey, std::size_t region) const {
   return storeys_[storey].regions[region].get();
 }
 
-const ColourImage* Runtime::texture(std::size_t texture) const { return images_[texture].get(); }
+const ColourImage* BundlePlayer::texture(std::size_t texture) const { return images_[texture].get(); }
 
-Loaded Runtime::loaded(std::size_t storey, std::size_t camera) const {
+Loaded BundlePlayer::loaded(std::size_t storey, std::size_t camera) const {
   const Camera& of = storeys_[storey].cameras[camera];
   return of.full ? Loaded::full : of.coarse ? Loaded::coarse : Loaded::absent;
 }
 
-bool Runtime::regionLoaded(std::size_t storey, std::size_t region) const {
+bool BundlePlayer::regionLoaded(std::size_t storey, std::size_t region) const {
   return storeys_[storey].regions[region] != nullptr;
 }
 
-void Runtime::show(std::size_t storey, std::size_t camera) {
+void BundlePlayer::show(std::size_t storey, std::size_t camera) {
   const Camera& of = storeys_[storey].cameras[camera];
   storeys_[storey].walk.captures[camera] = of.full ? of.full : of.coarse;
 }
 
-Status Runtime::takeRoom(std::uint64_t bytes, const std::string& what) {
+Status BundlePlayer::takeRoom(std::uint64_t bytes, const std::string& what) {
   if (limit_ > 0 && memory_ + bytes > limit_)
     return fail(ErrorKind::outOfSpace,
                 fmt::format("takes {} bytes where {} of {} are taken: unload something first", bytes, memory_,
@@ -116,7 +118,7 @@ Status Runtime::takeRoom(std::uint64_t bytes, const std::string& what) {
   return {};
 }
 
-Status Runtime::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+Status BundlePlayer::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
   auto& place = slot(storey, camera, detail);
   if (place) return {};
   const BundleCamera& renditions = bundle_.storeys[storey].cameras[camera];
@@ -132,7 +134,7 @@ Status Runtime::loadCapture(std::size_t storey, std::size_t camera, Loaded detai
   return {};
 }
 
-void Runtime::unloadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+void BundlePlayer::unloadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
   auto& place = slot(storey, camera, detail);
   if (!place) return;
   memory_ -= acentric::bytesOf(*place);
@@ -140,7 +142,7 @@ void Runtime::unloadCapture(std::size_t storey, std::size_t camera, Loaded detai
   show(storey, camera);
 }
 
-Status Runtime::loadTexture(int texture) {
+Status BundlePlayer::loadTexture(int texture) {
   auto& image = images_[std::size_t(texture)];
   if (image) return {};
   const BundleTexture& described = bundle_.textures[std::size_t(texture)];
@@ -156,12 +158,12 @@ Status Runtime::loadTexture(int texture) {
   return {};
 }
 
-void Runtime::showTextures() {
+void BundlePlayer::showTextures() {
   const ScenePtr scene = sceneOf(bundle_, images_);
   for (StoreyState& storey : storeys_) storey.walk.scene = scene;
 }
 
-Status Runtime::loadRegion(std::size_t storey, std::size_t region) {
+Status BundlePlayer::loadRegion(std::size_t storey, std::size_t region) {
   auto& place = storeys_[storey].regions[region];
   if (place) return {};
   auto read = readBundleLocal(*files_, bundle_, bundle_.storeys[storey], region);
@@ -181,7 +183,7 @@ Status Runtime::loadRegion(std::size_t storey, std::size_t region) {
   return {};
 }
 
-void Runtime::unloadRegion(std::size_t storey, std::size_t region) {
+void BundlePlayer::unloadRegion(std::size_t storey, std::size_t region) {
   auto& place = storeys_[storey].regions[region];
   if (!place) return;
   memory_ -= bytesOf(*place);
@@ -189,7 +191,7 @@ void Runtime::unloadRegion(std::size_t storey, std::size_t region) {
   storeys_[storey].walk.local[region].reset();
 }
 
-void Runtime::unloadTextures() {
+void BundlePlayer::unloadTextures() {
   for (std::size_t t = 0; t < images_.size(); ++t) {
     if (!images_[t]) continue;
     memory_ -= bytesOf(*images_[t]);
@@ -199,7 +201,7 @@ void Runtime::unloadTextures() {
   showTextures();
 }
 
-Result<Frame> Runtime::render(const PerspectiveView& view, const ViewSettings& settings) {
+Result<Frame> BundlePlayer::render(const PerspectiveView& view, const ViewSettings& settings) {
   return renderFrame(storeys_[storeyAt(view.eye)].walk, view, settings, *runner_, frames_);
 }
 

@@ -1,0 +1,124 @@
+#include "engine/cli/bundle_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "engine/base/stopwatch.h"
+#include "engine/cli/frame_pictures.h"
+#include "engine/export/walk_format.h"
+#include "engine/export/walk_read.h"
+#include "engine/geometry/conventions.h"
+
+namespace acentric::cli {
+
+namespace fs = std::filesystem;
+
+bool isBundle(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return fs::exists(path / kBundleIndex, error);
+  std::array<char, walk_format::kMagic.size()> start{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), start.size()) && start == walk_format::kMagic;
+}
+
+Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads) {
+  auto player = std::make_unique<BundlePlayer>();
+  if (Status opened = player->open(std::move(files)); !opened) return tl::unexpected(opened.error());
+  player->setThreads(threads);
+  return player;
+}
+
+PerspectiveView startOf(const Bundle& bundle) {
+  const BundleStorey& storey = bundle.storeys[std::size_t(bundle.storey)];
+  PerspectiveView view;
+  view.eye = {storey.start, storey.layout.eyeZ()};
+  view.yawRadians = storey.startYaw;
+  view.fovRadians = bundle.fov;
+  return view;
+}
+
+Result<Frame> pictureOf(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings) {
+  const auto needs = player.needsOf(view, settings);
+  if (!needs) return tl::unexpected(needs.error());
+  const BundleStorey& storey = player.bundle().storeys[needs->storey];
+  for (const int camera : needs->cameras) {
+    const BundleCamera& renditions = storey.cameras[std::size_t(camera)];
+    if (!renditions.full && !renditions.coarse) continue;  // it stays a hole
+    const Loaded detail = renditions.full ? Loaded::full : Loaded::coarse;
+    if (Status loaded = player.loadCapture(needs->storey, std::size_t(camera), detail); !loaded)
+      return tl::unexpected(loaded.error());
+  }
+  if (Status loaded = player.loadRegion(needs->storey, std::size_t(needs->region)); !loaded)
+    return tl::unexpected(loaded.error());
+  return player.render(view, settings);
+}
+
+Result<Report> renderBundle(const RenderOptions& options, const Common& common) {
+  const auto size = parseSize(options.size);
+  if (!size) return tl::unexpected(size.error());
+  const auto needsProject = [&](const char* what) {
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("{} needs the project that the walk was made from", what),
+                options.project.string());
+  };
+  if (options.mode != "picture") return needsProject("--mode");
+  if (options.renderer == "truth") return needsProject("--renderer truth");
+  auto files = bundleAt(options.project);
+  if (!files) return tl::unexpected(files.error());
+  const auto player = playerFor(std::move(*files), common.runner()->threads());
+  if (!player) return tl::unexpected(player.error());
+  const Bundle& bundle = (*player)->bundle();
+  PerspectiveView view = startOf(bundle);
+  view.fovRadians = radians(options.fovDegrees);
+  if (!options.bookmark.empty()) {
+    const auto found = std::ranges::find(bundle.bookmarks, options.bookmark, &BundleBookmark::name);
+    if (found == bundle.bookmarks.end())
+      return fail(ErrorKind::notFound, fmt::format("has no bookmark '{}'", options.bookmark),
+                  options.project.string());
+    view = {found->pose.eye, found->pose.yaw, found->pose.pitch, found->fov};
+  } else {
+    if (!options.eye.empty()) {
+      const auto eye = parseEye(options.eye, view.eye.z);
+      if (!eye) return tl::unexpected(eye.error());
+      view.eye = *eye, view.yawRadians = 0;
+    }
+    if (options.yawDegrees) view.yawRadians = radians(*options.yawDegrees);
+    view.pitchRadians = radians(options.pitchDegrees);
+  }
+  view.width = size->width, view.height = size->height;
+  ViewSettings settings = bundle.view;
+  if (!options.renderer.empty()) {
+    const auto renderer = parseRenderer(options.renderer);
+    if (!renderer) return tl::unexpected(renderer.error());
+    settings.renderer = *renderer;
+  }
+  settings.renderer = withoutOpenGl(settings.renderer);
+  const Stopwatch watch;
+  const auto frame = pictureOf(**player, view, settings);
+  if (!frame) return tl::unexpected(frame.error());
+  if (Status written = writeColourImage(frame->colour, options.output); !written)
+    return tl::unexpected(written.error());
+  if (Status there = mustExist(options.output); !there) return tl::unexpected(there.error());
+  if (!options.holes.empty())
+    if (Status written = writeColourImage(frame->holeMask(), options.holes); !written)
+      return tl::unexpected(written.error());
+  Report report;
+  report.json = {{"picture", options.output.string()},
+                 {"renderer", nameOf(settings.renderer)},
+                 {"eye", toJson(view.eye)},
+                 {"width", view.width},
+                 {"height", view.height},
+                 {"openShare", double(frame->holeCount()) / (double(view.width) * view.height)},
+                 {"stats", toJson(frame->stats)},
+                 {"warnings", Json::array()}};
+  report.text = fmt::format("{}\n", options.output.string());
+  if (options.stats)
+    report.text += fmt::format("  {:.0f} ms with loading; {} images ({} missing)\n", watch.seconds() * 1e3,
+                               frame->stats.images, frame->stats.missingImages);
+  return report;
+}
+
+}  // namespace acentric::cli

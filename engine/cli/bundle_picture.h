@@ -1,0 +1,24 @@
+#pragma once
+/// Frames of bundles and walks, which need no project.
+
+#include <filesystem>
+
+#include "engine/cli/commands.h"
+#include "engine/export/bundle_player.h"
+
+namespace acentric::cli {
+
+/// The folder of a bundle, or a walk?
+bool isBundle(const std::filesystem::path& path);
+
+/// With all that the view needs in memory.
+Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads);
+/// The view that the walk begins with.
+PerspectiveView startOf(const Bundle& bundle);
+/// Full captures, or coarse ones where there are no others; loads what is missing.
+Result<Frame> pictureOf(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings);
+
+/// `acentric render` of a bundle or a walk.
+Result<Report> renderBundle(const RenderOptions& options, const Common& common);
+
+}  // namespace acentric::cli
