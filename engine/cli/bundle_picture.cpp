@@ -40,7 +40,7 @@ PerspectiveView startOf(const Bundle& bundle) {
   return view;
 }
 
-Result<Frame> pictureOf(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings) {
+Result<Frame> bundleFrame(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings) {
   const auto needs = player.needsOf(view, settings);
   if (!needs) return tl::unexpected(needs.error());
   const BundleStorey& storey = player.bundle().storeys[needs->storey];
@@ -97,7 +97,7 @@ Result<Report> renderBundle(const RenderOptions& options, const Common& common) 
   }
   settings.renderer = withoutOpenGl(settings.renderer);
   const Stopwatch watch;
-  const auto frame = pictureOf(**player, view, settings);
+  const auto frame = bundleFrame(**player, view, settings);
   if (!frame) return tl::unexpected(frame.error());
   if (Status written = writeColourImage(frame->colour, options.output); !written)
     return tl::unexpected(written.error());

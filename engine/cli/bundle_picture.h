@@ -16,7 +16,7 @@ Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> fil
 /// The view that the walk begins with.
 PerspectiveView startOf(const Bundle& bundle);
 /// Full captures, or coarse ones where there are no others; loads what is missing.
-Result<Frame> pictureOf(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings);
+Result<Frame> bundleFrame(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings);
 
 /// `acentric render` of a bundle or a walk.
 Result<Report> renderBundle(const RenderOptions& options, const Common& common);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/base/file.h"
+#include "engine/cli/bundle_picture.h"
 #include "engine/cli/commands.h"
 #include "engine/export/walk_write.h"
 #include "engine/export/web_page.h"
@@ -46,6 +47,29 @@ class TemporaryBundle {
   const fs::path folder;
 };
 
+/// As large as those want it who show addresses.
+constexpr int kPosterWidth = 1200, kPosterHeight = 630;
+
+/// Of a page for the bundle in a folder; its poster, of a page that is not alone, is put there: what the walk
+/// begins with.
+Result<PageTitle> titleOf(const fs::path& folder, bool alone, const Common& common) {
+  const auto player = playerFor(bundleFolder(folder), common.runner()->threads());
+  if (!player) return tl::unexpected(player.error());
+  const Bundle& bundle = (*player)->bundle();
+  PageTitle title{bundle.name, {}};
+  if (alone) return title;
+  PerspectiveView view = startOf(bundle);
+  view.width = kPosterWidth, view.height = kPosterHeight;
+  ViewSettings settings = bundle.view;
+  settings.renderer = withoutOpenGl(settings.renderer);
+  const auto frame = bundleFrame(**player, view, settings);
+  if (!frame) return title;  // nothing is baked there yet: a page without a poster
+  title.poster = "poster.jpg";
+  if (Status written = writeColourImage(frame->colour, folder / title.poster); !written)
+    return tl::unexpected(written.error());
+  return title;
+}
+
 /// What the page is, and whether it is handy.
 void addSingleFile(const fs::path& file, std::uint64_t size, Report& report) {
   report.json["page"] = {{"file", file.string()}, {"bytes", size}};
@@ -87,17 +111,23 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
   const auto done = writeBundleOf(options, folder, common);
   if (!done) return tl::unexpected(done.error());
   std::uint64_t pageBytes = 0;
+  PageTitle title;
+  if (web) {
+    auto made = titleOf(folder, options.singleFile, common);
+    if (!made) return tl::unexpected(made.error());
+    title = std::move(*made);
+  }
   std::uint64_t walkBytes = 0;
   if (walk) {
     const auto written = writeWalk(folder, options.output, {options.regionsPerPage}, common.stop);
     if (!written) return tl::unexpected(written.error());
     walkBytes = *written;
   } else if (temporary) {
-    const auto written = writeSingleFile(page, folder, options.output);
+    const auto written = writeSingleFile(page, folder, options.output, title);
     if (!written) return tl::unexpected(written.error());
     pageBytes = *written;
   } else if (web) {
-    if (Status added = addWebPage(page, folder); !added) return tl::unexpected(added.error());
+    if (Status added = addWebPage(page, folder, title); !added) return tl::unexpected(added.error());
   }
 
   Report report;

@@ -22,6 +22,7 @@ constexpr std::array kPageFiles = {"viewer.css", "viewer.js", "index.html"};
 constexpr std::string_view kScript = R"(<script defer src="./viewer.js"></script>)";
 constexpr std::string_view kStyle = R"(<link rel="stylesheet" href="./viewer.css">)";
 constexpr std::string_view kEnd = "</main>";
+constexpr std::string_view kTitle = "<title>Acentric walk</title>";
 
 std::string base64(std::span<const std::byte> bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -67,6 +68,41 @@ Status replaceOnce(std::string& text, std::string_view what, const std::string& 
   return {};
 }
 
+/// Text as HTML has it, in attributes too.
+std::string htmlText(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  return out;
+}
+
+/// Of Open Graph (ogp.me), which those read who show addresses.
+Status setTitle(std::string& html, const PageTitle& title, const fs::path& file) {
+  const std::string name = htmlText(title.name);
+  std::string head = fmt::format(
+      "<title>{0} – walk</title>\n    <meta name=\"description\" content=\"A walk through {0}\" />\n    "
+      "<meta "
+      "property=\"og:title\" content=\"{0}\" />\n    <meta property=\"og:type\" content=\"website\" />",
+      name);
+  if (!title.poster.empty())
+    head += fmt::format("\n    <meta property=\"og:image\" content=\"{}\" />", htmlText(title.poster));
+  return replaceOnce(html, kTitle, head, file);
+}
+
 }  // namespace
 
 Result<fs::path> findWebPage(const fs::path& program) {
@@ -85,16 +121,19 @@ Result<fs::path> findWebPage(const fs::path& program) {
       (folder / "../../../web/dist").lexically_normal().string());
 }
 
-Status addWebPage(const fs::path& page, const fs::path& bundle) {
-  for (const char* file : kPageFiles) {
-    const auto bytes = readFile(page / file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    if (Status written = writeFileAtomically(bundle / file, *bytes); !written) return written;
+Status addWebPage(const fs::path& page, const fs::path& bundle, const PageTitle& title) {
+  for (const std::string_view file : kPageFiles) {
+    auto text = readText(page / file);
+    if (!text) return tl::unexpected(text.error());
+    if (file == "index.html")
+      if (Status set = setTitle(*text, title, page / file); !set) return set;
+    if (Status written = writeTextAtomically(bundle / file, *text); !written) return written;
   }
   return {};
 }
 
-Result<std::uint64_t> writeSingleFile(const fs::path& page, const fs::path& bundle, const fs::path& output) {
+Result<std::uint64_t> writeSingleFile(const fs::path& page, const fs::path& bundle, const fs::path& output,
+                                      const PageTitle& title) {
   auto html = readText(page / "index.html");
   if (!html) return tl::unexpected(html.error());
   const auto script = readText(page / "viewer.js"), style = readText(page / "viewer.css");
@@ -118,6 +157,7 @@ Result<std::uint64_t> writeSingleFile(const fs::path& page, const fs::path& bund
           output.string());
   }
   const fs::path index = page / "index.html";
+  if (Status set = setTitle(*html, title, index); !set) return tl::unexpected(set.error());
   if (Status done = replaceOnce(*html, kScript, "", index); !done) return tl::unexpected(done.error());
   if (Status done = replaceOnce(*html, kStyle, "<style>" + *style + "</style>", index); !done)
     return tl::unexpected(done.error());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "engine/base/result.h"
 
@@ -13,8 +14,15 @@ namespace acentric {
 /// or web/dist of the sources that it was built from. Fails with how to make it.
 Result<std::filesystem::path> findWebPage(const std::filesystem::path& program);
 
+/// What those see who are sent the page's address.
+struct PageTitle {
+  std::string name;    ///< of the walk
+  std::string poster;  ///< a picture beside the page; none: empty
+};
+
 /// Copies the page into the folder of a bundle, index.html last.
-Status addWebPage(const std::filesystem::path& page, const std::filesystem::path& bundle);
+Status addWebPage(const std::filesystem::path& page, const std::filesystem::path& bundle,
+                  const PageTitle& title);
 
 /// Larger pages take long to open, and phones may not open them at all.
 inline constexpr std::uint64_t kHandySingleFile = std::uint64_t(32) << 20;
@@ -23,6 +31,6 @@ inline constexpr std::uint64_t kLargestSingleFile = std::uint64_t(256) << 20;
 
 /// Writes the page with all files of the bundle in it; returns its size. Fails above kLargestSingleFile.
 Result<std::uint64_t> writeSingleFile(const std::filesystem::path& page, const std::filesystem::path& bundle,
-                                      const std::filesystem::path& output);
+                                      const std::filesystem::path& output, const PageTitle& title);
 
 }  // namespace acentric

@@ -43,6 +43,7 @@ async function open({ width = 640, height = 360, answer = () => false, before = 
   const requests = [], errors = [];
   page.on('request', (request) => requests.push(request.url()));
   page.on('pageerror', (error) => errors.push(error.message));
+  page.on('console', (message) => message.text().includes('Content Security Policy') && errors.push(message.text()));
   await page.addInitScript(before);
   await page.goto(`${origin}${base}${hash}`);
   return {
@@ -374,6 +375,39 @@ await test('a walk is one file, read by ranges, page after page of its index', a
   }
   expect(crossed.size === 6, `only ${[...crossed]}`);
   expect(errors.length === 0, errors.join('; '));
+  await close();
+});
+
+await test('paths are walked along, and a frame around the walk steers it, under a strict policy', async () => {
+  const withPath = structuredClone(index), [x, y] = storey.start.position;
+  withPath.paths = [{ name: 'tour', storey: index.storey, poses: [0, 1, 2].map((k) => ({ eye: [x + 0.1 * k, y, 1.6], yaw: 0.2 * k, pitch: 0, seconds: 0.4 * k })) }];
+  const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; worker-src blob: data:; connect-src 'self' data:; img-src 'self' blob: data:";
+  const answer = (file, response) => {
+    if (file === 'bundle.json') response.writeHead(200, { 'Content-Type': 'application/json' }).end(JSON.stringify(withPath));
+    else if (file === 'outer.html')
+      response.writeHead(200, { 'Content-Type': 'text/html' }).end(
+        `<iframe src="index.html" width="480" height="270"></iframe><script>told = []; onmessage = ({ data }) => told.push(data);</script>`,
+      );
+    else if (file === 'index.html' || file === '')
+      response.writeHead(200, { 'Content-Type': 'text/html', 'Content-Security-Policy': policy }).end(readFileSync(join(work, 'site', 'index.html')));
+    else return false;
+    return true;
+  };
+  const { page, errors, close } = await open({ answer, hash: 'outer.html' });
+  const frame = await (await page.waitForSelector('iframe')).contentFrame();
+  await frame.waitForFunction(() => window.acentric?.firstPicture !== undefined, undefined, { timeout: 120000 });
+  const ready = await page.evaluate(() => window.told.find(({ event }) => event === 'ready'));
+  expect(ready?.acentric === 1 && ready.paths[0] === 'tour', JSON.stringify(ready));
+  const send = (message) => page.evaluate((it) => document.querySelector('iframe').contentWindow.postMessage({ acentric: 1, ...it }, '*'), message);
+  await send({ do: 'play', name: 'tour' });
+  await frame.waitForFunction(() => Math.abs(window.acentric.pose.yaw - 0.4) < 1e-6, undefined, { timeout: 60000 });
+  await page.waitForFunction(() => window.told.some(({ event, yaw }) => event === 'view' && Math.abs(yaw - (0.4 * 180) / Math.PI) < 1e-3), undefined, { timeout: 60000 });
+  await send({ do: 'go', eye: [x, y], yaw: 90, pitch: 5 });
+  await frame.waitForFunction(() => Math.abs(window.acentric.pose.yaw - Math.PI / 2) < 1e-6, undefined, { timeout: 60000 });
+  await send({ do: 'go', eye: ['a', {}] });
+  await send({ do: 'bookmark', name: 'none' });
+  expect(errors.length === 0, errors.join('; '));
+  expect(await frame.evaluate(() => window.acentric.failures.size === 0), 'files do not come under this policy');
   await close();
 });
 

@@ -17,7 +17,7 @@ class WebPageTest : public FolderTest {
     write("page/index.html",
           "<head><script defer src=\"./viewer.js\"></script>\n<link rel=\"stylesheet\" "
           "href=\"./viewer.css\"></head>"
-          "<main></main>");
+          "<title>Acentric walk</title><main></main>");
     write("page/viewer.js", "const text = '</script>';");
     write("page/viewer.css", "p { margin: 0 }");
     write("bundle/bundle.json", "{}");
@@ -53,26 +53,36 @@ TEST_F(WebPageTest, IsFoundInTheInstallTreeAndInTheBuildTree) {
 }
 
 TEST_F(WebPageTest, LiesBesideTheBundle) {
-  ASSERT_TRUE(addWebPage(folder_ / "page", folder_ / "bundle"));
-  for (const char* file : {"index.html", "viewer.js", "viewer.css"})
+  ASSERT_TRUE(addWebPage(folder_ / "page", folder_ / "bundle", {"House <\"A & B\">", "poster.jpg"}));
+  for (const char* file : {"viewer.js", "viewer.css"})
     EXPECT_EQ(read(folder_ / "bundle" / file), read(folder_ / "page" / file));
+  const std::string html = read(folder_ / "bundle" / "index.html");
+  for (const char* part : {"<title>House &lt;&quot;A &amp; B&quot;&gt; – walk</title>",
+                           "<meta property=\"og:title\" content=\"House &lt;&quot;A &amp; B&quot;&gt;\" />",
+                           "<meta property=\"og:image\" content=\"poster.jpg\" />"})
+    EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
 TEST_F(WebPageTest, HoldsTheBundleAsOneFile) {
   const fs::path file = folder_ / "walk.html";
-  const auto size = writeSingleFile(folder_ / "page", folder_ / "bundle", file);
+  const auto size = writeSingleFile(folder_ / "page", folder_ / "bundle", file, {"walk", {}});
   ASSERT_TRUE(size) << size.error().describe();
   EXPECT_EQ(*size, fs::file_size(file));
-  EXPECT_EQ(read(file),
-            "<head>\n<style>p { margin: 0 }</style></head><main></main>\n"
-            "<script type=\"application/octet-stream\" data-file=\"bundle.json\">e30=</script>\n"
-            "<script type=\"application/octet-stream\" data-file=\"captures/ab.pack\">AAECAw==</script>\n"
-            "<script>const text = '<\\/script>';</script>");
+  EXPECT_EQ(
+      read(file),
+      "<head>\n<style>p { margin: 0 }</style></head><title>walk – walk</title>\n    <meta "
+      "name=\"description\" "
+      "content=\"A walk through walk\" />\n    <meta property=\"og:title\" content=\"walk\" />\n    <meta "
+      "property=\"og:type\" content=\"website\" /><main></main>\n"
+      "<script type=\"application/octet-stream\" data-file=\"bundle.json\">e30=</script>\n"
+      "<script type=\"application/octet-stream\" data-file=\"captures/ab.pack\">AAECAw==</script>\n"
+      "<script>const text = '<\\/script>';</script>");
 }
 
 TEST_F(WebPageTest, OfAnotherMakeIsRefused) {
-  write("page/index.html", "<main></main>");
-  const auto written = writeSingleFile(folder_ / "page", folder_ / "bundle", folder_ / "walk.html");
+  write("page/index.html", "<title>Acentric walk</title><main></main>");
+  const auto written =
+      writeSingleFile(folder_ / "page", folder_ / "bundle", folder_ / "walk.html", {"walk", {}});
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().describe().find("npm run build"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "walk.html"));

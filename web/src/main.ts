@@ -9,6 +9,7 @@ import { keepSettings, loadSettings, type Settings } from './settings';
 import { LoaderPool } from './stream/pool';
 import { decodedBase64, sourceFor, WalkSource } from './stream/source';
 import { Controls } from './ui/controls';
+import { Embedding } from './ui/embed';
 import { Minimap } from './ui/minimap';
 import { Messages } from './ui/messages';
 import { element, SettingsPanel } from './ui/panel';
@@ -30,6 +31,7 @@ function openGraphics(): WebGL2RenderingContext {
 class Page {
   private readonly walk: Walk;
   private readonly panel: SettingsPanel;
+  private readonly embedding: Embedding;
   private unbakedTold = 0;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
@@ -47,6 +49,7 @@ class Page {
       this.walk.settingsChanged();
       this.showToggles();
     });
+    this.embedding = new Embedding(this.walk);
     this.connectTools();
     this.showToggles();
     document.title = `${bundle.name} – walk`;
@@ -147,6 +150,7 @@ class Page {
       });
     }
     this.tellUnbaked();
+    this.embedding.drawn();
     this.panel.show();
   }
 

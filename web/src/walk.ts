@@ -1,7 +1,8 @@
 /** The walk: where the eye is, what is loaded for it, and when a frame is drawn. Knows the canvas and no other element. */
 
 import { readIndex } from './bundle/read_index';
-import type { Bundle, Storey } from './bundle/types';
+import type { Bundle, Path, Storey } from './bundle/types';
+import { durationOf, poseAt } from './geometry/path';
 import { chooseCover, RegionIndex } from './geometry/regions';
 import { viewAt, type Pose, type View } from './geometry/view';
 import type { Planner } from './engine/planner';
@@ -49,6 +50,7 @@ export class Walk {
   private velocity: [number, number] = [0, 0];
   private movingScale = 1;
   private lost = false;
+  private playing: { path: Path; began: number | undefined } | undefined;
   private own: readonly boolean[] | undefined; // regions of the index's page that is open: for others there is another page
   private openPage: number | undefined;
   private turning = 0; // to other pages
@@ -126,6 +128,7 @@ export class Walk {
 
   /** To a place, or the nearest one where one may stand. */
   go(pose: Pose, storey = this.storey): void {
+    this.stop();
     const place: [number, number] = [pose.eye[0], pose.eye[1]];
     if (this.source && (storey !== this.storey || !this.isOwn(this.index.regionAt(place)))) {
       void this.turnTo(storey, place).then(() => {
@@ -179,8 +182,33 @@ export class Walk {
     }
   }
 
+  /** Walks along a path of the bundle, until something else moves the eye. */
+  play(path: Path): void {
+    this.go(poseAt(path, 0), path.storey);
+    this.playing = { path, began: undefined };
+    this.schedule();
+  }
+  stop(): void {
+    this.playing = undefined;
+  }
+
+  /** Its time begins with the first frame. */
+  private followPath(now: number): void {
+    const { playing } = this;
+    if (!playing) return;
+    playing.began ??= now;
+    const seconds = (now - playing.began) / 1000, pose = poseAt(playing.path, seconds);
+    const [x, y] = this.index.nearestStanding([pose.eye[0], pose.eye[1]]);
+    this.pose = { ...pose, eye: [x, y, this.current.eyeZ] };
+    this.dirty = true;
+    if (seconds < durationOf(playing.path)) return;
+    this.playing = undefined;
+    this.events.stopped();
+  }
+
   /** Turned by a drag of so many pixels: what is under the pointer stays there. */
   look(dx: number, dy: number): void {
+    this.stop();
     const view = this.view(), scale = view.width / Math.max(1, this.canvas.clientWidth) / view.focal;
     const pitch = Math.max(-kMostPitch, Math.min(kMostPitch, this.pose.pitch + dy * scale));
     this.pose = { ...this.pose, yaw: this.pose.yaw + dx * scale, pitch };
@@ -222,6 +250,8 @@ export class Walk {
     const seconds = this.lastTick === undefined ? 1 / 60 : Math.min(0.25, (now - this.lastTick) / 1000);
     const wasMoving = this.lastTick !== undefined;
     this.lastTick = moving ? now : undefined;
+    if (moving) this.stop();
+    else this.followPath(now);
     if (moving) this.move(movement, seconds);
     else this.velocity = [0, 0];
     if (!moving && wasMoving) {
@@ -233,8 +263,8 @@ export class Walk {
     const waiting = this.firstPicture === undefined;
     this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData(), waiting });
     if (this.source && this.turning === 0 && region >= 0 && !this.isOwn(region)) void this.turnTo(this.storey, [eye[0], eye[1]]);
-    if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving);
-    if (moving || (this.dirty && !this.pending)) this.schedule();
+    if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving || this.playing !== undefined);
+    if (moving || this.playing || (this.dirty && !this.pending)) this.schedule();
   }
 
   /** Drawing takes time from what is loading: a first picture is not drawn for every capture that comes. */

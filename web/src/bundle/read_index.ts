@@ -3,7 +3,7 @@
 import type { Polygon } from '../geometry/polygon';
 import type { Vec2, Vec3 } from '../geometry/vector';
 import type {
-  Bookmark, Bundle, CameraRef, CaptureRef, Cover, FileRef, LocalRef, Material, MirrorPlane, Piece, Region,
+  Bookmark, Bundle, CameraRef, CaptureRef, Cover, FileRef, LocalRef, Material, MirrorPlane, Path, Piece, Region,
   Storey, Texture, TextureUse,
 } from './types';
 
@@ -185,6 +185,15 @@ const bookmark = (at: At, storeys: number): Bookmark => ({
   pitch: at.get('pitch').number(-Math.PI, Math.PI),
 });
 
+const path = (at: At, storeys: number): Path => ({
+  name: at.get('name').text(),
+  storey: at.get('storey').integer(0, storeys - 1),
+  poses: at.get('poses').list(1).map((pose) => ({
+    eye: pose.get('eye').vec3(), yaw: pose.get('yaw').number(), pitch: pose.get('pitch').number(-Math.PI, Math.PI),
+    seconds: pose.get('seconds').number(0),
+  })),
+});
+
 export function readIndex(text: string): Bundle {
   let json: unknown;
   try {
@@ -213,5 +222,6 @@ export function readIndex(text: string): Bundle {
     textures: textures.map(texture),
     mirrors: at.get('mirrors').list(0, 127).map(mirrorPlane),
     bookmarks: at.get('bookmarks').list().map((one) => bookmark(one, storeys.length)),
+    paths: (at.get('paths').optional((list) => list.list()) ?? []).map((one) => path(one, storeys.length)),
   };
 }

@@ -111,6 +111,19 @@ export interface Bookmark {
   pitch: number;
 }
 
+export interface PathPose {
+  eye: Vec3;
+  yaw: number;
+  pitch: number;
+  seconds: number; // since it began; all 0: each pose is a frame
+}
+
+export interface Path {
+  name: string;
+  storey: number; // where it begins
+  poses: PathPose[]; // at least one
+}
+
 export interface Bundle {
   name: string;
   exposure: number;
@@ -123,5 +136,6 @@ export interface Bundle {
   textures: Texture[];
   mirrors: MirrorPlane[];
   bookmarks: Bookmark[];
+  paths: Path[];
 }
 

@@ -36,7 +36,7 @@ export class SettingsPanel {
     this.show();
   }
 
-  /** Starts of the storeys and bookmarks. */
+  /** Starts of the storeys, bookmarks, and paths to walk along. */
   private places(): void {
     const { walk } = this, select = element<HTMLSelectElement>('set-view');
     const places: { name: string; go: () => void }[] = walk.bundle.storeys.map((storey, number) => ({
@@ -44,6 +44,7 @@ export class SettingsPanel {
       go: () => walk.go({ eye: [...storey.start.position, storey.eyeZ], yaw: storey.start.yaw, pitch: 0 }, number),
     }));
     for (const bookmark of walk.bundle.bookmarks) places.push({ name: bookmark.name, go: () => walk.go(bookmark, bookmark.storey) });
+    for (const path of walk.bundle.paths) places.push({ name: `▶ ${path.name}`, go: () => walk.play(path) });
     select.append(new Option('…', ''));
     places.forEach((place, number) => select.append(new Option(place.name, String(number))));
     select.addEventListener('change', () => {
