@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "engine/base/hash.h"
-#include "engine/base/json_text.h"
 
 namespace acentric::walk_format {
 namespace {
@@ -57,9 +56,7 @@ Result<Header> headerOf(std::span<const std::byte> bytes, const std::string& nam
 
 std::string hashText(std::span<const std::byte> bytes) { return hashOf(bytes).toHex(); }
 
-std::vector<std::byte> packedText(const BundleJson& json, std::uint64_t& raw) {
-  const std::string text = jsonText(json);
-  raw = text.size();
+std::vector<std::byte> packed(const std::string& text) {
   std::vector<std::byte> packed(ZSTD_compressBound(text.size()));
   packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), kCompressionLevel));
   return packed;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/export/bundle_json.h"
 
 namespace acentric::walk_format {
 
@@ -34,8 +33,8 @@ HeaderBytes headerBytes(const Header& header);
 Result<Header> headerOf(std::span<const std::byte> bytes, const std::string& name);
 
 std::string hashText(std::span<const std::byte> bytes);
-/// zstd; the text of `json` on one line.
-std::vector<std::byte> packedText(const BundleJson& json, std::uint64_t& raw);
+/// By zstd.
+std::vector<std::byte> packed(const std::string& text);
 /// Fails where it is not what `hash` says, or does not unpack to `raw` bytes.
 Result<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t raw,
                                  const std::string& hash, const std::string& name);

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "engine/base/json_text.h"
+#include "engine/export/bundle_json.h"
 #include "engine/export/walk_format.h"
 
 namespace acentric {

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
 #include "engine/export/bundle.h"
+#include "engine/export/bundle_json.h"
 #include "engine/export/bundle_read.h"
 #include "engine/export/walk_format.h"
 
@@ -44,14 +46,14 @@ class WalkWriter {
 
   Result<std::uint64_t> write(const fs::path& file, const std::stop_token& stop) {
     placeData();
-    const Json root = rootJson();
+    const std::string text = jsonText(rootJson());
+    const std::vector<std::byte> root = packed(text);
     Header header;
-    const std::vector<std::byte> packed = packedText(root, header.rootRaw);
-    header.rootBytes = packed.size();
-    header.pageStart = kHeaderBytes + packed.size();
+    header.rootBytes = root.size(), header.rootRaw = text.size();
+    header.pageStart = kHeaderBytes + root.size();
     header.dataStart = header.pageStart + pages_.size();
     header.fileBytes = header.dataStart + dataBytes_;
-    const auto hash = ContentKey::fromHex(hashText(packed));
+    const auto hash = ContentKey::fromHex(hashText(root));
     if (!hash) return tl::unexpected(hash.error());
     header.rootHash = {hash->high, hash->low};
     const Status written = replaceFileAtomically(file, [&](const fs::path& temporary) -> Status {
@@ -59,7 +61,7 @@ class WalkWriter {
       const auto put = [&](std::span<const std::byte> bytes) {
         out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
       };
-      put(headerBytes(header)), put(packed), put(pages_);
+      put(headerBytes(header)), put(root), put(pages_);
       for (const std::string& name : order_) {
         if (stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped", file.string());
         const auto bytes = readFile(folder_ / name);
@@ -149,14 +151,14 @@ class WalkWriter {
   }
 
   Json addPage(const Json& page, const Box& box, bool leaf) {
-    std::uint64_t raw = 0;
-    const std::vector<std::byte> packed = packedText(page, raw);
+    const std::string text = jsonText(page);
+    const std::vector<std::byte> bytes = packed(text);
     const std::uint64_t at = pages_.size();
-    pages_.insert(pages_.end(), packed.begin(), packed.end());
+    pages_.insert(pages_.end(), bytes.begin(), bytes.end());
     return {{"at", at},
-            {"bytes", packed.size()},
-            {"raw", raw},
-            {"hash", hashText(packed)},
+            {"bytes", bytes.size()},
+            {"raw", text.size()},
+            {"hash", hashText(bytes)},
             {"box", {box.low.x, box.low.y, box.high.x, box.high.y}},
             {"leaf", leaf}};
   }
