@@ -32,10 +32,10 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
   c->add_option(
        "--colour-quality", o.colourQuality,
        "bundle, web and walk: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
-       "unless given, as the project says")
+       "unless given, 92, or less where the project says so")
       ->check(CLI::Range(0, kLosslessColours));
   c->add_option("--regions-per-page", o.regionsPerPage,
-                "walk: regions that a page of its index tells of; what is open holds one page")
+                "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")

@@ -55,7 +55,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
       "  acentric render kitchen.acentric.json --mode sources -o cameras.png\n"
       "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
       runRender);
-  c->add_option("project", o.project, "Project file")->required();
+  c->add_option("project", o.project, "Project file, or the folder of a bundle, or a walk")->required();
   addStoreyOption(*c, chosen, "the one at the eye");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);

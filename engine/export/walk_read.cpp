@@ -70,7 +70,8 @@ class IndexReader {
                               header_.fileBytes),
                   name_);
     const ContentKey hash{header_.rootHash[0], header_.rootHash[1]};
-    auto root = page(kHeaderBytes, header_.rootBytes, header_.rootRaw, hash.toHex(), "the root of its index");
+    auto root = page(kHeaderBytes, header_.rootBytes, header_.rootRaw, hash.toHex(), "the root of its index",
+                     kMostRootBytes);
     if (!root) return root;
     if (!root->is_object()) return malformed("its index is no object");
     for (Json& texture : (*root)["textures"]) take(texture);
@@ -88,9 +89,9 @@ class IndexReader {
   }
 
   Result<Json> page(std::uint64_t at, std::uint64_t bytes, std::uint64_t raw, const std::string& hash,
-                    const std::string& what) {
+                    const std::string& what, std::uint64_t mostRaw) {
     unpacked_ += raw;
-    if (raw > std::max(kMostPageBytes, kMostRootBytes) || unpacked_ > kMostIndexBytes || bytes > raw + 1024)
+    if (raw > mostRaw || unpacked_ > kMostIndexBytes || bytes > raw + 1024)
       return malformed(what + " is too large");
     if (at > header_.dataStart || bytes > header_.dataStart - at)
       return malformed(what + " lies outside the index");
@@ -135,7 +136,7 @@ class IndexReader {
     const std::uint64_t at = number(entry.at("at"));
     if (at > header_.dataStart) return malformed("a page lies outside the index");
     auto json = page(header_.pageStart + at, number(entry.at("bytes")), number(entry.at("raw")),
-                     entry.at("hash").get<std::string>(), fmt::format("the page at {}", at));
+                     entry.at("hash").get<std::string>(), fmt::format("the page at {}", at), kMostPageBytes);
     if (!json) return tl::unexpected(json.error());
     if (entry.at("leaf").get<bool>()) return readLeaf(*json);
     for (const Json& child : json->at("pages"))

@@ -187,18 +187,19 @@ class WalkWriter {
     for (const int region : all) number.emplace(region, int(number.size()));
     std::map<int, int> cameraNumber;
     Json cameras = Json::array(), listed = Json::array();
+    const auto addCamera = [&](int camera) {
+      const auto [found, isNew] = cameraNumber.emplace(camera, int(cameraNumber.size()));
+      if (isNew) {
+        Json json = source.json["cameras"][std::size_t(camera)];
+        json["number"] = camera;
+        json["full"] = placed(json["full"]), json["coarse"] = placed(json["coarse"]);
+        cameras.push_back(std::move(json));
+      }
+      return found->second;
+    };
     const auto renumber = [&](Json covers) {
       for (Json& cover : covers)
-        for (Json& piece : cover["pieces"]) {
-          const int camera = piece["camera"].get<int>();
-          const auto [found, isNew] = cameraNumber.emplace(camera, int(cameraNumber.size()));
-          piece["camera"] = found->second;
-          if (!isNew) continue;
-          Json json = source.json["cameras"][std::size_t(camera)];
-          json["number"] = camera;
-          json["full"] = placed(json["full"]), json["coarse"] = placed(json["coarse"]);
-          cameras.push_back(std::move(json));
-        }
+        for (Json& piece : cover["pieces"]) piece["camera"] = addCamera(piece["camera"].get<int>());
       return covers;
     };
     for (const int region : all) {
@@ -213,6 +214,8 @@ class WalkWriter {
       json["neighbours"] = std::move(neighbours);
       listed.push_back(std::move(json));
     }
+    // Cameras that nothing shows go with the first page.
+    for (const int camera : std::exchange(unused_, {})) addCamera(camera);
     return {{"cameras", std::move(cameras)}, {"regions", std::move(listed)}};
   }
 
@@ -233,8 +236,12 @@ class WalkWriter {
   /// The entry of the page that holds these regions, or of the one above those that do.
   Json pageOf(const Source& source, std::vector<int> regions) {
     const Box box = boxOf(source.storey, regions);
-    const auto most = std::size_t(options_.regionsPerPage);
-    if (regions.size() <= most) return addPage(leafOf(source, regions), box, true);
+    auto most = std::size_t(options_.regionsPerPage);
+    if (regions.size() <= most) {
+      const Json leaf = leafOf(source, regions);
+      if (regions.size() == 1 || jsonText(leaf).size() <= kMostPageBytes) return addPage(leaf, box, true);
+      most = (regions.size() + 1) / 2;  // no reader takes it as it is
+    }
     std::vector<std::vector<int>> parts{std::move(regions)};
     while (parts.size() < kMostChildren) {
       const auto largest = std::ranges::max_element(parts, {}, &std::vector<int>::size);
@@ -248,6 +255,14 @@ class WalkWriter {
     return addPage({{"pages", std::move(children)}}, box, false);
   }
 
+  static std::set<int> camerasUnusedIn(const BundleStorey& storey) {
+    std::set<int> unused;
+    for (std::size_t c = 0; c < storey.cameras.size(); ++c) unused.insert(int(c));
+    for (std::size_t r = 0; r < storey.layout.regions.size(); ++r)
+      for (const int camera : camerasOf(storey, r)) unused.erase(camera);
+    return unused;
+  }
+
   Json rootJson() {
     Json root = index_;
     for (Json& texture : root["textures"]) texture = placed(texture);
@@ -256,6 +271,7 @@ class WalkWriter {
       const Source source{index_["storeys"][s], storey};
       std::vector<int> all(storey.layout.regions.size());
       for (std::size_t r = 0; r < all.size(); ++r) all[r] = int(r);
+      unused_ = camerasUnusedIn(storey);
       Json& json = root["storeys"][s];
       json.erase("cameras"), json.erase("regions");
       double top = -HUGE_VAL, bottom = HUGE_VAL;
@@ -277,6 +293,7 @@ class WalkWriter {
   std::vector<std::string> order_;
   std::uint64_t dataBytes_ = 0;
   std::vector<std::byte> pages_;
+  std::set<int> unused_;  ///< cameras of the storey that no page has yet and no region shows
 };
 
 }  // namespace

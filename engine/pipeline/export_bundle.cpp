@@ -95,7 +95,8 @@ Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const st
   input.fov = radians(project.fovDegrees);
   input.view = project.view;
   input.store = &*store;
-  input.colourQuality = options.colourQuality.value_or(project.bake.colourQuality);
+  input.colourQuality =
+      options.colourQuality.value_or(std::min(project.bake.colourQuality, kShippedColourQuality));
   for (const Bookmark& b : project.bookmarks)
     input.bookmarks.push_back(
         {b.name, b.storey, {b.eye, b.yawRadians, b.pitchRadians}, radians(b.fovDegrees)});

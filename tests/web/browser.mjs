@@ -25,7 +25,7 @@ const browser = await chromium.launch({
 });
 
 /** A page on the site, served below a path of its own; `answer(file, response)` may answer for it. */
-async function open({ width = 640, height = 360, answer = () => false, before = () => undefined, hash = '', site = 'site' } = {}) {
+async function open({ width = 640, height = 360, answer = () => false, before = () => undefined, hash = '', site = 'site', device = {} } = {}) {
   const base = '/some/where/';
   const server = await serve(work, 0, (request, response) => {
     if (!request.url.startsWith(base)) {
@@ -38,7 +38,7 @@ async function open({ width = 640, height = 360, answer = () => false, before = 
     return false;
   });
   const origin = `http://127.0.0.1:${server.address().port}`;
-  const context = await browser.newContext({ viewport: { width, height } });
+  const context = await browser.newContext({ viewport: { width, height }, ...device });
   const page = await context.newPage();
   const requests = [], errors = [];
   page.on('request', (request) => requests.push(request.url()));
@@ -275,6 +275,35 @@ await test('the keyboard alone reaches everything', async () => {
     ).length,
   );
   expect(labels === 0, `${labels} controls have no label`);
+  await close();
+});
+
+await test('on a phone it is walked by touch', async () => {
+  const { page, close } = await open({ width: 390, height: 700, device: { hasTouch: true, isMobile: true, deviceScaleFactor: 1 } });
+  await started(page);
+  const pose = () => page.evaluate(() => window.acentric.pose);
+  const inside = await page.evaluate(() => {
+    const wide = document.documentElement.scrollWidth;
+    return { wide, shown: [...document.querySelectorAll('#tools button, #stick button')].map((e) => e.getBoundingClientRect()).map(({ left, right, width }) => ({ left, right, width })) };
+  });
+  expect(inside.wide <= 390 && inside.shown.every(({ left, right, width }) => left >= 0 && right <= 390 && width >= 30), JSON.stringify(inside));
+  const touch = await page.context().newCDPSession(page);
+  const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+  const start = await pose();
+  await send('touchStart', [{ x: 200, y: 300 }]);
+  await send('touchMove', [{ x: 120, y: 320 }]);
+  await send('touchEnd', []);
+  const turned = await pose();
+  expect(Math.abs(turned.yaw - start.yaw) > 0.05 && turned.eye[0] === start.eye[0], JSON.stringify({ start, turned }));
+  const forward = await page.locator('[data-walk=KeyW]').boundingBox();
+  await send('touchStart', [{ x: forward.x + forward.width / 2, y: forward.y + forward.height / 2 }]);
+  await page.waitForFunction(([x, y]) => Math.hypot(window.acentric.pose.eye[0] - x, window.acentric.pose.eye[1] - y) > 0.05, turned.eye, { timeout: 60000 });
+  await send('touchEnd', []);
+  await settled(page);
+  const still = await pose();
+  await page.waitForTimeout(400);
+  expect((await pose()).eye[0] === still.eye[0], 'it walks on without a finger');
+  await page.screenshot({ path: join(work, 'phone.png') });
   await close();
 });
 

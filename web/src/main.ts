@@ -141,7 +141,7 @@ class Page {
     const times = walk.times.summary;
     if (times)
       element('times').textContent =
-        `${times.median.toFixed(0)} ms a frame, worst ${times.worst.toFixed(0)} · ${Math.round(facts.patches / 1000)},000 patches`;
+        `${times.median.toFixed(0)} ms a frame, worst ${times.worst.toFixed(0)} · ${facts.patches.toLocaleString('en')} patches`;
     if (walk.settings.map) {
       const view = walk.view();
       this.map.draw(walk.current, walk.regions.box, {

@@ -53,6 +53,7 @@ export class Walk {
   private playing: { path: Path; began: number | undefined } | undefined;
   private own: readonly boolean[] | undefined; // regions of the index's page that is open: for others there is another page
   private openPage: number | undefined;
+  private refused: number | undefined; // the region whose page could not be had
   private turning = 0; // to other pages
   private turns: Promise<void> = Promise.resolve();
 
@@ -177,6 +178,7 @@ export class Walk {
       this.stream.showPage(this.current);
       this.redraw();
     } catch (error) {
+      this.refused = this.current.regions[this.region]?.number;
       this.failures.set('index', { file: 'the index', reason: (error as Error).message });
       this.events.failed();
     }
@@ -222,6 +224,7 @@ export class Walk {
 
   retry(): void {
     this.failures.clear();
+    this.refused = undefined;
     this.stream.retry();
     this.redraw();
   }
@@ -262,7 +265,7 @@ export class Walk {
     const full = this.settings.quality !== 'coarse';
     const waiting = this.firstPicture === undefined;
     this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData(), waiting });
-    if (this.source && this.turning === 0 && region >= 0 && !this.isOwn(region)) void this.turnTo(this.storey, [eye[0], eye[1]]);
+    if (this.source && this.turning === 0 && region >= 0 && !this.isOwn(region) && this.current.regions[region].number !== this.refused) void this.turnTo(this.storey, [eye[0], eye[1]]);
     if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving || this.playing !== undefined);
     if (moving || this.playing || (this.dirty && !this.pending)) this.schedule();
   }
@@ -320,14 +323,17 @@ export class Walk {
     const region = this.drawnRegion();
     if (region < 0) return;
     this.drawing = { width: view.width, height: view.height };
-    this.facts = this.renderer.draw(
-      {
-        number: this.storey, storey: this.current, region, captureOf: (camera) => this.stream.capture(camera),
-        mayCome: (camera) => this.stream.mayCome(camera), local: this.stream.local(region),
-      },
-      view,
-      this.settings.holes,
-    );
+    try {
+      const scene = {
+        number: this.storey, storey: this.current, region, captureOf: (camera: number) => this.stream.capture(camera),
+        mayCome: (camera: number) => this.stream.mayCome(camera), local: this.stream.local(region),
+      };
+      this.facts = this.renderer.draw(scene, view, this.settings.holes);
+    } catch (error) { // memory, above all: what is drawn stays
+      this.lost = true;
+      this.failures.set('frame', { file: 'the frame', reason: `${(error as Error).message}; open the page again, with less memory in its settings` });
+      this.events.failed();
+    }
     ++this.framesDrawn;
   }
 

@@ -10,13 +10,14 @@ const kVersion = 1;
 const kFirstBytes = 64 << 10;
 const kMostRoot = 64 << 20, kMostPage = 16 << 20, kMostLevels = 8;
 
-export type ReadRange = (at: number, bytes: number) => Promise<{ bytes: Uint8Array; total: number }>;
+/** `again`: past what caches say. */
+export type ReadRange = (at: number, bytes: number, again?: boolean) => Promise<{ bytes: Uint8Array; total: number }>;
 
 /** Of an address, by HTTP. */
-export const rangesOf = (url: string): ReadRange => async (at, bytes) => {
+export const rangesOf = (url: string): ReadRange => async (at, bytes, again = false) => {
   let response: Response;
   try {
-    response = await fetch(url, { headers: { Range: `bytes=${at}-${at + bytes - 1}` } });
+    response = await fetch(url, { cache: again ? 'reload' : 'default', headers: { Range: `bytes=${at}-${at + bytes - 1}` } });
   } catch {
     throw new DamagedFile('the server does not answer');
   }
@@ -25,6 +26,7 @@ export const rangesOf = (url: string): ReadRange => async (at, bytes) => {
     throw new DamagedFile('its server does not send parts of files (HTTP range requests)');
   }
   if (response.status !== 206) throw new DamagedFile(`the server answers ${response.status}`);
+  // Hosts of other origins may not show it.
   const total = Number(/\/(\d+)$/.exec(response.headers.get('Content-Range') ?? '')?.[1] ?? NaN);
   return { bytes: new Uint8Array(await response.arrayBuffer()), total };
 };
@@ -76,6 +78,7 @@ function distanceToPolygon(polygon: readonly Vec2[], [x, y]: Vec2): number {
 
 export class WalkFile {
   private readonly pages = new Map<number, Promise<object>>();
+  private again = false; // something was damaged
 
   private constructor(
     private readonly read: ReadRange, private readonly root: Root, private readonly pageStart: number,
@@ -91,7 +94,7 @@ export class WalkFile {
     if ((await contentHash(first.slice(0, kHashAt))) !== hexOf(kHashAt)) throw new DamagedFile('its header is damaged');
     const [fileBytes, rootBytes, rootRaw, pageStart, dataStart] = [16, 24, 32, 40, 48].map((at) => Number(view.getBigUint64(at, true)));
     if (rootBytes > kMostRoot || rootRaw > kMostRoot || pageStart !== kHeaderBytes + rootBytes) throw new DamagedFile('its header makes no sense');
-    if (total !== fileBytes) throw new DamagedFile(`it has ${total} bytes and says ${fileBytes}: it was not copied whole`);
+    if (!Number.isNaN(total) && total !== fileBytes) throw new DamagedFile(`it has ${total} bytes and says ${fileBytes}: it was not copied whole`);
     const walk = new WalkFile(read, { storeys: [] }, pageStart, dataStart, first);
     const root = (await walk.unpacked(kHeaderBytes, rootBytes, rootRaw, hexOf(56))) as Root;
     if (!Array.isArray(root.storeys)) throw new DamagedFile('its index makes no sense');
@@ -99,7 +102,7 @@ export class WalkFile {
   }
 
   private async unpacked(at: number, bytes: number, raw: number, hash: string): Promise<object> {
-    const packed = at + bytes <= this.first.length ? this.first.subarray(at, at + bytes) : (await this.read(at, bytes)).bytes;
+    const packed = at + bytes <= this.first.length ? this.first.subarray(at, at + bytes) : (await this.read(at, bytes, this.again)).bytes;
     if (packed.length !== bytes || (await contentHash(packed)) !== hash) throw new DamagedFile(`the part of its index at ${at} is damaged`);
     let json: unknown;
     try {
@@ -118,7 +121,10 @@ export class WalkFile {
     if (!page) {
       if (entry.raw > kMostPage || entry.bytes > entry.raw + 1024) throw new DamagedFile('a page of its index is too large');
       page = this.unpacked(this.pageStart + entry.at, entry.bytes, entry.raw, entry.hash);
-      page.catch(() => this.pages.delete(entry.at)); // asked for again, it may come
+      page.catch(() => {
+        this.pages.delete(entry.at); // asked for again, it may come
+        this.again = true;
+      });
       this.pages.set(entry.at, page);
     }
     return page;
@@ -129,7 +135,7 @@ export class WalkFile {
     const root = this.root.storeys[storey]?.page;
     let best: { leaf: Leaf; at: number; number: number; distance: number } | undefined;
     const visit = async (entry: Entry, level: number): Promise<void> => {
-      if (!isEntry(entry) || level > kMostLevels) throw new DamagedFile('its index makes no sense');
+      if (!isEntry(entry) || level >= kMostLevels) throw new DamagedFile('its index makes no sense');
       if (best && distanceToBox(entry.box, place) > best.distance) return;
       const page = await this.page(entry);
       if (!entry.leaf) {
