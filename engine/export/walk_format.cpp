@@ -1,16 +1,15 @@
 #include "engine/export/walk_format.h"
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <cstring>
 
 #include "engine/base/hash.h"
+#include "engine/store/packed_text.h"
 
 namespace acentric::walk_format {
 namespace {
 
-constexpr int kCompressionLevel = 15;  // it is written once
 constexpr std::size_t kHashAt = kHeaderBytes - 16;
 
 ContentKey hashOf(std::span<const std::byte> bytes) {
@@ -56,21 +55,13 @@ Result<Header> headerOf(std::span<const std::byte> bytes, const std::string& nam
 
 std::string hashText(std::span<const std::byte> bytes) { return hashOf(bytes).toHex(); }
 
-std::vector<std::byte> packed(const std::string& text) {
-  std::vector<std::byte> packed(ZSTD_compressBound(text.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), kCompressionLevel));
-  return packed;
-}
-
-Result<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t raw,
-                                 const std::string& hash, const std::string& name) {
+Result<std::string> checkedText(std::span<const std::byte> packed, std::uint64_t raw, const std::string& hash,
+                                const std::string& name) {
   if (hashText(packed) != hash)
     return fail(ErrorKind::malformed, "is damaged: its contents do not fit its hash", name);
-  std::string text(raw, '\0');
-  const std::size_t size = ZSTD_decompress(text.data(), text.size(), packed.data(), packed.size());
-  if (ZSTD_isError(size) != 0 || size != raw)
-    return fail(ErrorKind::malformed, "does not unpack to what the walk says", name);
-  return text;
+  auto text = unpackedText(packed, raw);
+  if (!text) return fail(ErrorKind::malformed, "does not unpack to what the walk says", name);
+  return std::move(*text);
 }
 
 }  // namespace acentric::walk_format

@@ -33,10 +33,8 @@ HeaderBytes headerBytes(const Header& header);
 Result<Header> headerOf(std::span<const std::byte> bytes, const std::string& name);
 
 std::string hashText(std::span<const std::byte> bytes);
-/// By zstd.
-std::vector<std::byte> packed(const std::string& text);
 /// Fails where it is not what `hash` says, or does not unpack to `raw` bytes.
-Result<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t raw,
-                                 const std::string& hash, const std::string& name);
+Result<std::string> checkedText(std::span<const std::byte> packed, std::uint64_t raw, const std::string& hash,
+                                const std::string& name);
 
 }  // namespace acentric::walk_format

@@ -97,7 +97,7 @@ class IndexReader {
       return malformed(what + " lies outside the index");
     std::vector<std::byte> packed(bytes);
     if (Status got = ranges_.read(at, packed); !got) return tl::unexpected(got.error());
-    const auto text = unpackedText(packed, raw, hash, name_ + ", " + what);
+    const auto text = checkedText(packed, raw, hash, name_ + ", " + what);
     if (!text) return tl::unexpected(text.error());
     return parseJson<Json>(*text, name_ + ", " + what);
   }

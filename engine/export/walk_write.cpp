@@ -13,6 +13,7 @@
 #include "engine/export/bundle_json.h"
 #include "engine/export/bundle_read.h"
 #include "engine/export/walk_format.h"
+#include "engine/store/packed_text.h"
 
 namespace acentric {
 namespace {
@@ -47,7 +48,7 @@ class WalkWriter {
   Result<std::uint64_t> write(const fs::path& file, const std::stop_token& stop) {
     placeData();
     const std::string text = jsonText(rootJson());
-    const std::vector<std::byte> root = packed(text);
+    const std::vector<std::byte> root = packedText(text);
     Header header;
     header.rootBytes = root.size(), header.rootRaw = text.size();
     header.pageStart = kHeaderBytes + root.size();
@@ -152,7 +153,7 @@ class WalkWriter {
 
   Json addPage(const Json& page, const Box& box, bool leaf) {
     const std::string text = jsonText(page);
-    const std::vector<std::byte> bytes = packed(text);
+    const std::vector<std::byte> bytes = packedText(text);
     const std::uint64_t at = pages_.size();
     pages_.insert(pages_.end(), bytes.begin(), bytes.end());
     return {{"at", at},
@@ -304,7 +305,9 @@ Result<std::uint64_t> writeWalk(const fs::path& folder, const fs::path& file, co
   if (!text) return tl::unexpected(text.error());
   const auto bundle = parseBundle(*text, (folder / kBundleIndex).string());
   if (!bundle) return tl::unexpected(bundle.error());
-  return WalkWriter(folder, Json::parse(*text), *bundle, options).write(file, stop);
+  auto index = parseJson<Json>(*text, kBundleIndex);
+  if (!index) return tl::unexpected(index.error());
+  return WalkWriter(folder, std::move(*index), *bundle, options).write(file, stop);
 }
 
 }  // namespace acentric

@@ -6,6 +6,7 @@
 
 #include "engine/export/walk_format.h"
 #include "engine/export/walk_read.h"
+#include "engine/store/packed_text.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace acentric;
@@ -37,13 +38,13 @@ bool accepts(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const std::size_t end = std::min(text.find('\0'), text.size());
   std::string root = text.substr(0, end), leaf = text.substr(std::min(end + 1, text.size()));
-  const std::vector<std::byte> page = walk_format::packed(leaf);
+  const std::vector<std::byte> page = packedText(leaf);
   const std::string entry = "{\"at\":0,\"bytes\":" + std::to_string(page.size()) +
                             ",\"raw\":" + std::to_string(leaf.size()) + ",\"hash\":\"" +
                             walk_format::hashText(page) + "\",\"box\":[0,0,1,1],\"leaf\":true}";
   for (std::size_t at = root.find("PAGE"); at != std::string::npos; at = root.find("PAGE", at + entry.size()))
     root.replace(at, 4, entry);
-  const std::vector<std::byte> packed = walk_format::packed(root);
+  const std::vector<std::byte> packed = packedText(root);
   constexpr std::size_t kData = 64;
   walk_format::Header header;
   header.rootBytes = packed.size(), header.rootRaw = root.size();

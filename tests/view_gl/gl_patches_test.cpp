@@ -92,7 +92,8 @@ TEST_F(GlPatches, ArePaintedAsOnTheCpu) {
     EXPECT_TRUE(second) << "no view has a second cover";
     EXPECT_TRUE(clipped) << "no view is so wide that it is split in parts";
   }
-  for (const char* words : {"patches.frag MIRRORS", "patches.frag REFLECT", "patches_begin.frag LOCAL_MIRRORS"})
+  for (const char* words :
+       {"patches.frag MIRRORS", "patches.frag REFLECT", "patches_begin.frag LOCAL_MIRRORS"})
     EXPECT_TRUE(hasVariant(words)) << words;
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+/// Text packed by zstd.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace acentric {
+
+std::vector<std::byte> packedText(const std::string& text);
+/// Nothing where it does not unpack to so many bytes.
+std::optional<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t bytes);
+
+}  // namespace acentric
