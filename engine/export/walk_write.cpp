@@ -216,7 +216,7 @@ class WalkWriter {
       listed.push_back(std::move(json));
     }
     // Cameras that nothing shows go with the first page.
-    for (const int camera : std::exchange(unused_, {})) addCamera(camera);
+    for (const int camera : unused_) addCamera(camera);
     return {{"cameras", std::move(cameras)}, {"regions", std::move(listed)}};
   }
 
@@ -240,7 +240,10 @@ class WalkWriter {
     auto most = std::size_t(options_.regionsPerPage);
     if (regions.size() <= most) {
       const Json leaf = leafOf(source, regions);
-      if (regions.size() == 1 || jsonText(leaf).size() <= kMostPageBytes) return addPage(leaf, box, true);
+      if (regions.size() == 1 || jsonText(leaf).size() <= kMostPageBytes) {
+        unused_.clear();
+        return addPage(leaf, box, true);
+      }
       most = (regions.size() + 1) / 2;  // no reader takes it as it is
     }
     std::vector<std::vector<int>> parts{std::move(regions)};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/file.h"
+#include "engine/base/html_text.h"
 
 namespace acentric {
 namespace {
@@ -66,28 +67,6 @@ Status replaceOnce(std::string& text, std::string_view what, const std::string& 
                 file.string());
   text.replace(at, what.size(), by);
   return {};
-}
-
-/// Text as HTML has it, in attributes too.
-std::string htmlText(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
 }
 
 /// Of Open Graph (ogp.me), which those read who show addresses.

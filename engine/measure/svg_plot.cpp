@@ -140,30 +140,6 @@ std::string pointOf(const PlotPoint& p, const Axis& x, const Axis& y) {
 
 }  // namespace
 
-std::string htmlText(std::string_view text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
-
 std::vector<double> ticksOf(double low, double high, int count, bool logarithmic) {
   std::vector<double> ticks;
   if (logarithmic) {

@@ -2,13 +2,11 @@
 /// Points with error bars over two axes, as SVG to be put into HTML.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-namespace acentric {
+#include "engine/base/html_text.h"
 
-/// Safe inside of elements and quoted attributes.
-std::string htmlText(std::string_view text);
+namespace acentric {
 
 struct PlotPoint {
   double x = 0, y = 0;

@@ -77,6 +77,8 @@ class WalkTest : public FolderTest {
       storey.local.emplace_back();
       if (r % 2 == 0) storey.local.back() = BundleLocal{file(name + "/" + std::to_string(r) + ".local"), 3};
     }
+    storey.layout.cameras.push_back(storey.layout.cameras.back());  // which nothing shows
+    storey.cameras.push_back({0.5, -0.5, {}, {}});
     return storey;
   }
 
