@@ -1,6 +1,7 @@
 /** The walk: where the eye is, what is loaded for it, and when a frame is drawn. Knows the canvas and no other element. */
 
 import { readIndex } from './bundle/read_index';
+import type { WalkPage } from './bundle/walk_file';
 import type { Bundle, Path, Storey } from './bundle/types';
 import { durationOf, poseAt } from './geometry/path';
 import { chooseCover, RegionIndex } from './geometry/regions';
@@ -51,8 +52,7 @@ export class Walk {
   private movingScale = 1;
   private lost = false;
   private playing: { path: Path; began: number | undefined } | undefined;
-  private own: readonly boolean[] | undefined; // regions of the index's page that is open: for others there is another page
-  private openPage: number | undefined;
+  private page: WalkPage | undefined; // of a walk's index, that is open
   private refused: number | undefined; // the region whose page could not be had
   private turning = 0; // to other pages
   private turns: Promise<void> = Promise.resolve();
@@ -64,8 +64,7 @@ export class Walk {
     private readonly events: { drawn: () => void; failed: () => void; stopped: () => void },
   ) {
     this.storey = bundle.storey;
-    this.own = source?.first.own;
-    this.openPage = source?.first.at;
+    this.page = source?.first;
     this.index = this.indexOf(this.storey);
     this.pose = this.startPose();
     this.renderer = new Renderer(gl, bundle, planner);
@@ -153,7 +152,7 @@ export class Walk {
     this.redraw();
   }
 
-  private isOwn = (region: number): boolean => region >= 0 && (this.own?.[region] ?? true);
+  private isOwn = (region: number): boolean => region >= 0 && (this.page?.own[region] ?? true);
 
   /** To the page of a walk's index that tells of a place; one turn after another. */
   private turnTo(storey: number, place: [number, number]): Promise<void> {
@@ -164,13 +163,13 @@ export class Walk {
   private async turn(storey: number, place: [number, number]): Promise<void> {
     try {
       const page = await this.source!.walk.pageAt(storey, place);
-      if (page.at === this.openPage) return;
+      if (page.at === this.page?.at) return;
       const bundle = readIndex(page.text);
       this.planner.open(page.text);
       const last = this.lastRegion < 0 ? -1 : this.current.regions[this.lastRegion].number;
       this.bundle = bundle;
-      this.own = page.own;
-      this.openPage = page.at;
+      this.page = page;
+      this.facts = { ...this.facts, captures: [], missing: [] }; // they name cameras of the page before
       this.indices.clear();
       if (storey !== this.storey) return; // there is no stream of it yet
       this.index = this.indexOf(storey);
@@ -253,10 +252,13 @@ export class Walk {
     const seconds = this.lastTick === undefined ? 1 / 60 : Math.min(0.25, (now - this.lastTick) / 1000);
     const wasMoving = this.lastTick !== undefined;
     this.lastTick = moving ? now : undefined;
-    if (moving) this.stop();
-    else this.followPath(now);
-    if (moving) this.move(movement, seconds);
-    else this.velocity = [0, 0];
+    if (moving) {
+      this.stop();
+      this.move(movement, seconds);
+    } else {
+      this.velocity = [0, 0];
+      this.followPath(now);
+    }
     if (!moving && wasMoving) {
       this.dirty = true; // sharp again
       this.events.stopped();

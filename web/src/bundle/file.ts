@@ -6,6 +6,24 @@ import { ZSTDDecoder } from 'zstddec';
 /** What is wrong with a file, in a sentence without its name. */
 export class DamagedFile extends Error {}
 
+/** A file, or `bytes` of it from `at` on. `again`: past what caches say. */
+export async function fetched(url: string, again: boolean, part?: { at: number; bytes: number }): Promise<Response> {
+  const headers = part && { Range: `bytes=${part.at}-${part.at + part.bytes - 1}` };
+  let response: Response;
+  try {
+    response = await fetch(url, { cache: again ? 'reload' : 'default', headers });
+  } catch {
+    throw new DamagedFile('the server does not answer');
+  }
+  if (response.status === 404) throw new DamagedFile('it is missing on the server');
+  if (part && response.status === 200) {
+    void response.body?.cancel();
+    throw new DamagedFile('the server does not send parts of files (HTTP range requests)');
+  }
+  if (!response.ok) throw new DamagedFile(`the server answers ${response.status}`);
+  return response;
+}
+
 let decoder: Promise<ZSTDDecoder> | undefined;
 export function zstd(): Promise<ZSTDDecoder> {
   decoder ??= (async () => {

@@ -1,6 +1,7 @@
 /** A walk: a bundle as one file that is read by ranges (engine/export/FORMAT.md, "Walks"). */
 
-import { contentHash, DamagedFile, zstd } from './file';
+import { contentHash, DamagedFile, fetched, zstd } from './file';
+import { distanceTo } from '../geometry/polygon';
 import type { Vec2 } from '../geometry/vector';
 
 const kHeaderBytes = 88, kHashAt = 72;
@@ -15,17 +16,7 @@ export type ReadRange = (at: number, bytes: number, again?: boolean) => Promise<
 
 /** Of an address, by HTTP. */
 export const rangesOf = (url: string): ReadRange => async (at, bytes, again = false) => {
-  let response: Response;
-  try {
-    response = await fetch(url, { cache: again ? 'reload' : 'default', headers: { Range: `bytes=${at}-${at + bytes - 1}` } });
-  } catch {
-    throw new DamagedFile('the server does not answer');
-  }
-  if (response.status === 200) {
-    void response.body?.cancel();
-    throw new DamagedFile('its server does not send parts of files (HTTP range requests)');
-  }
-  if (response.status !== 206) throw new DamagedFile(`the server answers ${response.status}`);
+  const response = await fetched(url, again, { at, bytes });
   // Hosts of other origins may not show it.
   const total = Number(/\/(\d+)$/.exec(response.headers.get('Content-Range') ?? '')?.[1] ?? NaN);
   return { bytes: new Uint8Array(await response.arrayBuffer()), total };
@@ -63,18 +54,6 @@ export interface WalkPage {
 
 const distanceToBox = ([x0, y0, x1, y1]: Entry['box'], [x, y]: Vec2): number =>
   Math.hypot(Math.max(x0 - x, 0, x - x1), Math.max(y0 - y, 0, y - y1));
-
-/** 0 inside; else to its nearest corner or side, about. */
-function distanceToPolygon(polygon: readonly Vec2[], [x, y]: Vec2): number {
-  let inside = true, least = Infinity;
-  polygon.forEach(([ax, ay], k) => {
-    const [bx, by] = polygon[(k + 1) % polygon.length], [dx, dy] = [bx - ax, by - ay];
-    if (dx * (y - ay) - dy * (x - ax) < 0) inside = false;
-    const t = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1)));
-    least = Math.min(least, Math.hypot(ax + t * dx - x, ay + t * dy - y));
-  });
-  return inside ? 0 : least;
-}
 
 export class WalkFile {
   private readonly pages = new Map<number, Promise<object>>();
@@ -150,7 +129,8 @@ export class WalkFile {
         throw new DamagedFile('its index makes no sense');
       for (const region of leaf.regions) {
         if (!region.own) continue;
-        const distance = distanceToPolygon(region.polygon ?? [], place);
+        if (!Array.isArray(region.polygon) || region.polygon.length < 3) throw new DamagedFile('its index makes no sense');
+        const distance = distanceTo(region.polygon, place);
         // Of regions that overlap the first is the eye's.
         if (!best || distance < best.distance || (distance === best.distance && region.number < best.number))
           best = { leaf, at: entry.at, number: region.number, distance };

@@ -1,22 +1,14 @@
 /** Fetches a file, checks that it is what the index says, and makes of it what is drawn. */
 
-import { contentHash, DamagedFile } from '../bundle/file';
+import { contentHash, DamagedFile, fetched } from '../bundle/file';
 import type { FileRef } from '../bundle/types';
 import type { LocalReader } from '../engine/local_reader';
 import type { PackReader } from '../engine/pack_reader';
 import type { Loaded, Request } from './messages';
 
-async function fetched(url: string, file: FileRef, from: number | undefined, again: boolean): Promise<Uint8Array> {
-  let response: Response;
-  const headers = from === undefined ? undefined : { Range: `bytes=${from}-${from + file.bytes - 1}` };
-  try {
-    response = await fetch(url, { cache: again ? 'reload' : 'default', headers });
-  } catch {
-    throw new DamagedFile('the server does not answer');
-  }
-  if (response.status === 404) throw new DamagedFile('it is missing on the server');
-  if (headers && response.status === 200) throw new DamagedFile('the server does not send parts of files (HTTP range requests)');
-  if (!response.ok) throw new DamagedFile(`the server answers ${response.status}`);
+/** `from`: in a walk, where the file begins. */
+async function bytesAt(url: string, file: FileRef, from: number | undefined, again: boolean): Promise<Uint8Array> {
+  const response = await fetched(url, again, from === undefined ? undefined : { at: from, bytes: file.bytes });
   const declared = Number(response.headers.get('Content-Length') ?? 0);
   if (declared > 4 * file.bytes + 65536) throw new DamagedFile('it is far larger than the index says');
   return new Uint8Array(await response.arrayBuffer());
@@ -45,7 +37,7 @@ export interface Readers {
 
 export async function loadFile(request: Request, readers: Promise<Readers>): Promise<Loaded> {
   const { task, file } = request;
-  const bytes = await checkedBytes(request.bytes ?? (await fetched(request.url!, file, request.from, request.again)), file);
+  const bytes = await checkedBytes(request.bytes ?? (await bytesAt(request.url!, file, request.from, request.again)), file);
   if (task.kind === 'capture') return { kind: 'capture', capture: await (await readers).packs.read(bytes, task.exposure) };
   if (task.kind === 'local') return { kind: 'local', local: (await readers).locals.read(bytes, task.origin) };
   checkPictureSize(bytes, task.width, task.height);
