@@ -19,7 +19,7 @@
 #include <stdint.h>
 
 #define ACENTRIC_RUNTIME_VERSION_MAJOR 1
-#define ACENTRIC_RUNTIME_VERSION_MINOR 1
+#define ACENTRIC_RUNTIME_VERSION_MINOR 2
 #define ACENTRIC_RUNTIME_VERSION_PATCH 0
 #define ACENTRIC_RUNTIME_VERSION                                                   \
   (ACENTRIC_RUNTIME_VERSION_MAJOR * 10000 + ACENTRIC_RUNTIME_VERSION_MINOR * 100 + \
@@ -59,7 +59,9 @@ ACENTRIC_API const char* acentric_status_name(acentric_status status);
 typedef struct acentric_bundle acentric_bundle;
 
 /* Files by their names in the bundle, such as "captures/KEY.pack". Called from the thread that calls the
- * library, while it does. `user` is handed on. Both return ACENTRIC_OK or an error. */
+ * library, while it does; after acentric_request_view or acentric_request_models also from threads of the
+ * library's own, several at once, until the handle is closed. `user` is handed on. Both return ACENTRIC_OK or
+ * an error. */
 typedef struct acentric_files {
   void* user;
   acentric_status (*size)(void* user, const char* name, uint64_t* bytes);
@@ -85,7 +87,7 @@ ACENTRIC_API acentric_status acentric_open_ranges(const acentric_ranges* ranges,
 ACENTRIC_API void acentric_close(acentric_bundle* bundle);
 /* What was wrong with the last call that failed: file, place in it, reason. "" if none was. Never NULL. */
 ACENTRIC_API const char* acentric_message(const acentric_bundle* bundle);
-/* Threads that draw and unpack, 1 at first. */
+/* Threads that draw and unpack, 1 at first. As many load in the background, from its first request on. */
 ACENTRIC_API acentric_status acentric_set_threads(acentric_bundle* bundle, int32_t threads);
 
 /* --- What there is --- */
@@ -200,7 +202,8 @@ typedef struct acentric_need {
   int32_t kind;   /* ACENTRIC_CAPTURE or ACENTRIC_REGION */
   int32_t number; /* of the camera or region */
   int32_t loaded; /* ACENTRIC_ABSENT, _COARSE, _FULL; a region is absent or full */
-  uint32_t roles; /* of a capture: the region draws the samples and runs that share a bit with these */
+  /* Of a capture: the region draws the samples and runs that share a bit with these; of a region all bits. */
+  uint32_t roles;
 } acentric_need;
 typedef struct acentric_needs {
   int32_t storey, region; /* where the eye stands */
@@ -233,6 +236,26 @@ ACENTRIC_API acentric_status acentric_unload_textures(acentric_bundle* bundle);
 ACENTRIC_API acentric_status acentric_load_view(acentric_bundle* bundle, const acentric_view* view,
                                                 const acentric_settings* settings, int32_t detail);
 
+/* --- Loading in the background (since 1.2) --- */
+
+/* As acentric_load_view, but at once: threads of the library's own read and unpack, captures that are nearest
+ * first. Of cameras of which nothing is loaded the coarse capture comes first, whatever `detail`. Each
+ * request takes the place of the one before; what is being read then is still finished. What could not be
+ * read is not tried again until acentric_cancel. Call it whenever the eye has moved, such as in each frame.
+ */
+ACENTRIC_API acentric_status acentric_request_view(acentric_bundle* bundle, const acentric_view* view,
+                                                   const acentric_settings* settings, int32_t detail);
+/* Takes what has come: it is loaded then. Never waits. An error is of one file; call it again for the rest.
+ * *arrived, unless NULL: how many came. */
+ACENTRIC_API acentric_status acentric_poll(acentric_bundle* bundle, int32_t* arrived);
+/* Drops what was requested and not begun, and forgets what failed. */
+ACENTRIC_API acentric_status acentric_cancel(acentric_bundle* bundle);
+/* How much was requested and has not been taken by acentric_poll or acentric_next_model. */
+ACENTRIC_API int32_t acentric_waiting(const acentric_bundle* bundle);
+/* Unloads what a view does not need, farthest from it first, until no more than `bytes` are in memory. */
+ACENTRIC_API acentric_status acentric_unload_beyond(acentric_bundle* bundle, const acentric_view* view,
+                                                    const acentric_settings* settings, uint64_t bytes);
+
 /* --- Pictures --- */
 
 typedef struct acentric_picture {
@@ -246,6 +269,78 @@ typedef struct acentric_picture {
 ACENTRIC_API acentric_status acentric_render(acentric_bundle* bundle, const acentric_view* view,
                                              const acentric_settings* settings,
                                              const acentric_picture* picture);
+
+/* --- Models: textured triangles for a renderer of one's own, in OpenGL or anything else (since 1.2) --- */
+
+enum { ACENTRIC_OPAQUE = 0, ACENTRIC_MASK = 1, ACENTRIC_BLEND = 2 };
+
+typedef struct acentric_model_vertex {
+  float position[3];  /* metres, Z up, from acentric_model.origin */
+  float uv[2];        /* (0, 0) is where the texture's first row begins */
+  uint16_t colour[4]; /* 0 to 65535 for 0 to 1; the last is 65535 */
+} acentric_model_vertex;
+
+/* Triangles of one texture. A pixel shows factor * texture * colour, multiplied as they are linear and shown
+ * as sRGB, without light or tone curve: textures are sRGB, colours and factor linear. Where alpha_mode is
+ * ACENTRIC_MASK, pixels with alpha below alpha_cutoff are left out. ACENTRIC_BLEND is drawn after all that is
+ * not, over it, and writes no depth. */
+typedef struct acentric_mesh {
+  const char* name; /* of the material, for people */
+  uint64_t first_index, index_count;
+  int32_t texture, alpha_mode;
+  float factor[4], alpha_cutoff; /* 0 where nothing is cut off */
+  int32_t double_sided;
+  uint32_t roles; /* drawn where a bit of them is among the roles of acentric_need */
+} acentric_mesh;
+
+typedef struct acentric_image {
+  int32_t width, height, wrap_u, wrap_v, nearest; /* as acentric_texture */
+  const uint8_t* rgba;                            /* sRGB, straight alpha, rows downwards */
+} acentric_image;
+
+/* Of a capture, or of a region: what is near it, and the sky around the scene. A view is drawn from the
+ * models that acentric_view_needs names, in any order, with a depth test. Flat mirrors are open, and what
+ * they show lies behind them. */
+typedef struct acentric_model {
+  double origin[3];
+  uint64_t vertex_count, index_count;
+  const acentric_model_vertex* vertices;
+  const uint32_t* indices; /* of vertices, 3 a triangle, counter-clockwise from the front */
+  int32_t mesh_count, texture_count;
+  const acentric_mesh* meshes;
+  const acentric_image* textures;
+} acentric_model;
+
+/* From a model's positions to OpenGL's clip space, column by column, for vectors on the right: `view` from
+ * `near` metres on, without an end. */
+ACENTRIC_API void acentric_clip_from_model(const acentric_view* view, const double origin[3], double near,
+                                           float matrix[16]);
+
+/* `kind` and `number` as of acentric_need; of a region `detail` says nothing. Textures of captures have at
+ * most texture_pixels a side, 128 to 16384. Nothing has to be loaded, and nothing is. A model lives until it
+ * is freed, whatever is closed. */
+ACENTRIC_API acentric_status acentric_make_model(acentric_bundle* bundle, int32_t storey, int32_t kind,
+                                                 int32_t number, int32_t detail, int32_t texture_pixels,
+                                                 const acentric_model** model);
+/* Of any handle, and from any thread. NULL is none. */
+ACENTRIC_API void acentric_free_model(const acentric_model* model);
+
+/* Asks for the models of what a view is drawn from, in the background: coarse ones of captures, what is near,
+ * then full ones, those nearest first. As acentric_request_view otherwise. Each is handed out once; to have
+ * it again, acentric_return_model. */
+ACENTRIC_API acentric_status acentric_request_models(acentric_bundle* bundle, const acentric_view* view,
+                                                     const acentric_settings* settings,
+                                                     int32_t texture_pixels);
+typedef struct acentric_arrival {
+  int32_t storey, kind, number; /* as of acentric_need */
+  int32_t detail;               /* of a capture: the full one takes the place of the coarse one */
+  const acentric_model* model;  /* to be freed; NULL: nothing has come, or it failed */
+} acentric_arrival;
+/* The next that has come; never a coarse one of which the full one is in use. Never waits. An error is of
+ * what `arrival` names. */
+ACENTRIC_API acentric_status acentric_next_model(acentric_bundle* bundle, acentric_arrival* arrival);
+/* It is not in use any more, and comes again when it is needed. Does not free it. */
+ACENTRIC_API acentric_status acentric_return_model(acentric_bundle* bundle, const acentric_arrival* arrival);
 
 /* --- Data for a renderer of one's own (FORMAT.md of bundles and of captures tell what it means) --- */
 
@@ -326,7 +421,6 @@ typedef struct acentric_texture {
 ACENTRIC_API acentric_status acentric_get_texture(acentric_bundle* bundle, int32_t texture,
                                                   acentric_texture* out);
 
-enum { ACENTRIC_OPAQUE = 0, ACENTRIC_MASK = 1, ACENTRIC_BLEND = 2 };
 typedef struct acentric_texture_use {
   int32_t texture, uv_set; /* texture -1: none */
   float rows[2][3];        /* u' = rows[0] . (u, v, 1) */

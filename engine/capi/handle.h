@@ -2,11 +2,15 @@
 /// How C calls become C++ ones: arguments are checked, errors become codes and a message, and nothing is
 /// thrown across.
 
+#include <functional>
+#include <memory>
 #include <new>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "engine/capi/acentric_runtime.h"
+#include "engine/export/background_loader.h"
 #include "engine/export/bundle_player.h"
 
 struct acentric_bundle {
@@ -14,6 +18,9 @@ struct acentric_bundle {
   bool open = false;
   std::string message;
   std::vector<std::vector<acentric_pose>> poses;  ///< by path
+  std::set<acentric::LoadJob> failed;             ///< in the background
+  std::set<acentric::LoadJob> handedOut;          ///< models
+  std::unique_ptr<acentric::BackgroundLoader> loader;
 };
 
 namespace acentric::capi {
@@ -58,5 +65,29 @@ inline bool within(int32_t number, std::size_t count) {
 /// With `settings` NULL the project's.
 Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* settings);
 PerspectiveView viewOf(const acentric_view& view);
+
+/// What a view is drawn from.
+struct Wanted {
+  PerspectiveView view;
+  ViewSettings settings;
+  BundlePlayer::Needs needs;
+};
+Result<Wanted> wantedOf(const BundlePlayer& runtime, const acentric_view& view,
+                        const acentric_settings* settings);
+/// An eye outside every region has a code of its own.
+acentric_status failedView(acentric_bundle& bundle, const Error& error);
+/// The rendition of a camera that there is and that comes nearest to `detail`; absent: it was not baked.
+Loaded renditionOf(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail);
+/// Roles of a camera that a region draws.
+std::uint8_t rolesIn(const Layout& layout, std::size_t region, int camera);
+
+/// Cameras of a view, nearest first, then the others of its region.
+std::vector<int> camerasOf(const BundlePlayer& runtime, const Wanted& wanted);
+/// What is to be loaded for a view in the background, in order; `like` says whether as models. Those that
+/// `wants` does not are left out.
+std::vector<LoadJob> jobsOf(const BundlePlayer& runtime, const Wanted& wanted, Loaded detail,
+                            const std::function<bool(const LoadJob&)>& wants, const LoadJob& like);
+/// In place of what was requested before. Leaves out what failed.
+acentric_status request(acentric_bundle& bundle, std::vector<LoadJob> jobs);
 
 }  // namespace acentric::capi

@@ -11,29 +11,6 @@ namespace {
 
 constexpr acentric_status kOk = ACENTRIC_OK;
 
-/// An eye outside every region has a code of its own.
-acentric_status failedView(acentric_bundle& bundle, const Error& error) {
-  return failed(bundle, error.kind == ErrorKind::notFound ? ACENTRIC_ERROR_OUTSIDE : codeOf(error.kind),
-                error.describe());
-}
-
-struct Wanted {
-  PerspectiveView view;
-  ViewSettings settings;
-  BundlePlayer::Needs needs;
-};
-
-Result<Wanted> wantedOf(const BundlePlayer& runtime, const acentric_view& view,
-                        const acentric_settings* settings) {
-  const auto chosen = settingsOf(runtime.bundle(), settings);
-  if (!chosen) return tl::unexpected(chosen.error());
-  Wanted wanted{viewOf(view), *chosen, {}};
-  auto needs = runtime.needsOf(wanted.view, wanted.settings);
-  if (!needs) return tl::unexpected(needs.error());
-  wanted.needs = std::move(*needs);
-  return wanted;
-}
-
 void writePicture(const Frame& frame, const FloatImage& inverseZDepth, const acentric_picture& picture) {
   const std::size_t width = std::size_t(frame.colour.width), height = std::size_t(frame.colour.height);
   const std::size_t step = picture.row_bytes > 0 ? picture.row_bytes : 4 * width;
@@ -46,19 +23,6 @@ void writePicture(const Frame& frame, const FloatImage& inverseZDepth, const ace
     const float inverse = real ? inverseZDepth.pixels[i] : 0;
     picture.z_depth[i] = inverse > 0 ? 1 / inverse : std::numeric_limits<float>::infinity();
   }
-}
-
-/// Which of a camera's samples a region draws.
-std::uint32_t rolesOf(const Layout& layout, std::size_t region, int camera) {
-  std::uint32_t roles = 0;
-  const auto add = [&](const std::vector<Cover>& covers) {
-    for (const Cover& cover : covers)
-      for (const Piece& piece : cover.pieces)
-        if (piece.camera == camera) roles |= roleBit(layout.cameras[std::size_t(camera)], piece.role);
-  };
-  add(layout.regions[region].covers);
-  add(layout.panoramas[region]);
-  return roles;
 }
 
 template <class Body>
@@ -90,11 +54,8 @@ acentric_status done(acentric_bundle* bundle, const Status& status) {
 
 /// The rendition that serves best; absent where there is none, or enough is loaded.
 Loaded choose(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
-  const BundleCamera& has = runtime.bundle().storeys[storey].cameras[camera];
-  if (!has.full && !has.coarse) return Loaded::absent;
   if (detail == Loaded::coarse && runtime.loaded(storey, camera) != Loaded::absent) return Loaded::absent;
-  if (detail == Loaded::full) return has.full ? Loaded::full : Loaded::coarse;
-  return has.coarse ? Loaded::coarse : Loaded::full;
+  return renditionOf(runtime, storey, camera, detail);
 }
 
 }  // namespace
@@ -133,6 +94,41 @@ static_assert(int(Loaded::absent) == ACENTRIC_ABSENT && int(Loaded::coarse) == A
 
 PerspectiveView viewOf(const acentric_view& view) {
   return {{view.eye[0], view.eye[1], view.eye[2]}, view.yaw, view.pitch, view.fov, view.width, view.height};
+}
+
+Result<Wanted> wantedOf(const BundlePlayer& runtime, const acentric_view& view,
+                        const acentric_settings* settings) {
+  const auto chosen = settingsOf(runtime.bundle(), settings);
+  if (!chosen) return tl::unexpected(chosen.error());
+  Wanted wanted{viewOf(view), *chosen, {}};
+  auto needs = runtime.needsOf(wanted.view, wanted.settings);
+  if (!needs) return tl::unexpected(needs.error());
+  wanted.needs = std::move(*needs);
+  return wanted;
+}
+
+acentric_status failedView(acentric_bundle& bundle, const Error& error) {
+  return failed(bundle, error.kind == ErrorKind::notFound ? ACENTRIC_ERROR_OUTSIDE : codeOf(error.kind),
+                error.describe());
+}
+
+Loaded renditionOf(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
+  const BundleCamera& has = runtime.bundle().storeys[storey].cameras[camera];
+  if (!has.full && !has.coarse) return Loaded::absent;
+  if (detail == Loaded::full) return has.full ? Loaded::full : Loaded::coarse;
+  return has.coarse ? Loaded::coarse : Loaded::full;
+}
+
+std::uint8_t rolesIn(const Layout& layout, std::size_t region, int camera) {
+  std::uint8_t roles = 0;
+  const auto add = [&](const std::vector<Cover>& covers) {
+    for (const Cover& cover : covers)
+      for (const Piece& piece : cover.pieces)
+        if (piece.camera == camera) roles |= roleBit(layout.cameras[std::size_t(camera)], piece.role);
+  };
+  add(layout.regions[region].covers);
+  add(layout.panoramas[region]);
+  return roles;
 }
 
 }  // namespace acentric::capi
@@ -174,10 +170,11 @@ acentric_status acentric_view_needs(acentric_bundle* bundle, const acentric_view
     const Layout& layout = runtime.bundle().storeys[found.storey].layout;
     for (const int camera : found.cameras)
       add(ACENTRIC_CAPTURE, camera, runtime.loaded(found.storey, std::size_t(camera)),
-          rolesOf(layout, std::size_t(found.region), camera));
+          rolesIn(layout, std::size_t(found.region), camera));
     if (wanted->settings.localGeometry)
       add(ACENTRIC_REGION, found.region,
-          runtime.regionLoaded(found.storey, std::size_t(found.region)) ? Loaded::full : Loaded::absent, 0);
+          runtime.regionLoaded(found.storey, std::size_t(found.region)) ? Loaded::full : Loaded::absent,
+          0xff);
     *needs = {int32_t(found.storey), found.region, count};
     return kOk;
   });

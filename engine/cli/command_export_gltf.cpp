@@ -14,7 +14,6 @@ Result<Report> runExportGltf(const ExportOptions& options, const Common& common)
   if (!storeys) return tl::unexpected(storeys.error());
   ExportGltfOptions gltf;
   gltf.allowMissing = options.allowMissing;
-  gltf.region.meshError = options.meshError;
   gltf.region.atlasPixels = options.texturePixels;
   gltf.region.bothHands = current->project.view.secondaryCover;
   gltf.region.generator = "Acentric " ACENTRIC_VERSION;
@@ -32,7 +31,6 @@ Result<Report> runExportGltf(const ExportOptions& options, const Common& common)
                  {"localTriangles", all.localTriangles},
                  {"textures", all.textures},
                  {"samples", all.samples},
-                 {"leftOut", all.leftOut},
                  {"missing", all.missing}};
   report.text = fmt::format(
       "{}: {} regions, {}\n  of captures: {} patches, {} triangles, {} textures, {} samples; near them: {} "
@@ -40,8 +38,6 @@ Result<Report> runExportGltf(const ExportOptions& options, const Common& common)
       options.output.string(), countText(done->regions.size()), bytesText(all.bytes), countText(all.patches),
       countText(all.triangles), countText(all.textures), countText(all.samples),
       countText(all.localTriangles));
-  if (all.leftOut > 0)
-    report.text += fmt::format("  left out: {} samples of glass and mirrors\n", countText(all.leftOut));
   if (all.missing > 0)
     report.text += fmt::format("warning: {} captures are missing; `acentric bake {}` makes them\n",
                                all.missing, options.project.string());

@@ -136,7 +136,6 @@ struct ExportOptions {
   std::optional<int> colourQuality;  ///< of "bundle", "web" and "walk"; none: the project's
   int regionsPerPage = 64;           ///< of "walk"
   bool singleFile = false;           ///< of "web": `output` is one HTML file with everything in it
-  double meshError = 0.5;            ///< of "gltf"
   int texturePixels = 4096;          ///< of "gltf"
   int region = -1;                   ///< of "gltf" and pictures: this one alone
   int facePixels = 512;              ///< of pictures

@@ -38,9 +38,6 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
                 "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  c->add_option("--mesh-error", o.meshError, "gltf: how far a surface may shift, in samples")
-      ->check(CLI::Range(0.01, 64.0))
-      ->capture_default_str();
   c->add_option("--texture-size", o.texturePixels, "gltf: most pixels a side of a texture")
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();

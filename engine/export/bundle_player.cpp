@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/view/view_cameras.h"
@@ -118,20 +119,36 @@ Status BundlePlayer::takeRoom(std::uint64_t bytes, const std::string& what) {
   return {};
 }
 
-Status BundlePlayer::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
-  auto& place = slot(storey, camera, detail);
-  if (place) return {};
+Result<std::shared_ptr<const DisplayCapture>> BundlePlayer::readCapture(std::size_t storey,
+                                                                        std::size_t camera,
+                                                                        Loaded detail) const {
   const BundleCamera& renditions = bundle_.storeys[storey].cameras[camera];
   const auto& file = detail == Loaded::full ? renditions.full : renditions.coarse;
   if (!file)
     return fail(ErrorKind::notFound, "was not baked", fmt::format("storey {}, camera {}", storey, camera));
   const auto read = readBundleCapture(*files_, bundle_.storeys[storey], camera, *file);
   if (!read) return tl::unexpected(read.error());
-  auto made = std::make_shared<const DisplayCapture>(prepareForDisplay(*read, bundle_.exposure));
-  if (Status room = takeRoom(acentric::bytesOf(*made), file->file.path); !room) return room;
-  place = std::move(made);
+  return std::make_shared<const DisplayCapture>(prepareForDisplay(*read, bundle_.exposure));
+}
+
+Status BundlePlayer::keepCapture(std::size_t storey, std::size_t camera, Loaded detail,
+                                 std::shared_ptr<const DisplayCapture> capture) {
+  auto& place = slot(storey, camera, detail);
+  if (place) return {};
+  if (Status room =
+          takeRoom(acentric::bytesOf(*capture), fmt::format("storey {}, camera {}", storey, camera));
+      !room)
+    return room;
+  place = std::move(capture);
   show(storey, camera);
   return {};
+}
+
+Status BundlePlayer::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+  if (slot(storey, camera, detail)) return {};
+  auto read = readCapture(storey, camera, detail);
+  if (!read) return tl::unexpected(read.error());
+  return keepCapture(storey, camera, detail, std::move(*read));
 }
 
 void BundlePlayer::unloadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
@@ -142,19 +159,61 @@ void BundlePlayer::unloadCapture(std::size_t storey, std::size_t camera, Loaded 
   show(storey, camera);
 }
 
-Status BundlePlayer::loadTexture(int texture) {
-  auto& image = images_[std::size_t(texture)];
-  if (image) return {};
-  const BundleTexture& described = bundle_.textures[std::size_t(texture)];
-  for (std::size_t t = 0; t < images_.size(); ++t)  // several textures may share a picture
-    if (images_[t] && bundle_.textures[t].file == described.file) {
-      image = images_[t];
-      return {};
+Result<ReadRegion> BundlePlayer::readRegion(std::size_t storey, std::size_t region, Images known) const {
+  auto local = readBundleLocal(*files_, bundle_, bundle_.storeys[storey], region);
+  if (!local) return tl::unexpected(local.error());
+  ReadRegion read{std::move(*local), Images(bundle_.textures.size())};
+  const auto imageOf = [&](std::size_t texture) -> Result<std::shared_ptr<const ColourImage>> {
+    const BundleTexture& described = bundle_.textures[texture];
+    for (std::size_t t = 0; t < known.size(); ++t)  // several textures may share a picture
+      if (known[t] && bundle_.textures[t].file == described.file) return known[t];
+    auto image = readBundleTexture(*files_, described);
+    if (!image) return tl::unexpected(image.error());
+    return std::make_shared<const ColourImage>(std::move(*image));
+  };
+  known.resize(bundle_.textures.size());
+  for (const Mesh& mesh : read.local.surfaces->meshes) {
+    const Material& material = bundle_.materials[std::size_t(mesh.material)];
+    for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture}) {
+      if (!use->used()) continue;
+      const auto texture = std::size_t(use->texture);
+      auto image = imageOf(texture);
+      if (!image) return tl::unexpected(image.error());
+      known[texture] = read.images[texture] = std::move(*image);
     }
-  auto read = readBundleTexture(*files_, described);
-  if (!read) return tl::unexpected(read.error());
-  if (Status room = takeRoom(bytesOf(*read), described.file.path); !room) return room;
-  image = std::make_shared<const ColourImage>(std::move(*read));
+  }
+  return read;
+}
+
+WalkScene BundlePlayer::bareWalk(std::size_t storey, Images images) const {
+  const WalkScene& loaded = storeys_[storey].walk;
+  WalkScene walk;
+  walk.scene = sceneOf(bundle_, std::move(images));
+  walk.layout = loaded.layout, walk.plan = loaded.plan;
+  walk.exposure = loaded.exposure, walk.mirrors = loaded.mirrors;
+  return walk;
+}
+
+Status BundlePlayer::keepTexture(std::size_t texture, std::shared_ptr<const ColourImage> image) {
+  if (images_[texture]) return {};
+  if (std::ranges::find(images_, image) == images_.end())
+    if (Status room = takeRoom(bytesOf(*image), bundle_.textures[texture].file.path); !room) return room;
+  images_[texture] = std::move(image);
+  return {};
+}
+
+Status BundlePlayer::keepRegion(std::size_t storey, std::size_t region, ReadRegion read) {
+  auto& place = storeys_[storey].regions[region];
+  if (place) return {};
+  for (std::size_t texture = 0; texture < read.images.size(); ++texture)
+    if (read.images[texture])
+      if (Status kept = keepTexture(texture, std::move(read.images[texture])); !kept) return kept;
+  auto made = std::make_shared<const LocalGeometry>(std::move(read.local));
+  if (Status room = takeRoom(bytesOf(*made), fmt::format("storey {}, region {}", storey, region)); !room)
+    return room;
+  showTextures();
+  place = std::move(made);
+  storeys_[storey].walk.local[region] = place;
   return {};
 }
 
@@ -164,23 +223,10 @@ void BundlePlayer::showTextures() {
 }
 
 Status BundlePlayer::loadRegion(std::size_t storey, std::size_t region) {
-  auto& place = storeys_[storey].regions[region];
-  if (place) return {};
-  auto read = readBundleLocal(*files_, bundle_, bundle_.storeys[storey], region);
+  if (storeys_[storey].regions[region]) return {};
+  auto read = readRegion(storey, region, images_);
   if (!read) return tl::unexpected(read.error());
-  for (const Mesh& mesh : read->surfaces->meshes) {
-    const Material& material = bundle_.materials[std::size_t(mesh.material)];
-    for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
-      if (use->used())
-        if (Status loaded = loadTexture(use->texture); !loaded) return loaded;
-  }
-  auto made = std::make_shared<const LocalGeometry>(std::move(*read));
-  if (Status room = takeRoom(bytesOf(*made), fmt::format("storey {}, region {}", storey, region)); !room)
-    return room;
-  showTextures();
-  place = std::move(made);
-  storeys_[storey].walk.local[region] = place;
-  return {};
+  return keepRegion(storey, region, std::move(*read));
 }
 
 void BundlePlayer::unloadRegion(std::size_t storey, std::size_t region) {

@@ -11,6 +11,12 @@ namespace acentric {
 /// As in acentric_runtime.h.
 enum class Loaded { absent = 0, coarse = 1, full = 2 };
 
+/// Near geometry as it was read, with the textures that its surfaces need.
+struct ReadRegion {
+  LocalGeometry local;
+  std::vector<std::shared_ptr<const ColourImage>> images;  ///< by texture; null: not needed
+};
+
 class BundlePlayer {
  public:
   /// Reads the index. Nothing else may be called where this failed.
@@ -18,6 +24,7 @@ class BundlePlayer {
 
   const Bundle& bundle() const { return bundle_; }
   void setThreads(int threads);
+  int threads() const { return runner_->threads(); }
 
   std::size_t storeyAt(const glm::dvec3& eye) const;
   struct Needs {
@@ -32,6 +39,19 @@ class BundlePlayer {
   void setLimit(std::uint64_t bytes) { limit_ = bytes; }
   Loaded loaded(std::size_t storey, std::size_t camera) const;
   bool regionLoaded(std::size_t storey, std::size_t region) const;
+
+  /// What loading reads, from any thread, and several at once where the files may be. `known`: textures that
+  /// need not be read.
+  Result<std::shared_ptr<const DisplayCapture>> readCapture(std::size_t storey, std::size_t camera,
+                                                            Loaded detail) const;
+  using Images = std::vector<std::shared_ptr<const ColourImage>>;
+  Result<ReadRegion> readRegion(std::size_t storey, std::size_t region, Images known) const;
+  /// The storey with nothing loaded, and surfaces of these images.
+  WalkScene bareWalk(std::size_t storey, Images images) const;
+  /// Takes what was read; what is loaded already stays.
+  Status keepCapture(std::size_t storey, std::size_t camera, Loaded detail,
+                     std::shared_ptr<const DisplayCapture> capture);
+  Status keepRegion(std::size_t storey, std::size_t region, ReadRegion read);
 
   Status loadCapture(std::size_t storey, std::size_t camera, Loaded detail);
   void unloadCapture(std::size_t storey, std::size_t camera, Loaded detail);
@@ -49,6 +69,7 @@ class BundlePlayer {
   const DisplayCapture* capture(std::size_t storey, std::size_t camera, Loaded detail) const;
   const LocalGeometry* region(std::size_t storey, std::size_t region) const;
   const ColourImage* texture(std::size_t texture) const;
+  const Images& images() const { return images_; }
 
  private:
   struct Camera {
@@ -62,13 +83,13 @@ class BundlePlayer {
   std::shared_ptr<const DisplayCapture>& slot(std::size_t storey, std::size_t camera, Loaded detail);
   void show(std::size_t storey, std::size_t camera);
   Status takeRoom(std::uint64_t bytes, const std::string& what);
-  Status loadTexture(int texture);
+  Status keepTexture(std::size_t texture, std::shared_ptr<const ColourImage> image);
   void showTextures();
 
   std::unique_ptr<BundleFiles> files_;
   Bundle bundle_;
   std::vector<StoreyState> storeys_;
-  std::vector<std::shared_ptr<const ColourImage>> images_;  ///< by texture
+  Images images_;  ///< by texture
   std::unique_ptr<TaskRunner> runner_ = std::make_unique<TaskRunner>(0);
   FrameMemory frames_;
   std::uint64_t memory_ = 0, limit_ = 0;

@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "engine/export/bundle_json.h"
-#include "engine/export/capture_mesh.h"
 #include "engine/export/glb.h"
-#include "engine/export/gltf_background.h"
-#include "engine/export/gltf_local.h"
+#include "engine/export/near_model.h"
+#include "engine/export/patch_model.h"
+#include "engine/export/sky_model.h"
 
 namespace acentric {
 namespace {
+
+/// (x, y, z) with Z up as glTF has it, with Y up.
+glm::vec3 gltfPosition(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
 
 Glb::Json corners(const ConvexPolygon& polygon, double z) {
   Glb::Json out = Glb::Json::array();
@@ -20,29 +25,87 @@ Glb::Json corners(const ConvexPolygon& polygon, double z) {
   return out;
 }
 
+/// Which roles of which cameras the region draws.
+std::map<int, std::uint8_t> camerasOf(const Layout& layout, int region, const GltfOptions& options) {
+  std::map<int, std::uint8_t> cameras;
+  const Region& from = layout.regions[std::size_t(region)];
+  for (std::size_t c = 0; c < from.covers.size(); ++c) {
+    if (c > 0 && !options.bothHands) break;
+    for (const Piece& piece : from.covers[c].pieces)
+      cameras[piece.camera] |= roleBit(layout.cameras[std::size_t(piece.camera)], piece.role);
+  }
+  return cameras;
+}
+
+Status addCaptures(const WalkScene& walk, int region, const GltfOptions& options, DrawModel& model,
+                   GltfRegionReport& report, const std::stop_token& stop) {
+  std::vector<ShownCapture> shown;
+  for (const auto& [camera, roles] : camerasOf(*walk.layout, region, options)) {
+    ++report.cameras;
+    const DisplayCapture* capture = walk.captures[std::size_t(camera)].get();
+    if (capture == nullptr) {
+      ++report.missing;
+      continue;
+    }
+    if (!capture->patches)
+      return fail(ErrorKind::unsupported,
+                  "has no planes of surfaces: turn silhouettes on in the bake settings, and bake it again",
+                  fmt::format("the capture of camera {}", camera));
+    shown.push_back({capture, roles});
+  }
+  const PatchModelCounts counts = addPatches(shown, RoleMeshes::together, options.atlasPixels, model, stop);
+  report.patches = counts.patches, report.triangles = counts.triangles;
+  report.textures = counts.textures, report.samples = counts.samples;
+  return stop.stop_requested() ? fail(ErrorKind::cancelled, "writing glTF was stopped") : Status();
+}
+
+Status addModel(DrawModel model, Glb& glb) {
+  const auto wrap = [](Wrap mode) {
+    return mode == Wrap::clamp ? Glb::kClamp : mode == Wrap::mirror ? Glb::kMirror : Glb::kRepeat;
+  };
+  for (const DrawTexture& texture : model.textures) {
+    const auto made =
+        glb.addTexture(texture.image, {texture.nearest, wrap(texture.wrapU), wrap(texture.wrapV)});
+    if (!made) return tl::unexpected(made.error());
+  }
+  for (DrawMesh& mesh : model.meshes) {
+    using Alpha = GlbMaterial::Alpha;
+    const Alpha alpha = mesh.alpha == AlphaMode::mask    ? Alpha::mask
+                        : mesh.alpha == AlphaMode::blend ? Alpha::blend
+                                                         : Alpha::opaque;
+    for (glm::vec3& position : mesh.positions) position = gltfPosition(position);
+    const int material =
+        glb.addMaterial({mesh.material, mesh.texture, mesh.factor, alpha, mesh.cutoff, mesh.doubleSided});
+    glb.add(
+        mesh.part,
+        {std::move(mesh.positions), std::move(mesh.uv), std::move(mesh.colours), std::move(mesh.triangles)},
+        material);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status GltfOptions::check() const {
-  if (!(meshError >= 0.01 && meshError <= kLargestMeshError))
+  if (atlasPixels < kLeastAtlas || atlasPixels > kLargestAtlas)
     return fail(ErrorKind::invalidArgument,
-                fmt::format("the mesh error must lie in 0.01 .. {} samples", kLargestMeshError));
-  if (atlasPixels < 128 || atlasPixels > 16384)
-    return fail(ErrorKind::invalidArgument, "textures must have 128 to 16384 pixels a side");
+                fmt::format("textures must have {} to {} pixels a side", kLeastAtlas, kLargestAtlas));
   return {};
 }
 
 Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, const GltfOptions& options,
-                                         const std::filesystem::path& file, TaskRunner& runner,
-                                         const std::stop_token& stop) {
+                                         const std::filesystem::path& file, const std::stop_token& stop) {
   if (Status sound = options.check(); !sound) return tl::unexpected(sound.error());
   const Region& from = walk.layout->regions[std::size_t(region)];
-  Glb glb(options.generator);
+  DrawModel model;
   GltfRegionReport report;
-  if (Status added = addCaptures(glb, walk, region, options, report, runner, stop); !added)
+  if (Status added = addCaptures(walk, region, options, model, report, stop); !added)
     return tl::unexpected(added.error());
   if (const auto& local = walk.local[std::size_t(region)])
-    if (Status added = addLocal(glb, walk, *local, report); !added) return tl::unexpected(added.error());
-  addSky(glb, walk, region);
+    report.localTriangles = addNear(walk, *local, model);
+  addSky(walk, glm::dvec3(from.polygon.centroid(), walk.layout->eyeZ()), model);
+  Glb glb(options.generator);
+  if (Status added = addModel(std::move(model), glb); !added) return tl::unexpected(added.error());
   const double floor = walk.layout->spec.floorHeight;
   glb.setExtras({{"region", region},
                  {"kind", bundle_words::kKinds[std::size_t(from.kind)]},
@@ -50,12 +113,17 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
                  {"nearPolygon", corners(from.grown, floor)},
                  {"floorHeight", floor},
                  {"eyeHeight", walk.layout->eyeZ() - floor},
-                 {"cameras", gltfCameras(*walk.layout, region, options)},
-                 {"meshErrorSamples", options.meshError}});
+                 {"cameras", gltfCameras(*walk.layout, region, options)}});
   const auto bytes = glb.write(file);
   if (!bytes) return tl::unexpected(bytes.error());
   report.bytes = *bytes;
   return report;
+}
+
+std::vector<int> gltfCameras(const Layout& layout, int region, const GltfOptions& options) {
+  std::vector<int> cameras;
+  for (const auto& [camera, roles] : camerasOf(layout, region, options)) cameras.push_back(camera);
+  return cameras;
 }
 
 }  // namespace acentric

@@ -51,7 +51,6 @@ class Writer {
                {"units", "metre"},
                {"axes", "glTF: Y up, right-handed; polygons are x and z"},
                {"origin", {first.scene->origin.x, first.scene->origin.z, -first.scene->origin.y}},
-               {"meshErrorSamples", options_.region.meshError},
                {"storey", first.project.storey},
                {"storeys", Json::array()}};
     for (const OpenProject& storey : storeys_) {
@@ -90,8 +89,7 @@ class Writer {
       if (Status loaded = stream.complete(cameras, {&region, 1}, runner_, {}, stop_); !loaded)
         return tl::unexpected(loaded.error());
       const std::string file = fmt::format("regions/{}-{}.glb", number, r);
-      auto written =
-          writeGltfRegion(stream.walk()->walk, region, options_.region, folder_ / file, runner_, stop_);
+      auto written = writeGltfRegion(stream.walk()->walk, region, options_.region, folder_ / file, stop_);
       if (!written) return tl::unexpected(written.error());
       if (written->missing > 0 && !options_.allowMissing)
         return fail(
@@ -124,7 +122,7 @@ GltfRegionReport ExportGltfReport::sum() const {
   for (const GltfRegionReport& each : regions) {
     all.cameras += each.cameras, all.missing += each.missing;
     all.patches += each.patches, all.triangles += each.triangles, all.localTriangles += each.localTriangles;
-    all.textures += each.textures, all.samples += each.samples, all.leftOut += each.leftOut;
+    all.textures += each.textures, all.samples += each.samples;
     all.bytes += each.bytes;
   }
   return all;

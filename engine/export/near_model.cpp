@@ -1,12 +1,10 @@
-#include "engine/export/gltf_local.h"
+#include "engine/export/near_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "engine/export/bundle_materials.h"
-#include "engine/export/glb.h"
-#include "engine/export/gltf_background.h"
 #include "engine/image/colour.h"
 #include "engine/scene/mesh_attributes.h"
 #include "engine/scene/texture_lookup.h"
@@ -18,12 +16,12 @@ constexpr int kMostCuts = 32;  ///< of a side, for light
 /// Metres: light is finer at the edges of shadows, but vertices take far more room than its samples.
 constexpr float kFinestCut = 0.04f;
 
-class LocalWriter {
+class Writer {
  public:
-  LocalWriter(Glb& glb, const WalkScene& walk, const LocalGeometry& local)
-      : glb_(glb),
-        walk_(walk),
+  Writer(const WalkScene& walk, const LocalGeometry& local, DrawModel& model)
+      : walk_(walk),
         local_(local),
+        model_(model),
         meshes_(local.meshes(*walk.scene)),
         first_(firstTrianglesOf(meshes_)) {
     light_ = local.surfaces ? &local.surfaces->light : walk.surfaceLight.get();
@@ -32,18 +30,20 @@ class LocalWriter {
       materials_.push_back(localMaterial(material, walk.plan));
   }
 
-  Status write(GltfRegionReport& report) {
+  void write() {
     for (const LocalTriangle& triangle : local_.triangles) {
+      if (walk_.mirrors && walk_.mirrors->planeOf(local_, triangle) != FlatMirrors::kNoPlane) continue;
       add(triangle, false);
       if (lightOnBack(triangle)) add(triangle, true);
     }
     for (auto& [key, mesh] : out_) {
-      const auto made = materialOf(key.first, key.second);
-      if (!made) return tl::unexpected(made.error());
-      report.localTriangles += mesh.triangles.size();
-      glb_.add("near", mesh, *made);
+      finish(mesh, key.first, key.second);
+      if (mesh.alpha == AlphaMode::blend)
+        blended_.push_back(std::move(mesh));
+      else
+        model_.meshes.push_back(std::move(mesh));
     }
-    return {};
+    std::ranges::move(blended_, std::back_inserter(model_.meshes));
   }
 
  private:
@@ -91,7 +91,7 @@ class LocalWriter {
   void add(const LocalTriangle& t, bool back) {
     const Mesh& source = meshes_[t.mesh];
     const Sides sides = lightOnBack(t) ? (back ? Sides::back : Sides::front) : Sides::both;
-    GlbMesh& mesh = out_[{source.material, sides}];
+    DrawMesh& mesh = out_[{source.material, sides}];
     std::array<LocalVertex, 3> corners;
     for (int i = 0; i < 3; ++i) corners[std::size_t(i)] = local_.vertices[t.vertices[i]];
     float longest = 0, metres = 0;
@@ -114,9 +114,10 @@ class LocalWriter {
         const float x = float(i) / float(cuts), y = float(j) / float(cuts), rest = 1 - x - y;
         const glm::vec2 b =
             rest * corners[0].barycentric + x * corners[1].barycentric + y * corners[2].barycentric;
-        mesh.positions.push_back(gltfPosition(
-            glm::dvec3(rest * corners[0].position + x * corners[1].position + y * corners[2].position)));
-        mesh.colour.push_back(factorAt(t, b, back));
+        mesh.positions.emplace_back(
+            glm::dvec3(rest * corners[0].position + x * corners[1].position + y * corners[2].position) -
+            model_.origin);
+        mesh.colours.push_back(factorAt(t, b, back));
         mesh.uv.push_back(hasTexture ? use.transform * glm::vec3(interpolate(coordinatesOf(source, use),
                                                                              source.triangles[t.triangle], b),
                                                                  1)
@@ -135,53 +136,50 @@ class LocalWriter {
       }
   }
 
-  Result<int> textureOf(const TextureUse& use) {
+  int textureOf(const TextureUse& use) {
     const TextureSampler sampler(*walk_.scene, use);
     if (!use.used() || !sampler.used()) return -1;
-    const auto known = textures_.find(use.texture);
-    if (known != textures_.end()) return known->second;
-    const auto wrap = [](Wrap mode) {
-      return mode == Wrap::clamp ? Glb::kClamp : mode == Wrap::mirror ? Glb::kMirror : Glb::kRepeat;
-    };
-    const auto made =
-        glb_.addTexture(*sampler.image(), {sampler.nearest(), wrap(sampler.wrapU()), wrap(sampler.wrapV())});
-    if (made) textures_[use.texture] = *made;
-    return made;
+    const auto [known, isNew] = textures_.try_emplace(use.texture, int(model_.textures.size()));
+    if (isNew)
+      model_.textures.push_back({*sampler.image(), sampler.nearest(), sampler.wrapU(), sampler.wrapV()});
+    return known->second;
   }
 
-  Result<int> materialOf(int number, Sides sides) {
+  void finish(DrawMesh& mesh, int number, Sides sides) {
     const Material& m = materials_[std::size_t(number)];
-    GlbMaterial out;
-    out.name = m.name.empty() ? "near " + std::to_string(number) : m.name;
-    const auto texture = textureOf(m.baseColourTexture);
-    if (!texture) return texture;
-    out.texture = *texture;
-    out.doubleSided = sides == Sides::both && m.doubleSided;
-    out.factor.a = std::clamp(m.baseColour.a, 0.0F, 1.0F);
-    if (m.alphaMode == AlphaMode::mask) out.alpha = GlbMaterial::Alpha::mask, out.cutoff = m.alphaCutoff;
-    if (m.alphaMode == AlphaMode::blend) out.alpha = GlbMaterial::Alpha::blend;
+    mesh.part = "near";
+    mesh.material = m.name.empty() ? "near " + std::to_string(number) : m.name;
+    mesh.texture = textureOf(m.baseColourTexture);
+    if (mesh.texture < 0) mesh.uv.clear();
+    mesh.doubleSided = sides == Sides::both && m.doubleSided;
+    mesh.factor.a = std::clamp(m.baseColour.a, 0.0F, 1.0F);
+    mesh.alpha = m.alphaMode, mesh.cutoff = m.alphaCutoff;
     if (m.transmission > 0 && !m.unlit) {
-      out.alpha = GlbMaterial::Alpha::blend;
-      out.factor.a *= std::max(0.0F, 1 - m.transmission);
+      mesh.alpha = AlphaMode::blend;
+      mesh.factor.a *= std::max(0.0F, 1 - m.transmission);
     }
-    return glb_.addMaterial(out);
   }
 
-  Glb& glb_;
   const WalkScene& walk_;
   const LocalGeometry& local_;
+  DrawModel& model_;
   const std::vector<Mesh>& meshes_;
   std::vector<std::uint32_t> first_;
   const SurfaceLight* light_ = nullptr;
   std::vector<Material> materials_;
-  std::map<std::pair<int, Sides>, GlbMesh> out_;  ///< by material
-  std::map<int, int> textures_;                   ///< by texture of the scene
+  std::map<std::pair<int, Sides>, DrawMesh> out_;  ///< by material
+  std::vector<DrawMesh> blended_;
+  std::map<int, int> textures_;  ///< by texture of the scene
 };
 
 }  // namespace
 
-Status addLocal(Glb& glb, const WalkScene& walk, const LocalGeometry& local, GltfRegionReport& report) {
-  return LocalWriter(glb, walk, local).write(report);
+std::size_t addNear(const WalkScene& walk, const LocalGeometry& local, DrawModel& model) {
+  const std::size_t before = model.meshes.size();
+  Writer(walk, local, model).write();
+  std::size_t triangles = 0;
+  for (std::size_t i = before; i < model.meshes.size(); ++i) triangles += model.meshes[i].triangles.size();
+  return triangles;
 }
 
 }  // namespace acentric

@@ -1,0 +1,246 @@
+#include "engine/export/patch_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/export/texture_atlas.h"
+
+namespace acentric {
+namespace {
+
+/// Some of a patch's texels: [low, high), counted from its first sample; those beside them are around it.
+struct TexelBox {
+  glm::ivec2 low{0}, high{0};
+  glm::ivec2 size() const { return high - low; }
+  bool empty() const { return low.x >= high.x || low.y >= high.y; }
+};
+
+/// A part of a patch that fits a texture.
+struct PatchPart {
+  const ShownCapture* of = nullptr;
+  const DisplayPatch* patch = nullptr;
+  /// Any of these; with RoleMeshes::apart just these, and what has all roles of the patch, as where it
+  /// reaches under others.
+  std::uint8_t roles = 0;
+  bool apart = false;
+  TexelBox texels;
+
+  std::size_t texel(int column, int row) const {
+    return patch->firstTexel + std::size_t(column + 1) * (std::size_t(patch->rows) + 2) +
+           std::size_t(row + 1);
+  }
+  std::uint32_t cover(int column, int row) const {
+    const std::uint32_t word = of->capture->patches->cover[texel(column, row)];
+    const auto needs = std::uint8_t(word >> kTexelRoles);
+    return (apart ? needs == roles || needs == patch->roles : (needs & roles) != 0) ? word & kTexelParts : 0;
+  }
+  Rgba8 colour(int column, int row) const {
+    Rgba8 colour = of->capture->patches->colour[texel(column, row)];
+    const int parts = std::popcount(cover(column, row)), all = std::popcount(kTexelParts);
+    colour.a = std::uint8_t((colour.a * parts + all / 2) / all);
+    return colour;
+  }
+};
+
+/// What of the texels the roles want of the patch's own samples.
+TexelBox coveredOf(const PatchPart& part) {
+  TexelBox covered{part.texels.high, part.texels.low};
+  for (int c = part.texels.low.x; c < part.texels.high.x; ++c)
+    for (int r = part.texels.low.y; r < part.texels.high.y; ++r)
+      if (part.cover(c, r) != 0)
+        covered = {glm::min(covered.low, {c, r}), glm::max(covered.high, {c + 1, r + 1})};
+  return covered;
+}
+
+/// The plane of a patch as seen from its camera; places are columns and rows of the capture.
+struct PatchPlane {
+  const ColumnCamera& camera;
+  glm::dvec3 normal;
+
+  glm::dvec3 direction(const glm::dvec2& at) const {
+    return {camera.directionAt(at.x), camera.tangentAt(std::clamp(at.y, 0.0, double(camera.rows)))};
+  }
+  double inverse(const glm::dvec2& at) const { return glm::dot(normal, direction(at)); }
+};
+
+/// How far the middle of a side between inverse distances a and b lies from where a texture laid on by the
+/// ends shows it, as a share of the side.
+double swim(double a, double b) { return std::abs(a - b) / (2 * (a + b)); }
+
+struct Rectangle {
+  glm::dvec2 low, high;
+  std::array<glm::dvec2, 4> corners() const { return {low, {high.x, low.y}, {low.x, high.y}, high}; }
+};
+
+/// Cuts until textures lie right. What lies behind the plane's horizon is left out.
+void cut(const PatchPlane& plane, const Rectangle& whole, std::vector<Rectangle>& out) {
+  constexpr double kLeast = 0.5;        // samples
+  constexpr double kFarthest = 1e-5;    // 1/m
+  constexpr double kLargestAngle = 48;  // samples over which angles are as good as places
+  std::array<double, 4> w;
+  for (std::size_t i = 0; i < 4; ++i) w[i] = plane.inverse(whole.corners()[i]);
+  const glm::dvec2 size = whole.high - whole.low;
+  const bool seen = std::ranges::all_of(w, [](double each) { return each > kFarthest; });
+  if (!seen && std::ranges::none_of(w, [](double each) { return each > kFarthest; })) return;
+  double across = size.x, down = size.y;
+  if (seen) {
+    across *= std::max({swim(w[0], w[1]), swim(w[2], w[3]), size.x > kLargestAngle ? 1.0 : 0.0});
+    down *= std::max({swim(w[0], w[2]), swim(w[1], w[3]), size.y > kLargestAngle ? 1.0 : 0.0});
+    if (std::max(across, down) <= kTextureError || std::max(size.x, size.y) <= kLeast) {
+      out.push_back(whole);
+      return;
+    }
+  } else if (std::max(size.x, size.y) <= kLeast) {
+    return;
+  }
+  const glm::dvec2 middle = 0.5 * (whole.low + whole.high);
+  if (across >= down) {
+    cut(plane, {whole.low, {middle.x, whole.high.y}}, out);
+    cut(plane, {{middle.x, whole.low.y}, whole.high}, out);
+  } else {
+    cut(plane, {whole.low, {whole.high.x, middle.y}}, out);
+    cut(plane, {{whole.low.x, middle.y}, whole.high}, out);
+  }
+}
+
+class Writer {
+ public:
+  Writer(std::span<const ShownCapture> shown, RoleMeshes meshes, int atlasPixels, DrawModel& model)
+      : roleMeshes_(meshes), atlasPixels_(atlasPixels), model_(model) {
+    for (const ShownCapture& each : shown) find(each, false);
+    for (const ShownCapture& each : shown)
+      if (each.capture->reflections) behindMirrors_.push_back({each.capture->reflections.get(), each.roles});
+    for (const ShownCapture& each : behindMirrors_) find(each, true);
+  }
+
+  PatchModelCounts write(const std::stop_token& stop) {
+    std::vector<glm::ivec2> sizes;
+    for (const PatchPart& part : parts_) sizes.push_back(part.texels.size());
+    const AtlasPlan atlas = planAtlas(sizes, atlasPixels_);
+    for (std::size_t page = 0; page < atlas.pages.size() && !stop.stop_requested(); ++page) {
+      ColourImage picture(atlas.pages[page].x, atlas.pages[page].y, Rgba8(0, 0, 0, 255));
+      std::map<std::pair<bool, std::uint8_t>, DrawMesh> meshes;  // those that are blended last; by roles
+      for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (atlas.places[i].page != int(page)) continue;
+        const PatchPart& part = parts_[i];
+        paint(part, atlas.places[i].at, picture);
+        add(part, atlas.places[i].at, atlas.pages[page],
+            meshes[{part.patch->blended, part.apart ? part.roles : std::uint8_t(0xff)}]);
+      }
+      const bool whole = std::ranges::all_of(picture.pixels, [](const Rgba8& p) { return p.a == 255; });
+      for (auto& [key, mesh] : meshes) {
+        if (mesh.triangles.empty()) continue;
+        const auto& [blended, roles] = key;
+        mesh.part = "captures";
+        mesh.material = fmt::format("captures {}{}", page, blended ? ", glass" : "");
+        mesh.texture = int(model_.textures.size());
+        mesh.alpha = blended ? AlphaMode::blend : whole ? AlphaMode::opaque : AlphaMode::mask;
+        mesh.roles = roles;
+        counts_.triangles += mesh.triangles.size();
+        model_.meshes.push_back(std::move(mesh));
+      }
+      model_.textures.push_back({std::move(picture)});
+      ++counts_.textures;
+    }
+    return counts_;
+  }
+
+ private:
+  /// `reflections`: those that mirrors show.
+  void find(const ShownCapture& shown, bool reflections) {
+    for (const DisplayPatch& patch : shown.capture->patches->patches) {
+      if ((patch.roles & shown.roles) == 0 || (patch.mirror != 0 && !reflections)) continue;
+      const std::size_t before = parts_.size();
+      if (roleMeshes_ == RoleMeshes::together) {
+        cutToSize({&shown, &patch, shown.roles, false, {}});
+      } else {
+        for (const std::uint8_t roles : rolesWithin(shown, patch))
+          cutToSize({&shown, &patch, roles, true, {}});
+      }
+      counts_.patches += parts_.size() > before ? 1 : 0;
+    }
+  }
+
+  static std::set<std::uint8_t> rolesWithin(const ShownCapture& shown, const DisplayPatch& patch) {
+    std::set<std::uint8_t> all;
+    std::uint8_t ofFew = 0;
+    const std::size_t texels = (std::size_t(patch.columns) + 2) * (std::size_t(patch.rows) + 2);
+    for (std::size_t t = patch.firstTexel; t < patch.firstTexel + texels; ++t) {
+      const auto roles = std::uint8_t(shown.capture->patches->cover[t] >> kTexelRoles);
+      if ((roles & shown.roles) == 0) continue;
+      all.insert(roles);
+      if (roles != patch.roles) ofFew |= roles;
+    }
+    if (ofFew == patch.roles) all.erase(patch.roles);  // the others have what has them all
+    return all;
+  }
+
+  /// Adds the patch in parts that fit a texture.
+  void cutToSize(PatchPart part) {
+    const int most = atlasPixels_ - 2 * kAtlasBorder;
+    const glm::ivec2 end(part.patch->columns + 1, part.patch->rows + 1);
+    for (int c = -1; c < end.x; c += most)
+      for (int r = -1; r < end.y; r += most) {
+        part.texels = {{c, r}, glm::min(end, glm::ivec2(c, r) + most)};
+        part.texels = coveredOf(part);
+        if (!part.texels.empty()) parts_.push_back(part);
+      }
+  }
+
+  void paint(const PatchPart& part, const glm::ivec2& at, ColourImage& page) {
+    const glm::ivec2 size = part.texels.size(), last(part.patch->columns, part.patch->rows);
+    for (int y = -kAtlasBorder; y < size.y + kAtlasBorder; ++y)
+      for (int x = -kAtlasBorder; x < size.x + kAtlasBorder; ++x) {
+        const glm::ivec2 from = part.texels.low + glm::ivec2(x, y);
+        const glm::ivec2 texel = glm::clamp(from, glm::ivec2(-1), last);
+        Rgba8 colour = part.colour(texel.x, texel.y);
+        if (texel != from) colour.a = 0;
+        page.at(at.x + x, at.y + y) = colour;
+        const bool own = x >= 0 && x < size.x && y >= 0 && y < size.y;
+        counts_.samples += own && part.cover(texel.x, texel.y) != 0 ? 1 : 0;
+      }
+  }
+
+  /// To the middles of the border: all between them is interpolated from the part's own texels and these.
+  void add(const PatchPart& part, const glm::ivec2& at, const glm::ivec2& page, DrawMesh& mesh) {
+    const ColumnCamera& camera = part.of->capture->camera;
+    const PatchPlane plane{camera, glm::dvec3(part.patch->normal)};
+    const glm::dvec2 first = glm::dvec2(part.patch->column, part.patch->row) + glm::dvec2(part.texels.low);
+    rectangles_.clear();
+    cut(plane, {first - 0.5, first + glm::dvec2(part.texels.size()) + 0.5}, rectangles_);
+    for (const Rectangle& rectangle : rectangles_) {
+      const auto vertex = std::uint32_t(mesh.positions.size());
+      for (const glm::dvec2& corner : rectangle.corners()) {
+        const glm::dvec3 direction = plane.direction(corner);
+        mesh.positions.emplace_back(camera.centreOfProjection - model_.origin +
+                                    direction / glm::dot(plane.normal, direction));
+        mesh.uv.emplace_back((glm::dvec2(at) + corner - first) / glm::dvec2(page));
+      }
+      mesh.triangles.emplace_back(vertex, vertex + 1, vertex + 2);
+      mesh.triangles.emplace_back(vertex + 1, vertex + 3, vertex + 2);
+    }
+  }
+
+  const RoleMeshes roleMeshes_;
+  const int atlasPixels_;
+  DrawModel& model_;
+  std::vector<ShownCapture> behindMirrors_;
+  std::vector<PatchPart> parts_;
+  std::vector<Rectangle> rectangles_;
+  PatchModelCounts counts_;
+};
+
+}  // namespace
+
+PatchModelCounts addPatches(std::span<const ShownCapture> shown, RoleMeshes meshes, int atlasPixels,
+                            DrawModel& model, const std::stop_token& stop) {
+  return Writer(shown, meshes, atlasPixels, model).write(stop);
+}
+
+}  // namespace acentric
