@@ -108,7 +108,8 @@ TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
   ASSERT_TRUE(run({ACENTRIC_CMAKE, "--build", at("built")}));
   ASSERT_TRUE(run({at("built") + "/frame", at("bundle"), at("built.ppm")}));
 
-  ASSERT_TRUE(run({"env", "ACENTRIC_RUNTIME=" + lib + "/libacentric_runtime.so.1", "python3",
+  ASSERT_TRUE(run({"env", "ACENTRIC_RUNTIME=" + lib + "/libacentric_runtime.so.1",
+                   "PYTHONDONTWRITEBYTECODE=1", "PYTHONPATH=" ACENTRIC_SOURCES "/python", ACENTRIC_PYTHON,
                    std::string(ACENTRIC_EXAMPLES) + "/frame.py", at("bundle"), at("python.ppm")}));
   EXPECT_FALSE(ppm(at("built.ppm")).empty());
   EXPECT_EQ(ppm(at("python.ppm")).pixels, ppm(at("built.ppm")).pixels) << "both from where the walk begins";
@@ -144,15 +145,19 @@ TEST(Library, IsInstalledLinkedAndRunByTheVeryCommandsOfItsDocument) {
       acentric({"export", project.file(), "--to", "bundle", (here / "walk-bundle").string()});
   ASSERT_EQ(exported.exitCode, 0) << exported.errors;
   // The sources, as one stands in them; what the commands make stays out of them.
-  for (const char* name : {"run", "examples"}) fs::create_symlink(sources / name, here / name);
+  for (const char* name : {"run", "examples", "python"}) fs::create_symlink(sources / name, here / name);
 
   const std::string commands = commandsOf(sources / "docs" / "runtimes.md");
-  for (const char* expected : {"./run install", "cc examples/frame.c", "cmake -S examples", "frame.py"})
+  for (const char* expected :
+       {"./run install", "cc examples/frame.c", "cmake -S examples", "pip install", "frame.py"})
     ASSERT_NE(commands.find(expected), std::string::npos) << "the document no longer says: " << expected;
-  // Nothing of the surroundings helps: neither a search path for libraries nor one for pkg-config.
-  const std::string script = "cd \"$1\" && export HOME=\"$2\" && set -ex\n" + commands;
-  const auto followed = runProcess({"env", "-u", "LD_LIBRARY_PATH", "-u", "PKG_CONFIG_PATH", "bash", "-c",
-                                    script, "bash", here.string(), home.string()});
+  // Nothing of the surroundings helps: neither search paths for libraries, pkg-config and Python's packages
+  // nor an index of them. Python is Debian's.
+  const std::string script =
+      "cd \"$1\" && export HOME=\"$2\" PATH=\"/usr/bin:$PATH\" PIP_NO_INDEX=1 && set -ex\n" + commands;
+  const auto followed =
+      runProcess({"env", "-u", "LD_LIBRARY_PATH", "-u", "PKG_CONFIG_PATH", "-u", "PYTHONPATH", "bash", "-c",
+                  script, "bash", here.string(), home.string()});
   ASSERT_EQ(followed.exitCode, 0) << followed.output << followed.errors;
   EXPECT_FALSE(ppm(here / "frame.ppm").empty());
   for (const char* name : {"bin/acentric", "bin/acentric-editor", "bin/acentric-importer",
