@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from collections.abc import Callable
-from typing import Any, BinaryIO, Protocol, runtime_checkable
+from typing import Any, BinaryIO, Protocol, Union, runtime_checkable
 
 from . import _capi as c
 
@@ -19,6 +20,10 @@ class Ranges(Protocol):
     def read_at(self, offset: int, count: int) -> bytes:
         """`count` bytes (any object with a buffer) from `offset` on: all of them, or an exception."""
         ...
+
+
+#: The folder of a bundle or a walk file by its name, or where a walk file is read from.
+Openable = Union[str, "os.PathLike[str]", Ranges, BinaryIO]
 
 
 class _FileRanges:

@@ -18,7 +18,7 @@ from . import _capi as c
 from ._data import vector
 from ._facts import Bookmark, Camera, Detail, Features, Frame, Info, Listing, Material, Mirror, Need, Needs, Path, Pose
 from ._facts import Region, Rendition, Settings, Storey, TextureUse, Vector2, Vector3, View
-from ._source import Ranges, Source
+from ._source import Openable, Source
 
 _DETAILS: dict[str, int] = {"coarse": c.COARSE, "full": c.FULL}
 _RENDERERS: dict[str, int] = {"list": c.LIST, "scalar": c.SCALAR, "zbuffer": c.ZBUFFER}
@@ -112,13 +112,13 @@ class Walk:
     Any thread may call it; one call runs at a time. After close() every call raises Error. A walk that is not closed
     is when nothing refers to it any more."""
 
-    def __init__(self, source: str | os.PathLike | Ranges, threads: int | None, memory_limit: int | None):
+    def __init__(self, source: Openable, threads: int | None, memory_limit: int | None):
         self._lock = threading.RLock()
         self._calling = False
         self._leases: weakref.WeakValueDictionary[tuple, _Lease] = weakref.WeakValueDictionary()
         self._handle: _Handle | None = self._opened(source)
         try:
-            self.threads = len(os.sched_getaffinity(0)) if threads is None else threads
+            self.threads = min(len(os.sched_getaffinity(0)), 1024) if threads is None else threads
             self.memory_limit = memory_limit
         except BaseException:
             self.close()
@@ -450,7 +450,7 @@ class Walk:
             return _data.texture(self._lease("textures"), of)
 
 
-def open(source: str | os.PathLike | Ranges, *, threads: int | None = None, memory_limit: int | None = None) -> Walk:
+def open(source: Openable, *, threads: int | None = None, memory_limit: int | None = None) -> Walk:
     """Opens the folder of a bundle, a walk file, or a walk file that is read from anywhere: an object with size() and
     read_at(offset, count), or a binary file that seeks.
 
