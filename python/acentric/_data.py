@@ -133,7 +133,7 @@ def mesh_data(holder: object, of: c.MeshData) -> MeshData:
     light = None
     if first is not None and resolution is not None and back is not None:
         r = resolution.astype(np.uint64)
-        ends = first + (r + 1) * (r + 2) // 2 * (1 + (back != 0))
+        ends = first + ((r + 1) * (r + 2) // 2 << back)
         light = array_at(holder, of.light, (int(ends[r > 0].max(initial=0)), 4), "f2")
     return MeshData(
         of.material, array_at(holder, of.positions, (vertices, 3), "f4"), array_at(holder, of.normals, (vertices, 3), "f4"),
