@@ -94,7 +94,7 @@ stage() {
 if ((packagesOnly)); then
   stage "packages and configuring" \
     'set -euo pipefail; root=$PWD; source tools/setup.sh; ensurePackages build run; configure release OFF;
-     ensurePackages build run test; configure release ON'
+     ensurePackages build run python test; configure release ON'
   exit 0
 fi
 stage "./run" "./run"

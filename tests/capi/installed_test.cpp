@@ -37,19 +37,34 @@ TEST(Library, NeedsNothingThatImportsBakesOrOpensWindows) {
   EXPECT_EQ(namesAfter(dynamic.output, "(SONAME)"), std::set<std::string>{"libacentric_runtime.so.1"});
 }
 
-TEST(Library, ShowsItsFunctionsAndNothingElse) {
-  const auto symbols = runProcess({"nm", "-D", "--defined-only", ACENTRIC_RUNTIME_LIBRARY});
-  ASSERT_EQ(symbols.exitCode, 0) << symbols.errors;
+/// Of `nm --defined-only` with an option: functions, and all else that is defined there.
+struct Defined {
+  std::set<std::string> functions, others;
+};
+Defined definedIn(const std::string& option, const std::string& library) {
+  const auto symbols = runProcess({"nm", option, "--defined-only", library});
+  EXPECT_EQ(symbols.exitCode, 0) << symbols.errors;
   std::istringstream lines(symbols.output);
-  int functions = 0;
-  for (std::string address, kind, name; lines >> address >> kind >> name;)
-    if (kind == "T") {
-      EXPECT_TRUE(name.starts_with("acentric_")) << name;
-      ++functions;
-    } else {
-      EXPECT_EQ(kind, "A") << name;
-    }
-  EXPECT_GT(functions, 30);
+  Defined defined;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    if (std::string address, kind, name; words >> address >> kind >> name)
+      (kind == "T" ? defined.functions : defined.others)
+          .insert(name.substr(0, name.find("@")));  // no version
+  }
+  return defined;
+}
+
+TEST(Library, ShowsItsFunctionsAndNothingElse) {
+  const Defined shared = definedIn("-D", ACENTRIC_RUNTIME_LIBRARY);
+  for (const std::string& name : shared.functions) EXPECT_TRUE(name.starts_with("acentric_")) << name;
+  EXPECT_GT(shared.functions.size(), 30u);
+  EXPECT_EQ(shared.others, std::set<std::string>{"ACENTRIC_RUNTIME_1"});
+#ifndef ACENTRIC_SANITIZED
+  const Defined within = definedIn("-g", ACENTRIC_STATIC_LIBRARY);
+  EXPECT_EQ(within.functions, shared.functions);
+  EXPECT_EQ(within.others, std::set<std::string>{});
+#endif
 }
 
 TEST(Library, HasAHeaderForC99) {
@@ -108,10 +123,41 @@ TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
   ASSERT_TRUE(run({ACENTRIC_CMAKE, "--build", at("built")}));
   ASSERT_TRUE(run({at("built") + "/frame", at("bundle"), at("built.ppm")}));
 
-  ASSERT_TRUE(run({"env", "ACENTRIC_RUNTIME=" + lib + "/libacentric_runtime.so.1", "python3",
+  // The same within the programs, which need no library of Acentric's.
+  const auto alone = [&](const std::string& program) {
+    const auto needed = runProcess({"ldd", program});
+    EXPECT_EQ(needed.exitCode, 0) << needed.errors;
+    EXPECT_NE(needed.output.find("libstdc++"), std::string::npos) << needed.output;
+    return needed.output.find("acentric_runtime") == std::string::npos;
+  };
+  const std::string compile = "; cc -std=c99 " + source + " $(pkg-config --cflags acentric-runtime) ";
+  const auto link = [&](const std::string& libraries, const std::string& program) {
+    return run({"sh", "-c",
+                "export PKG_CONFIG_PATH=" + pkgConfig + compile + "$(pkg-config --libs " + libraries +
+                    ") -o " + program});
+  };
+  ASSERT_TRUE(link("acentric-runtime-static", at("static")));
+  EXPECT_TRUE(alone(at("static")));
+  ASSERT_TRUE(run({at("static"), at("bundle"), at("static.ppm"), "-3", "-0.5", "0"}));
+  EXPECT_EQ(ppm(at("static.ppm")).pixels, expected->pixels);
+  ASSERT_TRUE(run({ACENTRIC_CMAKE, "-S", ACENTRIC_EXAMPLES, "-B", at("built-static"),
+                   "-DCMAKE_PREFIX_PATH=" + at("prefix"), "-DACENTRIC_STATIC=ON"}));
+  ASSERT_TRUE(run({ACENTRIC_CMAKE, "--build", at("built-static")}));
+  EXPECT_TRUE(alone(at("built-static") + "/frame"));
+  ASSERT_TRUE(run({at("built-static") + "/frame", at("bundle"), at("built-static.ppm")}));
+  EXPECT_EQ(ppm(at("built-static.ppm")).pixels, ppm(at("built.ppm")).pixels);
+
+  ASSERT_TRUE(run({"env", "ACENTRIC_RUNTIME=" + lib + "/libacentric_runtime.so.1",
+                   "PYTHONDONTWRITEBYTECODE=1", "PYTHONPATH=" ACENTRIC_SOURCES "/python", ACENTRIC_PYTHON,
                    std::string(ACENTRIC_EXAMPLES) + "/frame.py", at("bundle"), at("python.ppm")}));
   EXPECT_FALSE(ppm(at("built.ppm")).empty());
   EXPECT_EQ(ppm(at("python.ppm")).pixels, ppm(at("built.ppm")).pixels) << "both from where the walk begins";
+
+  // Where there is no shared library, the plain name is the archive's.
+  for (const char* name : {"libacentric_runtime.so", "libacentric_runtime.so.1"})
+    ASSERT_TRUE(std::filesystem::remove(lib + "/" + name));
+  ASSERT_TRUE(link("--static acentric-runtime", at("only")));
+  EXPECT_TRUE(alone(at("only")));
 }
 
 /// The commands of a document, as they stand in its blocks ```sh.
@@ -144,15 +190,19 @@ TEST(Library, IsInstalledLinkedAndRunByTheVeryCommandsOfItsDocument) {
       acentric({"export", project.file(), "--to", "bundle", (here / "walk-bundle").string()});
   ASSERT_EQ(exported.exitCode, 0) << exported.errors;
   // The sources, as one stands in them; what the commands make stays out of them.
-  for (const char* name : {"run", "examples"}) fs::create_symlink(sources / name, here / name);
+  for (const char* name : {"run", "examples", "python"}) fs::create_symlink(sources / name, here / name);
 
   const std::string commands = commandsOf(sources / "docs" / "runtimes.md");
-  for (const char* expected : {"./run install", "cc examples/frame.c", "cmake -S examples", "frame.py"})
+  for (const char* expected : {"./run install", "cc examples/frame.c", "acentric-runtime-static",
+                               "cmake -S examples", "pip install", "frame.py"})
     ASSERT_NE(commands.find(expected), std::string::npos) << "the document no longer says: " << expected;
-  // Nothing of the surroundings helps: neither a search path for libraries nor one for pkg-config.
-  const std::string script = "cd \"$1\" && export HOME=\"$2\" && set -ex\n" + commands;
-  const auto followed = runProcess({"env", "-u", "LD_LIBRARY_PATH", "-u", "PKG_CONFIG_PATH", "bash", "-c",
-                                    script, "bash", here.string(), home.string()});
+  // Nothing of the surroundings helps: neither search paths for libraries, pkg-config and Python's packages
+  // nor an index of them. Python is Debian's.
+  const std::string script =
+      "cd \"$1\" && export HOME=\"$2\" PATH=\"/usr/bin:$PATH\" PIP_NO_INDEX=1 && set -ex\n" + commands;
+  const auto followed =
+      runProcess({"env", "-u", "LD_LIBRARY_PATH", "-u", "PKG_CONFIG_PATH", "-u", "PYTHONPATH", "bash", "-c",
+                  script, "bash", here.string(), home.string()});
   ASSERT_EQ(followed.exitCode, 0) << followed.output << followed.errors;
   EXPECT_FALSE(ppm(here / "frame.ppm").empty());
   for (const char* name : {"bin/acentric", "bin/acentric-editor", "bin/acentric-importer",
