@@ -155,7 +155,8 @@ TEST_F(CapiTest, SaysWhatAViewNeedsAndWhatIsThere) {
   EXPECT_EQ(list.back().number, needs.region);
   for (const acentric_need& need : list) {
     EXPECT_EQ(need.loaded, ACENTRIC_ABSENT);
-    EXPECT_EQ(need.roles != 0, need.kind == ACENTRIC_CAPTURE);
+    EXPECT_NE(need.roles, 0u);
+    EXPECT_EQ(need.roles == 0xff, need.kind == ACENTRIC_REGION);
   }
   ASSERT_EQ(acentric_load_view(bundle, &view, nullptr, ACENTRIC_COARSE), ACENTRIC_OK);
   ask();

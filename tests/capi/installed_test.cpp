@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/image/image.h"
+#include "engine/measure/compare.h"
 #include "tests/end_to_end/sample_project.h"
 
 namespace acentric::test {
@@ -122,6 +123,16 @@ TEST(Library, InstalledServesTheExamplesWhoseFramesAreTheCommandLines) {
       {ACENTRIC_CMAKE, "-S", ACENTRIC_EXAMPLES, "-B", at("built"), "-DCMAKE_PREFIX_PATH=" + at("prefix")}));
   ASSERT_TRUE(run({ACENTRIC_CMAKE, "--build", at("built")}));
   ASSERT_TRUE(run({at("built") + "/frame", at("bundle"), at("built.ppm")}));
+
+  // Drawn by OpenGL from the library's models: edges are where the library draws them.
+  ASSERT_TRUE(run({ACENTRIC_PROGRAM, "export", project.file(), "--to", "walk", "--colour-quality", "100",
+                   at("gallery.acentric")}));
+  ASSERT_TRUE(run({"xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", at("built") + "/window",
+                   at("gallery.acentric"), at("window.ppm")}));
+  const ColourImage window = ppm(at("window.ppm")), frame = ppm(at("built.ppm"));
+  ASSERT_EQ(window.width, frame.width);
+  ASSERT_EQ(window.height, frame.height);
+  EXPECT_GT(psnrOf(window, frame), 20) << "of captures of one sample per degree";
 
   // The same within the programs, which need no library of Acentric's.
   const auto alone = [&](const std::string& program) {
