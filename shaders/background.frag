@@ -1,5 +1,5 @@
 // The background: where no capture has rows (engine/view/background.h), or, with CAPTURED, where a capture shows it
-// (engine/view/captured_background.h); CLIP_TO_PART as in points.vert.
+// (engine/view/captured_background.h); CLIP_TO_PART: only in part of the view (part.glsl).
 #include "capture_depth.glsl"
 #include "colour.glsl"
 #ifdef CAPTURED

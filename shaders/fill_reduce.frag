@@ -10,7 +10,7 @@ uniform sampler2D finer;
 #endif
 
 const float kNearest = 1e-7;               // as in local.vert
-const float kBackgroundDepthScale = 1e-20; // as in points.vert
+const float kBackgroundDepthScale = 1e-20; // as in capture_depth.glsl
 const float kLargestBackground = 1e-14;
 
 vec4 finerTexel(ivec2 at) {

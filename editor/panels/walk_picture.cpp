@@ -38,7 +38,8 @@ PerspectiveView WalkPanel::viewAt(PanelContext& context, double scale) const {
 
 ViewSettings WalkPanel::settingsOf(const Session& session) const {
   ViewSettings settings = session.project().view;
-  if (!glProblem_.empty()) settings.renderer = withoutOpenGl(settings.renderer);
+  if (!glProblem_.empty() || settings.reconstruction != Reconstruction::patches)
+    settings.renderer = withoutOpenGl(settings.renderer);
   return settings;
 }
 
@@ -57,7 +58,7 @@ void WalkPanel::requestFrame(PanelContext& context) {
     shown_.loaded = session.walk();
   if (onOpenGl(session.project().view.renderer)) openGl(session);
   if (onOpenGl(settingsOf(session).renderer)) return drawWithGl(context);
-  if (gl_) gl_->stopBuilding();
+  if (gl_) gl_->stopSending();
   const PerspectiveView full = viewAt(context, 1);
   if (requested_ || !stale(context, full)) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
@@ -196,7 +197,7 @@ void WalkPanel::takePicture(PanelContext& context) {
 
 void WalkPanel::openGl(Session& session) {
   if (gl_ || !glProblem_.empty()) return;
-  auto created = GlRenderer::create({.waitForCaptures = false, .wake = wake_});
+  auto created = GlRenderer::create({.waitForCaptures = false});
   if (created) {
     gl_ = std::move(*created);
     return;
@@ -225,6 +226,7 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   const double scale = moving ? resolution_.movingScale() : 1.0;
   const PerspectiveView view = viewAt(context, scale);
   const auto stats = gl_->draw(session.walk()->walk, view, session.project().view);
+  if (gl_->anyToReceive()) context.window.pacer().request(1);
   rested_.reset();
   shown_ = {session.walk(), view, session.project().view, look, stats ? *stats : FrameStats{}, -1, true};
   if (stats) resolution_.measured(scale, stats->totalSeconds);

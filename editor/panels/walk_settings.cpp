@@ -26,8 +26,6 @@ const char* labelOf(Renderer renderer) {
       return "Depth buffer";
     case Renderer::gl:
       return "OpenGL";
-    case Renderer::glZbuffer:
-      return "OpenGL, depth test";
   }
   return "";
 }
@@ -43,9 +41,7 @@ const char* helpFor(Renderer renderer) {
     case Renderer::zbuffer:
       return "The same splats with a depth buffer, for comparison.";
     case Renderer::gl:
-      return "List priority on the graphics card.";
-    case Renderer::glZbuffer:
-      return "The same splats on the graphics card with a depth test, for comparison.";
+      return "List priority on the graphics card, as patches.";
   }
   return "";
 }
@@ -103,15 +99,18 @@ std::optional<Value> chooseOf(PanelContext& context, const char* label, const ch
 void drawRenderer(PanelContext& context, const std::string& glProblem) {
   const Project& project = context.session().project();
   ViewSettings view = project.view;
-  if (const auto renderer =
-          chooseOf(context, "Renderer", "walk.renderer", kRenderers, view.renderer,
-                   [&](Renderer each) { return onOpenGl(each) ? glProblem : std::string(); })) {
+  if (const auto renderer = chooseOf(
+          context, "Renderer", "walk.renderer", kRenderers, view.renderer, [&](Renderer each) -> std::string {
+            if (!onOpenGl(each)) return "";
+            return view.reconstruction == Reconstruction::patches ? glProblem : "OpenGL draws patches.";
+          })) {
     view.renderer = *renderer;
     context.session().apply(setViewSettings(project, view, "renderer"));
   }
   if (const auto reconstruction = chooseOf(context, "Reconstruction", "walk.reconstruction", kReconstructions,
                                            view.reconstruction, [](Reconstruction) { return ""; })) {
     view.reconstruction = *reconstruction;
+    if (view.reconstruction != Reconstruction::patches) view.renderer = withoutOpenGl(view.renderer);
     context.session().apply(setViewSettings(project, view, "reconstruction"));
   }
 }

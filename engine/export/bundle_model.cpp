@@ -12,7 +12,7 @@ Result<DrawModel> captureModel(const BundlePlayer& player, std::size_t storey, s
                                Loaded detail, int texturePixels, const std::stop_token& stop) {
   const auto capture = player.readCapture(storey, camera, detail);
   if (!capture) return tl::unexpected(capture.error());
-  if (!(*capture)->patches)
+  if (!(*capture)->hasPatches())
     return fail(ErrorKind::unsupported, "has no planes of surfaces, which models are made of",
                 fmt::format("storey {}, camera {}", storey, camera));
   DrawModel model;

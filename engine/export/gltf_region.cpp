@@ -47,7 +47,7 @@ Status addCaptures(const WalkScene& walk, int region, const GltfOptions& options
       ++report.missing;
       continue;
     }
-    if (!capture->patches)
+    if (!capture->hasPatches())
       return fail(ErrorKind::unsupported,
                   "has no planes of surfaces: turn silhouettes on in the bake settings, and bake it again",
                   fmt::format("the capture of camera {}", camera));

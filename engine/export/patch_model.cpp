@@ -154,6 +154,7 @@ class Writer {
  private:
   /// `reflections`: those that mirrors show.
   void find(const ShownCapture& shown, bool reflections) {
+    if (!shown.capture->patches) return;
     for (const DisplayPatch& patch : shown.capture->patches->patches) {
       if ((patch.roles & shown.roles) == 0 || (patch.mirror != 0 && !reflections)) continue;
       const std::size_t before = parts_.size();

@@ -21,7 +21,7 @@ inline constexpr int kLargestAtlas = 16384;
 
 /// The part of a capture that is drawn: samples that share a bit with these roles.
 struct ShownCapture {
-  const DisplayCapture* capture = nullptr;  ///< has patches
+  const DisplayCapture* capture = nullptr;  ///< hasPatches()
   std::uint8_t roles = 0;
 };
 

@@ -6,13 +6,10 @@
 
 namespace acentric {
 
-Renderer withoutOpenGl(Renderer renderer) {
-  if (!onOpenGl(renderer)) return renderer;
-  return depthTested(renderer) ? Renderer::zbuffer : Renderer::list;
-}
+Renderer withoutOpenGl(Renderer renderer) { return onOpenGl(renderer) ? Renderer::list : renderer; }
 
 const char* nameOf(Renderer renderer) {
-  constexpr std::array kNames{"list", "scalar", "double", "zbuffer", "gl", "gl-zbuffer"};
+  constexpr std::array kNames{"list", "scalar", "double", "zbuffer", "gl"};
   return kNames[std::size_t(renderer)];
 }
 
@@ -25,7 +22,9 @@ Result<Renderer> parseRenderer(std::string_view name) {
       "renderer");
 }
 
-std::string_view rendererNow(std::string_view name) { return name == "gl-mesh" ? "gl" : name; }
+std::string_view rendererNow(std::string_view name) {
+  return name == "gl-mesh" ? "gl" : name == "gl-zbuffer" ? "zbuffer" : name;
+}
 
 std::vector<std::string> rendererNames() {
   std::vector<std::string> names;

@@ -11,23 +11,18 @@
 namespace acentric {
 
 enum class Renderer : std::uint8_t {
-  list,       ///< list priority, no depth buffer (SIMD where the processor has it)
-  scalar,     ///< list priority, one sample at a time in plain C++: the reference of the fast ones
-  precise,    ///< the same in double precision: what floats cost
-  zbuffer,    ///< the same splats with a depth buffer, for comparison
-  gl,         ///< list priority on OpenGL
-  glZbuffer,  ///< the same splats on OpenGL with a depth test, for comparison
+  list,     ///< list priority, no depth buffer (SIMD where the processor has it)
+  scalar,   ///< list priority, one sample at a time in plain C++: the reference of the fast ones
+  precise,  ///< the same in double precision: what floats cost
+  zbuffer,  ///< the same splats with a depth buffer, for comparison
+  gl,       ///< list priority on OpenGL; patches alone
 };
-inline constexpr Renderer kRenderers[] = {Renderer::list,    Renderer::scalar, Renderer::precise,
-                                          Renderer::zbuffer, Renderer::gl,     Renderer::glZbuffer};
+inline constexpr Renderer kRenderers[] = {Renderer::list, Renderer::scalar, Renderer::precise,
+                                          Renderer::zbuffer, Renderer::gl};
 /// Is it drawn by view_gl instead of view?
-constexpr bool onOpenGl(Renderer renderer) {
-  return renderer == Renderer::gl || renderer == Renderer::glZbuffer;
-}
+constexpr bool onOpenGl(Renderer renderer) { return renderer == Renderer::gl; }
 /// Does a depth test find what is nearest, and not the order of drawing?
-constexpr bool depthTested(Renderer renderer) {
-  return renderer == Renderer::zbuffer || renderer == Renderer::glZbuffer;
-}
+constexpr bool depthTested(Renderer renderer) { return renderer == Renderer::zbuffer; }
 /// Itself, or what comes nearest to it where there is no OpenGL to draw with.
 Renderer withoutOpenGl(Renderer renderer);
 const char* nameOf(Renderer renderer);

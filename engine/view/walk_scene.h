@@ -52,6 +52,8 @@ struct DisplayCapture {
   bool blended = false;                           ///< some sample has alpha < 255
   std::shared_ptr<const DisplayPatches> patches;  ///< of the samples; null where they have no planes
   LargeVector<std::uint8_t> mirror;  ///< the mirror that each sample belongs to, 0 = none; empty: none does
+  /// Can it be drawn as patches? One that shows nothing but the background has none.
+  bool hasPatches() const { return patches != nullptr || samples.empty(); }
   /// What mirrors show, at its virtual place; null = nothing. Its `mirror` says which of them shows a sample.
   std::shared_ptr<const DisplayCapture> reflections;
 };

@@ -234,7 +234,7 @@ bool wantsPatches(const ViewSettings& settings) {
 
 bool drawsPatches(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings) {
   const auto have = [&](const PieceDraw& piece) {
-    return scene.captures[static_cast<std::size_t>(piece.camera)]->patches != nullptr;
+    return scene.captures[static_cast<std::size_t>(piece.camera)]->hasPatches();
   };
   return wantsPatches(settings) && std::ranges::all_of(plan.pieces, have);
 }

@@ -4,7 +4,6 @@
 
 #include "engine/geometry/conventions.h"
 #include "engine/view/frame.h"
-#include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/gl_check.h"
 #include "engine/view_gl/whole_picture.h"
 
@@ -41,7 +40,14 @@ Status BackgroundPass::draw(const WalkScene& scene, const ViewPlan& plan, const 
   const BackgroundLimits limits = backgroundLimits(scene, view.eye);
   const bool beyondRows = showsBackground(limits, view);
   if (!beyondRows && plan.backgrounds.empty()) return {};
-  target.beginPainting(FrameTarget::Depth::keep, FrameTarget::Cover::background);
+  target.bindForDrawing();
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, kCovered, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDisable(GL_BLEND);
   if (beyondRows) {
     const Sky sky = scene.plan.on(Effect::sky) ? scene.scene->sky : Sky{};
     const Result<GlProgram*> found = program({}, view, sky, scene.exposure, kSourceBackground);
@@ -52,15 +58,16 @@ Status BackgroundPass::draw(const WalkScene& scene, const ViewPlan& plan, const 
   }
   for (const PieceDraw& piece : plan.backgrounds)
     if (Status drawn = drawCaptured(scene, piece, view); !drawn) return drawn;
-  target.endPainting();
+  glDepthFunc(GL_GREATER);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
   return checkGl("drawing the background");
 }
 
 Status BackgroundPass::drawCaptured(const WalkScene& scene, const PieceDraw& piece,
                                     const PerspectiveView& view) {
   const std::shared_ptr<const DisplayCapture>& capture = scene.captures[std::size_t(piece.camera)];
-  const Result<const CaptureBuffers*> buffers =
-      captures_.get(capture, captureName(piece.camera, Mirrors::none), CaptureParts::background);
+  const Result<const CaptureBuffers*> buffers = captures_.get(capture, captureName(piece.camera, false));
   if (!buffers) return tl::unexpected(buffers.error());
   const ColumnCamera& camera = capture->camera;
   const CaptureBackground& background = capture->background.runs;

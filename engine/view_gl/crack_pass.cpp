@@ -11,8 +11,6 @@ CrackPass::CrackPass(ProgramCache& programs) : programs_(programs), noAttributes
 Status CrackPass::draw(const FrameTarget& target) {
   const Result<GlProgram*> find = programs_.get("whole_picture.vert", "cracks_find.frag", {});
   if (!find) return tl::unexpected(find.error());
-  const Result<GlProgram*> open = programs_.get("whole_picture.vert", "cracks_open.frag", {});
-  if (!open) return tl::unexpected(open.error());
   if (Status sized = least_.resize(target.width(), target.height()); !sized) return sized;
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_STENCIL_TEST);
@@ -22,18 +20,7 @@ Status CrackPass::draw(const FrameTarget& target) {
   glUniform1i((*find)->location("reach"), Cracks::kReach);
   glUniform1f((*find)->location("before"), Cracks::kBefore);
   drawWholePicture(**find, noAttributes_, {{"depths", target.depths()}});
-
-  target.bindForDrawing();
-  glEnable(GL_STENCIL_TEST);
-  glStencilFunc(GL_ALWAYS, 0, 0xff);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
-  glStencilMask(kInFront);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  drawWholePicture(**open, noAttributes_, {{"leastDepths", least_.name()}});
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glStencilMask(0xff);
-  glDisable(GL_STENCIL_TEST);
-  return checkGl("opening cracks");
+  return checkGl("finding cracks");
 }
 
 }  // namespace acentric

@@ -1,5 +1,5 @@
 #pragma once
-/// Opens the cracks of the first cover for the second (view/cracks.h).
+/// Finds the cracks of the first cover, where the second may show (view/cracks.h).
 
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_program.h"
@@ -10,8 +10,7 @@ namespace acentric {
 class CrackPass {
  public:
   explicit CrackPass(ProgramCache& programs);
-  /// Once the first cover is drawn, with depths. From then on the second may be drawn in its cracks, before
-  /// leastDepths().
+  /// Once the first cover is drawn, with depths.
   Status draw(const FrameTarget& target);
   /// R32F: depths of the framebuffer that are before what a crack shows; 0 where there is none.
   GLuint leastDepths() const { return least_.name(); }

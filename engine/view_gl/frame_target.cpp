@@ -42,10 +42,7 @@ Status FrameTarget::resize(int width, int height) {
                 "OpenGL");
 
   width_ = height_ = 0;  // nothing usable until all is made
-  clear_.reset();
-  clearLayer_.reset();
-  pieces_.reset();
-  reflections_.reset();
+  withMirrors_.reset();
   mirrors_.reset();
   glActiveTexture(GL_TEXTURE0);
   colour_ = pictureTexture(GL_RGBA8, width, height);
@@ -84,74 +81,23 @@ void FrameTarget::bindForDrawing() const {
   glViewport(0, 0, width_, height_);
 }
 
-void FrameTarget::bindForPieces() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, pieces_.name());
-  glViewport(0, 0, width_, height_);
-}
-
-void FrameTarget::bindForReflections() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, reflections_.name());
-  glViewport(0, 0, width_, height_);
-}
-
-Status FrameTarget::makePieces(bool mirrors, GlFramebuffer& framebuffer) const {
-  framebuffer = GlFramebuffer::make();
-  attachPicture(framebuffer);
-  constexpr std::array<GLenum, 3> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
-                                              GL_COLOR_ATTACHMENT2};
-  if (mirrors) glFramebufferTexture2D(GL_FRAMEBUFFER, kTargets[2], GL_TEXTURE_2D, mirrors_.name(), 0);
-  glDrawBuffers(mirrors ? 3 : 2, kTargets.data());
-  return complete();
-}
-
-Status FrameTarget::beginPieces(bool mirrors) {
-  glActiveTexture(GL_TEXTURE0);
-  if (mirrors && !mirrors_) mirrors_ = pictureTexture(GL_R8UI, width_, height_);
-  if (!pieces_ || withMirrors_ != mirrors) {
-    if (Status made = makePieces(mirrors, pieces_); !made) return made;
-    if (Status made = makePieces(false, reflections_); !made) return made;
-    withMirrors_ = mirrors;
-  }
-  bindForPieces();
-  constexpr std::array<GLuint, 4> kNothing = {0, 0, 0, 0};
-  if (mirrors) glClearBufferuiv(GL_COLOR, 2, kNothing.data());
-  return checkGl("making what pieces are drawn into");
-}
-
-void FrameTarget::beginPainting(Depth depth, Cover cover) const {
-  bindForDrawing();
-  depth == Depth::ignore ? glDisable(GL_DEPTH_TEST) : glEnable(GL_DEPTH_TEST);
-  glDepthFunc(depth == Depth::test ? GL_GREATER : GL_ALWAYS);
-  glEnable(GL_STENCIL_TEST);
-  if (cover == Cover::behind)
-    glStencilFunc(GL_EQUAL, kCovered, kInFront);
-  else
-    glStencilFunc(GL_ALWAYS, cover == Cover::inFront ? kCovered | kInFront : kCovered, 0xff);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glDisable(GL_FRAMEBUFFER_SRGB);
-  glDisable(GL_BLEND);
-}
-
-void FrameTarget::endPainting() const {
-  glDepthFunc(GL_GREATER);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_STENCIL_TEST);
-}
-
-Status FrameTarget::beginClearLayer() {
-  if (!clear_) {
+Status FrameTarget::beginMirrors() {
+  if (!withMirrors_) {
     glActiveTexture(GL_TEXTURE0);
-    clearLayer_ = pictureTexture(GL_RGBA8, width_, height_);
-    clear_ = GlFramebuffer::make();
-    glBindFramebuffer(GL_FRAMEBUFFER, clear_.name());
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, clearLayer_.name(), 0);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+    mirrors_ = pictureTexture(GL_R8UI, width_, height_);
+    withMirrors_ = GlFramebuffer::make();
+    attachPicture(withMirrors_);
+    constexpr std::array<GLenum, 3> kTargets = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                                GL_COLOR_ATTACHMENT2};
+    glFramebufferTexture2D(GL_FRAMEBUFFER, kTargets[2], GL_TEXTURE_2D, mirrors_.name(), 0);
+    glDrawBuffers(GLsizei(kTargets.size()), kTargets.data());
     if (Status drawable = complete(); !drawable) return drawable;
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, clear_.name());
-  constexpr std::array<GLfloat, 4> kNothing = {0, 0, 0, 0};
-  glClearBufferfv(GL_COLOR, 0, kNothing.data());
-  return checkGl("making the layer of clear samples");
+  glBindFramebuffer(GL_FRAMEBUFFER, withMirrors_.name());
+  glViewport(0, 0, width_, height_);
+  constexpr std::array<GLuint, 4> kNothing = {0, 0, 0, 0};
+  glClearBufferuiv(GL_COLOR, 2, kNothing.data());
+  return checkGl("making what mirrors are marked in");
 }
 
 void FrameTarget::begin() const {

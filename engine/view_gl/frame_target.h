@@ -10,10 +10,9 @@
 
 namespace acentric {
 
-/// The stencil: 0 in holes; kCovered, and for pixels that the first cover shows kInFront too (what the second
-/// shows lies behind it); kTinted where the first cover's clear samples lie over an open pixel; kReflection
-/// where a mirror's reflection was drawn, if there are mirrors among the local geometry.
-enum StencilBits : GLint { kCovered = 1, kInFront = 2, kTinted = 4, kReflection = 8 };
+/// The stencil: 0 in holes; kReflection where a mirror's reflection was drawn, if there are mirrors among the
+/// local geometry.
+enum StencilBits : GLint { kCovered = 1, kReflection = 8 };
 
 class FrameTarget {
  public:
@@ -22,20 +21,8 @@ class FrameTarget {
   /// Binds for drawing into colour and source, and clears both (holes) and the depth.
   void begin() const;
   void bindForDrawing() const;
-  /// Binds for drawing that covers what is there: colours go in as the codes they are, the stencil marks what
-  /// is drawn. Then back to the state before. `behind`: nothing is drawn where the first cover shows
-  /// something, but in its cracks (CrackPass). `ignore` and `keep`: whatever lies nearer, `test`: only what
-  /// is nearest.
-  enum class Cover { inFront, behind, background };
-  enum class Depth { ignore, keep, test };
-  void beginPainting(Depth depth, Cover cover) const;
-  void endPainting() const;
-  /// With `mirrors` pieces write one thing more, which is cleared: which mirror each pixel shows.
-  Status beginPieces(bool mirrors);
-  void bindForPieces() const;
-  void bindForReflections() const;  ///< without the mirrors, which these read
-  /// Binds the clear layer (codes, straight alpha) with the same depth and stencil, and empties it.
-  Status beginClearLayer();
+  /// Binds for drawing with one thing more, which is cleared: which mirror each pixel shows.
+  Status beginMirrors();
   /// Colours and sources as they stand, row 0 on top. Alpha is 255 wherever there is a source.
   Frame read() const;
 
@@ -43,13 +30,11 @@ class FrameTarget {
   int height() const { return height_; }
   GLuint colourCodes() const { return colour_.name(); }  ///< RGBA8 view
   GLuint depths() const { return depth_.name(); }        ///< DEPTH32F_STENCIL8
-  GLuint clearLayer() const { return clearLayer_.name(); }
-  GLuint sources() const { return source_.name(); }   ///< R16UI
-  GLuint mirrors() const { return mirrors_.name(); }  ///< R8UI, 0 = no mirror
+  GLuint sources() const { return source_.name(); }      ///< R16UI
+  GLuint mirrors() const { return mirrors_.name(); }     ///< R8UI, 0 = no mirror
 
  private:
   void attachPicture(const GlFramebuffer& framebuffer) const;
-  Status makePieces(bool mirrors, GlFramebuffer& framebuffer) const;
 
   int width_ = 0;
   int height_ = 0;
@@ -59,12 +44,8 @@ class FrameTarget {
   GlTexture depth_;
   GlFramebuffer draw_;
   GlFramebuffer read_;
-  GlTexture clearLayer_;  ///< made when first used
-  GlFramebuffer clear_;
-  GlTexture mirrors_;         ///< made when first used
-  bool withMirrors_ = false;  ///< does pieces_ draw into them?
-  GlFramebuffer pieces_;
-  GlFramebuffer reflections_;
+  GlTexture mirrors_;  ///< made when first used
+  GlFramebuffer withMirrors_;
 };
 
 }  // namespace acentric

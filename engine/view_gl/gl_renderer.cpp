@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <new>
 
 #include "engine/base/contract.h"
 #include "engine/view/view_plan.h"
-#include "engine/view/warp.h"
 #include "engine/view_gl/background_pass.h"
-#include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/fill_pass.h"
 #include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
@@ -27,9 +24,6 @@ namespace {
 
 /// Captures beyond this leave graphics memory, those unused for longest first.
 constexpr std::size_t kCaptureBudgetBytes = std::size_t(2) << 30;
-
-/// ViewSettings::maxSplatPixels at most.
-constexpr GLfloat kLargestSplat = 64;
 
 /// How far colours spread into a hole, as in view/render.cpp: where images are not loaded yet the gap must
 /// stay visible.
@@ -60,7 +54,6 @@ struct GlRenderer::Impl {
       : waits(options.waitForCaptures),
         bytesPerFrame(options.bytesPerFrame),
         secondsPerFrame(options.secondsPerFrame),
-        captures(waits ? nullptr : std::make_unique<CaptureBuilder>(options.wake)),
         runner(options.runner != nullptr ? *options.runner : own) {}
 
   const bool waits;
@@ -75,7 +68,6 @@ struct GlRenderer::Impl {
   LocalResidency locals;
   TextureCache textures;
   BackgroundPass background{programs, captures};
-  CapturePass capturePass{programs, captures};
   PatchPass patchPass{programs, captures, runner};
   LocalPass localPass{programs, textures};
   FillPass fillPass{programs};
@@ -89,16 +81,12 @@ struct GlRenderer::Impl {
   Status drawAll(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                  const ViewSettings& settings);
   /// What captures show, over the background. Returns whether mirrors among the local geometry are marked.
-  Result<bool> drawCaptures(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                            const ViewSettings& settings, LocalBuffers* local);
   Result<bool> drawPatches(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                            LocalBuffers* local);
   /// Null: none is to be drawn.
   Result<LocalBuffers*> localOf(const WalkScene& scene, const ViewPlan& plan, const ViewSettings& settings);
   /// Returns whether there are any.
   Result<bool> markLocalMirrors(const WalkScene& scene, const PerspectiveView& view, LocalBuffers* local);
-  Result<bool> drawReflections(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
-                               const ViewSettings& settings, LocalBuffers* local);
   Status drawAfterBackground(const WalkScene& scene, const ViewPlan& plan, const PerspectiveView& view,
                              const ViewSettings& settings, LocalBuffers* local, bool mirrorsMarked);
 };
@@ -139,9 +127,21 @@ Result<FrameStats> GlRenderer::Impl::draw(const WalkScene& scene, const Perspect
 
 Status GlRenderer::Impl::drawReady(const WalkScene& scene, const PerspectiveView& view,
                                    const ViewSettings& settings) {
+  if (settings.reconstruction != Reconstruction::patches)
+    return fail(
+        ErrorKind::invalidArgument,
+        fmt::format("OpenGL draws patches, not {}: use a CPU renderer", nameOf(settings.reconstruction)),
+        "reconstruction");
   const Result<ViewPlan> plan = planView(scene, view, settings);
   if (!plan) return tl::unexpected(plan.error());
   stats.missingImages = plan->missingImages;
+  for (const PieceDraw& piece : plan->pieces)
+    if (!scene.captures[std::size_t(piece.camera)]->hasPatches())
+      return fail(
+          ErrorKind::unsupported,
+          "it has no planes of surfaces, and OpenGL draws patches alone: bake it with silhouettes, or use "
+          "a CPU renderer",
+          captureName(piece.camera, false));
   if (Status sized = target.resize(view.width, view.height); !sized) return sized;
   glQueryCounter(begun.name(), GL_TIMESTAMP);
   if (Status drawn = drawAll(scene, *plan, view, settings); !drawn) return drawn;
@@ -156,27 +156,15 @@ Status GlRenderer::Impl::drawAll(const WalkScene& scene, const ViewPlan& plan, c
   target.begin();
   const Clock::time_point start = Clock::now();
   if (Status drawn = background.draw(scene, plan, view, target); !drawn) return drawn;
-  const Result<bool> mirrorsMarked = drawsPatches(scene, plan, settings)
-                                         ? drawPatches(scene, plan, view, *local)
-                                         : drawCaptures(scene, plan, view, settings, *local);
+  const Result<bool> mirrorsMarked = drawPatches(scene, plan, view, *local);
   if (!mirrorsMarked) return tl::unexpected(mirrorsMarked.error());
   stats.warpSeconds = secondsOfDrawing(start);
   return drawAfterBackground(scene, plan, view, settings, *local, *mirrorsMarked);
 }
 
-Result<bool> GlRenderer::Impl::drawCaptures(const WalkScene& scene, const ViewPlan& plan,
-                                            const PerspectiveView& view, const ViewSettings& settings,
-                                            LocalBuffers* local) {
-  if (Status drawn = capturePass.draw(scene, plan, view, settings, target, stats); !drawn)
-    return tl::unexpected(drawn.error());
-  return plan.reflections.empty() ? false : drawReflections(scene, plan, view, settings, local);
-}
-
 Result<bool> GlRenderer::Impl::drawPatches(const WalkScene& scene, const ViewPlan& plan,
                                            const PerspectiveView& view, LocalBuffers* local) {
-  const bool mirrors = !plan.reflections.empty();
-  if (Status ready = target.beginPieces(mirrors); !ready) return tl::unexpected(ready.error());
-  Result<bool> marked = mirrors ? markLocalMirrors(scene, view, local) : false;
+  Result<bool> marked = plan.reflections.empty() ? false : markLocalMirrors(scene, view, local);
   if (!marked) return marked;
   if (Status drawn = patchPass.draw(scene, plan, view, *marked, target, stats); !drawn)
     return tl::unexpected(drawn.error());
@@ -201,16 +189,6 @@ Result<LocalBuffers*> GlRenderer::Impl::localOf(const WalkScene& scene, const Vi
   Result<LocalBuffers*> local = locals.get(scene, region);
   stats.localSeconds += secondsOfDrawing(start);
   return local;
-}
-
-Result<bool> GlRenderer::Impl::drawReflections(const WalkScene& scene, const ViewPlan& plan,
-                                               const PerspectiveView& view, const ViewSettings& settings,
-                                               LocalBuffers* local) {
-  const Result<bool> marked = markLocalMirrors(scene, view, local);
-  if (!marked) return marked;
-  if (Status drawn = capturePass.drawReflections(scene, plan, view, settings, *marked, target, stats); !drawn)
-    return tl::unexpected(drawn.error());
-  return marked;
 }
 
 Status GlRenderer::Impl::drawAfterBackground(const WalkScene& scene, const ViewPlan& plan,
@@ -251,20 +229,11 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(const GlRendererOptions& 
                 "this OpenGL driver lacks GL_ARB_clip_control (in every driver for OpenGL 4.5): update it or "
                 "use a CPU renderer",
                 "OpenGL");
-  std::array<GLfloat, 2> pointSizes{};
-  glGetFloatv(GL_POINT_SIZE_RANGE, pointSizes.data());
-  if (pointSizes[1] < kLargestSplat)
-    return fail(
-        ErrorKind::unsupported,
-        fmt::format(
-            "this OpenGL driver draws points of at most {} pixels, splats need {}: use a CPU renderer",
-            pointSizes[1], kLargestSplat),
-        "OpenGL");
   const GlStateGuard guard;
   forgetGlErrors();
   std::unique_ptr<GlRenderer> renderer(new GlRenderer(std::make_unique<Impl>(options)));
   // The variant that every walk needs: a driver that refuses our shaders says so now, not in the first frame.
-  const Result<GlProgram*> program = renderer->impl_->programs.get("points.vert", "points.frag", {"SPLAT"});
+  const Result<GlProgram*> program = renderer->impl_->programs.get("patch_tile.vert", "patches.frag", {});
   if (!program) return tl::unexpected(program.error());
   if (Status made = checkGl("starting"); !made) return tl::unexpected(made.error());
   return renderer;
@@ -289,8 +258,8 @@ Result<bool> GlRenderer::receive() {
 
 bool GlRenderer::anyToReceive() const { return impl_->captures.anyToReceive(); }
 
-void GlRenderer::stopBuilding() {
-  impl_->captures.stopBuilding();
+void GlRenderer::stopSending() {
+  impl_->captures.stop();
   impl_->live.clear();
 }
 

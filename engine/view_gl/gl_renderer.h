@@ -1,10 +1,9 @@
 #pragma once
 /// The contract of view/render.h on OpenGL (core 4.3). Needs only a current context; captures stay resident
-/// as buffers. Draws the pieces of the same ViewPlan as patches, front to back, or as points, back to front
-/// without depth test (or, for comparison, with one), then local geometry with one.
+/// as buffers. Draws the pieces of the same ViewPlan as patches, front to back, then local geometry with a
+/// depth test.
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,14 +19,13 @@ namespace acentric {
 
 struct GlRendererOptions {
   /// Does a frame wait until all that it lacks is on the graphics card? Otherwise no frame does: captures are
-  /// packed in the background and sent piece by piece. Until a capture is there its camera shows what it had
+  /// sent piece by piece. Until a capture is there its camera shows what it had
   /// before (the coarse copy, say) or, without that, counts as missing.
   bool waitForCaptures = true;
   TaskRunner* runner = nullptr;  ///< plans patches; outlives the renderer; null: this thread
   std::size_t bytesPerFrame = std::size_t(32) << 20;  ///< sent at most by a frame that does not wait
   /// It sends no longer than this, or than a tenth of what the frame before it took; a megabyte always.
   double secondsPerFrame = 0.004;
-  std::function<void()> wake = {};  ///< called from another thread when there is something for receive()
 };
 
 class GlRenderer {
@@ -41,16 +39,16 @@ class GlRenderer {
 
   /// Draws into the renderer's own framebuffer (view.width x view.height). Sends what this view needs and is
   /// not resident yet, or a piece of it; drops what is gone from `scene`. The context's state is left as it
-  /// was, whatever it was. Waits until all is drawn, so that the times in the statistics are true;
-  /// samplesDrawn counts those submitted.
+  /// was, whatever it was. Fails where settings or captures ask for other than patches. Waits until all is
+  /// drawn, so that the times in the statistics are true; samplesDrawn counts those submitted.
   Result<FrameStats> draw(const WalkScene& scene, const PerspectiveView& view, const ViewSettings& settings);
-  /// Of what is packed in the background: sends a piece to the graphics card, as each draw does.
-  /// True if a picture drawn now would show something that the last could not.
+  /// Sends a piece of what frames lacked, as each draw does. True if a picture drawn now would show something
+  /// that the last could not.
   Result<bool> receive();
   /// Is there more for receive() to do at once?
   bool anyToReceive() const;
-  /// For when other renderers draw: what is packed in the background is given up until the next draw.
-  void stopBuilding();
+  /// For when other renderers draw: what is on its way is given up until the next draw.
+  void stopSending();
   /// Seconds from the first to the last command of the last draw by the graphics card's own clock; 0 before
   /// it.
   double cardSeconds() const;

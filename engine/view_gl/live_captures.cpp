@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/view/view_cameras.h"
-#include "engine/view/warp.h"
 
 namespace acentric {
 namespace {
@@ -34,33 +33,21 @@ bool sameView(const ColumnCamera& a, const ColumnCamera& b) {
          a.fovRadians == b.fovRadians;
 }
 
+/// With what its mirrors show.
+std::size_t bytesOfAll(const DisplayCapture& capture) {
+  return bufferBytes(capture) + (capture.reflections ? bufferBytes(*capture.reflections) : 0);
+}
+
 }  // namespace
 
-/// That must be there before the camera is drawn. The runs of its background are sent when they are drawn: at
-/// most 0.2 MB where the samples of a capture are 43 to 85 MB (the sample at 20 per degree), and where these
-/// are there the runs are too.
-std::vector<LiveCaptures::Part> LiveCaptures::partsOf(const CapturePtr& capture) {
-  std::vector<Part> parts{{capture, Mirrors::none, partsDrawn(*capture)}};
-  if (capture->reflections)
-    parts.push_back({capture->reflections, Mirrors::reflect, partsDrawn(*capture->reflections)});
-  return parts;
-}
-
-std::size_t LiveCaptures::bytesOfAll(const DisplayCapture& capture) const {
-  return packedBytes(capture, partsDrawn(capture)) +
-         (capture.reflections ? packedBytes(*capture.reflections, partsDrawn(*capture.reflections)) : 0);
-}
-
 bool LiveCaptures::ready(const CapturePtr& capture) {
-  return std::ranges::all_of(partsOf(capture),
-                             [&](const Part& part) { return captures_.ready(part.capture, part.parts); });
+  return captures_.ready(capture) && (!capture->reflections || captures_.ready(capture->reflections));
 }
 
 Status LiveCaptures::ask(const CapturePtr& capture, int camera, bool lacked) {
-  for (const Part& part : partsOf(capture))
-    if (!captures_.ready(part.capture, part.parts))
-      if (Status asked = captures_.ask(part.capture, captureName(camera, part.mirrors), part.parts, lacked);
-          !asked)
+  for (const CapturePtr& part : {capture, capture->reflections})
+    if (part && !captures_.ready(part))
+      if (Status asked = captures_.ask(part, captureName(camera, part != capture), lacked); !asked)
         return asked;
   return {};
 }
@@ -107,18 +94,11 @@ Status LiveCaptures::sendSmall(const CapturePtr& capture, int camera, SendLimit&
   const std::size_t bytes = bytesOfAll(*capture);
   if (bytes > limit.left()) return {};
   limit.sent(bytes);
-  for (const Part& part : partsOf(capture))
-    if (const auto sent = captures_.get(part.capture, captureName(camera, part.mirrors), part.parts); !sent)
-      return tl::unexpected(sent.error());
+  for (const CapturePtr& part : {capture, capture->reflections})
+    if (part)
+      if (const auto sent = captures_.get(part, captureName(camera, part != capture)); !sent)
+        return tl::unexpected(sent.error());
   return {};
-}
-
-Result<bool> LiveCaptures::receive(SendLimit& limit) {
-  const Result<bool> lacked = captures_.receive(limit, Which::lacked);
-  if (!lacked) return lacked;
-  const Result<bool> ahead = captures_.receive(limit);
-  if (!ahead) return ahead;
-  return *lacked || *ahead;
 }
 
 Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const PerspectiveView& view,
@@ -126,10 +106,6 @@ Result<const WalkScene*> LiveCaptures::choose(const WalkScene& scene, const Pers
                                               FrameStats& stats) {
   if (!view.check()) return &scene;  // as planning will tell
   const std::vector<int> cameras = camerasInView(scene, view, settings);
-  const auto havePatches = [&](int camera) {
-    return scene.captures[std::size_t(camera)]->patches != nullptr;
-  };
-  asPatches_ = wantsPatches(settings) && std::ranges::all_of(cameras, havePatches);
   letGo(scene, cameras);
   for (const int camera : cameras) {
     const CapturePtr& now = scene.captures[std::size_t(camera)];

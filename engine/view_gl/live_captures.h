@@ -9,7 +9,6 @@
 
 #include "engine/geometry/perspective_view.h"
 #include "engine/view/frame.h"
-#include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/capture_residency.h"
 
 namespace acentric {
@@ -20,14 +19,14 @@ class LiveCaptures {
   LiveCaptures(CaptureResidency& captures, std::size_t memoryBytes)
       : captures_(captures), memoryBytes_(memoryBytes) {}
 
-  /// Before a frame is planned: sends, within the limit, what is packed and what is small enough to be packed
-  /// here and now, and asks for the rest. Returns the walk to plan with: in place of captures that
-  /// are not ready others of their cameras, or none. Valid until end(). Counts in `stats`.
+  /// Before a frame is planned: sends, within the limit, what was asked for and what is small enough to be
+  /// sent here and now, and asks for the rest. Returns the walk to plan with: in place of captures that are
+  /// not ready others of their cameras, or none. Valid until end(). Counts in `stats`.
   Result<const WalkScene*> choose(const WalkScene& scene, const PerspectiveView& view,
                                   const ViewSettings& settings, SendLimit limit, FrameStats& stats);
-  /// Sends what is packed, within the limit. True if a picture drawn now would show something that
+  /// Sends what was asked for, within the limit. True if a picture drawn now would show something that
   /// the last could not.
-  Result<bool> receive(SendLimit& limit);
+  Result<bool> receive(SendLimit& limit) { return captures_.receive(limit); }
   /// After the frame.
   void end() { planned_ = {}; }
   /// What the graphics card keeps beside the captures of the walk.
@@ -37,16 +36,6 @@ class LiveCaptures {
 
  private:
   using CapturePtr = std::shared_ptr<const DisplayCapture>;
-  struct Part {  ///< of what is drawn of a camera
-    CapturePtr capture;
-    Mirrors mirrors;
-    CaptureParts parts;
-  };
-  CaptureParts partsDrawn(const DisplayCapture& capture) const {
-    return asPatches_ && capture.patches ? CaptureParts::patches : CaptureParts::samples;
-  }
-  std::size_t bytesOfAll(const DisplayCapture& capture) const;
-  std::vector<Part> partsOf(const CapturePtr& capture);
   bool ready(const CapturePtr& capture);
   Status ask(const CapturePtr& capture, int camera, bool lacked);
   void askAhead(const WalkScene& scene, const glm::dvec3& eye, const std::vector<int>& inView);
@@ -55,7 +44,6 @@ class LiveCaptures {
 
   CaptureResidency& captures_;
   std::size_t memoryBytes_;
-  bool asPatches_ = false;         ///< is this frame?
   std::vector<CapturePtr> drawn_;  ///< by camera: that which was ready last; null = none
   WalkScene planned_;
 };

@@ -119,10 +119,10 @@ Status LocalPass::prepare(const WalkScene& scene, const PerspectiveView& view, c
   return {};
 }
 
-Status LocalPass::markMirrors(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
+Status LocalPass::markMirrors(const WalkScene& scene, const PerspectiveView& view, FrameTarget& target,
                               LocalBuffers& buffers) {
   const std::vector<LocalMaterial> materials = materialsOf(scene);
-  target.bindForPieces();
+  if (Status begun = target.beginMirrors(); !begun) return begun;
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);

@@ -17,9 +17,9 @@ class LocalPass {
  public:
   LocalPass(ProgramCache& programs, TextureCache& textures);
 
-  /// Between pieces and reflections, of buffers with mirrors: what is opaque leaves its depth, and its mirror
+  /// Before patches, of buffers with mirrors: what is opaque leaves its depth, and its mirror
   /// or none to `target`; where a mirror is nearest the pixel has no source any more.
-  Status markMirrors(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,
+  Status markMirrors(const WalkScene& scene, const PerspectiveView& view, FrameTarget& target,
                      LocalBuffers& buffers);
   /// `marked`: after markMirrors and the reflections, which stay.
   Status drawOpaque(const WalkScene& scene, const PerspectiveView& view, const FrameTarget& target,

@@ -51,7 +51,7 @@ Status PatchPass::draw(const WalkScene& scene, const ViewPlan& plan, const Persp
   if (Status painted = paint(patches.surfaces, mirrors, false, stats); !painted) return painted;
   if (Status settled = settle(Show::surfaces, localMirrors, target); !settled) return settled;
   if (!patches.behind.empty()) {
-    if (Status opened = cracks_.draw(target); !opened) return opened;
+    if (Status found = cracks_.draw(target); !found) return found;
     if (Status begun = begin(Show::behind, localMirrors, target); !begun) return begun;
     if (Status painted = paint(patches.behind, mirrors, false, stats); !painted) return painted;
     if (Status settled = settle(Show::behind, localMirrors, target); !settled) return settled;
@@ -141,8 +141,7 @@ Status PatchPass::paintPiece(std::span<const StripDraw> strips, bool mirrors, bo
   stats.samplesRead += tables_.patches.size();
 
   const Result<const CaptureBuffers*> buffers =
-      captures_.get(one.capture, captureName(one.piece->camera, reflect ? Mirrors::reflect : Mirrors::none),
-                    CaptureParts::patches);
+      captures_.get(one.capture, captureName(one.piece->camera, reflect));
   if (!buffers) return tl::unexpected(buffers.error());
   Defines defines;
   if (reflect)
@@ -153,7 +152,7 @@ Status PatchPass::paintPiece(std::span<const StripDraw> strips, bool mirrors, bo
   if (!found) return tl::unexpected(found.error());
   GlProgram& program = **found;
   program.use();
-  setUniform(program, "pictureSize", glm::vec2(width_, height_));
+  glUniform2f(program.location("pictureSize"), float(width_), float(height_));
   glUniform1f(program.location("side"), float(PatchTiles::kSide));
   glUniform1f(program.location("pictureHeight"), float(height_));
   const auto piece = std::bit_cast<std::array<GLuint, 12>>(tables_.pieces.front());
@@ -204,7 +203,7 @@ Status PatchPass::settle(Show show, bool localMirrors, const FrameTarget& target
   glDepthFunc(GL_GEQUAL);  // what local geometry hides does not matter
   glEnable(GL_STENCIL_TEST);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glStencilFunc(GL_ALWAYS, show == Show::behind ? kCovered : kCovered | kInFront, 0xff);
+  glStencilFunc(GL_ALWAYS, kCovered, 0xff);
   draw(false);
   if (show == Show::mirrors && localMirrors) {  // which keep their own depth
     glDisable(GL_DEPTH_TEST);

@@ -8,7 +8,6 @@
 #include "engine/base/task_runner.h"
 #include "engine/view/frame.h"
 #include "engine/view/patch_tables.h"
-#include "engine/view_gl/capture_piece.h"
 #include "engine/view_gl/capture_residency.h"
 #include "engine/view_gl/crack_pass.h"
 #include "engine/view_gl/frame_target.h"

@@ -57,14 +57,11 @@ TEST(BenchGlFolder, RunsWhereverItIsMovedWithoutAnEnvironment) {
   EXPECT_FALSE(json["glRenderer"].get<std::string>().empty());
   EXPECT_NE(ran.output.find(json["glRenderer"].get<std::string>()), std::string::npos);
   EXPECT_GT(json["frames"].get<int>(), 0);
-  ASSERT_EQ(json["renderers"].size(), 4u) << "gl and gl-zbuffer, splats and patches";
-  for (const Json& renderer : json["renderers"]) {
-    EXPECT_GT(renderer["samplesPerFrame"].get<double>(), 100);
-    EXPECT_GT(renderer["frameMsMedian"].get<double>(), 0);
-    EXPECT_GE(renderer["frameMsP99"].get<double>(), renderer["frameMsMedian"].get<double>());
-    EXPECT_GT(renderer["cardMsMedian"].get<double>(), 0);
-    EXPECT_LT(renderer["cardMsMedian"].get<double>(), renderer["frameMsP99"].get<double>());
-  }
+  EXPECT_GT(json["patchesPerFrame"].get<double>(), 100);
+  EXPECT_GT(json["frameMsMedian"].get<double>(), 0);
+  EXPECT_GE(json["frameMsP99"].get<double>(), json["frameMsMedian"].get<double>());
+  EXPECT_GT(json["cardMsMedian"].get<double>(), 0);
+  EXPECT_LT(json["cardMsMedian"].get<double>(), json["frameMsP99"].get<double>());
 
   // With the C++ runtime that travels along, and with no library from elsewhere but the C library's and
   // drivers'.

@@ -11,10 +11,11 @@ std::vector<AnalyticScene::Crossing> AnalyticScene::along(const glm::dvec3& orig
   std::vector<Crossing> found;
   if (floor && direction.z != 0) {
     const double t = -origin.z / direction.z;
-    if (t > from) found.push_back({t, floorColour});
+    if (t > from) found.push_back({t, floorColour, {2, 0}});
   }
   for (const AnalyticBox& box : boxes) {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
+    AnalyticPlane face;
     for (int axis = 0; axis < 3; ++axis) {
       if (direction[axis] == 0) {
         if (origin[axis] < box.min[axis] || origin[axis] > box.max[axis]) leave = -1;
@@ -22,10 +23,11 @@ std::vector<AnalyticScene::Crossing> AnalyticScene::along(const glm::dvec3& orig
       }
       const double a = (box.min[axis] - origin[axis]) / direction[axis];
       const double b = (box.max[axis] - origin[axis]) / direction[axis];
+      if (std::min(a, b) > enter) face = {axis, a < b ? box.min[axis] : box.max[axis]};
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
-    if (enter <= leave && enter > from) found.push_back({enter, box.colour});
+    if (enter <= leave && enter > from) found.push_back({enter, box.colour, face});
   }
   std::sort(found.begin(), found.end(),
             [](const Crossing& a, const Crossing& b) { return a.distance < b.distance; });
@@ -51,6 +53,21 @@ AnalyticScene randomBoxes(unsigned seed, int count, double innerRadius) {
     scene.boxes.push_back(box);
   }
   return scene;
+}
+
+AnalyticScene randomPatches(unsigned seed, int count, double innerRadius) {
+  AnalyticScene scene = randomBoxes(seed, count, innerRadius);
+  scene.silhouettes = true;
+  return scene;
+}
+
+void addPlane(CaptureSamples& list, const glm::dvec3& centre, const AnalyticPlane& plane) {
+  SurfacePlane surface;
+  surface.normal[plane.axis] = float(1 / (plane.at - centre[plane.axis]));
+  const auto known = std::ranges::find(list.planes, surface);
+  list.plane.push_back(std::uint32_t(known - list.planes.begin()));
+  if (known == list.planes.end()) list.planes.push_back(surface);
+  list.coverage.push_back(kWholePixel);
 }
 
 void addSample(CaptureSamples& list, int row, double distance, const glm::vec4& colour) {
@@ -93,6 +110,7 @@ Capture capture(const AnalyticScene& scene, const ColumnCamera& camera, const Co
                      for (const auto& crossing : scene.along(ray.origin, ray.direction, ray.from)) {
                        if (kept >= layers && closed) break;
                        addSample(out, ray.row, crossing.distance, crossing.colour);
+                       if (scene.silhouettes) addPlane(out, ray.origin, crossing.plane);
                        ++kept;
                        closed = closed || crossing.colour.a >= 1;
                      }

@@ -17,17 +17,25 @@ struct AnalyticBox {
   glm::vec4 colour{1};  ///< linear, straight alpha
 };
 
+/// Points whose coordinate `axis` is `at`; infinite: the sky.
+struct AnalyticPlane {
+  int axis = 2;
+  double at = 0;
+};
+
 /// Axis-aligned boxes over an optional floor at z = 0, under a sky of one colour.
 struct AnalyticScene {
   std::vector<AnalyticBox> boxes;
   bool floor = true;
   glm::vec4 floorColour{0.2f, 0.25f, 0.2f, 1};
   glm::vec4 skyColour{0.3f, 0.5f, 0.7f, 1};
+  bool silhouettes = false;  ///< captures know the planes of their samples, which cover pixels whole
   Sky sky() const { return {glm::vec3(skyColour), glm::vec3(skyColour), glm::vec3(skyColour)}; }
 
   struct Crossing {
     double distance = 0;  ///< in units of `direction`
     glm::vec4 colour{0};
+    AnalyticPlane plane;
   };
   /// Every surface along a ray beyond `from`, nearest first (a box counts where the ray enters it).
   std::vector<Crossing> along(const glm::dvec3& origin, const glm::dvec3& direction, double from) const;
@@ -35,6 +43,8 @@ struct AnalyticScene {
 
 /// `count` opaque boxes on the floor around the origin, none nearer to it than `innerRadius`.
 AnalyticScene randomBoxes(unsigned seed, int count, double innerRadius);
+/// The same, drawn as patches.
+AnalyticScene randomPatches(unsigned seed, int count, double innerRadius);
 
 /// The ray of a pixel, from where it leaves the region.
 struct PixelRay {
@@ -45,6 +55,8 @@ struct PixelRay {
 /// A capture made pixel by pixel, column after column, of what lies beyond `grown` (nullptr: of everything).
 Capture captureBy(const ColumnCamera& camera, const ConvexPolygon* grown, const Sky& sky,
                   const std::function<void(Capture&, BackgroundBuilder&, const PixelRay&)>& addPixel);
+/// That the last sample lies on, as seen from `centre`.
+void addPlane(CaptureSamples& list, const glm::dvec3& centre, const AnalyticPlane& plane);
 /// Needed by every role.
 void addSample(CaptureSamples& list, int row, double distance, const glm::vec4& colour);
 

@@ -23,6 +23,12 @@ double distanceTo(const AnalyticMirror& mirror, const glm::dvec3& origin, const 
   return inside ? distance : kInfinity;
 }
 
+/// Where a mirror shows it.
+AnalyticPlane mirroredBy(const AnalyticMirror& mirror, const AnalyticPlane& plane) {
+  return {plane.axis, plane.axis == mirror.axis ? 2 * mirror.at - plane.at : plane.at};
+}
+constexpr AnalyticPlane kSkyPlane{2, kInfinity};
+
 /// Six faces, seen from outside.
 void addBox(LocalSceneBuilder& builder, const AnalyticBox& box) {
   const int material = builder.material(box.colour);
@@ -66,14 +72,16 @@ std::vector<MirrorScene::Seen> MirrorScene::shownByNearMirrors(const glm::dvec3&
     glm::dvec3 mirrored = direction;
     mirrored[mirror.axis] *= -1;
     int kept = 0;
-    const auto add = [&](const glm::vec4& colour, double virtualDistance) {
+    const auto add = [&](const glm::vec4& colour, double virtualDistance, const AnalyticPlane& plane) {
       if (!(virtualDistance > from) || kept == 2) return;
-      seen.push_back({distance, colour * glm::vec4(mirror.tint, 1), mirror.number, virtualDistance});
+      seen.push_back(
+          {distance, colour * glm::vec4(mirror.tint, 1), mirror.number, virtualDistance, {}, plane});
       ++kept;
     };
     for (const auto& crossing : surfaces.along(origin + distance * direction, mirrored, 1e-9))
-      if (crossing.colour.a >= 1) add(crossing.colour, distance + crossing.distance);
-    add(surfaces.skyColour, kInfinity);
+      if (crossing.colour.a >= 1)
+        add(crossing.colour, distance + crossing.distance, mirroredBy(mirror, crossing.plane));
+    add(surfaces.skyColour, kInfinity, kSkyPlane);
   }
   std::ranges::stable_sort(seen, {}, &Seen::virtualDistance);
   return seen;
@@ -89,7 +97,7 @@ std::vector<MirrorScene::Seen> MirrorScene::along(const glm::dvec3& origin, cons
   std::vector<Seen> seen;
   for (const auto& crossing : surfaces.along(origin, direction, from)) {
     if (crossing.distance > mirrorDistance) break;
-    seen.push_back({crossing.distance, crossing.colour, 0, 0});
+    seen.push_back({crossing.distance, crossing.colour, 0, 0, crossing.plane});
     if (crossing.colour.a >= 1) return seen;
   }
   if (nearest == nullptr) {
@@ -99,11 +107,13 @@ std::vector<MirrorScene::Seen> MirrorScene::along(const glm::dvec3& origin, cons
   glm::dvec3 mirrored = direction;
   mirrored[nearest->axis] *= -1;
   const auto shown = surfaces.along(origin + mirrorDistance * direction, mirrored, 1e-9);
-  Seen in{mirrorDistance, surfaces.skyColour, nearest->number, kInfinity};
+  Seen in{mirrorDistance, surfaces.skyColour,           nearest->number,
+          kInfinity,      {nearest->axis, nearest->at}, kSkyPlane};
   for (const auto& crossing : shown)
     if (crossing.colour.a >= 1) {
       in.colour = crossing.colour;
       in.virtualDistance = mirrorDistance + crossing.distance;
+      in.virtualPlane = mirroredBy(*nearest, crossing.plane);
       break;
     }
   in.colour *= glm::vec4(nearest->tint, 1);
@@ -112,21 +122,26 @@ std::vector<MirrorScene::Seen> MirrorScene::along(const glm::dvec3& origin, cons
 }
 
 Capture capture(const MirrorScene& scene, const ColumnCamera& camera, const ConvexPolygon* grown) {
-  const auto add = [](CaptureSamples& list, int row, double distance, const MirrorScene::Seen& seen) {
+  const auto add = [&](CaptureSamples& list, int row, double distance, const AnalyticPlane& plane,
+                       const MirrorScene::Seen& seen) {
     addSample(list, row, distance, seen.colour);
     list.mirror.push_back(seen.mirror);
+    if (scene.surfaces.silhouettes) addPlane(list, camera.centreOfProjection, plane);
   };
   return captureBy(camera, grown, scene.surfaces.sky(),
                    [&](Capture& out, BackgroundBuilder& background, const PixelRay& ray) {
+                     const auto addShown = [&](const MirrorScene::Seen& seen) {
+                       add(out.reflections, ray.row, seen.virtualDistance, seen.virtualPlane, seen);
+                     };
                      for (const auto& seen : scene.along(ray.origin, ray.direction, ray.from)) {
                        if (std::isinf(seen.distance))
                          background.add(ray.row, 0xff);
                        else
-                         add(out, ray.row, seen.distance, seen);
-                       if (seen.mirror != 0) add(out.reflections, ray.row, seen.virtualDistance, seen);
+                         add(out, ray.row, seen.distance, seen.plane, seen);
+                       if (seen.mirror != 0) addShown(seen);
                      }
                      for (const auto& seen : scene.shownByNearMirrors(ray.origin, ray.direction, ray.from))
-                       add(out.reflections, ray.row, seen.virtualDistance, seen);
+                       addShown(seen);
                    });
 }
 

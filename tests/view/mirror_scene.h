@@ -25,6 +25,7 @@ struct MirrorScene {
     glm::vec4 colour{0};
     std::uint8_t mirror = 0;
     double virtualDistance = 0;  ///< of what a mirror shows; infinity: the sky
+    AnalyticPlane plane = {}, virtualPlane = {};
   };
   /// What a ray meets beyond `from`, nearest first: blended surfaces, then an opaque one, a mirror or the
   /// sky.

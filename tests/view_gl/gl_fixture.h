@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
-#include <thread>
 
 #include "engine/view/render.h"
 #include "engine/view/view_cameras.h"
@@ -51,13 +49,6 @@ class WithGl : public testing::Test {
   std::unique_ptr<GlRenderer> renderer_;
 };
 
-/// Until what is at work on it has given it up, or is done.
-inline bool isLetGoOf(const std::weak_ptr<const DisplayCapture>& capture) {
-  for (int i = 0; i < 60'000 && !capture.expired(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  return capture.expired();
-}
-
 /// The walk without the cameras that this view is not painted from.
 inline WalkScene onlyInView(WalkScene scene, const PerspectiveView& view, const ViewSettings& settings) {
   const std::vector<int> cameras = camerasOf(*scene.layout, view, settings).cameras;
@@ -66,9 +57,9 @@ inline WalkScene onlyInView(WalkScene scene, const PerspectiveView& view, const 
   return scene;
 }
 
-/// As the scalar reference paints it; what a depth test shows if that is asked for.
+/// As the scalar reference paints it.
 inline Frame onCpu(const WalkScene& scene, const PerspectiveView& view, ViewSettings settings) {
-  settings.renderer = depthTested(settings.renderer) ? Renderer::zbuffer : Renderer::scalar;
+  settings.renderer = Renderer::scalar;
   TaskRunner runner(0);
   auto frame = renderFrame(scene, view, settings, runner);
   if (!frame) {
@@ -87,9 +78,7 @@ inline double differingSources(const Frame& a, const Frame& b) {
   return double(differing) / double(a.source.pixels.size());
 }
 
-/// The CPU and the graphics card compute positions in floats of their own rounding: where a position lies
-/// within that of a pixel's border the splat moves by a pixel. Colours of real samples are exact: no code of
-/// tolerance.
+/// The CPU and the graphics card compute places in floats of their own rounding.
 inline constexpr double kMostDifferingShare = 0.002;
 
 }  // namespace acentric::test

@@ -20,10 +20,11 @@ class GlLocal : public test::WithGl {
     const int region = *layout->regionAt({0.1, 0.1});
     WalkScene local = builder.build(20);
     WalkScene scene;
-    if (background)
-      scene = test::walkScene(test::randomBoxes(4, 30, 5), layout, region, 2);
-    else
+    if (background) {
+      scene = test::walkScene(test::randomPatches(4, 30, 5), layout, region, 2);
+    } else {
       scene.layout = layout, scene.captures.resize(layout->cameras.size());
+    }
     scene.scene = local.scene;
     scene.plan = local.plan;
     scene.local.resize(layout->regions.size());
@@ -43,7 +44,8 @@ class GlLocal : public test::WithGl {
   void expectLikeCpu(const WalkScene& scene, const PerspectiveView& from, int codes, double share) {
     const Frame cpu = onCpu(scene, from, {}), gl = onGl(scene, from, {});
     ASSERT_EQ(gl.colour.pixels.size(), cpu.colour.pixels.size());
-    EXPECT_LE(test::differingShare(cpu.colour, gl.colour, codes), share);
+    constexpr double kEdges = 0.001;  // of patches behind: other rays of a pixel meet them
+    EXPECT_LE(test::differingShare(cpu.colour, gl.colour, codes), share + kEdges);
     EXPECT_LE(test::differingSources(cpu, gl), 0.002);
     EXPECT_GT(std::count(gl.source.pixels.begin(), gl.source.pixels.end(), kSourceLocal), 1000);
   }

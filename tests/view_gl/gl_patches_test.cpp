@@ -97,23 +97,6 @@ TEST_F(GlPatches, ArePaintedAsOnTheCpu) {
     EXPECT_TRUE(hasVariant(words)) << words;
 }
 
-TEST_F(GlPatches, AreDrawnOfNoCaptureThatHasNone) {
-  const test::BakedRoom& room = roomOf(Configuration::b);
-  WalkScene walk = room.walk;
-  ViewSettings settings;
-  settings.renderer = Renderer::gl;
-  const PerspectiveView view = viewsOf(*room.open.layout).front();
-  for (auto& capture : walk.captures) {
-    auto bare = std::make_shared<DisplayCapture>(*capture);
-    bare->patches = nullptr;
-    capture = bare;
-  }
-  const Frame asPatches = onGl(walk, view, settings);
-  EXPECT_FALSE(hasVariant("patches.frag"));
-  settings.reconstruction = Reconstruction::splat;
-  EXPECT_EQ(asPatches.colour.pixels, onGl(walk, view, settings).colour.pixels);
-}
-
 TEST_F(GlPatches, WhoseTexelsAreNotThoseTheySayAreRefused) {
   const test::BakedRoom& room = roomOf(Configuration::b);
   WalkScene walk = room.walk;

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/view/view_plan.h"
-#include "engine/view_gl/capture_pass.h"
 #include "engine/view_gl/capture_residency.h"
-#include "engine/view_gl/frame_target.h"
 #include "engine/view_gl/gl_check.h"
-#include "engine/view_gl/gl_state.h"
 #include "gl_fixture.h"
-#include "tests/view/mirror_scene.h"
+#include "tests/view/analytic_scene.h"
 
 namespace acentric {
 namespace {
@@ -26,7 +22,7 @@ std::shared_ptr<const DisplayCapture> smallCapture(int columns = 8) {
   camera.columns = columns;
   camera.rows = 16;
   return std::make_shared<const DisplayCapture>(
-      prepareForDisplay(test::capture(test::randomBoxes(1, 10, 2), camera, nullptr), 1));
+      prepareForDisplay(test::capture(test::randomPatches(1, 10, 2), camera, nullptr), 1));
 }
 
 TEST_F(GlResources, TheContextNamesItsDriverAndVersion) {
@@ -44,7 +40,7 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   scene.captures = {smallCapture(), smallCapture(5)};
   const auto first = residency.get(scene.captures[0], "first");
   ASSERT_TRUE(first);
-  const GLuint buffer = (*first)->chunks.at(0).samples.name();
+  const GLuint buffer = (*first)->patchCovers.name();
   EXPECT_EQ(glIsBuffer(buffer), GL_TRUE);
   EXPECT_EQ(*residency.get(scene.captures[0], "first"), *first) << "the same buffers again";
   ASSERT_TRUE(residency.get(scene.captures[1], "second"));
@@ -52,13 +48,9 @@ TEST_F(GlResources, ACaptureIsUploadedOnceAndDroppedWithItsScene) {
   const std::size_t runs =
       scene.captures[0]->background.runs.runCount() + scene.captures[1]->background.runs.runCount();
   EXPECT_GT(runs, 0u);
-  std::size_t expected = 8 * runs + 2 * 16 * sizeof(float);
-  for (const auto& capture : scene.captures) expected += 12 * capture->samples.size();
+  std::size_t expected = 8 * runs;
+  for (const auto& capture : scene.captures) expected += 8 * capture->patches->cover.size();
   EXPECT_EQ(residency.bytes(), expected);
-  CaptureResidency forBackgrounds;
-  for (const auto& capture : scene.captures)
-    ASSERT_TRUE(forBackgrounds.get(capture, "its background", CaptureParts::background));
-  EXPECT_EQ(forBackgrounds.bytes(), 8 * runs);
 
   auto reflecting = std::make_shared<DisplayCapture>(*scene.captures[1]);
   reflecting->reflections = smallCapture();
@@ -97,72 +89,46 @@ TEST_F(GlResources, TrimmingDropsWhatWasUnusedLongest) {
   EXPECT_EQ(residency.count(), 1u);
 }
 
-TEST_F(GlResources, ACaptureCutInBuffersByTheDriversLimitGivesTheSamePicture) {
-  const auto layout = test::layoutAroundOrigin(Configuration::b);
-  const test::MirrorScene mirrors{test::randomBoxes(3, 40, 3.2), {{0, 4, {-2, 0.4}, {3, 2.5}, {1, 1, 1}, 7}}};
-  const WalkScene scene = test::walkScene(mirrors, layout, *layout->regionAt({0.1, 0.05}), 3);
-  PerspectiveView view;
-  view.eye = {0.1, 0.05, layout->eyeZ()};
-  view.width = 200, view.height = 120;
-  const auto plan = planView(scene, view, {});
-  ASSERT_TRUE(plan);
-  const auto drawnWith = [&](std::size_t largestBuffer) {
-    const GlStateGuard guard;
-    ProgramCache programs;
-    CaptureResidency captures(nullptr, largestBuffer);
-    CapturePass pass(programs, captures);
-    FrameTarget target;
-    FrameStats stats;
-    ViewSettings settings;
-    settings.renderer = Renderer::gl;
-    EXPECT_TRUE(target.resize(view.width, view.height));
-    target.begin();
-    EXPECT_TRUE(pass.draw(scene, *plan, view, settings, target, stats));
-    return target.read();
-  };
-  const std::size_t someColumns = 12 * 5000;
-  EXPECT_FALSE(plan->reflections.empty());
-  const auto& first = scene.captures[std::size_t(plan->pieces[0].camera)];
-  CaptureResidency cut(nullptr, someColumns);
-  EXPECT_GT((*cut.get(first, "cut"))->chunks.size(), 4u);
-  EXPECT_EQ(drawnWith(someColumns).colour.pixels, drawnWith(0).colour.pixels);
-
-  CaptureResidency narrow(nullptr, 120);
-  const auto tooSmall = narrow.get(first, "capture of camera 3");
+TEST_F(GlResources, ACaptureBeyondTheDriversLimitIsRefused) {
+  const auto capture = smallCapture();
+  CaptureResidency narrow(4 * capture->patches->cover.size() - 1), wide(4 * capture->patches->cover.size());
+  const auto tooSmall = narrow.get(capture, "capture of camera 3");
   ASSERT_FALSE(tooSmall);
   EXPECT_EQ(tooSmall.error().kind, ErrorKind::tooLarge);
   EXPECT_EQ(tooSmall.error().where, "capture of camera 3");
+  EXPECT_TRUE(wide.get(capture, "capture of camera 3"));
 }
 
 TEST_F(GlResources, ACaptureWhoseArraysContradictEachOtherIsRefused) {
   const auto sound = smallCapture();
   const auto refused = [&](auto&& spoil) {
     auto spoilt = std::make_shared<DisplayCapture>(*sound);
-    spoil(*spoilt);
-    const auto packed = packCapture(*spoilt, {spoilt, "capture of camera 7"});
-    return !packed && packed.error().where == "capture of camera 7" &&
-           packed.error().kind == ErrorKind::malformed;
+    auto patches = std::make_shared<DisplayPatches>(*sound->patches);
+    spoil(*spoilt, *patches);
+    spoilt->patches = patches;
+    const auto begun = CaptureUpload::begin(spoilt, "capture of camera 7", std::size_t(1) << 20);
+    return !begun && begun.error().where == "capture of camera 7" &&
+           begun.error().kind == ErrorKind::malformed;
   };
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.samples.back().row = 16; }));
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.colour.pop_back(); }));
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.mirror = {1}; }));
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart[3] = c.columnStart[4] + 1; }));
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.columnStart.back() += 1; }));
-  EXPECT_TRUE(refused([](DisplayCapture& c) { c.rowTangent.pop_back(); }));
-  EXPECT_TRUE(packCapture(*sound, {sound, "sound", CaptureParts::samples, 4096, std::size_t(1) << 20}));
+  EXPECT_FALSE(refused([](DisplayCapture&, DisplayPatches&) {}));
+  EXPECT_TRUE(refused([](DisplayCapture&, DisplayPatches& p) { p.cover.pop_back(); }));
+  EXPECT_TRUE(refused([](DisplayCapture&, DisplayPatches& p) { p.colour.pop_back(); }));
+  EXPECT_TRUE(refused([](DisplayCapture&, DisplayPatches& p) { p.patches.back().rows += 1; }));
+  EXPECT_TRUE(refused([](DisplayCapture& c, DisplayPatches&) { c.background.runs.columnStart.back() += 1; }));
+  EXPECT_TRUE(refused([](DisplayCapture& c, DisplayPatches&) { c.background.runs.roles.pop_back(); }));
+  EXPECT_TRUE(refused([](DisplayCapture& c, DisplayPatches&) { c.background.runs.endRow.pop_back(); }));
 }
 
 TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {
   const auto layout = test::layoutAroundOrigin(Configuration::e);
   const WalkScene scene =
-      test::walkScene(test::randomBoxes(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
+      test::walkScene(test::randomPatches(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
   PerspectiveView view;
   view.eye = {0.1, 0.1, layout->eyeZ()};
   view.width = 64, view.height = 48;
   ViewSettings settings;
   onGl(scene, view, settings);
   view.width = 80;  // makes the framebuffer anew
-  settings.renderer = Renderer::glZbuffer;
   onGl(scene, view, settings);
   EXPECT_EQ(glIsTexture(renderer_->colourTexture()), GL_TRUE);
   renderer_.reset();
@@ -176,7 +142,7 @@ TEST_F(GlResources, TheRendererLeavesNoObjectBehind) {
 TEST_F(GlResources, TheColourTextureHoldsTheFrameBottomUp) {
   const auto layout = test::layoutAroundOrigin(Configuration::e);
   const WalkScene scene =
-      test::walkScene(test::randomBoxes(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
+      test::walkScene(test::randomPatches(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
   PerspectiveView view;
   view.eye = {0.1, 0.1, layout->eyeZ()};
   view.width = 50, view.height = 30;
@@ -282,7 +248,7 @@ TEST_F(GlResources, TheHostsStateIsAsItWas) {
   const std::vector<GLint64> before = state();
   const auto layout = test::layoutAroundOrigin(Configuration::e);
   const WalkScene scene =
-      test::walkScene(test::randomBoxes(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
+      test::walkScene(test::randomPatches(2, 20, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
   PerspectiveView view;
   view.eye = {0.1, 0.1, layout->eyeZ()};
   view.width = 64, view.height = 48;
@@ -308,7 +274,7 @@ TEST_F(GlResources, AnErrorOfOurOwnBecomesAFailureAndTheHostsDoesNot) {
   glEnable(GL_TEXTURE_2D_ARRAY);
   const auto layout = test::layoutAroundOrigin(Configuration::e);
   const WalkScene scene =
-      test::walkScene(test::randomBoxes(2, 5, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
+      test::walkScene(test::randomPatches(2, 5, 3.1), layout, *layout->regionAt({0.1, 0.1}), 1);
   PerspectiveView view;
   view.eye = {0.1, 0.1, layout->eyeZ()};
   view.width = 32, view.height = 32;

@@ -1,23 +1,15 @@
 #pragma once
-/// Frame times of the OpenGL renderers along the path of a packed walk.
+/// Frame times of the OpenGL renderer along the path of a packed walk.
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/pipeline/packed_walk.h"
 
 namespace acentric::cli {
 
-/// A way of drawing that is timed.
-struct GlMode {
-  Renderer renderer = Renderer::gl;
-  Reconstruction reconstruction = Reconstruction::splat;
-};
-
 struct GlTimingOptions {
-  std::vector<GlMode> modes;
   glm::ivec2 pixels{1920, 1080};
   int frames = 0;   ///< of the path, evenly chosen; 0 = all
   int repeats = 3;  ///< times each frame is drawn, after once to warm up
@@ -28,8 +20,7 @@ struct GlTiming {
   std::string text;
 };
 
-/// Opens OpenGL without a window. Modes take turns frame by frame, so that a change of the machine's speed
-/// meets them all.
+/// Opens OpenGL without a window.
 Result<GlTiming> timeGl(const PackedWalk& packed, const GlTimingOptions& options);
 
 }  // namespace acentric::cli

@@ -24,25 +24,11 @@ int failed(const Error& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Times Acentric's OpenGL renderers along the path of a packed walk, without a window"};
+  CLI::App app{"Times Acentric's OpenGL renderer along the path of a packed walk, without a window"};
   app.set_version_flag("--version", ACENTRIC_VERSION);
   GlTimingOptions options;
   std::filesystem::path walk, jsonFile;
-  std::vector<std::string> renderers, reconstructions = {"splat", "patches"};
-  std::vector<std::string> onGl, ways;
-  for (const Reconstruction reconstruction : kReconstructions) ways.emplace_back(nameOf(reconstruction));
-  for (const Renderer renderer : kRenderers)
-    if (onOpenGl(renderer)) onGl.emplace_back(nameOf(renderer));
-  renderers = onGl;
   app.add_option("--walk", walk, "Folder that `acentric bench pack` wrote")->required();
-  app.add_option("--renderers", renderers, "Which, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(onGl))
-      ->capture_default_str();
-  app.add_option("--reconstructions", reconstructions, "Which, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::IsMember(ways))
-      ->capture_default_str();
   app.add_option("--width", options.pixels.x, "Of the pictures")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str();
@@ -58,9 +44,6 @@ int main(int argc, char** argv) {
   app.add_option("--json", jsonFile, "File to write the figures to as JSON");
   CLI11_PARSE(app, argc, argv);
 
-  for (const std::string& renderer : renderers)
-    for (const std::string& reconstruction : reconstructions)
-      options.modes.push_back({*parseRenderer(renderer), *parseReconstruction(reconstruction)});
   TaskRunner runner(0);
   const auto packed = readPackedWalk(walk, runner);
   if (!packed) return failed(packed.error());
