@@ -6,6 +6,10 @@
 namespace acentric::cli {
 
 Result<Report> runExportGltf(const ExportOptions& options, const Common& common) {
+  const bool webp = options.textureFormat == "webp";
+  if (options.colourQuality && !webp)
+    return fail(ErrorKind::invalidArgument,
+                "--colour-quality is of WebP: PNG keeps every bit; say --texture-format webp");
   // Before a model is imported for nothing.
   if (Status free = checkGltfTarget(options.output); !free) return tl::unexpected(free.error());
   const auto current = openChosen(options.project, common);
@@ -18,6 +22,10 @@ Result<Report> runExportGltf(const ExportOptions& options, const Common& common)
   gltf.region.atlasPixels = options.texturePixels;
   gltf.region.bothHands = current->project.view.secondaryCover;
   gltf.region.generator = "Acentric " ACENTRIC_VERSION;
+  gltf.region.meshopt = options.meshCompression == "meshopt";
+  gltf.region.webp = webp;
+  gltf.region.colourQuality =
+      options.colourQuality.value_or(std::min(current->project.bake.colourQuality, kShippedColourQuality));
   if (options.region >= 0) gltf.onlyRegion = options.region;
   const auto runner = common.runner();
   const auto done = exportGltf(*storeys, options.output, gltf, *runner, common.progress, common.stop);

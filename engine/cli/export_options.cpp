@@ -32,7 +32,7 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
   c->add_option(
        "--colour-quality", o.colourQuality,
        "bundle, web and walk: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
-       "unless given, 92, or less where the project says so")
+       "unless given, 92, or less where the project says so. gltf: the same of WebP, by its own scale")
       ->check(CLI::Range(0, kLosslessColours));
   c->add_option("--regions-per-page", o.regionsPerPage,
                 "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to")
@@ -43,6 +43,14 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   c->add_option("--texture-size", o.texturePixels, "gltf: most pixels a side of a texture")
       ->check(CLI::Range(128, 16384))
+      ->capture_default_str();
+  c->add_option("--mesh-compression", o.meshCompression,
+                "gltf: none, or meshopt, for programs that read EXT_meshopt_compression (docs/gltf.md)")
+      ->check(CLI::IsMember({"none", "meshopt"}))
+      ->capture_default_str();
+  c->add_option("--texture-format", o.textureFormat,
+                "gltf: png, or webp, for programs that read EXT_texture_webp (docs/gltf.md)")
+      ->check(CLI::IsMember({"png", "webp"}))
       ->capture_default_str();
   c->add_option("--region", o.region, "gltf and pictures: this region alone")->check(CLI::NonNegativeNumber);
   c->add_option(
