@@ -185,6 +185,34 @@ TEST_F(ExportGltf, ATighterBoundTakesMoreTriangles) {
   EXPECT_EQ(index().at("storeys").at(0).at("regions").size(), 1U) << "the later one took its place";
 }
 
+TEST_F(ExportGltf, IsATilesetOfItsRegionsIfAsked) {
+  bake();
+  ExportGltfOptions options;
+  options.tiles = true, options.region.meshopt = options.region.webp = true;
+  const auto done = write(options);
+  ASSERT_TRUE(done) << done.error().describe();
+  const auto json = nlohmann::json::parse(readText(folder_ / "gltf" / kTilesetIndex, 1 << 20).value());
+  const auto& tiles = json.at("root").at("children");
+  ASSERT_EQ(tiles.size(), open_.layout->regions.size());
+  for (std::size_t r = 0; r < tiles.size(); ++r) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "gltf" / std::string(tiles[r].at("content").at("uri"))));
+    EXPECT_EQ(tiles[r].at("extras").at("region"), r);
+    const glm::dvec2 middle = open_.layout->regions[r].polygon.centroid();
+    const auto& viewer = tiles[r].at("viewerRequestVolume").at("box");
+    EXPECT_NEAR(viewer[0], middle.x, 1.5);
+    EXPECT_NEAR(viewer[1], middle.y, 1.5) << "Z is up, and not turned as glTF is";
+    EXPECT_NEAR(viewer[2], open_.layout->eyeZ(), 1e-9);
+  }
+  EXPECT_EQ(json.at("extras").at("storeys").at(0).at("eyeHeight"),
+            open_.layout->eyeZ() - open_.layout->spec.floorHeight);
+  EXPECT_TRUE(checkGltfTarget(folder_ / "gltf", true)) << "a later one takes its place";
+  EXPECT_FALSE(checkGltfTarget(folder_ / "gltf", false));
+  options.onlyRegion = 1000;
+  const auto refused = write(options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("no region 1000"));
+}
+
 TEST_F(ExportGltf, RefusesWhatIsNotBakedAndFoldersThatHoldOtherThings) {
   const auto refused = write();
   ASSERT_FALSE(refused);
@@ -197,7 +225,7 @@ TEST_F(ExportGltf, RefusesWhatIsNotBakedAndFoldersThatHoldOtherThings) {
   EXPECT_EQ(empty->sum().missing, empty->sum().cameras);
   std::filesystem::create_directories(folder_ / "holiday");
   ASSERT_TRUE(writeTextAtomically(folder_ / "holiday" / "walk.json", "{}"));
-  EXPECT_FALSE(checkGltfTarget(folder_ / "holiday"));
+  EXPECT_FALSE(checkGltfTarget(folder_ / "holiday", false));
 }
 
 TEST(TextureAtlas, HoldsEveryPictureOnceWithItsBorder) {

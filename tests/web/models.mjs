@@ -3,15 +3,15 @@ import { readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { extname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { psnr, ssim } from './pictures.mjs';
+import { blackShare, psnr, ssim } from './pictures.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json' };
 
-/** `name` (gltf.html) of this folder in a page of its own, with packages below /web/ and the folders of `places` ({ '/gltf/': FOLDER }). */
+/** `name` (gltf.html) of this folder in a page of its own, with packages below /web/, examples, and the folders of `places` ({ '/gltf/': FOLDER }). */
 export async function openModels(browser, web, name, places) {
   const { serve } = await import(pathToFileURL(join(web, 'serve.mjs')));
-  const all = { '/web/': join(web, 'node_modules'), '/tests/': here, ...places };
+  const all = { '/web/': join(web, 'node_modules'), '/examples/': join(here, '..', '..', 'examples'), '/tests/': here, ...places };
   const requests = [], problems = [];
   const server = await serve(here, 0, (request, response) => {
     const path = new URL(request.url, 'http://localhost').pathname;
@@ -29,7 +29,9 @@ export async function openModels(browser, web, name, places) {
   page.on('pageerror', (error) => problems.push(error.message));
   page.on('console', (message) => ['warning', 'error'].includes(message.type()) && !message.text().includes('GL Driver Message') && problems.push(message.text()));
   await page.goto(`http://127.0.0.1:${server.address().port}/tests/${name}`);
-  await page.waitForFunction(() => window.draw !== undefined);
+  await page.waitForFunction(() => window.draw !== undefined).catch((error) => {
+    throw new Error(`${name} does not start: ${problems.join('; ')}`, { cause: error });
+  });
   return {
     page, requests, problems,
     close: async () => {
@@ -100,6 +102,50 @@ export async function testModels({ test, expect, browser, acentric, project, web
       expect(leaner > 33 && lossless > 10, `lean ${leaner} dB, lossless ${lossless} dB`);
     }
     expect(problems.length === 0, problems.join('; '));
+    await close();
+  });
+
+  await test('a walk as 3D Tiles shows the region that the eye is in', async () => {
+    const folder = emptied('tiles');
+    acentric('export', project, folder, '--to', '3dtiles');
+    const { extras, root } = JSON.parse(readFileSync(join(folder, 'tileset.json'), 'utf8'));
+    const { eyeHeight, floorHeight } = extras.storeys[extras.storey];
+    for (const { content } of root.children.slice(0, 2)) {
+      const { issues } = await packages('gltf-validator').validateBytes(new Uint8Array(readFileSync(join(folder, content.uri))));
+      expect(issues.numErrors === 0 && issues.numWarnings === 0, JSON.stringify(issues.messages.slice(0, 3)));
+    }
+    const { page, requests, problems, close } = await openModels(browser, web, 'tiles.html', { '/tiles/': folder });
+    await page.evaluate(() => window.load('/tiles/tileset.json'));
+    const holding = (eye) => // the regions in whose volume the viewer stands
+      root.children
+        .filter(({ viewerRequestVolume: { box } }) =>
+          [3, 6, 9].every((axis) => {
+            const half = box.slice(axis, axis + 3), along = half.reduce((sum, h, k) => sum + h * (eye[k] - box[k]), 0);
+            return Math.abs(along) <= half.reduce((sum, h) => sum + h * h, 0);
+          }),
+        )
+        .map(({ extras: { region } }) => region);
+    /** Where only this region's volume holds the eye. */
+    const alone = (region) => {
+      const { polygon } = root.children.find((tile) => tile.extras.region === region).extras, steps = [0.5, 0.3, 0.7, 0.2, 0.8];
+      const places = steps.flatMap((u) => steps.map((v) => [0, 1].map((k) => polygon[0][k] + u * (polygon[1][k] - polygon[0][k]) + v * (polygon.at(-1)[k] - polygon[0][k]))));
+      return places.map(([px, py]) => [px, py, floorHeight + eyeHeight]).find((eye) => holding(eye).join() === String(region));
+    };
+    const fetched = () => requests.filter((path) => path.endsWith('.glb')), fileOf = (region) => `regions/${extras.storey}-${region}.glb`;
+    const look = (eye, yaw) => page.evaluate((all) => window.draw(...all), [eye, (yaw * Math.PI) / 180, (kFov * Math.PI) / 180, kWidth, kHeight]);
+    const start = regionAt(storey, storey.start.position), next = storey.regions[start].neighbours.find(alone);
+    for (const [step, [region, yaw]] of [[start, 125], [next, 40], [start, 125]].entries()) { // past mirrors
+      const eye = alone(region), { address, shown } = await look(eye, yaw), drawn = pictureOf(address);
+      const decibels = psnr(drawn, commandsPicture(eye, yaw));
+      console.log(`        in region ${region}: ${shown}, ${decibels.toFixed(1)} dB from the command, ${fetched().length} files read`);
+      expect(shown.join() === fileOf(region), `region ${region} shows ${shown}`);
+      expect(fetched().length === Math.min(step + 1, 2), `read ${fetched()}`);
+      expect(decibels > 18 && blackShare(drawn) < 0.05, `${decibels} dB, ${blackShare(drawn)} of it black`);
+    }
+    const { shown } = await look([100, 100, 1.6], 0);
+    expect(shown.length === 0, `outside of all regions it shows ${shown}`);
+    const told = problems.filter((text) => !text.includes('limited support')); // of 3D Tiles 1.1
+    expect(told.length === 0, told.join('; ')); // also what TilesetValidationPlugin finds outside of bounding volumes
     await close();
   });
 }
