@@ -15,6 +15,7 @@ find_package(CGAL REQUIRED)
 # By pkg-config: Debian's CMake package names tools and an OpenCV folder that other packages bring.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_package(PNG REQUIRED)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 find_package(OpenEXR REQUIRED)
 pkg_check_modules(AVIF REQUIRED IMPORTED_TARGET libavif)

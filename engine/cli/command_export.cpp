@@ -87,7 +87,7 @@ void addSingleFile(const fs::path& file, std::uint64_t size, Report& report) {
 }  // namespace
 
 Result<Report> runExport(const ExportOptions& options, const Common& common) {
-  if (options.to == "gltf") return runExportGltf(options, common);
+  if (options.to == "gltf" || options.to == "3dtiles") return runExportGltf(options, common);
   if (options.to == "exr") return runExportExr(options, common);
   const bool web = options.to == "web", walk = options.to == "walk";
   if (options.to != "bundle" && !web && !walk) return runExportImages(options, common);

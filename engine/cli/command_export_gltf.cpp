@@ -6,8 +6,13 @@
 namespace acentric::cli {
 
 Result<Report> runExportGltf(const ExportOptions& options, const Common& common) {
+  const bool tiles = options.to == "3dtiles";
+  const bool webp = options.textureFormat.value_or(tiles ? "webp" : "png") == "webp";
+  if (options.colourQuality && !webp)
+    return fail(ErrorKind::invalidArgument,
+                "--colour-quality is of WebP: PNG keeps every bit; say --texture-format webp");
   // Before a model is imported for nothing.
-  if (Status free = checkGltfTarget(options.output); !free) return tl::unexpected(free.error());
+  if (Status free = checkGltfTarget(options.output, tiles); !free) return tl::unexpected(free.error());
   const auto current = openChosen(options.project, common);
   if (!current) return tl::unexpected(current.error());
   const auto storeys = acentric::openStoreys(*current, common.host, common.progress, common.stop);
@@ -17,6 +22,11 @@ Result<Report> runExportGltf(const ExportOptions& options, const Common& common)
   gltf.region.atlasPixels = options.texturePixels;
   gltf.region.bothHands = current->project.view.secondaryCover;
   gltf.region.generator = "Acentric " ACENTRIC_VERSION;
+  gltf.tiles = tiles;
+  gltf.region.meshopt = options.meshCompression.value_or(tiles ? "meshopt" : "none") == "meshopt";
+  gltf.region.webp = webp;
+  gltf.region.colourQuality =
+      options.colourQuality.value_or(std::min(current->project.bake.colourQuality, kShippedColourQuality));
   if (options.region >= 0) gltf.onlyRegion = options.region;
   const auto runner = common.runner();
   const auto done = exportGltf(*storeys, options.output, gltf, *runner, common.progress, common.stop);

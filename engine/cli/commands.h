@@ -131,14 +131,16 @@ Result<Report> runBenchPack(const BenchPackOptions& options, const Common& commo
 
 struct ExportOptions {
   std::filesystem::path project, output;
-  std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf"; "exr"; or pictures
+  std::string to = "bundle";  ///< "web": with the page that walks through it; "gltf" ...; or pictures
   bool allowMissing = false;
-  std::optional<int> colourQuality;  ///< of "bundle", "web" and "walk"; none: the project's
+  std::optional<int> colourQuality;  ///< of "bundle", "web", "walk" and WebP; none: the project's
   int regionsPerPage = 64;           ///< of "walk"
   bool singleFile = false;           ///< of "web": `output` is one HTML file with everything in it
-  int texturePixels = 4096;          ///< of "gltf"
-  int region = -1;                   ///< of "gltf" and pictures: this one alone
-  int facePixels = 512;              ///< of pictures
+  int texturePixels = 4096;          ///< of "gltf" and "3dtiles"
+  /// Of "gltf" ("none" and "png" unless given) and "3dtiles" ("meshopt" and "webp").
+  std::optional<std::string> meshCompression, textureFormat;
+  int region = -1;       ///< of "gltf", "3dtiles" and pictures: this one alone
+  int facePixels = 512;  ///< of pictures
 };
 Result<Report> runExport(const ExportOptions& options, const Common& common);
 Result<Report> runExportImages(const ExportOptions& options, const Common& common);

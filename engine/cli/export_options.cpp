@@ -11,7 +11,8 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
       "  acentric export kitchen.acentric.json --to web kitchen-web    # for any web server\n"
       "  acentric export kitchen.acentric.json --to web --single-file kitchen.html\n"
       "  acentric export kitchen.acentric.json --to walk kitchen.acentric      # one file, read by ranges\n"
-      "  acentric export kitchen.acentric.json --to gltf kitchen-gltf",
+      "  acentric export kitchen.acentric.json --to gltf kitchen-gltf\n"
+      "  acentric export kitchen.acentric.json --to 3dtiles kitchen-tiles",
       runExport);
   c->add_option("project", o.project, "Project file")->required();
   c->add_option(
@@ -23,25 +24,34 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
        "--to", o.to,
        "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
        "that walks through it (docs/web.md); walk, a bundle as one file that is read by ranges; gltf, a GLB "
-       "for each region; exr, what each camera saw as "
+       "for each region (docs/gltf.md); 3dtiles, the same as 3D Tiles 1.1; exr, what each camera saw as "
        "OpenEXR (engine/store/FORMAT.md); colmap, nerfstudio, seurat, ray-traced pictures with distances "
        "and their cameras; panoramas, OpenEXR with distances")
       ->check(CLI::IsMember(
-          {"bundle", "web", "walk", "gltf", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
+          {"bundle", "web", "walk", "gltf", "3dtiles", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
       ->capture_default_str();
   c->add_option(
        "--colour-quality", o.colourQuality,
        "bundle, web and walk: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
-       "unless given, 92, or less where the project says so")
+       "unless given, 92, or less where the project says so. Of WebP textures: the same by its own scale")
       ->check(CLI::Range(0, kLosslessColours));
   c->add_option("--regions-per-page", o.regionsPerPage,
                 "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  c->add_option("--texture-size", o.texturePixels, "gltf: most pixels a side of a texture")
+  c->add_option("--texture-size", o.texturePixels, "gltf and 3dtiles: most pixels a side of a texture")
       ->check(CLI::Range(128, 16384))
       ->capture_default_str();
-  c->add_option("--region", o.region, "gltf and pictures: this region alone")->check(CLI::NonNegativeNumber);
+  c->add_option("--mesh-compression", o.meshCompression,
+                "gltf and 3dtiles: none, or meshopt, for programs that read EXT_meshopt_compression "
+                "(docs/gltf.md); unless given, none of gltf and meshopt of 3dtiles")
+      ->check(CLI::IsMember({"none", "meshopt"}));
+  c->add_option("--texture-format", o.textureFormat,
+                "gltf and 3dtiles: png, or webp, for programs that read EXT_texture_webp (docs/gltf.md); "
+                "unless given, png of gltf and webp of 3dtiles")
+      ->check(CLI::IsMember({"png", "webp"}));
+  c->add_option("--region", o.region, "gltf, 3dtiles and pictures: this region alone")
+      ->check(CLI::NonNegativeNumber);
   c->add_option(
        "--face-size", o.facePixels,
        "colmap, nerfstudio, seurat: pixels a side of a cube's face; panoramas are four times as wide")

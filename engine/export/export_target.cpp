@@ -20,7 +20,9 @@ Status checkExportTarget(const fs::path& folder, const std::string& index, const
   std::ifstream file(folder / index, std::ios::binary);
   file.read(text.data(), std::streamsize(text.size()));
   text.resize(std::size_t(std::max<std::streamsize>(0, file.gcount())));
-  if (text.find(fmt::format("\"format\": \"{}\"", format)) != std::string::npos) return {};
+  std::string sought = fmt::format("\"format\":\"{}\"", format);
+  std::erase(text, ' '), std::erase(sought, ' ');  // short objects are laid out without
+  if (text.find(sought) != std::string::npos) return {};
   return fail(ErrorKind::invalidArgument,
               fmt::format("holds something that is no {}, and would be replaced: name a new folder", what),
               folder.string());

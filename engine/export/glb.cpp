@@ -5,13 +5,17 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/export/packed_mesh.h"
 #include "engine/export/png.h"
+#include "engine/export/webp.h"
 
 namespace acentric {
 namespace {
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+constexpr int kArrayBuffer = 34962, kElementBuffer = 34963;
 constexpr int kNearest = 9728, kLinear = 9729;
+constexpr const char *kUnlit = "KHR_materials_unlit", *kMeshopt = "EXT_meshopt_compression",
+                     *kWebp = "EXT_texture_webp";
 constexpr std::size_t kLargestGlb = 0xfffffff0;  // its lengths have 32 bits
 
 void put(std::vector<std::byte>& out, std::uint32_t word) {
@@ -20,11 +24,21 @@ void put(std::vector<std::byte>& out, std::uint32_t word) {
 
 }  // namespace
 
-Glb::Glb(const std::string& generator)
-    : json_{{"asset", {{"version", "2.0"}, {"generator", generator}}},
-            {"extensionsUsed", {"KHR_materials_unlit"}},
+Glb::Glb(const std::string& generator, const GlbCoding& coding)
+    : coding_(coding),
+      json_{{"asset", {{"version", "2.0"}, {"generator", generator}}},
             {"scene", 0},
-            {"scenes", Json::array({Json::object()})}} {}
+            {"scenes", Json::array({Json::object()})}} {
+  use(kUnlit, false);
+}
+
+void Glb::use(const char* extension, bool required) {
+  const auto add = [&](Json& names) {
+    if (std::ranges::find(names, extension) == names.end()) names.push_back(extension);
+  };
+  add(json_["extensionsUsed"]);
+  if (required) add(json_["extensionsRequired"]);
+}
 
 int Glb::addView(const void* data, std::size_t bytes, int target) {
   buffer_.resize((buffer_.size() + 3) / 4 * 4);
@@ -44,21 +58,29 @@ int Glb::addAccessor(int view, int componentType, const char* type, std::size_t 
 
 template <class Value>
 int Glb::addAttribute(const std::vector<Value>& values, const char* type) {
-  return addAccessor(addView(values.data(), values.size() * sizeof(Value), kArrayBuffer), kFloat, type,
+  return addAccessor(addView(values.data(), values.size() * sizeof(Value), kArrayBuffer), kGltfFloat, type,
                      values.size());
 }
 
 Result<int> Glb::addTexture(const ColourImage& image, const Sampler& sampler) {
-  const auto png = encodePng(image);
-  if (!png) return tl::unexpected(png.error());
-  const int view = addView(png->data(), png->size(), 0);
-  json_["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+  const auto coded = coding_.webp ? encodeWebp(image, coding_.quality) : encodePng(image);
+  if (!coded) return tl::unexpected(coded.error());
+  const int view = addView(coded->data(), coded->size(), 0);
+  json_["images"].push_back({{"bufferView", view}, {"mimeType", coding_.webp ? "image/webp" : "image/png"}});
   json_["samplers"].push_back({{"magFilter", sampler.nearest ? kNearest : kLinear},
                                {"minFilter", sampler.nearest ? kNearest : kLinear},
                                {"wrapS", sampler.wrapU},
                                {"wrapT", sampler.wrapV}});
   const auto number = int(json_["images"].size()) - 1;
-  json_["textures"].push_back({{"sampler", number}, {"source", number}});
+  const Json source{{"source", number}};
+  Json texture{{"sampler", number}};
+  if (coding_.webp) {
+    use(kWebp, true);
+    texture["extensions"] = {{kWebp, source}};
+  } else {
+    texture.update(source);
+  }
+  json_["textures"].push_back(std::move(texture));
   return number;
 }
 
@@ -70,7 +92,7 @@ int Glb::addMaterial(const GlbMaterial& material) {
   Json out{{"name", material.name},
            {"pbrMetallicRoughness", std::move(pbr)},
            {"doubleSided", material.doubleSided},
-           {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+           {"extensions", {{kUnlit, Json::object()}}}};
   if (material.alpha == GlbMaterial::Alpha::blend) out["alphaMode"] = "BLEND";
   if (material.alpha == GlbMaterial::Alpha::mask)
     out["alphaMode"] = "MASK", out["alphaCutoff"] = material.cutoff;
@@ -78,21 +100,76 @@ int Glb::addMaterial(const GlbMaterial& material) {
   return int(json_["materials"].size()) - 1;
 }
 
-void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
-  if (mesh.triangles.empty()) return;
-  const int positions = addAttribute(mesh.positions, "VEC3");
-  glm::vec3 low = mesh.positions.front(), high = low;
-  for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+void Glb::addBounds(int positions, const glm::vec3& low, const glm::vec3& high) {
   json_["accessors"][std::size_t(positions)]["min"] = {low.x, low.y, low.z};
   json_["accessors"][std::size_t(positions)]["max"] = {high.x, high.y, high.z};
-  Json attributes{{"POSITION", positions}};
-  const bool textured =
-      json_["materials"][std::size_t(material)]["pbrMetallicRoughness"].contains("baseColorTexture");
+  const glm::vec3 from = coding_.meshopt ? coding_.middle : glm::vec3(0);
+  bounds_.add(from + low);
+  bounds_.add(from + high);
+}
+
+Glb::Json Glb::primitiveOf(const GlbMesh& mesh, bool textured) {
+  Json attributes{{"POSITION", addAttribute(mesh.positions, "VEC3")}};
+  Bounds box;
+  for (const glm::vec3& p : mesh.positions) box.add(p);
+  addBounds(attributes["POSITION"], box.min, box.max);
   if (textured && !mesh.uv.empty()) attributes["TEXCOORD_0"] = addAttribute(mesh.uv, "VEC2");
   if (!mesh.colour.empty()) attributes["COLOR_0"] = addAttribute(mesh.colour, "VEC3");
   const int view = addView(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3), kElementBuffer);
-  const int indices = addAccessor(view, kUnsignedInt, "SCALAR", 3 * mesh.triangles.size());
-  Json primitive{{"attributes", std::move(attributes)}, {"indices", indices}, {"material", material}};
+  const int indices = addAccessor(view, kGltfUnsignedInt, "SCALAR", 3 * mesh.triangles.size());
+  return {{"attributes", std::move(attributes)}, {"indices", indices}};
+}
+
+int Glb::addCodedView(const std::vector<std::byte>& coded, std::size_t count, std::size_t stride, int target,
+                      bool exponential) {
+  use(kMeshopt, true);
+  const int view = addView(coded.data(), coded.size(), target);
+  Json& json = json_["bufferViews"].back();
+  const bool vertices = target == kArrayBuffer;
+  Json how{{"buffer", 0},
+           {"byteOffset", json["byteOffset"]},
+           {"byteLength", json["byteLength"]},
+           {"byteStride", stride},
+           {"count", count},
+           {"mode", vertices ? "ATTRIBUTES" : "TRIANGLES"}};
+  if (exponential) how["filter"] = "EXPONENTIAL";
+  // As those without the extension see it: of a buffer that has no bytes.
+  json["buffer"] = 1, json["byteOffset"] = decoded_, json["byteLength"] = count * stride;
+  if (vertices) json["byteStride"] = stride;
+  json["extensions"] = {{kMeshopt, std::move(how)}};
+  decoded_ += count * stride;  // a multiple of four
+  return view;
+}
+
+int Glb::addPacked(const PackedAttribute& attribute, std::size_t vertices) {
+  const int view =
+      addCodedView(attribute.coded, vertices, attribute.stride, kArrayBuffer, attribute.exponential);
+  const int accessor = addAccessor(view, attribute.componentType, attribute.type.c_str(), vertices);
+  if (attribute.normalized) json_["accessors"][std::size_t(accessor)]["normalized"] = true;
+  return accessor;
+}
+
+Glb::Json Glb::packedPrimitiveOf(const GlbMesh& mesh, bool textured) {
+  GlbMesh moved = mesh;
+  for (glm::vec3& p : moved.positions) p -= coding_.middle;
+  if (!textured) moved.uv.clear();
+  const PackedMesh packed = packMesh(moved, coding_.positionError);
+  Json attributes{{"POSITION", addPacked(packed.positions, packed.vertices)}};
+  addBounds(attributes["POSITION"], packed.low, packed.high);
+  if (!packed.uv.coded.empty()) attributes["TEXCOORD_0"] = addPacked(packed.uv, packed.vertices);
+  if (!packed.colour.coded.empty()) attributes["COLOR_0"] = addPacked(packed.colour, packed.vertices);
+  const std::size_t count = 3 * packed.triangles;
+  const int view = addCodedView(packed.coded, count, sizeof(std::uint32_t), kElementBuffer, false);
+  return {{"attributes", std::move(attributes)},
+          {"indices", addAccessor(view, kGltfUnsignedInt, "SCALAR", count)}};
+}
+
+void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
+  if (mesh.triangles.empty()) return;
+  const bool textured =
+      json_["materials"][std::size_t(material)]["pbrMetallicRoughness"].contains("baseColorTexture");
+  Json primitive = coding_.meshopt ? packedPrimitiveOf(mesh, textured) : primitiveOf(mesh, textured);
+  primitive["material"] = material;
   Json& nodes = json_["nodes"];
   if (nodes.is_null()) nodes = Json::array();
   const auto known = std::ranges::find_if(nodes, [&](const Json& each) { return each["name"] == node; });
@@ -102,12 +179,15 @@ void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
   }
   json_["scenes"][0]["nodes"].push_back(nodes.size());
   nodes.push_back({{"name", node}, {"mesh", json_["meshes"].size()}});
+  if (coding_.meshopt) nodes.back()["translation"] = {coding_.middle.x, coding_.middle.y, coding_.middle.z};
   json_["meshes"].push_back({{"name", node}, {"primitives", Json::array({std::move(primitive)})}});
 }
 
 Result<std::uint64_t> Glb::write(const std::filesystem::path& file) const {
   Json json = json_;
   if (!buffer_.empty()) json["buffers"] = Json::array({{{"byteLength", buffer_.size()}}});
+  if (decoded_ > 0)
+    json["buffers"].push_back({{"byteLength", decoded_}, {"extensions", {{kMeshopt, {{"fallback", true}}}}}});
   std::string text = jsonText(json);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t binary = (buffer_.size() + 3) / 4 * 4;

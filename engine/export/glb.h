@@ -10,8 +10,12 @@
 
 #include "engine/base/result.h"
 #include "engine/image/image.h"
+#include "engine/scene/scene.h"
 
 namespace acentric {
+
+/// glTF's numbers for types of components.
+inline constexpr int kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125, kGltfFloat = 5126;
 
 struct GlbMesh {
   std::vector<glm::vec3> positions;
@@ -29,13 +33,27 @@ struct GlbMaterial {
   bool doubleSided = true;
 };
 
+struct PackedAttribute;
+
+/// How geometry and pictures are kept.
+struct GlbCoding {
+  /// Geometry is packed (packed_mesh.h) and coded as EXT_meshopt_compression has it.
+  bool meshopt = false;
+  /// Of packed positions: the origin of all nodes, and how far a position may be off, as a share of its
+  /// distance from there.
+  glm::vec3 middle{0};
+  double positionError = 1e-5;
+  bool webp = false;  ///< textures: EXT_texture_webp; else PNG
+  int quality = 92;   ///< of WebP: its own 0..99, or kLosslessColours
+};
+
 /// Everything in it is drawn as it is: all materials are unlit (KHR_materials_unlit), light is in textures
 /// and vertex colours.
 class Glb {
  public:
   using Json = nlohmann::ordered_json;
 
-  explicit Glb(const std::string& generator);
+  Glb(const std::string& generator, const GlbCoding& coding);
 
   struct Sampler {
     bool nearest = false;
@@ -50,6 +68,9 @@ class Glb {
   /// Of the scene.
   void setExtras(Json extras) { json_["scenes"][0]["extras"] = std::move(extras); }
 
+  /// Of all that was added.
+  const Bounds& bounds() const { return bounds_; }
+
   /// Atomically; returns its size.
   Result<std::uint64_t> write(const std::filesystem::path& file) const;
 
@@ -58,9 +79,21 @@ class Glb {
   int addAccessor(int view, int componentType, const char* type, std::size_t count);
   template <class Value>
   int addAttribute(const std::vector<Value>& values, const char* type);
+  /// With the bounds of its positions, as they are in the file.
+  Json primitiveOf(const GlbMesh& mesh, bool textured);
+  Json packedPrimitiveOf(const GlbMesh& mesh, bool textured);
+  /// `stride`: bytes of an element; of triangles' indices `target` is that of elements.
+  int addCodedView(const std::vector<std::byte>& coded, std::size_t count, std::size_t stride, int target,
+                   bool exponential);
+  int addPacked(const PackedAttribute& attribute, std::size_t vertices);
+  void addBounds(int positions, const glm::vec3& low, const glm::vec3& high);
+  void use(const char* extension, bool required);
 
+  const GlbCoding coding_;
   Json json_;
   std::vector<std::byte> buffer_;
+  std::size_t decoded_ = 0;  ///< bytes of what is coded, once it is decoded
+  Bounds bounds_;
 };
 
 }  // namespace acentric

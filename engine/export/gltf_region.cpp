@@ -9,6 +9,8 @@
 #include "engine/export/near_model.h"
 #include "engine/export/patch_model.h"
 #include "engine/export/sky_model.h"
+#include "engine/export/webp.h"
+#include "engine/geometry/conventions.h"
 
 namespace acentric {
 namespace {
@@ -84,12 +86,34 @@ Status addModel(DrawModel model, Glb& glb) {
   return {};
 }
 
+/// Of positions as a share of their distance from the region's middle, so that none is off by more than
+/// kPackedError samples as the eye sees it. That may stand `from` metres off the middle, and is at
+/// least the near band's width from what captures show: things are at most 1 + from / band times as far from
+/// the middle as from it.
+double positionErrorOf(const WalkScene& walk, int region, const GltfOptions& options) {
+  constexpr double kLeastBand = 0.25;
+  const Layout& layout = *walk.layout;
+  const ConvexPolygon& polygon = layout.regions[std::size_t(region)].polygon;
+  double pitch = radians(1), from = 0;
+  for (const int camera : gltfCameras(layout, region, options))
+    if (const auto& capture = walk.captures[std::size_t(camera)])
+      pitch = std::min({pitch, capture->camera.columnPitch(), capture->camera.rowPitch()});
+  for (const glm::dvec2& corner : polygon.corners)
+    from = std::max(from, glm::distance(corner, polygon.centroid()));
+  return kPackedError * pitch / (1 + from / std::max(layout.spec.nearBand, kLeastBand));
+}
+
 }  // namespace
 
 Status GltfOptions::check() const {
   if (atlasPixels < kLeastAtlas || atlasPixels > kLargestAtlas)
     return fail(ErrorKind::invalidArgument,
                 fmt::format("textures must have {} to {} pixels a side", kLeastAtlas, kLargestAtlas));
+  if (webp && atlasPixels > kLargestWebp)
+    return fail(ErrorKind::invalidArgument,
+                fmt::format("WebP textures have at most {} pixels a side", kLargestWebp));
+  if (colourQuality < 0 || colourQuality > kLosslessColours)
+    return fail(ErrorKind::invalidArgument, fmt::format("the colour quality is 0 to {}", kLosslessColours));
   return {};
 }
 
@@ -97,6 +121,10 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
                                          const std::filesystem::path& file, const std::stop_token& stop) {
   if (Status sound = options.check(); !sound) return tl::unexpected(sound.error());
   const Region& from = walk.layout->regions[std::size_t(region)];
+  GlbCoding coding;
+  coding.meshopt = options.meshopt, coding.webp = options.webp, coding.quality = options.colourQuality;
+  coding.middle = gltfPosition({from.polygon.centroid(), walk.layout->eyeZ()});
+  coding.positionError = positionErrorOf(walk, region, options);
   DrawModel model;
   GltfRegionReport report;
   if (Status added = addCaptures(walk, region, options, model, report, stop); !added)
@@ -104,7 +132,7 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
   if (const auto& local = walk.local[std::size_t(region)])
     report.localTriangles = addNear(walk, *local, model);
   addSky(walk, glm::dvec3(from.polygon.centroid(), walk.layout->eyeZ()), model);
-  Glb glb(options.generator);
+  Glb glb(options.generator, coding);
   if (Status added = addModel(std::move(model), glb); !added) return tl::unexpected(added.error());
   const double floor = walk.layout->spec.floorHeight;
   glb.setExtras({{"region", region},
@@ -117,6 +145,8 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
   const auto bytes = glb.write(file);
   if (!bytes) return tl::unexpected(bytes.error());
   report.bytes = *bytes;
+  const Bounds& box = glb.bounds();
+  report.bounds = {{box.min.x, -box.max.z, box.min.y}, {box.max.x, -box.min.z, box.max.y}};
   return report;
 }
 

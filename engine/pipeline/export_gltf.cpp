@@ -17,19 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json onPlan(const glm::dvec2& p) { return {p.x, -p.y}; }  // x and z of glTF
-
-Json indexOf(const Region& region, const std::string& file, const GltfRegionReport& report) {
-  Json polygon = Json::array();
-  for (const glm::dvec2& corner : region.polygon.corners) polygon.push_back(onPlan(corner));
-  return {{"file", file},
-          {"bytes", report.bytes},
-          {"kind", bundle_words::kKinds[std::size_t(region.kind)]},
-          {"polygon", std::move(polygon)},
-          {"triangles", report.triangles + report.localTriangles},
-          {"cameras", report.cameras - report.missing}};
-}
-
 class Writer {
  public:
   Writer(std::span<const OpenProject> storeys, const ExportGltfOptions& options, fs::path folder,
@@ -45,25 +32,64 @@ class Writer {
 
   Result<ExportGltfReport> write() {
     const OpenProject& first = storeys_.front();
-    Json index{{"format", kGltfFormat},
-               {"version", 1},
-               {"generator", options_.region.generator},
-               {"units", "metre"},
-               {"axes", "glTF: Y up, right-handed; polygons are x and z"},
-               {"origin", {first.scene->origin.x, first.scene->origin.z, -first.scene->origin.y}},
-               {"storey", first.project.storey},
-               {"storeys", Json::array()}};
+    const glm::dvec3& origin = first.scene->origin;
+    Json index{
+        {"units", "metre"},
+        {"axes", options_.tiles ? "Z up, right-handed" : "glTF: Y up, right-handed; polygons are x and z"},
+        {"origin", options_.tiles ? Json{origin.x, origin.y, origin.z} : Json{origin.x, origin.z, -origin.y}},
+        {"storey", first.project.storey},
+        {"storeys", Json::array()}};
     for (const OpenProject& storey : storeys_) {
       auto written = writeStorey(storey);
       if (!written) return tl::unexpected(written.error());
       index["storeys"].push_back(std::move(*written));
     }
-    if (Status done = writeTextAtomically(folder_ / kGltfIndex, layOut(index)); !done)
-      return tl::unexpected(done.error());
+    if (report_.regions.empty())
+      return fail(ErrorKind::notFound,
+                  options_.onlyRegion ? fmt::format("there is no region {}", *options_.onlyRegion)
+                                      : "the walk has no region",
+                  first.file.string());
+    const Status done = options_.tiles
+                            ? writeTileset(std::move(tiles_), options_.region.generator, index, folder_)
+                            : writeIndex(index);
+    if (!done) return tl::unexpected(done.error());
     return report_;
   }
 
  private:
+  Status writeIndex(const Json& facts) const {
+    Json index{{"format", kGltfFormat}, {"version", 1}, {"generator", options_.region.generator}};
+    index.update(facts);
+    return writeTextAtomically(folder_ / kGltfIndex, layOut(index));
+  }
+
+  Json onPlan(const glm::dvec2& p) const { return options_.tiles ? Json{p.x, p.y} : Json{p.x, -p.y}; }
+
+  /// A file that was written becomes a tile, or one of the storey's `regions`.
+  void add(const OpenProject& open, std::size_t storey, std::size_t number, const std::string& file,
+           const GltfRegionReport& report, Json& regions) {
+    const Region& region = open.layout->regions[number];
+    Json polygon = Json::array();
+    for (const glm::dvec2& corner : region.polygon.corners) polygon.push_back(onPlan(corner));
+    const Json facts{{"bytes", report.bytes},
+                     {"kind", bundle_words::kKinds[std::size_t(region.kind)]},
+                     {"polygon", std::move(polygon)},
+                     {"triangles", report.triangles + report.localTriangles},
+                     {"cameras", report.cameras - report.missing}};
+    report_.regions.push_back(report);
+    if (options_.tiles) {
+      Json extras{{"storey", storey}, {"region", number}};
+      extras.update(facts);
+      const double eye = open.layout->eyeZ();
+      tiles_.push_back(
+          {file, region.polygon, eye, eye - open.layout->spec.floorHeight, report.bounds, extras});
+    } else {
+      Json entry{{"file", file}};
+      entry.update(facts);
+      regions.push_back(std::move(entry));
+    }
+  }
+
   Result<Json> writeStorey(const OpenProject& open) {
     auto start = startWalk(open, nullptr);
     if (!start) return tl::unexpected(start.error());
@@ -76,8 +102,8 @@ class Writer {
     Json out{{"name", open.project.current().name},
              {"floorHeight", floor},
              {"eyeHeight", open.layout->eyeZ() - floor},
-             {"start", {{"position", onPlan(spawn.position)}, {"yaw", spawn.yawRadians}}},
-             {"regions", Json::array()}};
+             {"start", {{"position", onPlan(spawn.position)}, {"yaw", spawn.yawRadians}}}};
+    Json regions = Json::array();
     const std::size_t number = std::size_t(&open - storeys_.data());
     for (std::size_t r = 0; r < open.layout->regions.size(); ++r, ++done_) {
       const bool wanted =
@@ -99,9 +125,9 @@ class Writer {
                 "export what there is with --allow-missing",
                 written->missing, written->cameras, r, open.file.string()),
             open.file.string());
-      out["regions"].push_back(indexOf(open.layout->regions[r], file, *written));
-      report_.regions.push_back(*written);
+      add(open, number, r, file, *written, regions);
     }
+    if (!options_.tiles) out["regions"] = std::move(regions);  // a tileset's are its tiles
     return out;
   }
 
@@ -113,6 +139,7 @@ class Writer {
   const std::stop_token& stop_;
   std::size_t all_ = 0, done_ = 0;
   ExportGltfReport report_;
+  std::vector<RegionTile> tiles_;
 };
 
 }  // namespace
@@ -128,8 +155,9 @@ GltfRegionReport ExportGltfReport::sum() const {
   return all;
 }
 
-Status checkGltfTarget(const fs::path& folder) {
-  return checkExportTarget(folder, kGltfIndex, kGltfFormat, "glTF walk");
+Status checkGltfTarget(const fs::path& folder, bool tiles) {
+  return tiles ? checkExportTarget(folder, kTilesetIndex, kTilesetFormat, "3D Tiles walk")
+               : checkExportTarget(folder, kGltfIndex, kGltfFormat, "glTF walk");
 }
 
 Result<ExportGltfReport> exportGltf(std::span<const OpenProject> storeys, const fs::path& folder,
@@ -137,7 +165,7 @@ Result<ExportGltfReport> exportGltf(std::span<const OpenProject> storeys, const 
                                     const Progress& progress, const std::stop_token& stop) {
   require(!storeys.empty(), "a project has a storey");
   if (Status sound = options.region.check(); !sound) return tl::unexpected(sound.error());
-  if (Status free = checkGltfTarget(folder); !free) return tl::unexpected(free.error());
+  if (Status free = checkGltfTarget(folder, options.tiles); !free) return tl::unexpected(free.error());
   return writeFolderAtomically(folder, [&](const fs::path& temporary) {
     std::error_code error;
     fs::create_directories(temporary / "regions", error);

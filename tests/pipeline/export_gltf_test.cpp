@@ -58,6 +58,23 @@ class ExportGltf : public FolderTest {
   nlohmann::json index() const {
     return nlohmann::json::parse(readText(folder_ / "gltf" / kGltfIndex, 1 << 20).value());
   }
+  /// What another program reads from a region's file.
+  ScenePtr readBack(std::size_t region) const {
+    const std::string file = index().at("storeys").at(0).at("regions").at(region).at("file");
+    ImportHost host;
+    host.importer = ACENTRIC_IMPORTER;
+    host.cacheFolder = folder_ / "cache";
+    const auto scene = importScene(folder_ / "gltf" / file, {}, host);
+    EXPECT_TRUE(scene) << scene.error().describe();
+    return scene ? *scene : nullptr;
+  }
+  TruthFrame drawn(const ScenePtr& scene, PerspectiveView view) const {
+    TaskRunner runner(1);
+    const auto rays = RayScene::build(scene, planEffects(*scene));
+    EXPECT_TRUE(rays);
+    view.eye -= scene->origin;
+    return renderTruth(**rays, view, open_.project.bake, 1, 4, runner);
+  }
   PerspectiveView viewFrom(std::size_t region, double yaw) const {
     PerspectiveView view;
     view.eye = {open_.layout->regions[region].polygon.centroid() + glm::dvec2(0.2, -0.1),
@@ -83,26 +100,48 @@ TEST_F(ExportGltf, IsDrawnByOthersAsTheWalkIs) {
   TaskRunner runner(1);
   const auto walk = loadWalk(open_, nullptr, runner);
   ASSERT_TRUE(walk);
-  ImportHost host;
-  host.importer = ACENTRIC_IMPORTER;
-  host.cacheFolder = folder_ / "cache";
   for (const std::size_t region : {std::size_t(0), regions.size() - 1}) {
     const std::filesystem::path file = folder_ / "gltf" / std::string(regions[region].at("file"));
     EXPECT_EQ(std::filesystem::file_size(file), regions[region].at("bytes"));
-    const auto scene = importScene(file, {}, host);
-    ASSERT_TRUE(scene) << scene.error().describe();
-    EXPECT_TRUE((*scene)->report.dropped.empty()) << testing::PrintToString((*scene)->report.dropped);
-    const auto rays = RayScene::build(*scene, planEffects(**scene));
-    ASSERT_TRUE(rays);
+    const ScenePtr scene = readBack(region);
+    ASSERT_NE(scene, nullptr);
+    EXPECT_TRUE(scene->report.dropped.empty()) << testing::PrintToString(scene->report.dropped);
     for (const double yaw : {0.3, 2.0, 4.1}) {
-      PerspectiveView view = viewFrom(region, yaw);
+      const PerspectiveView view = viewFrom(region, yaw);
       const Frame frame = renderFrame(walk->walk, view, {}, runner).value();
-      view.eye -= (*scene)->origin;
-      const TruthFrame drawn = renderTruth(**rays, view, open_.project.bake, 1, 4, runner);
-      EXPECT_GT(psnrOf(frame.colour, drawn.colour), 24) << "region " << region << " yaw " << yaw;
-      EXPECT_GT(ssimOf(frame.colour, drawn.colour), 0.9) << "region " << region << " yaw " << yaw;
+      const TruthFrame theirs = drawn(scene, view);
+      EXPECT_GT(psnrOf(frame.colour, theirs.colour), 24) << "region " << region << " yaw " << yaw;
+      EXPECT_GT(ssimOf(frame.colour, theirs.colour), 0.9) << "region " << region << " yaw " << yaw;
     }
   }
+}
+
+TEST_F(ExportGltf, IsAsGoodWhereItIsLean) {
+  bake();
+  ExportGltfOptions options;
+  options.onlyRegion = 0;
+  const auto plain = write(options);
+  ASSERT_TRUE(plain) << plain.error().describe();
+  const ScenePtr whole = readBack(0);
+  options.region.meshopt = options.region.webp = true;
+  const auto lean = write(options);
+  ASSERT_TRUE(lean) << lean.error().describe();
+  EXPECT_LT(3 * lean->sum().bytes, plain->sum().bytes);
+  const ScenePtr packed = readBack(0);
+  ASSERT_TRUE(whole && packed);
+  EXPECT_EQ(packed->triangleCount(), whole->triangleCount());
+  for (const Bounds* box : {&plain->regions[0].bounds, &lean->regions[0].bounds}) {
+    EXPECT_LT(box->min.z, -3) << "Z is up: the sky is around the room";
+    EXPECT_GT(box->max.z, 3);
+  }
+  for (const double yaw : {0.3, 4.1}) {
+    const PerspectiveView view = viewFrom(0, yaw);
+    EXPECT_GT(psnrOf(drawn(packed, view).colour, drawn(whole, view).colour), 32) << "yaw " << yaw;
+  }
+  options.region.colourQuality = 101;
+  EXPECT_FALSE(write(options));
+  options.region.colourQuality = 90, options.region.atlasPixels = 16384;
+  EXPECT_FALSE(write(options)) << "WebP is smaller";
 }
 
 TEST_F(ExportGltf, OpensInAssimpWithAllItsTriangles) {
@@ -144,6 +183,34 @@ TEST_F(ExportGltf, OneHandTakesFewerCameras) {
   EXPECT_EQ(index().at("storeys").at(0).at("regions").size(), 1U) << "the later one took its place";
 }
 
+TEST_F(ExportGltf, IsATilesetOfItsRegionsIfAsked) {
+  bake();
+  ExportGltfOptions options;
+  options.tiles = true, options.region.meshopt = options.region.webp = true;
+  const auto done = write(options);
+  ASSERT_TRUE(done) << done.error().describe();
+  const auto json = nlohmann::json::parse(readText(folder_ / "gltf" / kTilesetIndex, 1 << 20).value());
+  const auto& tiles = json.at("root").at("children");
+  ASSERT_EQ(tiles.size(), open_.layout->regions.size());
+  for (std::size_t r = 0; r < tiles.size(); ++r) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "gltf" / std::string(tiles[r].at("content").at("uri"))));
+    EXPECT_EQ(tiles[r].at("extras").at("region"), r);
+    const glm::dvec2 middle = open_.layout->regions[r].polygon.centroid();
+    const auto& viewer = tiles[r].at("viewerRequestVolume").at("box");
+    EXPECT_NEAR(viewer[0], middle.x, 1.5);
+    EXPECT_NEAR(viewer[1], middle.y, 1.5) << "Z is up, and not turned as glTF is";
+    EXPECT_NEAR(viewer[2], open_.layout->eyeZ(), 1e-9);
+  }
+  EXPECT_EQ(json.at("extras").at("storeys").at(0).at("eyeHeight"),
+            open_.layout->eyeZ() - open_.layout->spec.floorHeight);
+  EXPECT_TRUE(checkGltfTarget(folder_ / "gltf", true)) << "a later one takes its place";
+  EXPECT_FALSE(checkGltfTarget(folder_ / "gltf", false));
+  options.onlyRegion = 1000;
+  const auto refused = write(options);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("no region 1000"));
+}
+
 TEST_F(ExportGltf, RefusesWhatIsNotBakedAndFoldersThatHoldOtherThings) {
   const auto refused = write();
   ASSERT_FALSE(refused);
@@ -156,7 +223,7 @@ TEST_F(ExportGltf, RefusesWhatIsNotBakedAndFoldersThatHoldOtherThings) {
   EXPECT_EQ(empty->sum().missing, empty->sum().cameras);
   std::filesystem::create_directories(folder_ / "holiday");
   ASSERT_TRUE(writeTextAtomically(folder_ / "holiday" / "walk.json", "{}"));
-  EXPECT_FALSE(checkGltfTarget(folder_ / "holiday"));
+  EXPECT_FALSE(checkGltfTarget(folder_ / "holiday", false));
 }
 
 TEST(TextureAtlas, HoldsEveryPictureOnceWithItsBorder) {

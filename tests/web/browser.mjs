@@ -1,10 +1,11 @@
 // What the page must do in a real browser. usage: browser.mjs ACENTRIC PROJECT WEB_FOLDER WORK_FOLDER CHROMIUM [PART_OF_A_NAME]
 // WORK_FOLDER/site is the project, exported with --to web; site-lossless the same with every bit of its colours.
 import { execFileSync } from 'node:child_process';
-import { readFileSync, rmSync, statSync } from 'node:fs';
+import { readFileSync, statSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
+import { testModels } from './models.mjs';
 import { blackShare, pngReader, psnr, ssim } from './pictures.mjs';
 
 const [program, project, web, work, executablePath, only = ''] = process.argv.slice(2);
@@ -457,53 +458,7 @@ await test('as a single file it walks from the disk', async () => {
   await context.close();
 });
 
-await test('a region as glTF is valid, and three.js shows what the command shows', async () => {
-  const folder = join(work, 'gltf');
-  rmSync(folder, { recursive: true, force: true });
-  const [x, y] = storey.start.position;
-  const inside = (polygon) => polygon.every(([px, py], k) => {
-    const [qx, qy] = polygon[(k + 1) % polygon.length];
-    return (qx - px) * (y - py) - (qy - py) * (x - px) >= 0;
-  });
-  const region = storey.regions.findIndex(({ polygon }) => inside(polygon));
-  acentric('export', project, folder, '--to', 'gltf', '--region', String(region));
-  const walk = JSON.parse(readFileSync(join(folder, 'walk.json'), 'utf8'));
-  const [{ file, bytes }] = walk.storeys[walk.storey].regions;
-
-  const report = await packages('gltf-validator').validateBytes(new Uint8Array(readFileSync(join(folder, file))));
-  const { numErrors, numWarnings } = report.issues;
-  console.log(`        region ${region}: ${(bytes / 1e6).toFixed(1)} MB, ${numErrors} errors, ${numWarnings} warnings`);
-  expect(numErrors === 0 && numWarnings === 0, JSON.stringify(report.issues.messages.slice(0, 3)));
-
-  const here = fileURLToPath(new URL('.', import.meta.url));
-  const places = { '/gltf/': folder, '/web/three/': join(web, 'node_modules', 'three'), '/tests/': here };
-  const server = await serve(here, 0, (request, response) => {
-    const place = Object.keys(places).find((start) => request.url.startsWith(start));
-    if (!place) return false;
-    const at = join(places[place], request.url.slice(place.length));
-    const type = at.endsWith('.html') ? 'text/html' : at.endsWith('.js') ? 'text/javascript' : 'application/octet-stream';
-    response.writeHead(200, { 'Content-Type': type }).end(readFileSync(at));
-    return true;
-  });
-  const context = await browser.newContext();
-  const page = await context.newPage();
-  await page.goto(`http://127.0.0.1:${server.address().port}/tests/gltf.html`);
-  await page.waitForFunction(() => window.draw !== undefined);
-  const { eyeHeight, floorHeight } = walk.storeys[walk.storey];
-  const picture = join(work, 'gltf-command.png');
-  for (const yaw of [65, 125, 245]) { // past the glass case
-    const eye = [x, y, floorHeight + eyeHeight];
-    const address = await page.evaluate((all) => window.draw(...all), [`/gltf/${file}`, eye, (yaw * Math.PI) / 180, Math.PI / 3, 120, 68]); // as fine as captures
-    const drawn = readPng(Buffer.from(address.split(',')[1], 'base64'));
-    acentric('render', project, '--eye', eye.join(','), '--yaw', String(yaw), '--fov', '60', '--size', '120x68', '--reconstruction', 'patches', '-o', picture);
-    const command = readPng(readFileSync(picture));
-    const decibels = psnr(drawn, command), likeness = ssim(drawn, command);
-    console.log(`        towards ${yaw} degrees: ${decibels.toFixed(1)} dB, SSIM ${likeness.toFixed(3)}`);
-    expect(decibels > 19 && likeness > 0.6, `${decibels} dB, SSIM ${likeness}`); // glass and mirrors are left out
-  }
-  await context.close();
-  server.close();
-});
+await testModels({ test, expect, browser, acentric, project, web, work, storey, readPng });
 
 await browser.close();
 console.log(failed === 0 ? 'all passed' : `${failed} failed`);
