@@ -75,6 +75,9 @@ export class LoadedWalk {
     return this.facts.missing.filter((camera) => !this.current.cameras[camera].full && !this.current.cameras[camera].coarse).length;
   }
 
+  /** What is known of them; undefined where it is nothing. */
+  regionsOf = (storey: number): RegionIndex | undefined => (this.bundle.storeys[storey].regions.length > 0 ? this.indexOf(storey) : undefined);
+
   private indexOf(storey: number): RegionIndex {
     let index = this.indices.get(storey);
     if (!index) this.indices.set(storey, (index = new RegionIndex(this.bundle.storeys[storey])));
@@ -100,16 +103,10 @@ export class LoadedWalk {
     this.stream.limit = memory * 1e6;
   }
 
-  /** Calls `there` once the index tells of the place: at once where it does, never where it cannot be had. */
-  enter(storey: number, place: Vec2, there: () => void): void {
-    if (this.opened.source && (storey !== this.storey || !this.isOwn(this.index.regionAt(place)))) {
-      void this.turnTo(storey, place).then(() => {
-        if (this.bundle.storeys[storey].regions.length === 0) return;
-        this.show(storey);
-        there();
-      });
-      return;
-    }
+  /** To a storey: at once where the index tells of the place there, and never where it cannot be had. */
+  async enter(storey: number, place: Vec2, there: () => void = () => undefined): Promise<void> {
+    if (this.opened.source && (storey !== this.storey || !this.isOwn(this.index.regionAt(place)))) await this.turnTo(storey, place);
+    if (this.bundle.storeys[storey].regions.length === 0) return;
     this.show(storey);
     there();
   }

@@ -3,7 +3,7 @@
 import type { Bundle, Path, Storey } from './bundle/types';
 import { durationOf, poseAt } from './geometry/path';
 import type { RegionIndex } from './geometry/regions';
-import { viewAt, type Pose, type View } from './geometry/view';
+import { kMostPixels, viewAt, type Pose, type View } from './geometry/view';
 import { LoadedWalk } from './loaded_walk';
 import type { OpenWalk } from './open_walk';
 import type { FrameFacts } from './render/renderer';
@@ -98,7 +98,7 @@ export class Walk {
   /** To a place, or the nearest one where one may stand. */
   go(pose: Pose, storey = this.storey): void {
     this.stop();
-    this.loaded.enter(storey, [pose.eye[0], pose.eye[1]], () => this.stand(pose));
+    void this.loaded.enter(storey, [pose.eye[0], pose.eye[1]], () => this.stand(pose));
   }
 
   private stand(pose: Pose): void {
@@ -215,7 +215,7 @@ export class Walk {
   /** At the resolution that frames have when the eye stands still. */
   view(scale = 1): View {
     const density = Math.min(2, window.devicePixelRatio || 1) * this.settings.scale * scale;
-    const size = (length: number) => Math.max(1, Math.min(8192, Math.round(length * density)));
+    const size = (length: number) => Math.max(1, Math.min(kMostPixels, Math.round(length * density)));
     const width = size(this.canvas.clientWidth), height = size(this.canvas.clientHeight);
     return viewAt(this.pose, (this.settings.fov * Math.PI) / 180, width, height);
   }
