@@ -240,10 +240,12 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     const velocity: Vec2 = walked ? [(1000 * walked[0]) / took, (1000 * walked[1]) / took] : [0, 0];
     this.lastUpdate = now;
     this.lastEye = eye;
-    loaded.follow({ eye, yaw: view.yaw, velocity, full: this.quality === 'full', waiting: !this.begun });
+    const begun = this.begun, follow = () => loaded.follow({ eye, yaw: view.yaw, velocity, full: this.quality === 'full', waiting: !this.begun });
+    follow();
     this.region = storey === loaded.storey ? loaded.regions.regionAt(eye) : -1;
     this.composite.shown = false;
     if (this.region >= 0 && this.draw(view, now, took)) this.composite.show(loaded.picture, seen, this.renderer);
+    if (this.begun !== begun) follow(); // for what comes after the first picture
   }
 
   /** Where the last picture does not serve; false where there is none. */
