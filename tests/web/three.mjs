@@ -50,6 +50,18 @@ async function prepare() {
       scene.add(box);
       return box;
     },
+    /** Puts a walk into a scene, which is drawn whenever something of it has come, but once for all of a frame. */
+    show(walk, into = scene, by = renderer, from = camera) {
+      const draw = () => by.render(into, from);
+      let asked = 0;
+      walk.addEventListener('change', () => {
+        cancelAnimationFrame(asked);
+        asked = requestAnimationFrame(draw);
+      });
+      into.add(walk);
+      draw();
+      window.walk = walk;
+    },
     /** So far along the camera's axis through the middle of a pixel. */
     placeAt: (x, y, depth) => {
       const { width, height } = renderer.domElement;
@@ -107,8 +119,9 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     page.on('console', (message) => /error|warning/.test(message.type()) && errors.push(message.text()));
     await page.addInitScript(countResources);
     await page.goto(`http://127.0.0.1:${pages.address().port}/three/example/?walk=${origin}/${walk}`);
-    const opened = async () => {
+    const opened = async (quality = 'coarse') => { // which come sooner, and are drawn the same way
       await page.waitForFunction(() => window.walk !== undefined, undefined, { timeout: 60000 });
+      await page.evaluate((wanted) => { window.walk.quality = wanted; }, quality);
       await page.evaluate(prepare);
     };
     return { page, errors, origin, opened, close: async () => (await context.close(), pages.close(), walks.close()) };
@@ -122,9 +135,9 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
   const picture = async (page) => decoded(await page.evaluate(() => window.tools.picture()));
 
   await test('three.js: the example shows the walk as the page does, and its own objects before and behind', async () => {
-    const poses = [[eye(startX, startY), 0.09, 0], [eye(3.1, -2.4), 2.3, 0.15]];
+    const poses = [[eye(startX, startY), 0.09, 0], [eye(startX + 0.3, startY - 0.4), 2.3, 0.15]];
     const { page, errors, opened, close } = await open();
-    await opened();
+    await opened('full');
     const expected = await pagePicture(poses);
     for (const [n, pose] of poses.entries()) {
       await look(page, ...pose);
@@ -158,7 +171,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
 
   await test('three.js: the depth that a walk writes is that of the scene, and hides and shows boxes by it', async () => {
     const { page, errors, origin, opened, close } = await open();
-    await opened();
+    await opened('full');
     await own(page, false);
     await page.evaluate(async (address) => {
       const { GLTFLoader } = await import('/node_modules/three/examples/jsm/loaders/GLTFLoader.js');
@@ -170,7 +183,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
       });
       window.model = model;
     }, `${origin}/gallery.glb`);
-    for (const pose of [[eye(startX, startY), 0.09, 0], [eye(3.1, -2.4), 2.3, -0.2]]) {
+    for (const pose of [[eye(startX, startY), 0.09, 0], [eye(startX + 0.3, startY - 0.4), 2.3, -0.2]]) {
       await look(page, ...pose);
       const found = await page.evaluate(() => {
         const { walk, scene, model, tools } = window, shown = tools.depths();
@@ -192,7 +205,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
         const colours = await page.evaluate(([far, px, py]) => {
           const { tools, renderer } = window, canvas = document.createElement('canvas');
           Object.assign(canvas, { width: 640, height: 360 });
-          const context = canvas.getContext('2d'), seen = () => {
+          const context = canvas.getContext('2d', { willReadFrequently: true }), seen = () => {
             tools.picture();
             context.drawImage(renderer.domElement, 0, 0);
             return [...context.getImageData(px, py, 1, 1).data].slice(0, 3);
@@ -278,7 +291,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
       });
       const shown = decoded(await page.evaluate(([x, y, angle, { width, height }]) => {
         const { renderer, camera, tools } = window, seen = camera.clone();
-        seen.rotateZ(-angle);
+        seen.rotateZ(angle);
         seen.setViewOffset(640, 360, x, y, width, height);
         renderer.setSize(width, height, false);
         const address = tools.picture(seen);
@@ -317,7 +330,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
       const at = scene.getObjectByName('before').position.clone().project(camera), place = [320 * (1 + at.x), 180 * (1 - at.y)].map(Math.round);
       Object.assign(canvas, { width: 640, height: 360 });
       tools.picture();
-      const context = canvas.getContext('2d');
+      const context = canvas.getContext('2d', { willReadFrequently: true });
       context.drawImage(renderer.domElement, 0, 0);
       return [...context.getImageData(place[0] - 8, place[1] - 8, 16, 16).data].join();
     });
@@ -327,10 +340,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     expect((await within()) === shown, 'the box looks otherwise beside the walk');
     await page.evaluate(async (address) => {
       const { AcentricWalk } = await import('acentric-three');
-      window.walk = await AcentricWalk.open(address, window.renderer, { memory: 64, threads: 2 });
-      window.walk.addEventListener('change', () => window.renderer.render(window.scene, window.camera));
-      window.scene.add(window.walk);
-      window.renderer.render(window.scene, window.camera);
+      window.tools.show(await AcentricWalk.open(address, window.renderer, { memory: 64, threads: 2, quality: 'coarse' }));
     }, `${origin}/site/`);
     await settle(page);
     const used = await page.evaluate(() => ({ ...window.live }));
@@ -352,15 +362,14 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     const expected = await picture(page);
     for (const options of [{ logarithmicDepthBuffer: true }, { reversedDepthBuffer: true }]) {
       await page.evaluate(async ([address, how]) => {
-        const { AcentricWalk } = await import('acentric-three'), { THREE, box, placeAt } = window.tools;
+        const { AcentricWalk } = await import('acentric-three'), { THREE, box, placeAt, show } = window.tools;
         const renderer = new THREE.WebGLRenderer(how);
         renderer.setSize(640, 360, false);
-        const walk = await AcentricWalk.open(address, renderer), scene = new THREE.Scene(), camera = window.camera.clone();
-        walk.addEventListener('change', () => renderer.render(scene, camera));
+        const scene = new THREE.Scene(), camera = window.camera.clone();
         const boxes = [box(0x00ff00, 0.1, placeAt(200, 240, 1)), box(0x0000ff, 2, placeAt(120, 100, 40))];
-        scene.add(walk, ...boxes);
-        renderer.render(scene, camera);
-        Object.assign(window, { walk, other: () => (renderer.render(scene, camera), renderer.domElement.toDataURL()) });
+        scene.add(...boxes);
+        show(await AcentricWalk.open(address, renderer, { quality: 'coarse' }), scene, renderer, camera);
+        Object.assign(window, { other: () => (renderer.render(scene, camera), renderer.domElement.toDataURL()) });
       }, [`${origin}/site/`, options]);
       await settle(page);
       const shown = decoded(await page.evaluate(() => window.other())), at = (x, y) => [0, 1, 2].map((k) => shown.data[4 * (y * kWidth + x) + k]);
@@ -374,11 +383,8 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     expect(errors.length === 0, errors.join('; '));
     await page.evaluate(async (address) => {
       const { AcentricWalk } = await import('acentric-three');
-      window.walk = await AcentricWalk.open(address, window.renderer);
-      window.walk.addEventListener('change', () => window.renderer.render(window.scene, window.camera));
-      window.scene.add(window.walk);
+      window.tools.show(await AcentricWalk.open(address, window.renderer, { quality: 'coarse' }));
       window.lose = window.renderer.getContext().getExtension('WEBGL_lose_context');
-      window.renderer.render(window.scene, window.camera);
     }, `${origin}/site/`);
     await settle(page);
     await page.evaluate(() => window.lose.loseContext());
@@ -431,13 +437,11 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     await page.evaluate(async (address) => {
       const { AcentricWalk } = await import('acentric-three');
       window.walk.dispose();
-      window.walk = await AcentricWalk.open(address, window.renderer);
+      const walk = await AcentricWalk.open(address, window.renderer, { quality: 'coarse' });
       window.told = [];
-      window.walk.addEventListener('error', ({ file, reason }) => window.told.push(`${file}: ${reason}`));
-      window.walk.addEventListener('change', () => window.renderer.render(window.scene, window.camera));
-      window.scene.add(window.walk);
-      window.camera.position.copy(window.walk.start().position);
-      window.renderer.render(window.scene, window.camera);
+      walk.addEventListener('error', ({ file, reason }) => window.told.push(`${file}: ${reason}`));
+      window.camera.position.copy(walk.start().position);
+      window.tools.show(walk);
     }, `${origin}/site/`);
     await settle(page);
     const { told, missing } = await page.evaluate(() => ({ told: window.told, missing: window.walk.stats.missing }));

@@ -203,9 +203,8 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
 
   /** What rendering does by itself: loads for the camera and draws what it sees. Before `renderer.render`, if it is not to happen within. */
   update(camera: Camera): void {
-    this.updateWorldMatrix(true, true);
+    this.updateWorldMatrix(true, false);
     camera.updateWorldMatrix(true, false);
-    this.composite.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, this.composite.matrixWorld);
     this.prepare(this.renderer, camera);
   }
 
@@ -214,8 +213,9 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     try {
       if (renderer !== this.renderer) throw new UnsupportedView('it was opened for another renderer');
       if (renderer.xr.isPresenting) throw new UnsupportedView('a walk is not shown in WebXR');
-      const { modelViewMatrix } = this.composite, { width, height } = renderer.getCurrentViewport(viewport);
-      const seen = viewOfCamera(matrix.copy(modelViewMatrix).invert().elements, camera.projectionMatrix.elements, width, height, this.resolution);
+      const { width, height } = renderer.getCurrentViewport(viewport);
+      const objectFromCamera = matrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld).invert();
+      const seen = viewOfCamera(objectFromCamera.elements, camera.projectionMatrix.elements, width, height, this.resolution);
       this.refused = '';
       this.follow(seen);
     } catch (error) {

@@ -8,7 +8,7 @@ const viewport = new Vector4(), clearColour = new Color();
 export function sharingState<Result>(renderer: WebGLRenderer, work: () => Result): Result {
   const gl = renderer.getContext() as WebGL2RenderingContext;
   const target = renderer.getRenderTarget(), face = renderer.getActiveCubeFace(), level = renderer.getActiveMipmapLevel();
-  const reversed = renderer.state.buffers.depth.getReversed?.() === true; // which a reset undoes
+  const reversed = renderer.state.buffers.depth.getReversed?.() === true;
   renderer.getCurrentViewport(viewport);
   renderer.resetState();
   for (const flag of [gl.UNPACK_FLIP_Y_WEBGL, gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL]) gl.pixelStorei(flag, false); // older versions leave them
@@ -18,7 +18,10 @@ export function sharingState<Result>(renderer: WebGLRenderer, work: () => Result
     return work();
   } finally {
     renderer.resetState();
-    if (reversed) renderer.state.buffers.depth.setReversed(true);
+    if (reversed) { // which a reset undoes, with what depth is cleared to
+      renderer.state.buffers.depth.setReversed(true);
+      renderer.state.buffers.depth.setClear(1);
+    }
     renderer.setRenderTarget(target, face, level);
     renderer.state.viewport(viewport); // may be a part of the target
     renderer.setClearColor(renderer.getClearColor(clearColour), renderer.getClearAlpha());
