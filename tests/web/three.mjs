@@ -404,7 +404,7 @@ export async function threeTests({ browser, test, expect, acentric, project, ser
     const { page, errors, origin, opened, close } = await open({
       walk: 'three.acentric',
       answer: (file, response) => {
-        if (!file.startsWith('site/captures/')) return false;
+        if (!file.startsWith('site/coarse/')) return false;
         damaged ??= file.slice('site/'.length);
         if (file !== `site/${damaged}`) return false;
         const bytes = readFileSync(join(work, file));
