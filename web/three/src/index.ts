@@ -55,8 +55,8 @@ export interface AcentricWalkEventMap extends Object3DEventMap {
 const kStep = 500;
 /** A picture that is larger than what is asked for by no more than this serves too. */
 const kLarger = 2;
-/** After a frame that was not drawn, milliseconds. */
-const kLater = 400;
+/** Milliseconds. */
+const kLater = 50;
 
 const viewport = new Vector4(), matrix = new Matrix4();
 
@@ -82,11 +82,14 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   readonly eyeHeights: readonly number[];
 
   private readonly composite = new Composite();
+  private readonly gl: WebGL2RenderingContext;
   private readonly loaded: LoadedWalk;
   private drawn: { view: View; seen: readonly number[] } | undefined;
   private dirty = true; // something has come since
   private begun = false; // a picture was drawn without a capture missing that may come
+  private pending: WebGLSync | null = null; // the last picture
   private lastDraw = -Infinity;
+  private lastTook = 0;
   private lastUpdate = -Infinity;
   private lastEye: Vec2 | undefined;
   private region = -1;
@@ -102,7 +105,8 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     const { bundle } = opened;
     this.name = bundle.name;
     this.eyeHeights = bundle.storeys.map((storey) => storey.eyeZ);
-    this.loaded = new LoadedWalk(renderer.getContext() as WebGL2RenderingContext, opened, wanted.memory, (work) => sharingState(renderer, work), {
+    this.gl = renderer.getContext() as WebGL2RenderingContext;
+    this.loaded = new LoadedWalk(this.gl, opened, wanted.memory, (work) => sharingState(renderer, work), {
       changed: () => this.changed(), failed: (failure) => this.dispatchEvent({ type: 'error', ...failure }),
     });
     this.composite.bounds(bundle.bounds);
@@ -244,20 +248,17 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     follow();
     this.region = storey === loaded.storey ? loaded.regions.regionAt(eye) : -1;
     this.composite.shown = false;
-    if (this.region >= 0 && this.draw(view, now, took)) this.composite.show(loaded.picture, seen, this.renderer);
+    if (this.region >= 0 && this.draw(view, now)) this.composite.show(loaded.picture, seen, this.renderer);
     if (this.begun !== begun) follow(); // for what comes after the first picture
   }
 
   /** Where the last picture does not serve; false where there is none. */
-  private draw(view: View, now: number, took: number): boolean {
+  private draw(view: View, now: number): boolean {
     const { loaded, drawn } = this, seen = [...view.eye, view.yaw, view.pitch, view.width / view.focal, view.height / view.focal];
     const serves = drawn && view.width <= drawn.view.width && kLarger * view.width >= drawn.view.width && seen.every((value, i) => value === drawn.seen[i]);
     if (serves && !this.dirty) return true;
-    if (serves && !this.begun && loaded.waits([view.eye[0], view.eye[1]], view.yaw, now - this.lastDraw, took)) {
-      this.waiting ??= setTimeout(() => {
-        this.waiting = undefined;
-        this.changed();
-      }, kLater);
+    if (serves && (this.isDrawing() || (!this.begun && loaded.waits([view.eye[0], view.eye[1]], view.yaw, now - this.lastDraw, this.lastTook)))) {
+      this.putOff();
       return true;
     }
     try {
@@ -270,8 +271,30 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     this.drawn = { view, seen };
     this.dirty = false;
     this.lastDraw = now;
+    this.gl.deleteSync(this.pending);
+    this.pending = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.begun ||= !loaded.facts.awaited;
     return true;
+  }
+
+  /** Is the graphics card still at the last picture? No second one waits behind it for what has come since. */
+  private isDrawing(): boolean {
+    const { gl, pending } = this;
+    if (!pending) return false;
+    if (gl.getSyncParameter(pending, gl.SYNC_STATUS) !== gl.SIGNALED && !gl.isContextLost()) return true;
+    gl.deleteSync(pending);
+    this.pending = null;
+    this.lastTook = performance.now() - this.lastDraw;
+    return false;
+  }
+
+  /** What has come shows a little later. */
+  private putOff(): void {
+    this.waiting ??= setTimeout(() => {
+      this.waiting = undefined;
+      if (this.isDrawing()) this.putOff();
+      else this.changed();
+    }, kLater);
   }
 
   private changed(): void {
@@ -285,6 +308,7 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
       if (this.state !== 'shown') return;
       this.state = 'lost';
       this.drawn = undefined;
+      this.pending = null;
       this.loaded.contextLost();
     }],
     ['webglcontextrestored', () => {
@@ -301,6 +325,7 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     this.drawn = undefined;
     this.composite.shown = false;
     clearTimeout(this.waiting);
+    this.gl.deleteSync(this.pending);
     for (const [event, hear] of this.canvasEvents) this.renderer.domElement.removeEventListener(event, hear);
     this.opened.pool.close();
     this.loaded.release();
