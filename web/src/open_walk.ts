@@ -20,7 +20,7 @@ export async function openWalk(source: Source, threads: number): Promise<OpenWal
   const index = await source.text(kIndexName);
   const bundle = readIndex(index);
   return {
-    bundle, pool: new LoaderPool(source, { module, index }, threads), planner: new Planner(module, index),
+    bundle, planner: new Planner(module, index), pool: new LoaderPool(source, { module, index }, threads),
     source: source instanceof WalkSource ? source : undefined,
   };
 }

@@ -55,7 +55,7 @@ export interface AcentricWalkEventMap extends Object3DEventMap {
 const kStep = 500;
 /** A picture that is larger than what is asked for by no more than this serves too. */
 const kLarger = 2;
-/** Milliseconds. */
+/** A picture that was put off is thought of again after this, milliseconds. */
 const kLater = 50;
 
 const viewport = new Vector4(), matrix = new Matrix4();
@@ -94,6 +94,7 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   private lastEye: Vec2 | undefined;
   private region = -1;
   private entering = false; // another storey
+  private closed = -1; // a storey that could not be entered
   private waiting: ReturnType<typeof setTimeout> | undefined;
   private state: 'shown' | 'lost' | 'ended' = 'shown';
   private refused = ''; // why the camera's view is
@@ -126,12 +127,11 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
     for (const name of ['memory', 'threads', 'resolution'] as const) all[name] = checked(name, options[name] ?? all[name]);
     all.quality = checkedQuality(options.quality ?? all.quality);
     const address = new URL(url, document.baseURI).href;
-    if (!isFolder(address)) return new AcentricWalk(renderer, await openWalk(await WalkSource.open(address), all.threads), all);
-    try {
-      return new AcentricWalk(renderer, await openWalk(new FolderSource(address), all.threads), all);
-    } catch (error) {
-      throw new Error(`${address}: ${(error as Error).message}`);
-    }
+    const source = isFolder(address) ? new FolderSource(address) : await WalkSource.open(address);
+    const opened = await openWalk(source, all.threads).catch((error: Error) => {
+      throw new Error(`${address}: ${error.message}`);
+    });
+    return new AcentricWalk(renderer, opened, all);
   }
 
   get memory(): number {
@@ -168,6 +168,7 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   }
   /** Asks once more for what could not be had. */
   retry(): void {
+    this.closed = -1;
     this.loaded.retry();
     this.changed();
   }
@@ -233,10 +234,11 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   private follow(seen: CameraView): void {
     const { loaded } = this, { view } = seen, [x, y, z] = view.eye, eye: Vec2 = [x, y], storey = this.storeyAt(z);
     const now = performance.now(), took = now - this.lastUpdate;
-    if (storey !== loaded.storey && !this.entering) {
+    if (storey !== loaded.storey && storey !== this.closed && !this.entering) {
       this.entering = true;
-      loaded.enter(storey, eye).finally(() => {
+      void loaded.enter(storey, eye).then(() => {
         this.entering = false;
+        this.closed = loaded.storey === storey ? -1 : storey;
         this.changed();
       });
     }
