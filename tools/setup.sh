@@ -115,7 +115,8 @@ buildWebModule() {
   rm -f "$log"
 }
 
-# buildWeb: the page of `acentric export --to web`, with the packages of its lock file. Quiet when there is nothing to do.
+# buildWeb: the page of `acentric export --to web` and the package for three.js, with the packages of the page's lock file. Quiet
+# when there is nothing to do.
 buildWeb() {
   local web=$root/web newer
   buildWebModule
@@ -125,8 +126,8 @@ buildWeb() {
       die "npm ci failed (above is why): check the network, then try again."
     touch "$web/node_modules/.package-lock.json"
   fi
-  newer=$web/dist/index.html
-  if [[ -f $newer && -z $(find "$web/src" "$web"/*.* "$root/shaders" "$root/build/page/page.wasm" -newer "$newer" -type f -print -quit) ]]; then return 0; fi
+  newer=$web/dist/index.html # which comes last
+  if [[ -f $newer && -z $(find "$web/src" "$web"/*.* "$web/three/src" "$web/three"/*.* "$root/shaders" "$root/build/page/page.wasm" -newer "$newer" -type f -print -quit) ]]; then return 0; fi
   say "Building the page."
   (cd "$web" && npm run --silent build) < /dev/null >&2 || die "the page could not be built (above is why)."
 }

@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { testModels } from './models.mjs';
 import { blackShare, pngReader, psnr, ssim } from './pictures.mjs';
+import { threeTests } from './three.mjs';
 
 const [program, project, web, work, executablePath, only = ''] = process.argv.slice(2);
 const packages = createRequire(join(web, 'package.json'));
@@ -459,6 +460,25 @@ await test('as a single file it walks from the disk', async () => {
 });
 
 await testModels({ test, expect, browser, acentric, project, web, work, storey, readPng });
+
+/** The page's own frames of some views: eye, yaw and pitch. */
+async function pagePicture(poses) {
+  const { page, close } = await open();
+  await started(page);
+  await page.evaluate(() => {
+    Object.assign(window.acentric.settings, { fov: 60, scale: 1 });
+    window.acentric.settingsChanged();
+  });
+  const pictures = [];
+  for (const [at, yaw, pitch] of poses) {
+    await go(page, at, yaw, pitch);
+    await settled(page);
+    pictures.push((await picture(page)).png);
+  }
+  await close();
+  return pictures;
+}
+await threeTests({ browser, test, expect, acentric, project, serve, web, work, storey, readPng, pagePicture });
 
 await browser.close();
 console.log(failed === 0 ? 'all passed' : `${failed} failed`);

@@ -1,13 +1,11 @@
 /** The page: opens the bundle beside it (or within it) and connects the walk with buttons, keys and messages. */
 
-import moduleSource from '../../build/page/page.wasm?inline';
 import { addressOf, parseAddress } from './address';
-import { kIndexName, readIndex } from './bundle/read_index';
-import type { Bundle } from './bundle/types';
-import { Planner } from './engine/planner';
+import { kIndexName } from './bundle/read_index';
+import { threadsOfDevice } from './device';
+import { openWalk, type OpenWalk } from './open_walk';
+import { sourceFor } from './page_source';
 import { keepSettings, loadSettings, type Settings } from './settings';
-import { LoaderPool } from './stream/pool';
-import { decodedBase64, sourceFor, WalkSource } from './stream/source';
 import { Controls } from './ui/controls';
 import { Embedding } from './ui/embed';
 import { Minimap } from './ui/minimap';
@@ -35,11 +33,12 @@ class Page {
   private unbakedTold = 0;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
-  constructor(bundle: Bundle, settings: Settings, gl: WebGL2RenderingContext, pool: LoaderPool, planner: Planner, walk: WalkSource | undefined) {
+  constructor(opened: OpenWalk, settings: Settings, gl: WebGL2RenderingContext) {
+    const { bundle } = opened;
     const controls: Controls = new Controls(
       canvas, (dx, dy) => this.walk.look(dx, dy), () => this.walk.wake(), (key) => this.command(key, controls),
     );
-    this.walk = new Walk(canvas, gl, bundle, settings, pool, planner, walk, () => controls.takeMovement(), {
+    this.walk = new Walk(canvas, gl, opened, settings, () => controls.takeMovement(), {
       drawn: () => this.drawn(),
       failed: () => this.failed(),
       stopped: () => this.keepAddress(),
@@ -178,12 +177,8 @@ class Page {
 async function open(): Promise<void> {
   const source = await sourceFor(kIndexName);
   const gl = openGraphics();
-  const module = await WebAssembly.compile(decodedBase64(moduleSource.slice(moduleSource.indexOf(',') + 1)) as BufferSource);
-  const index = await source.text(kIndexName);
-  const bundle = readIndex(index);
-  const pool = new LoaderPool(source, { module, index }, Math.max(1, Math.min(4, (navigator.hardwareConcurrency || 2) - 1)));
-  const walk = source instanceof WalkSource ? source : undefined;
-  new Page(bundle, loadSettings((bundle.fov * 180) / Math.PI), gl, pool, new Planner(module, index), walk);
+  const opened = await openWalk(source, threadsOfDevice());
+  new Page(opened, loadSettings((opened.bundle.fov * 180) / Math.PI), gl);
 }
 
 open().catch((error: unknown) => {

@@ -1,5 +1,7 @@
 /** What a viewer can set; kept in the browser where it allows that. */
 
+import { memoryOfDevice } from './device';
+
 export interface Settings {
   quality: 'full' | 'coarse';
   scale: number; // of the resolution, 0.25..1
@@ -11,17 +13,9 @@ export interface Settings {
 
 const kName = 'acentric-walk';
 
-/** By what the browser says of the device; few say how much memory it has. */
-export function defaultMemory(deviceGigabytes: number | undefined, smallScreen: boolean): number {
-  const share = 128 * (deviceGigabytes ?? (smallScreen ? 3 : 8));
-  return Math.min(smallScreen ? 512 : 2048, Math.max(256, Math.round(share / 64) * 64));
-}
-
 export function loadSettings(fov: number): Settings {
-  const { deviceMemory } = navigator as { deviceMemory?: number };
   const standard: Settings = {
-    quality: 'full', scale: 1, fov: Math.round(fov), holes: false, map: true,
-    memory: defaultMemory(deviceMemory, Math.min(screen.width, screen.height) < 700),
+    quality: 'full', scale: 1, fov: Math.round(fov), holes: false, map: true, memory: memoryOfDevice(),
   };
   try {
     const kept = JSON.parse(localStorage.getItem(kName) ?? '{}') as Partial<Settings>;

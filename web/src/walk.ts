@@ -1,18 +1,14 @@
-/** The walk: where the eye is, what is loaded for it, and when a frame is drawn. Knows the canvas and no other element. */
+/** The walk: where the eye is, and when a frame is drawn. Knows the canvas and no other element. */
 
-import { readIndex } from './bundle/read_index';
-import type { WalkPage } from './bundle/walk_file';
 import type { Bundle, Path, Storey } from './bundle/types';
 import { durationOf, poseAt } from './geometry/path';
-import { chooseCover, RegionIndex } from './geometry/regions';
-import { viewAt, type Pose, type View } from './geometry/view';
-import type { Planner } from './engine/planner';
-import { Renderer, type FrameFacts } from './render/renderer';
+import type { RegionIndex } from './geometry/regions';
+import { kMostPixels, viewAt, type Pose, type View } from './geometry/view';
+import { LoadedWalk } from './loaded_walk';
+import type { OpenWalk } from './open_walk';
+import type { FrameFacts } from './render/renderer';
 import type { Settings } from './settings';
-import type { LoaderPool } from './stream/pool';
-import type { WalkSource } from './stream/source';
-import { Stream, type Failure } from './stream/stream';
-import { camerasInOrder } from './stream/wanted';
+import type { Failure } from './stream/stream';
 import { FrameTimes } from './ui/frame_times';
 import { isStill, type Movement } from './ui/controls';
 
@@ -20,167 +16,95 @@ const kMetresPerSecond = 1.4, kRadiansPerSecond = 1.4, kFaster = 2.5;
 const kMostPitch = (85 * Math.PI) / 180;
 /** Frames that take longer than this are drawn smaller while the eye moves, milliseconds. */
 const kSlow = 60, kQuick = 30;
-/** While captures of the first picture come, it is drawn no more often than this, milliseconds; nor in more than a quarter of the time. */
-const kWhileLoading = 400, kShareWhileLoading = 4;
-
-/** Did the user ask the browser to save data? Not all browsers tell. */
-const savesData = (): boolean => (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
 
 export class Walk {
   pose: Pose;
-  storey: number;
-  facts: FrameFacts = { patches: 0, captures: [], missing: [], awaited: false, localTriangles: 0 };
   readonly times = new FrameTimes();
   /** Milliseconds from the page's beginning to the first picture without a capture missing that may come. */
   firstPicture: number | undefined;
   framesDrawn = 0;
   drawing = { width: 0, height: 0 };
-  readonly failures = new Map<string, Failure>();
 
-  private renderer: Renderer;
-  private stream: Stream;
-  private index: RegionIndex;
-  private readonly indices = new Map<number, RegionIndex>();
+  private readonly loaded: LoadedWalk;
   private dirty = true;
   private scheduled = false;
   private pending: { sync: WebGLSync; began: number; moving: boolean } | undefined;
   private lastTick: number | undefined;
   private lastDraw = 0; // the page's beginning
   private lastTook = 0;
-  private lastRegion = -1; // drawn
   private velocity: [number, number] = [0, 0];
   private movingScale = 1;
   private lost = false;
   private playing: { path: Path; began: number | undefined } | undefined;
-  private page: WalkPage | undefined; // of a walk's index, that is open
-  private refused: number | undefined; // the region whose page could not be had
-  private turning = 0; // to other pages
-  private turns: Promise<void> = Promise.resolve();
 
   constructor(
-    private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext, public bundle: Bundle,
-    readonly settings: Settings, private readonly pool: LoaderPool,
-    private readonly planner: Planner, private readonly source: WalkSource | undefined, private readonly movement: () => Movement,
+    private readonly canvas: HTMLCanvasElement, private readonly gl: WebGL2RenderingContext, opened: OpenWalk,
+    readonly settings: Settings, private readonly movement: () => Movement,
     private readonly events: { drawn: () => void; failed: () => void; stopped: () => void },
   ) {
-    this.storey = bundle.storey;
-    this.page = source?.first;
-    this.index = this.indexOf(this.storey);
+    this.loaded = new LoadedWalk(gl, opened, settings.memory, (work) => work(), {
+      changed: () => this.redraw(), failed: () => events.failed(),
+    });
     this.pose = this.startPose();
-    this.renderer = new Renderer(gl, bundle, planner);
-    this.stream = this.openStream();
     new ResizeObserver(() => this.redraw()).observe(canvas);
     this.redraw();
   }
 
+  get bundle(): Bundle {
+    return this.loaded.bundle;
+  }
+  get storey(): number {
+    return this.loaded.storey;
+  }
   get current(): Storey {
-    return this.bundle.storeys[this.storey];
+    return this.loaded.current;
   }
   get regions(): RegionIndex {
-    return this.index;
+    return this.loaded.regions;
   }
   get region(): number {
-    return this.index.regionAt([this.pose.eye[0], this.pose.eye[1]]);
+    return this.regions.regionAt([this.pose.eye[0], this.pose.eye[1]]);
+  }
+  get facts(): FrameFacts {
+    return this.loaded.facts;
+  }
+  get failures(): Map<string, Failure> {
+    return this.loaded.failures;
   }
   get canFill(): boolean {
-    return this.renderer.canFill;
+    return this.loaded.canFill;
   }
   get loading(): number {
-    return this.stream.loading;
+    return this.loaded.loading;
   }
   /** Is all drawn and loaded that is worth having here? */
   get resting(): boolean {
-    return !this.dirty && !this.pending && this.stream.loading === 0 && this.turning === 0;
+    return !this.dirty && !this.pending && this.loaded.resting;
   }
   get bytes(): number {
-    return this.stream.bytes;
+    return this.loaded.bytes;
   }
-  isFull = (camera: number) => this.stream.isFull(camera);
+  get unbaked(): number {
+    return this.loaded.unbaked;
+  }
+  isFull = (camera: number) => this.loaded.isFull(camera);
 
   startPose(): Pose {
     const { start, eyeZ } = this.current;
-    const [x, y] = this.index.nearestStanding(start.position);
+    const [x, y] = this.regions.nearestStanding(start.position);
     return { eye: [x, y, eyeZ], yaw: start.yaw, pitch: 0 };
-  }
-
-  /** Captures that the picture lacks and the bundle does not hold. */
-  get unbaked(): number {
-    return this.facts.missing.filter((camera) => !this.current.cameras[camera].full && !this.current.cameras[camera].coarse).length;
-  }
-
-  private indexOf(storey: number): RegionIndex {
-    let index = this.indices.get(storey);
-    if (!index) this.indices.set(storey, (index = new RegionIndex(this.bundle.storeys[storey])));
-    return index;
-  }
-
-  private openStream(): Stream {
-    const stream = new Stream(
-      this.bundle, this.current, this.renderer, this.pool, () => this.redraw(),
-      (failure) => {
-        this.failures.set(failure.file, failure);
-        this.events.failed();
-      },
-    );
-    stream.limit = this.settings.memory * 1e6;
-    return stream;
   }
 
   /** To a place, or the nearest one where one may stand. */
   go(pose: Pose, storey = this.storey): void {
     this.stop();
-    const place: [number, number] = [pose.eye[0], pose.eye[1]];
-    if (this.source && (storey !== this.storey || !this.isOwn(this.index.regionAt(place)))) {
-      void this.turnTo(storey, place).then(() => {
-        if (this.bundle.storeys[storey].regions.length > 0) this.stand(pose, storey); // else its page could not be had
-      });
-      return;
-    }
-    this.stand(pose, storey);
+    void this.loaded.enter(storey, [pose.eye[0], pose.eye[1]], () => this.stand(pose));
   }
 
-  private stand(pose: Pose, storey: number): void {
-    if (storey !== this.storey) {
-      this.storey = storey;
-      this.index = this.indexOf(storey);
-      this.stream.close();
-      this.stream = this.openStream();
-      this.lastRegion = -1;
-    }
-    const [x, y] = this.index.nearestStanding([pose.eye[0], pose.eye[1]]);
+  private stand(pose: Pose): void {
+    const [x, y] = this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
     this.pose = { eye: [x, y, this.current.eyeZ], yaw: pose.yaw, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, pose.pitch)) };
     this.redraw();
-  }
-
-  private isOwn = (region: number): boolean => region >= 0 && (this.page?.own[region] ?? true);
-
-  /** To the page of a walk's index that tells of a place; one turn after another. */
-  private turnTo(storey: number, place: [number, number]): Promise<void> {
-    ++this.turning;
-    return (this.turns = this.turns.then(() => this.turn(storey, place)).finally(() => --this.turning));
-  }
-
-  private async turn(storey: number, place: [number, number]): Promise<void> {
-    try {
-      const page = await this.source!.walk.pageAt(storey, place);
-      if (page.at === this.page?.at) return;
-      const bundle = readIndex(page.text);
-      this.planner.open(page.text);
-      const last = this.lastRegion < 0 ? -1 : this.current.regions[this.lastRegion].number;
-      this.bundle = bundle;
-      this.page = page;
-      this.facts = { ...this.facts, captures: [], missing: [] }; // they name cameras of the page before
-      this.indices.clear();
-      if (storey !== this.storey) return; // there is no stream of it yet
-      this.index = this.indexOf(storey);
-      this.lastRegion = bundle.storeys[storey].regions.findIndex((region) => region.number === last);
-      this.stream.showPage(this.current);
-      this.redraw();
-    } catch (error) {
-      this.refused = this.current.regions[this.region]?.number;
-      this.failures.set('index', { file: 'the index', reason: (error as Error).message });
-      this.events.failed();
-    }
   }
 
   /** Walks along a path of the bundle, until something else moves the eye. */
@@ -199,7 +123,7 @@ export class Walk {
     if (!playing) return;
     playing.began ??= now;
     const seconds = (now - playing.began) / 1000, pose = poseAt(playing.path, seconds);
-    const [x, y] = this.index.nearestStanding([pose.eye[0], pose.eye[1]]);
+    const [x, y] = this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
     this.pose = { ...pose, eye: [x, y, this.current.eyeZ] };
     this.dirty = true;
     if (seconds < durationOf(playing.path)) return;
@@ -217,14 +141,12 @@ export class Walk {
   }
 
   settingsChanged(): void {
-    this.stream.limit = this.settings.memory * 1e6;
+    this.loaded.limitMemory(this.settings.memory);
     this.redraw();
   }
 
   retry(): void {
-    this.failures.clear();
-    this.refused = undefined;
-    this.stream.retry();
+    this.loaded.retry();
     this.redraw();
   }
 
@@ -263,22 +185,17 @@ export class Walk {
       this.dirty = true; // sharp again
       this.events.stopped();
     }
-    const { eye, yaw } = this.pose, region = this.region;
-    const full = this.settings.quality !== 'coarse';
-    const waiting = this.firstPicture === undefined;
-    this.stream.update({ eye: [eye[0], eye[1]], yaw, velocity: this.velocity, region, full, saving: savesData(), waiting });
-    if (this.source && this.turning === 0 && region >= 0 && !this.isOwn(region) && this.current.regions[region].number !== this.refused) void this.turnTo(this.storey, [eye[0], eye[1]]);
+    const { eye, yaw } = this.pose;
+    this.loaded.follow({
+      eye: [eye[0], eye[1]], yaw, velocity: this.velocity, full: this.settings.quality !== 'coarse', waiting: this.firstPicture === undefined,
+    });
     if (this.dirty && !this.pending && !this.waits(now)) this.drawFrame(moving || this.playing !== undefined);
     if (moving || this.playing || (this.dirty && !this.pending)) this.schedule();
   }
 
-  /** Drawing takes time from what is loading: a first picture is not drawn for every capture that comes. */
   private waits(now: number): boolean {
-    const { eye, yaw } = this.pose, region = this.region;
-    if (this.firstPicture !== undefined || region < 0) return false;
-    const cameras = camerasInOrder(this.current, region, [eye[0], eye[1]], yaw);
-    if (cameras.every((camera) => this.stream.capture(camera) || !this.stream.mayCome(camera))) return false;
-    return now - this.lastDraw < Math.max(kWhileLoading, kShareWhileLoading * this.lastTook);
+    const { eye, yaw } = this.pose;
+    return this.firstPicture === undefined && this.loaded.waits([eye[0], eye[1]], yaw, now - this.lastDraw, this.lastTook);
   }
 
   private move(movement: Movement, seconds: number): void {
@@ -289,7 +206,7 @@ export class Walk {
     const along = Math.hypot(movement.forward, movement.right) || 1;
     const [f, r] = [(movement.forward / along) * step, (movement.right / along) * step];
     const from: [number, number] = [eye[0], eye[1]];
-    const to = f === 0 && r === 0 ? from : this.index.walk(from, [from[0] + f * c + r * s, from[1] + f * s - r * c]);
+    const to = f === 0 && r === 0 ? from : this.regions.walk(from, [from[0] + f * c + r * s, from[1] + f * s - r * c]);
     this.velocity = [(to[0] - from[0]) / seconds, (to[1] - from[1]) / seconds];
     this.pose = { eye: [to[0], to[1], eye[2]], yaw: turned, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, tilted)) };
     this.dirty = true;
@@ -298,7 +215,7 @@ export class Walk {
   /** At the resolution that frames have when the eye stands still. */
   view(scale = 1): View {
     const density = Math.min(2, window.devicePixelRatio || 1) * this.settings.scale * scale;
-    const size = (length: number) => Math.max(1, Math.min(8192, Math.round(length * density)));
+    const size = (length: number) => Math.max(1, Math.min(kMostPixels, Math.round(length * density)));
     const width = size(this.canvas.clientWidth), height = size(this.canvas.clientHeight);
     return viewAt(this.pose, (this.settings.fov * Math.PI) / 180, width, height);
   }
@@ -322,32 +239,15 @@ export class Walk {
     const height = Math.max(1, Math.round(this.canvas.clientHeight * density));
     if (this.canvas.width !== width) this.canvas.width = width;
     if (this.canvas.height !== height) this.canvas.height = height;
-    const region = this.drawnRegion();
-    if (region < 0) return;
-    this.drawing = { width: view.width, height: view.height };
     try {
-      const scene = {
-        number: this.storey, storey: this.current, region, captureOf: (camera: number) => this.stream.capture(camera),
-        mayCome: (camera: number) => this.stream.mayCome(camera), local: this.stream.local(region),
-      };
-      this.facts = this.renderer.draw(scene, view, this.settings.holes);
+      if (!this.loaded.draw(view, this.settings.holes)) return;
+      this.loaded.present();
+      this.drawing = { width: view.width, height: view.height };
     } catch (error) { // memory, above all: what is drawn stays
       this.lost = true;
-      this.failures.set('frame', { file: 'the frame', reason: `${(error as Error).message}; open the page again, with less memory in its settings` });
-      this.events.failed();
+      this.loaded.fail('frame', { file: 'the frame', reason: `${(error as Error).message}; open the page again, with less memory in its settings` });
     }
     ++this.framesDrawn;
-  }
-
-  /** That of the eye; while more of its captures are missing, the one before, whose pictures reach a little beyond it. */
-  private drawnRegion(): number {
-    const { region } = this, { regions } = this.current, { eye, yaw } = this.pose;
-    const missing = (number: number) => {
-      const pieces = chooseCover(regions[number], [eye[0], eye[1]], yaw)?.pieces ?? [];
-      return pieces.length === 0 ? 1 : pieces.filter((piece) => !this.stream.capture(piece.camera)).length / pieces.length;
-    };
-    if (region >= 0 && (this.lastRegion < 0 || missing(region) <= missing(this.lastRegion))) this.lastRegion = region;
-    return this.lastRegion;
   }
 
   /** Until the graphics card has drawn the frame; no second one waits behind it. */
@@ -389,13 +289,12 @@ export class Walk {
   contextLost(): void {
     this.lost = true;
     this.pending = undefined;
-    this.stream.close();
+    this.loaded.contextLost();
   }
 
   contextRestored(): void {
     this.lost = false;
-    this.renderer = new Renderer(this.gl, this.bundle, this.planner);
-    this.stream = this.openStream();
+    this.loaded.contextRestored();
     this.redraw();
   }
 }

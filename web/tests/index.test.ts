@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { readIndex } from '../src/bundle/read_index';
 import { checkedBytes } from '../src/stream/load_file';
 import { contentHash } from '../src/bundle/file';
-import { defaultMemory } from '../src/settings';
+import { defaultMemory } from '../src/device';
 import { FrameTimes } from '../src/ui/frame_times';
 import { isStill, movementOf } from '../src/ui/controls';
 // @ts-expect-error a script without types

@@ -14,6 +14,9 @@ export interface View extends Pose {
   readonly focal: number; // pixels
 }
 
+/** Across and down. */
+export const kMostPixels = 8192;
+
 /** `fov`: of the picture's longer side, radians. */
 export function viewAt(pose: Pose, fov: number, width: number, height: number): View {
   return { ...pose, width, height, focal: (0.5 * Math.max(width, height)) / Math.tan(0.5 * fov) };

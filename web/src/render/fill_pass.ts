@@ -25,12 +25,8 @@ export class FillPass {
 
   private resize(width: number, height: number): void {
     if (width === this.width && height === this.height) return;
+    this.release();
     const { gl } = this;
-    for (const level of this.levels) {
-      [level.reduced, level.expanded].forEach((texture) => gl.deleteTexture(texture));
-      [level.intoReduced, level.intoExpanded].forEach((framebuffer) => gl.deleteFramebuffer(framebuffer));
-    }
-    this.levels = [];
     this.width = width;
     this.height = height;
     const into = (texture: WebGLTexture) => {
@@ -47,6 +43,15 @@ export class FillPass {
     }
   }
 
+  release(): void {
+    const { gl } = this;
+    for (const level of this.levels) {
+      [level.reduced, level.expanded].forEach((texture) => gl.deleteTexture(texture));
+      [level.intoReduced, level.intoExpanded].forEach((framebuffer) => gl.deleteFramebuffer(framebuffer));
+    }
+    this.levels = [];
+  }
+
   /** `reach`: how far colours spread into a hole, pixels. `loud`: holes are painted in a colour that nothing has. */
   draw(target: Target, reach: number, loud: boolean, nearest: number): void {
     const { gl, programs } = this;
@@ -60,8 +65,13 @@ export class FillPass {
     gl.stencilFunc(gl.EQUAL, 0, 0xff);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR); // covered from now on
     const apply = programs.whole('fill_apply.frag', loud ? ['LOUD'] : []);
-    if (known) apply.texture('coarser', 0, known);
+    if (known) {
+      apply.texture('coarser', 0, known);
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.ALWAYS);
+    }
     programs.drawWhole();
+    gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.STENCIL_TEST);
   }
 

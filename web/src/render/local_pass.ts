@@ -83,6 +83,10 @@ export class LocalPass {
     private readonly bundle: Bundle, private readonly nearest: (view: View) => number,
   ) {}
 
+  release(): void {
+    for (const texture of this.textures) if (texture) this.gl.deleteTexture(texture);
+  }
+
   private prepare(gpu: GpuLocal, batch: LocalBatch, view: View, what: 'looks' | 'mirror'): Program {
     const { gl, bundle } = this, material = bundle.materials[batch.material], looks = what === 'looks';
     const { clear } = batch, masked = material.alphaMode === 'mask', coloured = looks || masked;

@@ -119,8 +119,7 @@ export class PatchPass {
     gl.disable(gl.STENCIL_TEST);
   }
 
-  private resize(width: number, height: number): void {
-    if (width === this.width && height === this.height && this.now) return;
+  private releaseCanvases(): void {
     const { gl } = this;
     for (const canvas of [this.now, this.before]) {
       if (!canvas) continue;
@@ -128,6 +127,19 @@ export class PatchPass {
       gl.deleteTexture(canvas.states);
       gl.deleteFramebuffer(canvas.into);
     }
+  }
+
+  release(): void {
+    this.releaseCanvases();
+    for (const words of [this.patches, this.pieces, this.list]) words.release();
+    this.gl.deleteBuffer(this.tiles);
+    this.gl.deleteVertexArray(this.arrays);
+  }
+
+  private resize(width: number, height: number): void {
+    if (width === this.width && height === this.height && this.now) return;
+    this.releaseCanvases();
+    const { gl } = this;
     const make = (): Canvas => {
       const sums = makeTexture(gl, gl.RGBA32UI, width, height), states = makeTexture(gl, gl.RGBA32UI, width, height);
       return { sums, states, into: this.target.framebuffer([sums, states], undefined) };

@@ -121,6 +121,15 @@ export class Programs {
     return started;
   }
 
+  release(): void {
+    const { gl } = this;
+    for (const { handle, shaders } of this.started.values()) {
+      for (const { shader } of shaders) gl.deleteShader(shader);
+      gl.deleteProgram(handle);
+    }
+    gl.deleteVertexArray(this.noAttributes);
+  }
+
   private finish({ handle, shaders, defines }: Started): Program {
     const { gl } = this;
     if (!gl.getProgramParameter(handle, gl.LINK_STATUS) && !gl.isContextLost()) {
@@ -186,5 +195,9 @@ export class DataTexture {
     }
     sendArray(gl, this.format, gl.UNSIGNED_INT, this.channels, values);
     return this.texture!;
+  }
+
+  release(): void {
+    if (this.texture) this.gl.deleteTexture(this.texture);
   }
 }

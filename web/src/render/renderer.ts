@@ -45,6 +45,14 @@ export interface FrameFacts {
   localTriangles: number;
 }
 
+export type Within = <Result>(work: () => Result) => Result;
+
+export interface Picture {
+  colour: WebGLTexture;
+  depth: WebGLTexture;
+  nearest: number; // of local geometry, metres
+}
+
 export class Renderer {
   private readonly programs: Programs;
   private readonly target: Target;
@@ -56,7 +64,11 @@ export class Renderer {
   private readonly captures = new Map<number, GpuCapture>();
   private nearBand = 1;
 
-  constructor(private readonly gl: WebGL2RenderingContext, private readonly bundle: Bundle, private readonly planner: Planner) {
+  /** `within`: around what is sent to the graphics card between frames, for those who share the context with others. */
+  constructor(
+    private readonly gl: WebGL2RenderingContext, private readonly bundle: Bundle, private readonly planner: Planner,
+    private readonly within: Within,
+  ) {
     this.programs = new Programs(gl);
     this.target = new Target(gl);
     this.pool = new TexelPool(gl);
@@ -77,7 +89,8 @@ export class Renderer {
     return this.fill.possible;
   }
 
-  uploadCapture(capture: Capture): GpuCapture {
+  uploadCapture = (capture: Capture): GpuCapture => this.within(() => this.sendCapture(capture));
+  private sendCapture(capture: Capture): GpuCapture {
     const { gl } = this, rows = this.pool.add(capture.colours, capture.covers);
     const number = this.planner.addCapture(capture.part, rows.first * kTexelsAcross);
     const runs = capture.runs.length > 0 ? arrayTexture(gl, gl.RG32UI, gl.RG_INTEGER, gl.UNSIGNED_INT, 2, capture.runs) : undefined;
@@ -91,10 +104,15 @@ export class Renderer {
     this.pool.remove(gpu.rows);
     if (gpu.runs) this.gl.deleteTexture(gpu.runs);
   }
-  uploadLocal = (geometry: LocalGeometry): GpuLocal => uploadLocal(this.gl, geometry);
+  uploadLocal = (geometry: LocalGeometry): GpuLocal => this.within(() => uploadLocal(this.gl, geometry));
   deleteLocal = (gpu: GpuLocal): void => deleteLocal(this.gl, gpu);
   uploadTexture(number: number, picture: ImageBitmap): void {
-    this.locals.textures[number] = uploadTexture(this.gl, picture, this.bundle.textures[number]);
+    this.locals.textures[number] = this.within(() => uploadTexture(this.gl, picture, this.bundle.textures[number]));
+  }
+
+  /** All that is not a capture or local geometry: those are their owner's. */
+  release(): void {
+    for (const part of [this.programs, this.target, this.pool, this.patches, this.fill, this.locals, this.columns]) part.release();
   }
 
   /** Of local geometry, metres along the view's axis. */
@@ -102,7 +120,15 @@ export class Renderer {
     return 0.01 * Math.min(this.nearBand, 1);
   }
 
-  /** Draws the view and shows it on the canvas, scaled to it. `loudHoles`: they are not filled, but shown. */
+  /** What was drawn last: sRGB codes, alpha 0 where nothing is; and depths, as shaders/capture_depth.glsl tells. */
+  get picture(): Picture {
+    return { colour: this.target.colour, depth: this.target.depth, nearest: this.nearest() };
+  }
+
+  /** Shows it on the canvas, scaled to it. */
+  present = (): void => this.target.present();
+
+  /** Draws the view. `loudHoles`: they are not filled, but shown. */
   draw(scene: Scene, view: View, loudHoles: boolean): FrameFacts {
     const { gl, target } = this, { storey } = scene;
     this.nearBand = storey.nearBand;
@@ -126,7 +152,6 @@ export class Renderer {
     }
     this.fill.draw(target, facts.awaited ? kFillReachWhileLoading : kFillReach, loudHoles, this.nearest());
     if (local) this.drawGlass(local, view);
-    target.present();
     gl.bindVertexArray(null);
     return facts;
   }

@@ -48,6 +48,10 @@ export class TexelPool {
     }
   }
 
+  release(): void {
+    for (const texture of [this.colours, this.covers]) if (texture) this.gl.deleteTexture(texture);
+  }
+
   private take(count: number): Rows {
     let found = this.free.find((rows) => rows.count >= count);
     if (!found) {

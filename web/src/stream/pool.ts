@@ -35,6 +35,11 @@ export class LoaderPool {
     return this.workers.reduce((sum, entry) => sum + Math.max(0, kEach - entry.busy), 0);
   }
 
+  /** What is under way never comes. */
+  close(): void {
+    for (const { worker } of this.workers) worker.terminate();
+  }
+
   load(task: Task, file: FileRef, again: boolean): Promise<Loaded> {
     const entry = this.workers.reduce((least, other) => (other.busy < least.busy ? other : least));
     ++entry.busy;

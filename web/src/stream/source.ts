@@ -1,4 +1,4 @@
-/** Where the bundle's files are: beside the page, within it (export --single-file), or in a walk. */
+/** Where the files of a bundle are: in a folder, or in a walk. */
 
 import type { FileRef } from '../bundle/types';
 import { rangesOf, WalkFile, type WalkPage } from '../bundle/walk_file';
@@ -12,25 +12,15 @@ export interface Source {
   bytes(file: string): Uint8Array | undefined;
 }
 
-/** Elements of a page that holds its bundle: <script type="application/octet-stream" data-file="NAME">base64</script>. */
-const elementOf = (file: string) => document.querySelector(`script[data-file="${CSS.escape(file)}"]`);
-
 export function decodedBase64(base64: string): Uint8Array {
   const text = atob(base64);
   return Uint8Array.from({ length: text.length }, (_, i) => text.charCodeAt(i));
 }
 
-class WithinPage implements Source {
-  text = async (file: string) => new TextDecoder().decode(this.bytes(file));
-  url = () => undefined;
-  from = () => undefined;
-  bytes(file: string): Uint8Array {
-    const element = elementOf(file);
-    return element ? decodedBase64((element.textContent ?? '').trim()) : new Uint8Array(0);
-  }
-}
+/** Files of their own, in a folder of a host. */
+export class FolderSource implements Source {
+  constructor(private readonly folder: string) {} // absolute address, or of a file within it
 
-class BesidePage implements Source {
   async text(file: string): Promise<string> {
     let response: Response;
     try {
@@ -46,7 +36,7 @@ class BesidePage implements Source {
     if (!response.ok) throw new Error(`${file}: the server answers ${response.status}`);
     return response.text();
   }
-  url = (file: string) => new URL(file, document.baseURI).href;
+  url = (file: string) => new URL(file, this.folder).href;
   bytes = () => undefined;
   from = () => undefined;
 }
@@ -67,11 +57,4 @@ export class WalkSource implements Source {
   url = () => this.address;
   bytes = () => undefined;
   from = ({ at }: FileRef) => (at === undefined ? undefined : this.walk.dataStart + at);
-}
-
-/** The walk that the page's address names (?walk=FILE), or the bundle within the page or beside it. */
-export async function sourceFor(index: string): Promise<Source> {
-  const walk = new URLSearchParams(location.search).get('walk');
-  if (walk !== null) return WalkSource.open(new URL(walk, document.baseURI).href);
-  return elementOf(index) ? new WithinPage() : new BesidePage();
 }

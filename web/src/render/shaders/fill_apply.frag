@@ -4,6 +4,7 @@ layout(location = 0) out vec4 colour;
 
 void main() { colour = vec4(1.0, 0.0, 0.86, 1.0); }
 #else
+#include "capture_depth.glsl"
 #include "fill.glsl"
 
 layout(location = 0) out vec4 colour;
@@ -13,5 +14,6 @@ void main() {
   vec4 texel = fromCoarser(coarser, ivec2(gl_FragCoord.xy));
   if (texel.a < 0.0) discard;
   colour = vec4(texel.rgb, 1.0);
+  gl_FragDepth = captureDepth(texel.a);
 }
 #endif
