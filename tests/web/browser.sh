@@ -6,7 +6,7 @@ here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 command -v node > /dev/null || { echo "node is not installed: skipped"; exit 77; }
 chromium=$(command -v chromium || true)
 [[ -n $chromium ]] || { echo "chromium is not installed: skipped"; exit 77; }
-[[ -d $web/node_modules && -f $web/dist/index.html ]] || { echo "the page is not built (npm ci && npm run build in $web): skipped"; exit 77; }
+[[ -d $web/node_modules && -f $web/dist/index.html && -f $web/three/dist/acentric-three.js ]] || { echo "the page is not built (npm ci && npm run build in $web): skipped"; exit 77; }
 
 mkdir -p "$work"
 cd -- "$work"
