@@ -59,6 +59,14 @@ click path.play
 wait_for '^event message Replay of along' 30
 import -window root "$WORK/paths.png"
 
+# Another renderer for a look.
+click walk.settings
+click walk.renderer
+click walk.renderer.gl
+press Escape
+wait_for '^event glframe .* missing 0' 60
+import -window root "$WORK/opengl.png"
+
 # Baking and editing are not to be had, by button, key or menu.
 for item in tool.cells walk.setStart view.split view.scene3d; do
   click $item
@@ -90,4 +98,4 @@ sleep 1
 import -window root "$WORK/cut.png"
 press Return
 leave_editor
-echo "passed: screenshots $WORK/walk.png, paths.png, tooltip.png, cut.png"
+echo "passed: screenshots $WORK/walk.png, paths.png, opengl.png, tooltip.png, cut.png"
