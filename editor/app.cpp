@@ -312,7 +312,7 @@ void App::followPreferences() {
 }
 
 void App::startGuide() {
-  if (!guideWanted_ || !session_.built() || session_.opening().running()) return;
+  if (!guideWanted_ || !session_.built() || session_.shippedWalk() || session_.opening().running()) return;
   guideWanted_ = false;
   const ActionContext actions{session_, state_};
   state_.guide.start(guideFacts(actions));

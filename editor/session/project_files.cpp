@@ -25,7 +25,8 @@ fs::path shippedWalkOf(const fs::path& file) {
   if (file.filename() == kBundleIndex) return file.parent_path();
   std::error_code error;
   const bool walk = fs::is_directory(file, error) || file.extension() == kWalkEnding || isBundle(file);
-  return walk ? file : fs::path();
+  if (!walk) return {};
+  return file.has_filename() ? file : file.parent_path();  // "folder/"
 }
 
 fs::path suggestedProjectFile(const fs::path& model) {

@@ -170,7 +170,7 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
 Project projectOf(const ShippedWalk& walk) {
   const Bundle& bundle = walk.bundle;
   Project project;
-  project.scene = walk.file.filename();
+  project.scene = kBundleIndex;  // no model, and a project names one
   project.storeys.clear();
   for (std::size_t s = 0; s < bundle.storeys.size(); ++s)
     project.storeys.push_back({bundle.storeys[s].name,

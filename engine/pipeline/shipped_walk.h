@@ -30,7 +30,7 @@ using ShippedWalkPtr = std::shared_ptr<const ShippedWalk>;
 Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRunner& runner,
                                        const Progress& progress = {}, const std::stop_token& stop = {});
 
-/// What a project would say of it: storeys, how it is shown, bookmarks and paths. `scene` is the walk itself.
+/// What a project would say of it: storeys, how it is shown, bookmarks and paths.
 Project projectOf(const ShippedWalk& walk);
 /// The storey that `project`, one of these, shows.
 OpenProject openProject(const ShippedWalk& walk, const Project& project);

@@ -84,6 +84,8 @@ TEST_F(ShippedWalkTest, ShowsTheFramesOfItsOtherReadersBitForBit) {
 
 TEST_F(ShippedWalkTest, HasWhatItsProjectSaysOfTheWalk) {
   Session session(options());
+  openWhole(session, room / "bundle" / "");
+  EXPECT_EQ(session.file(), room / "bundle");
   openWhole(session, room / "bundle" / kBundleIndex);  // the folder, by its index
   EXPECT_EQ(session.file(), room / "bundle");
   const Project project = session.project(), from = test::everythingProject();
@@ -197,6 +199,19 @@ TEST_F(ShippedWalkTest, CoarseCapturesStandInForDamagedOnes) {
     EXPECT_TRUE(session.walk()->standsIn[c]);
     EXPECT_TRUE(session.walk()->walk.captures[c]);
   }
+}
+
+TEST_F(ShippedWalkTest, DamagedRangesOfAFileAreNamed) {
+  std::string bytes = *readText(room / "small.acentric");
+  for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += bytes.size() / 20) bytes[at] ^= 0x55;
+  const fs::path file = folder_ / "damaged.acentric";
+  ASSERT_TRUE(writeTextAtomically(file, bytes));
+  Session session(options());
+  openWhole(session, file);
+  EXPECT_TRUE(told(session, file.string() + ", captures/"));
+  EXPECT_TRUE(told(session, "its hash differs. The coarse capture stands in; copy the walk again"));
+  const auto& standsIn = session.walk()->standsIn;
+  EXPECT_TRUE(std::ranges::count(standsIn, true) > 0 && std::ranges::count(standsIn, false) > 0);
 }
 
 TEST_F(ShippedWalkTest, DamagedSurroundingsAreNamedAndLeftOut) {
