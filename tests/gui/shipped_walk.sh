@@ -1,6 +1,7 @@
 #!/bin/bash
 # Opens a shipped walk in the editor, by real input events: walks and looks around, puts the eye by a click on the plan,
-# goes to a bookmark and plays a path, tries what a walk cannot do, saves a picture; then a walk that was cut off.
+# goes to a bookmark and plays a path, tries what a walk cannot do, saves a picture; then the folder of a bundle by the dialog,
+# and a walk that was cut off.
 #   shipped_walk.sh EDITOR ACENTRIC WORK_FOLDER
 . "$(dirname "$0")/script.sh" "$@"
 
@@ -17,6 +18,7 @@ mkdir "$WORK/shipped"
 WALK=$WORK/shipped/room.acentric
 "$ACENTRIC" export "$PROJECT" --to walk "$WALK" >"$WORK/export.out" 2>&1 || { cat "$WORK/export.out"; exit 1; }
 SUM=$(cksum <"$WALK")
+"$ACENTRIC" export "$PROJECT" --to bundle "$WORK/bundle" >"$WORK/export.out" 2>&1 || { cat "$WORK/export.out"; exit 1; }
 
 start_display
 start_editor "$WALK"
@@ -87,6 +89,16 @@ press_with ctrl w
 wait_for '^event state empty' 20
 [ "$(ls "$WORK/shipped")" = "$(printf 'room-view-001.png\nroom.acentric')" ] || fail "left beside the walk: $(ls "$WORK/shipped")"
 [ "$SUM" = "$(cksum <"$WALK")" ] || fail "the walk was written to"
+
+# The folder of a bundle, by the dialog.
+press_with ctrl o
+wait_until 20 rect file.name >/dev/null || fail "no dialog opens"
+xdotool type --delay 60 "$WORK/bundle/bundle.json"
+sleep 0.5
+import -window root "$WORK/dialog.png"
+press Return
+wait_for '^event message Opened bundle, a walk' 60
+wait_state 'working 0 dirty 0 undo 0 problems 0' 60
 grep -q '^event failure' "$WORK/ui.log" && fail "a failure was shown: $(grep '^event failure' "$WORK/ui.log")"
 leave_editor
 
@@ -98,4 +110,4 @@ sleep 1
 import -window root "$WORK/cut.png"
 press Return
 leave_editor
-echo "passed: screenshots $WORK/walk.png, paths.png, opengl.png, tooltip.png, cut.png"
+echo "passed: screenshots $WORK/walk.png, paths.png, opengl.png, tooltip.png, dialog.png, cut.png"
