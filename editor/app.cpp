@@ -13,6 +13,7 @@
 #include "editor/panels/report_panel.h"
 #include "editor/panels/settings_panel.h"
 #include "editor/panels/status_bar.h"
+#include "editor/panels/walk_facts.h"
 #include "editor/panels/welcome.h"
 #include "editor/session/window_places.h"
 #include "ui/keys.h"
@@ -206,6 +207,10 @@ void App::keepDrawing(PanelContext& context) {
 }
 
 void App::drawBottom(PanelContext& context, const PaneSizes& panes) {
+  if (session_.shippedWalk()) {  // nothing to bake or to report of
+    if (beginPane("##messagesPane", {0, panes.bottom})) drawBottomTabs(context);
+    return endPane();
+  }
   const float gap = 2;
   if (beginPane("##bakePane", {panes.bake, panes.bottom})) drawBakePanel(context);
   endPane();
@@ -236,7 +241,12 @@ float App::drawLayout(PanelContext& context, float top) {
   };
   using enum ui::SplitDirection;
   if (panes.settings > 0) {
-    if (beginPane("##settingsPane", {panes.settings, height})) drawSettingsPanel(context, configurations_);
+    if (beginPane("##settingsPane", {panes.settings, height})) {
+      if (session_.shippedWalk())
+        drawWalkFacts(context);
+      else
+        drawSettingsPanel(context, configurations_);
+    }
     endPane();
     ImGui::SameLine(0, 0);
     split("##split1", horizontal, height, panes.settings, wanted.settingsWidth, 220, display.x * 0.4F, false);
@@ -302,7 +312,7 @@ void App::followPreferences() {
 }
 
 void App::startGuide() {
-  if (!guideWanted_ || !session_.built() || session_.opening().running()) return;
+  if (!guideWanted_ || !session_.built() || session_.shippedWalk() || session_.opening().running()) return;
   guideWanted_ = false;
   const ActionContext actions{session_, state_};
   state_.guide.start(guideFacts(actions));

@@ -10,7 +10,11 @@ int main(int argc, char** argv) {
   CLI::App command("Lay, bake and walk acentric panorama views in a window.", "acentric-editor");
   acentric::editor::AppOptions options;
   std::string size;
-  command.add_option("file", options.file, "a project (*.acentric.json), or a model for a new project")
+  command
+      .add_option(
+          "file", options.file,
+          "a project (*.acentric.json), a walk (*.acentric, or the folder of a bundle), or a model for a "
+          "new project")
       ->type_name("FILE");
   command
       .add_option("--sample", options.sample,
@@ -29,7 +33,9 @@ int main(int argc, char** argv) {
   command.add_option("--exit-after", options.exitAfterSeconds, "leave by itself after so many seconds")
       ->check(CLI::NonNegativeNumber);
   command.footer(
-      "Examples:\n  acentric-editor\n  acentric-editor gallery.acentric.json\n  acentric-editor kitchen.glb");
+      "Examples:\n  acentric-editor\n  acentric-editor gallery.acentric.json\n  acentric-editor "
+      "gallery.acentric\n  "
+      "acentric-editor kitchen.glb");
   CLI11_PARSE(command, argc, argv);
   if (glm::ivec2 wanted(0); !size.empty())
     options.size = std::sscanf(size.c_str(), "%dx%d", &wanted.x, &wanted.y) == 2 ? wanted : glm::ivec2(0);

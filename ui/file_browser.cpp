@@ -186,7 +186,7 @@ void FileBrowser::drawFooter(UiLog& log) {
   ImGui::AlignTextToFramePadding();
   if (question_.empty()) {
     std::string filter = "All files";
-    if (!request_.endings.empty()) filter = fmt::format("{}", fmt::join(request_.endings, "  "));
+    if (!request_.endings.empty()) filter = fmt::format("{}", fmt::join(request_.endings, " "));
     mutedText(filter);
   } else {
     wrappedText(palette::warning, question_);

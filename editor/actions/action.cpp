@@ -13,6 +13,7 @@ void saved(ActionContext& context, const Status& status, const Continuation& the
 std::string whyDisabled(const Action& action, const ActionContext& context) {
   if (action.enabled(context)) return {};
   if (!context.session.hasProject()) return "needs an open project";
+  if (action.needsProject && context.session.shippedWalk()) return kIsWalk;
   if (!context.session.built()) return "the project is still being opened";
   return action.needs.empty() ? "not now" : "needs " + action.needs;
 }
@@ -30,6 +31,25 @@ GuideFacts guideFacts(const ActionContext& context) {
   if (session.hasProject()) facts.changes = int(session.history().cursor());
   if (session.captures()) facts.baked = session.captures()->baked;
   return facts;
+}
+
+void beginAfresh(ActionContext& context) {
+  EditorState& state = context.state;
+  state.fitPlan = true;
+  state.selection.clear();
+  state.walkSelection = {};
+  state.recorder = {};
+  state.replay = {};
+  state.goTo.reset();
+  state.planTool.setMode(context.session.shippedWalk() ? PlanMode::eye : PlanMode::cells);
+  if (!context.session.shippedWalk()) return;
+  state.centreView = CentreView::plan;
+  if (state.overlay != PlanOverlay::bake && state.overlay != PlanOverlay::bytes)
+    state.overlay = PlanOverlay::none;
+  if (compares(state.walkLook)) state.walkLook = WalkLook::picture;
+  state.showTable = false;
+  state.array.reset();
+  state.trial.reset();
 }
 
 void noteUse(EditorState& state, const std::string& id) {

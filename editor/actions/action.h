@@ -27,12 +27,16 @@ struct Action {
   std::function<void(ActionContext&)> run;
   std::function<bool(const ActionContext&)> checked;  ///< for switches; else empty
   std::string needs = {};                             ///< beside an open project: "a selected cell"
+  bool needsProject = false;                          ///< a walk in its place does not do
 };
 
 /// Why it cannot be done now, in a few words; empty if it can.
 std::string whyDisabled(const Action& action, const ActionContext& context);
 /// What the guided start watches.
 GuideFacts guideFacts(const ActionContext& context);
+/// After a project or a walk was opened: nothing is selected or played, and of a walk nothing is shown that
+/// only a project has.
+void beginAfresh(ActionContext& context);
 /// Puts it first among those that were used last.
 void noteUse(EditorState& state, const std::string& id);
 

@@ -74,7 +74,7 @@ void addFileActions(std::vector<Action>& table) {
                    "Open…",
                    {key::o, kCtrl},
                    {},
-                   "A project, or a model for a new project",
+                   "A project, a walk, or a model for a new project",
                    false,
                    always,
                    [](ActionContext& c) {
@@ -108,7 +108,7 @@ void addFileActions(std::vector<Action>& table) {
   addOutsideActions(table);
   table.push_back({"file.close",
                    "File",
-                   "Close project",
+                   "Close",
                    {key::w, kCtrl},
                    {},
                    "",

@@ -10,19 +10,22 @@ constexpr float kTabHeight = 30;
 void tab(PanelContext& context, const char* id, const char* label) {
   const Action& action = *findAction(context.table, std::string(id));
   const bool on = action.checked(context.actions);
+  const std::string why = whyDisabled(action, context.actions);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 text = ImGui::CalcTextSize(label);
   const ImVec2 size(text.x + 32, kTabHeight);
   if (ImGui::InvisibleButton(id, size)) runAction(context, action);
   context.log.item(id);
   const bool hovered = ImGui::IsItemHovered();
-  ui::tooltip(action.help + "  [" + describe(action.shortcut) + "]");
+  ui::tooltip(action.help + "  [" + describe(action.shortcut) + "]" +
+              (why.empty() ? "" : "\nNot now: " + why));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);
-  if (on || hovered) list.AddRectFilled(at, end, (on ? ui::palette::panel : ui::palette::raised).packed());
+  if (on || (hovered && why.empty()))
+    list.AddRectFilled(at, end, (on ? ui::palette::panel : ui::palette::raised).packed());
   if (on) list.AddRectFilled(at, {end.x, at.y + 2}, ui::palette::accent.packed());
-  list.AddText({at.x + 16, at.y + (size.y - text.y) / 2},
-               (on ? ui::palette::text : ui::palette::muted).packed(), label);
+  const ui::Colour& ink = !why.empty() ? ui::palette::faint : on ? ui::palette::text : ui::palette::muted;
+  list.AddText({at.x + 16, at.y + (size.y - text.y) / 2}, ink.packed(), label);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "editor/panels/document_dialogs.h"
 #include "editor/panels/preferences_dialog.h"
 #include "editor/session/project_files.h"
+#include "engine/export/bundle.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
@@ -18,7 +19,7 @@ std::vector<std::string> modelEndings() {
 
 std::vector<std::string> allEndings() {
   std::vector<std::string> endings = modelEndings();
-  endings.insert(endings.begin(), kProjectEnding);
+  endings.insert(endings.begin(), {kProjectEnding, kWalkEnding, kBundleIndex});
   return endings;
 }
 
@@ -51,7 +52,7 @@ void Dialogs::openFileDialogs(PanelContext& context) {
   };
   const std::filesystem::path& last = session.preferences().lastFolder;
   if (state.dialog == Dialog::openFile) {
-    browse("Open a project or a model", last, allEndings(),
+    browse("Open a project, a walk or a model", last, allEndings(),
            [&session](const std::filesystem::path& file) { session.open(file); });
   } else if (state.dialog == Dialog::newFile) {
     browse("Choose a model for a new project", last, modelEndings(),

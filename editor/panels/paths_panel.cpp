@@ -86,6 +86,7 @@ void drawList(PanelContext& context) {
 
 void drawName(PanelContext& context, const std::string& current,
               Edit (*rename)(const Project&, std::size_t, std::string)) {
+  if (context.session().shippedWalk()) return ImGui::TextUnformatted(current.c_str());
   const std::size_t number = context.state().walkSelection.number;
   std::array<char, 101> name{};
   current.copy(name.data(), name.size() - 1);
@@ -174,6 +175,8 @@ void drawPathsPanel(PanelContext& context) {
   drawRecording(context);
   const Project& project = context.session().project();
   if (project.bookmarks.empty() && project.paths.empty()) {
+    if (context.session().shippedWalk())
+      return ui::wrappedText(ui::palette::muted, "This walk has neither bookmarks nor paths.");
     ui::wrappedText(
         ui::palette::muted,
         "Press Record walk (Ctrl+R), walk with W A S D, and press it again: the walk becomes a path to "

@@ -52,8 +52,9 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   const OpenProject& open = *session.built();
   const LayoutSpec& spec = session.project().layout();
   const bool tried = state.trial || state.planTool.latticeTool().dragging();
-  if (state.showLattice || context.log.on()) freeCells_.update(open.layout, view_);
-  if (state.showLattice && !tried) freeCells_.draw(list, view_);
+  const bool lattice = !session.shippedWalk();  // which has none
+  if (lattice && (state.showLattice || context.log.on())) freeCells_.update(open.layout, view_);
+  if (lattice && state.showLattice && !tried) freeCells_.draw(list, view_);
   if (BakeMarks marks = bakeMarks(session.bakeQueue(), session.project().storey); marks != *marks_)
     marks_ = std::make_shared<const BakeMarks>(std::move(marks));
   layers_.update({open.layout, session.captures(), marks_, state.overlay,
@@ -314,7 +315,8 @@ void PlanPanel::logCells(PanelContext& context) const {
       logPoint(glm::dvec2(path->path.poses[i].eye), [i] { return fmt::format("pose.{}", i); });
   const Layout& layout = *context.actions.session.built()->layout;
   if (layout.spec.cellSize * view_.pixelsPerMetre() < kLeastCellPixels) return;
-  for (const LatticeCell& cell : freeCells_.cells()) logCell("free", cell.id, cell.polygon);
+  if (!context.actions.session.shippedWalk())
+    for (const LatticeCell& cell : freeCells_.cells()) logCell("free", cell.id, cell.polygon);
   for (const Region& region : layout.regions) logCell("cell", region.id, region.polygon);
 }
 

@@ -50,10 +50,12 @@ void drawOverlayMenu(PanelContext& context) {
     if (action == nullptr) continue;
     std::string label = nameOf(overlay);
     if (const std::string key = describe(action->shortcut); !key.empty()) label += "   [" + key + "]";
-    if (ImGui::Selectable(label.c_str(), state.overlay == overlay) && state.overlay != overlay)
+    const std::string why = whyDisabled(*action, context.actions);
+    const auto flags = why.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable(label.c_str(), state.overlay == overlay, flags) && state.overlay != overlay)
       runAction(context, *action);
     context.log.item(std::string("overlay.") + nameOf(overlay));
-    ui::tooltip(action->help);
+    ui::tooltip(why.empty() ? action->help : action->help + "\nNot now: " + why);
   }
   ImGui::EndCombo();
 }

@@ -48,19 +48,7 @@ void drawStoreyName(PanelContext& context) {
 
 void drawStoreys(PanelContext& context) {
   if (!ui::section("Storey")) return;
-  const Project& project = context.session().project();
-  std::vector<ui::Choice> choices;
-  for (const Storey& storey : project.storeys) {
-    const double floor = std::round(storey.layout.floorHeight * 100) / 100 + 0.0;  // + 0: no "-0.00"
-    choices.push_back({fmt::format("{}   {:.2f} m", storey.name, floor), "", true,
-                       fmt::format("{} ({:.2f} m)", storey.name, floor)});
-  }
-  int index = project.storey;
-  const ui::FieldEdit edit =
-      ui::choiceField("Storey", choices, index, kLabelWidth,
-                      "The walk plane that is shown and edited, and where the walk begins.");
-  context.log.item("settings.storey");
-  applyFieldEdit(context, edit, showStorey(project, index));
+  drawStoreyChoice(context);
   drawStoreyName(context);
   ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
   actionButton(context, "storey.find", ButtonLook::plain, {}, "Find more");
@@ -310,6 +298,22 @@ void drawImport(PanelContext& context) {
 }
 
 }  // namespace
+
+void drawStoreyChoice(PanelContext& context) {
+  const Project& project = context.session().project();
+  std::vector<ui::Choice> choices;
+  for (const Storey& storey : project.storeys) {
+    const double floor = std::round(storey.layout.floorHeight * 100) / 100 + 0.0;  // + 0: no "-0.00"
+    choices.push_back({fmt::format("{}   {:.2f} m", storey.name, floor), "", true,
+                       fmt::format("{} ({:.2f} m)", storey.name, floor)});
+  }
+  int index = project.storey;
+  const ui::FieldEdit edit =
+      ui::choiceField("Storey", choices, index, kLabelWidth,
+                      "The walk plane that is shown and edited, and where the walk begins.");
+  context.log.item("settings.storey");
+  applyFieldEdit(context, edit, showStorey(project, index));
+}
 
 void drawSettingsPanel(PanelContext& context, ConfigurationPicker& configurations) {
   ui::panelTitle(context.window.fonts().bold, "Project");

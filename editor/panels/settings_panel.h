@@ -8,6 +8,9 @@ namespace acentric::editor {
 
 void drawSettingsPanel(PanelContext& context, ConfigurationPicker& configurations);
 
+/// Which storey is shown and edited.
+void drawStoreyChoice(PanelContext& context);
+
 /// The effect plan: what the scene calls for, with reasons and overrides. A section of the settings.
 void drawEffects(PanelContext& context);
 

@@ -7,6 +7,7 @@
 
 #include "editor/panels/bake_panel.h"
 #include "editor/panels/problems_panel.h"
+#include "editor/panels/walk_facts.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -84,6 +85,7 @@ void drawWork(const Session& session, const Job& job) {
 
 void drawSaved(const Session& session) {
   if (!session.hasProject()) return ui::badge(ui::palette::faint, "ready");
+  if (session.shippedWalk()) return ui::badge(ui::palette::good, "a walk, not edited");
   const char* text = session.untitled() ? "not saved yet" : session.dirty() ? "unsaved changes" : "saved";
   ui::badge(session.dirty() ? ui::palette::warning : ui::palette::good, text);
 }
@@ -128,7 +130,8 @@ void drawStatusBar(PanelContext& context) {
   if (hintEnd > to) return;
   ImGui::SameLine(from);
   ui::mutedText(hint);
-  const std::string file = ui::shortenPath(session.file().string(), 52);
+  const std::string file =
+      session.shippedWalk() ? walkLine(*session.shippedWalk()) : ui::shortenPath(session.file().string(), 52);
   const float fileFrom = to - ImGui::CalcTextSize(file.c_str()).x;
   if (fileFrom < hintEnd + 2 * margin) return;
   ImGui::SameLine(fileFrom);

@@ -67,12 +67,7 @@ void WalkPanel::followProject(PanelContext& context) {
     generation_ = session.generation();
     shown_ = {};
     problem_.clear();
-    state.fitPlan = true;
-    state.selection.clear();
-    state.walkSelection = {};
-    state.recorder = {};
-    state.replay = {};
-    state.goTo.reset();
+    beginAfresh(context.actions);
   }
   // Cells may have gone from under the eye, or the eye height changed.
   const WalkPose pose = standing(*session.built(), state.walker.pose());

@@ -280,6 +280,8 @@ void WalkPanel::drawNotice(const PanelContext& context, const ImVec2& low, const
     say(ui::palette::text, "No cells yet. Click a free place on the plan to add one.");
   else if (!problem_.empty())
     say(ui::palette::danger, problem_);
+  else if (nothingBaked(session) && session.shippedWalk())
+    say(ui::palette::text, "This walk has no captures: it was exported before anything was baked.");
   else if (nothingBaked(session))
     say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
   else if (!session.walk())
@@ -293,7 +295,9 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   std::string where = "outside";
   if (region) {
     const Region& r = layout.regions[std::size_t(*region)];
-    where = fmt::format("{} ({}, {})", r.kind == RegionKind::ring ? "ring" : "gap", r.id.i, r.id.j);
+    const char* kind = r.kind == RegionKind::ring ? "ring" : "gap";
+    where = session.shippedWalk() ? fmt::format("{} {}", kind, *region)
+                                  : fmt::format("{} ({}, {})", kind, r.id.i, r.id.j);
   }
   std::string text = where;
   if (shown_.valid && problem_.empty()) {
@@ -318,8 +322,8 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   }
   if (shown_.valid)
     if (const std::string words = capturesAwaitedText(shown_.stats); !words.empty()) line(words);
-  if (session.walk() && !session.walk()->walk.surfaceLight && !nothingBaked(session))
-    line("near geometry unlit until a bake ends");
+  const bool lit = session.shippedWalk() || (session.walk() && session.walk()->walk.surfaceLight);
+  if (session.walk() && !lit && !nothingBaked(session)) line("near geometry unlit until a bake ends");
   if (session.streaming()) line("captures are being read");
   if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
 }

@@ -126,6 +126,8 @@ void drawEyeHeight(PanelContext& context) {
       heights.high > heights.low
           ? fmt::format("Page Up and Page Down too. Captures are baked for {:.2f} to {:.2f} m.",
                         heights.low - floor, heights.high - floor)
+      : context.session().shippedWalk()
+          ? "A walk is looked at from the height of its captures."
           : "Captures are baked for this height alone: set an eye range under bake quality.";
   ImGui::BeginDisabled(heights.high <= heights.low);
   const ui::FieldEdit edit =
@@ -143,10 +145,12 @@ void drawWalking(PanelContext& context) {
   const Project& project = context.session().project();
   number(context, "fov", {"Field of view", "%.0f°", 0.2, 10, 150, "Horizontal."}, project.fovDegrees,
          [&](double v) { return setFieldOfView(project, v); });
+  ImGui::BeginDisabled(context.session().shippedWalk() != nullptr);  // its colours are as they are shown
   number(
       context, "exposure",
       {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
       double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
+  ImGui::EndDisabled();
   drawEyeHeight(context);
   walkSpeedField(context, kLabelWidth);
   context.log.item("walk.speed");

@@ -25,7 +25,7 @@ void drawRecentFiles(PanelContext& context) {
   ImGui::Dummy({0, ui::scaled(18)});
   const float left = (ImGui::GetWindowSize().x - listWidth()) / 2;
   ImGui::SetCursorPosX(left);
-  ui::mutedText("Recent projects");
+  ui::mutedText("Recent projects and walks");
   for (const std::filesystem::path& file : recent) {
     ImGui::SetCursorPosX(left);
     const std::string label = file.filename().string() + "##" + file.string();
@@ -63,7 +63,7 @@ void drawUnsavedWork(PanelContext& context) {
 void drawWelcome(PanelContext& context) {
   const ui::Fonts& fonts = context.window.fonts();
   ImGui::SetCursorPosY(std::max(20.0F, ImGui::GetWindowSize().y * 0.26F));
-  centredText(fonts.title, ui::palette::text, "Open a project, or a 3D model to begin one");
+  centredText(fonts.title, ui::palette::text, "Open a project or a walk, or a 3D model to begin a project");
   ImGui::Dummy({0, 4});
   centredText(fonts.regular, ui::palette::muted, "Acentric lays, bakes and walks acentric panorama views.");
   ImGui::Dummy({0, ui::scaled(16)});
@@ -75,7 +75,7 @@ void drawWelcome(PanelContext& context) {
   actionButton(context, "file.new", ButtonLook::plain, button);
   ImGui::Dummy({0, 8});
   centredText(fonts.small, ui::palette::faint,
-              "or drop a file here:  .acentric.json   .glb .gltf   .obj .ply .stl .fbx .dae");
+              "or drop a file here:  .acentric.json   .acentric   .glb .gltf   .obj .ply .stl .fbx .dae");
   drawUnsavedWork(context);
   drawRecentFiles(context);
 }

@@ -2,6 +2,8 @@
 
 #include "engine/base/file.h"
 #include "engine/base/link_file.h"
+#include "engine/export/bundle.h"
+#include "engine/export/walk_read.h"
 #include "engine/pipeline/collect_model.h"
 
 namespace acentric::editor {
@@ -18,6 +20,14 @@ fs::path folderOf(const fs::path& file) {
 }  // namespace
 
 bool isProjectFile(const fs::path& file) { return file.filename().string().ends_with(kProjectEnding); }
+
+fs::path shippedWalkOf(const fs::path& file) {
+  if (file.filename() == kBundleIndex) return file.parent_path();
+  std::error_code error;
+  const bool walk = fs::is_directory(file, error) || file.extension() == kWalkEnding || isBundle(file);
+  if (!walk) return {};
+  return file.has_filename() ? file : file.parent_path();  // "folder/"
+}
 
 fs::path suggestedProjectFile(const fs::path& model) {
   std::error_code error;

@@ -9,8 +9,12 @@
 namespace acentric::editor {
 
 inline constexpr const char* kProjectEnding = ".acentric.json";
+inline constexpr const char* kWalkEnding = ".acentric";
 
 bool isProjectFile(const std::filesystem::path& file);
+/// What is to be opened as a shipped walk where `file` was chosen: the walk itself, or a folder, also by the
+/// index of the bundle in it. Empty: `file` is something else.
+std::filesystem::path shippedWalkOf(const std::filesystem::path& file);
 /// Where a model's project would be kept: beside it, "gallery.glb" -> "gallery.acentric.json".
 std::filesystem::path suggestedProjectFile(const std::filesystem::path& model);
 

@@ -20,7 +20,8 @@ constexpr std::string_view kPictureEnding = ".png";
 
 std::string nameStart(const fs::path& projectFile) {
   std::string name = projectFile.filename().string();
-  if (name.ends_with(kProjectEnding)) name.resize(name.size() - std::strlen(kProjectEnding));
+  for (const char* ending : {kProjectEnding, kWalkEnding})
+    if (name.ends_with(ending)) name.resize(name.size() - std::strlen(ending));
   return name + "-view-";
 }
 

@@ -35,6 +35,24 @@ bool onlyViewDiffers(const Project& a, const Project& b) {
   return same == a;
 }
 
+namespace {
+
+/// In no more than can be changed of a walk?
+bool onlyShownOtherwise(const Project& a, const Project& b) {
+  Project same = b;
+  same.view = a.view;
+  same.fovDegrees = a.fovDegrees;
+  same.storey = a.storey;
+  return same == a;
+}
+
+}  // namespace
+
+bool Session::walkRefuses(const std::string& what) {
+  if (shipped_) messages_.add(MessageLevel::warning, what + ": " + kIsWalk);
+  return shipped_ != nullptr;
+}
+
 bool Session::poll(double now) {
   now_ = now;
   const bool delivered = inbox_.deliver();
@@ -68,6 +86,7 @@ bool Session::apply(Edit edit) {
     messages_.addFailure(edit.label, sound.error());
     return false;
   }
+  if (!onlyShownOtherwise(project(), edit.project) && walkRefuses(edit.label)) return false;
   history_->push(std::move(edit.project), std::move(edit.label));
   projectChanged();
   return true;
@@ -75,6 +94,10 @@ bool Session::apply(Edit edit) {
 
 void Session::applyLive(Edit edit, bool finished) {
   if (!hasProject()) return;
+  if (shipped_ && !onlyShownOtherwise(project(), edit.project)) {
+    if (finished) walkRefuses(edit.label);
+    return;
+  }
   // A value on its way may be out of range for a moment: wait for the next one.
   if (edit.project.check()) history_->preview(std::move(edit.project), std::move(edit.label));
   if (finished) history_->commitPreview();
@@ -131,6 +154,10 @@ void Session::projectChanged() {
 }
 
 void Session::rebuild() {
+  if (shipped_) {  // of which another storey is shown
+    show(openProject(*shipped_, project()));
+    return loadCaptures();
+  }
   rebuilding_.restart("Laying the tessellation", [this, former = built_, wanted = project(),
                                                   host = options_.importHost](const Job::Context& context) {
     auto result = reopenProject(*former, wanted, host, context.progress(), context.stop());
@@ -188,10 +215,11 @@ void Session::loadCaptures() {
   streaming.panoramas = project().view.secondaryCover;
   streaming.where = where_;
   streaming.wake = options_.wake;
-  loading_.restart("Looking for captures", [this, open = built_, former = walk_,
+  loading_.restart("Looking for captures", [this, open = built_, former = walk_, shipped = shipped_,
                                             streaming](const Job::Context& context) {
-    tellCaptures(open, context);
-    auto start = startWalk(*open, former.get());
+    tellCaptures(open, shipped, context);
+    Result<WalkStart> start =
+        shipped ? startWalk(shipped, open->project.storey, former.get()) : startWalk(*open, former.get());
     if (!start) {
       context.post([this, error = start.error()] { messages_.addFailure("Loading the captures", error); });
       return;
@@ -203,11 +231,15 @@ void Session::loadCaptures() {
 
 void Session::countCaptures() {
   counting_.restart("Counting captures",
-                    [this, open = built_](const Job::Context& context) { tellCaptures(open, context); });
+                    [this, open = built_, shipped = shipped_](const Job::Context& context) {
+                      tellCaptures(open, shipped, context);
+                    });
 }
 
-void Session::tellCaptures(const std::shared_ptr<const OpenProject>& open, const Job::Context& context) {
-  auto status = std::make_shared<const CaptureStatus>(captureStatus(*open->layout, capturesOnDisk(*open)));
+void Session::tellCaptures(const std::shared_ptr<const OpenProject>& open, const ShippedWalkPtr& shipped,
+                           const Job::Context& context) {
+  auto status = std::make_shared<const CaptureStatus>(captureStatus(
+      *open->layout, shipped ? capturesOf(*shipped, open->project.storey) : capturesOnDisk(*open)));
   context.post([this, open, status] {
     if (built_->layout == open->layout) captures_ = status;
   });
@@ -270,6 +302,7 @@ void Session::savePicture(ColourImage picture) {
 }
 
 void Session::drawBackdropIfStale() {
+  if (shipped_) return;
   const Layout& layout = *built_->layout;
   BackdropKey key{built_->scene, layout.eyeZ(), planBoxOf(built_->scene->bounds, layout)};
   // Small edits of the layout stay within a backdrop that is there.
@@ -311,7 +344,7 @@ void Session::inspectWhenStill(double now) {
 }
 
 void Session::inspectIfStale() {
-  if (!built_ || inspected_ == built_->layout) return;
+  if (!built_ || shipped_ || inspected_ == built_->layout) return;
   inspected_ = built_->layout;
   inspecting_.restart("Inspecting the layout", [this, open = built_, inspector = inspector_,
                                                 threads = bakeThreads()](const Job::Context& context) {
@@ -346,7 +379,7 @@ CoveragePicturePtr Session::coverage() const {
 }
 
 void Session::askForCoverage(const std::optional<CoverageRequest>& wanted) {
-  if (!wanted || !built_) {
+  if (!wanted || !built_ || shipped_) {
     if (coverageKey_) measuringCoverage_.abandon();
     coverageKey_.reset();
     coverage_.reset();

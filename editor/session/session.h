@@ -36,6 +36,7 @@
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/project_lock.h"
+#include "engine/pipeline/shipped_walk.h"
 #include "engine/pipeline/walk_stream.h"
 
 namespace acentric::editor {
@@ -57,7 +58,8 @@ class Session {
 
   // Files
   // ------------------------------------------------------------------------------------------------------
-  /// A project file, or a model file for a new project. What is open stays until the new one is ready.
+  /// A project file, a model file for a new project, or a walk. What is open stays until the new one is
+  /// ready.
   void open(const std::filesystem::path& file);
   /// A new project of a model, laid out as chosen.
   void openNew(const std::filesystem::path& model, const NewProjectOptions& options);
@@ -72,9 +74,13 @@ class Session {
   Status reload();
   /// One of the project's, as a file of its own that the command line plays.
   void exportPath(std::size_t path, const std::filesystem::path& file);
+  /// Or a walk in its place.
   bool hasProject() const { return history_.has_value(); }
+  /// The walk that is open, null while it is a project: what is shown is all that can be changed of it, and
+  /// nothing is saved.
+  const ShippedWalkPtr& shippedWalk() const { return shipped_; }
   bool untitled() const { return untitled_; }
-  bool dirty() const { return history_ && history_->dirty(); }
+  bool dirty() const { return history_ && !shipped_ && history_->dirty(); }
   /// The project's file; for an untitled project, where it would be saved.
   const std::filesystem::path& file() const { return file_; }
   std::string title() const;
@@ -237,11 +243,15 @@ class Session {
     bool withoutModel = false;
     std::filesystem::path recovered;  ///< the autosave that it comes from
     FileStamp saved;                  ///< of the project file, as it was read
+    ShippedWalkPtr shipped;           ///< it is this walk
   };
   Result<Opened> openNow(const std::filesystem::path& file, const NewProjectOptions& options,
                          const Job::Context& context) const;
+  Result<Opened> openShipped(const std::filesystem::path& walk, const Job::Context& context) const;
   void openWith(const std::filesystem::path& file, const NewProjectOptions& options);
   void opened(Opened opened);
+  /// Is a walk open, which cannot do `what`? Tells so.
+  bool walkRefuses(const std::string& what);
   void projectChanged();
   void rebuild();
   void rebuilt(OpenProject open, bool withoutModel);
@@ -254,7 +264,8 @@ class Session {
   /// Asks the disk again which captures are there.
   void countCaptures();
   /// The same, in a job of that.
-  void tellCaptures(const std::shared_ptr<const OpenProject>& open, const Job::Context& context);
+  void tellCaptures(const std::shared_ptr<const OpenProject>& open, const ShippedWalkPtr& shipped,
+                    const Job::Context& context);
   /// Waits for what it is reading, elsewhere.
   void dropStream();
   void drawBackdropIfStale();
@@ -298,6 +309,7 @@ class Session {
   Preferences preferences_;
 
   std::optional<History> history_;
+  ShippedWalkPtr shipped_;
   std::filesystem::path file_;
   bool untitled_ = false;
   std::optional<Project> recovery_;
@@ -416,5 +428,8 @@ class Session {
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.
 bool onlyViewDiffers(const Project& a, const Project& b);
+
+/// Why what needs a project cannot be done.
+inline constexpr const char* kIsWalk = "this is a walk: open its project to edit it";
 
 }  // namespace acentric::editor

@@ -86,7 +86,7 @@ int Session::bakeThreads() const {
 }
 
 void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
-  if (!built_ || baking_.running()) return;
+  if (!built_ || baking_.running() || walkRefuses("Baking")) return;
   estimating_.abandon();  // it would compete; the bake foretells for itself
   bakeQueue_.begin({});
   bakeForecast_.reset();
@@ -156,7 +156,7 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
 
 void Session::lookAtDisk() {
   constexpr double kInterval = 2;
-  if (!built_) return freeBytes_.reset();
+  if (!built_ || shipped_) return freeBytes_.reset();
   if (now_ < nextLookAtDisk_) return;
   nextLookAtDisk_ = now_ + kInterval;
   const auto free = freeSpace(captureFolderFor(file_));
@@ -193,7 +193,7 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
 }
 
 void Session::estimateBake() {
-  if (!built_ || baking_.running()) return;
+  if (!built_ || baking_.running() || walkRefuses("Estimating the bake")) return;
   estimate_.reset();
   estimating_.restart("Estimating the bake", [this, open = built_, threads = bakeThreads(),
                                               memory = std::size_t(preferences_.bakeMegabytes) *

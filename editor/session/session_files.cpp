@@ -15,6 +15,7 @@ Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectO
                                          const Job::Context& context) const {
   std::error_code error;
   if (!fs::exists(file, error)) return fail(ErrorKind::notFound, "no such file", file.string());
+  if (const fs::path walk = shippedWalkOf(file); !walk.empty()) return openShipped(walk, context);
   Opened opened;
   fs::path projectFile = file;
   Result<Project> project = Project{};
@@ -45,6 +46,16 @@ Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectO
   return opened;
 }
 
+Result<Session::Opened> Session::openShipped(const fs::path& walk, const Job::Context& context) const {
+  TaskRunner runner(processors_ - 1);
+  auto shipped = openShippedWalk(walk, runner, context.progress(), context.stop());
+  if (!shipped) return tl::unexpected(shipped.error());
+  Opened opened;
+  opened.open = openProject(**shipped, projectOf(**shipped));
+  opened.shipped = std::move(*shipped);
+  return opened;
+}
+
 void Session::open(const fs::path& file) { openWith(file, {}); }
 
 void Session::openNew(const fs::path& model, const NewProjectOptions& options) { openWith(model, options); }
@@ -70,15 +81,18 @@ void Session::openWith(const fs::path& given, const NewProjectOptions& options) 
 
 void Session::opened(Opened opened) {
   close();
+  shipped_ = opened.shipped;
   file_ = opened.open.file;
   untitled_ = opened.untitled;
   savedStamp_ = opened.saved;
-  sweeping_.watch(untitled_ ? fs::path() : file_);
+  sweeping_.watch(untitled_ || shipped_ ? fs::path() : file_);
   recovered_ = opened.recovered;
   history_.emplace(opened.open.project, !untitled_, historyBytes());
   ++generation_;
-  takeLock(false);
-  lookForAutosave();
+  if (!shipped_) {
+    takeLock(false);
+    lookForAutosave();
+  }
   remember(file_);
   const std::size_t regions = opened.open.layout->regions.size();
   const std::size_t cameras = opened.open.layout->cameras.size();
@@ -87,8 +101,12 @@ void Session::opened(Opened opened) {
                            : recovered_.empty()
                                ? "New project from " + built_->project.scene.filename().string()
                                : "Recovered " + file_.filename().string();
-  messages_.add(MessageLevel::good, fmt::format("{}: {} regions, {} cameras", from, regions, cameras));
-  watchScene(opened.withoutModel);
+  messages_.add(MessageLevel::good, fmt::format("{}{}: {} regions, {} cameras", from,
+                                                shipped_ ? ", a walk" : "", regions, cameras));
+  if (shipped_)
+    for (const std::string& warning : shipped_->warnings) messages_.add(MessageLevel::warning, warning);
+  else
+    watchScene(opened.withoutModel);
   locateQuestion_ = opened.withoutModel;
   loadCaptures();
   drawBackdropIfStale();
@@ -112,6 +130,7 @@ void Session::close() {
   inspected_.reset();
   if (hasProject() && !recovery_) forgetAutosave();
   history_.reset();
+  shipped_.reset();
   leaveFiles();
   built_.reset();
   dropStream();
@@ -137,6 +156,7 @@ SaveObstacle Session::saveObstacle() {
 
 Status Session::save(bool overwrite) {
   if (!hasProject()) return {};
+  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
   history_->commitPreview();
   const SaveObstacle obstacle = saveObstacle();
   if (obstacle == SaveObstacle::readOnly)
@@ -162,6 +182,7 @@ void Session::savedNow() {
 
 Status Session::reload() {
   if (!hasProject() || untitled_) return {};
+  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
   const FileStamp stamp = stampOf(file_);
   const auto found = loadProject(file_);
   if (!found) return tl::unexpected(found.error());
@@ -174,6 +195,7 @@ Status Session::reload() {
 
 Status Session::saveAs(const fs::path& target) {
   if (!hasProject()) return {};
+  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
   history_->commitPreview();
   std::error_code error;
   const fs::path file = fs::absolute(target, error).lexically_normal();
@@ -208,6 +230,7 @@ Status Session::saveAs(const fs::path& target) {
 }
 
 void Session::exportPath(std::size_t path, const fs::path& file) {
+  if (walkRefuses("Exporting a path")) return;
   const WalkPath& walk = project().paths[path];
   if (const Status saved = savePath(walk.path, file); !saved)
     return messages_.addFailure("Exporting " + walk.name, saved.error());
@@ -219,7 +242,9 @@ void Session::exportPath(std::size_t path, const fs::path& file) {
 std::string Session::title() const {
   if (!hasProject()) return "Acentric";
   return fmt::format("{}{}{} – Acentric", dirty() ? "• " : "", file_.filename().string(),
-                     readOnly() ? " (read-only)" : "");
+                     shipped_     ? " (walk)"
+                     : readOnly() ? " (read-only)"
+                                  : "");
 }
 
 bool Session::worthAsking() const {
@@ -251,6 +276,7 @@ void Session::savePreferencesNow() {
 
 /// Beside the project, unless it has no file yet or the file is another editor's.
 fs::path Session::autosaveFile() const {
+  if (shipped_) return {};
   if (!untitled_ && !readOnly()) return autosaveFileFor(file_);
   return options_.unsavedFolder.empty() ? fs::path() : unsavedWorkFile(options_.unsavedFolder, file_);
 }

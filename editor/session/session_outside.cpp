@@ -76,7 +76,7 @@ void Session::lookAtLock() {
 }
 
 void Session::lookAround(double now) {
-  if (!hasProject() || now < nextLook_) return;
+  if (!hasProject() || shipped_ || now < nextLook_) return;
   nextLook_ = now + options_.watchSeconds;
   lookAtLock();
   if (!untitled_ && !projectFileChanged_ && lookAt(file_).exists && differs(savedStamp_)) {
@@ -146,7 +146,7 @@ void Session::sceneCompared(const std::vector<fs::path>& different) {
 }
 
 void Session::reimport() {
-  if (!hasProject() || !built_) return;
+  if (!hasProject() || !built_ || walkRefuses("Importing the model again")) return;
   rebuilding_.restart("Importing the model again", [this, file = file_, wanted = project(),
                                                     host = options_.importHost](const Job::Context& context) {
     auto result = openUnsaved(file, wanted, host, context.progress(), context.stop());
@@ -163,7 +163,7 @@ void Session::reimport() {
 }
 
 void Session::locateScene(const fs::path& model) {
-  if (!hasProject()) return;
+  if (!hasProject() || walkRefuses("Locating the model")) return;
   locateQuestion_ = false;
   const auto located = collectModel(model, file_, {}, Collect::link);
   if (!located) return messages_.addFailure("Locating the model", located.error());
@@ -193,6 +193,7 @@ void Session::answerOutside(std::optional<Collect> how) {
 
 ProblemFacts Session::problemFacts() const {
   ProblemFacts facts;
+  if (shipped_) return facts;  // of which nothing can be mended here
   facts.built = built_;
   if (!built_) return facts;
   if (inspection_ && inspection_->layout == built_->layout) facts.inspection = inspection_;

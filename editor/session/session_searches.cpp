@@ -9,7 +9,7 @@
 namespace acentric::editor {
 
 void Session::findStoreys() {
-  if (!built_ || searching_.running()) return;
+  if (!built_ || searching_.running() || walkRefuses("Looking for storeys")) return;
   searching_.restart("Looking for storeys", [this, open = built_](const Job::Context& context) {
     context.progress()({0, 0, "finding the storeys"});
     Project project = open->project;
@@ -35,7 +35,7 @@ void Session::findStoreys() {
 }
 
 void Session::outlineFromScene() {
-  if (!built_ || searching_.running()) return;
+  if (!built_ || searching_.running() || walkRefuses("Finding the walkable area")) return;
   searching_.restart("Finding the walkable area", [this, open = built_](const Job::Context& context) {
     context.progress()({0, 0, "finding the walkable area"});
     const LayoutSpec& laid = open->project.layout();
@@ -63,7 +63,7 @@ void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const
 }
 
 void Session::fitCells() {
-  if (!built_ || searching_.running()) return;
+  if (!built_ || searching_.running() || walkRefuses("Fitting the cells")) return;
   searching_.restart("Fitting the cells", [this, open = built_,
                                            threads = bakeThreads()](const Job::Context& context) {
     FitOptions options;
@@ -87,7 +87,7 @@ void Session::fitCells() {
 }
 
 void Session::splitOverBudget() {
-  if (!built_ || searching_.running()) return;
+  if (!built_ || searching_.running() || walkRefuses("Splitting cells")) return;
   searching_.restart(
       "Splitting cells", [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
         RefineOptions options;

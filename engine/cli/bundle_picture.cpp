@@ -3,26 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 
 #include "engine/base/stopwatch.h"
 #include "engine/cli/frame_pictures.h"
-#include "engine/export/walk_format.h"
 #include "engine/export/walk_read.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {
-
-namespace fs = std::filesystem;
-
-bool isBundle(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return fs::exists(path / kBundleIndex, error);
-  std::array<char, walk_format::kMagic.size()> start{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(start.data(), start.size()) && start == walk_format::kMagic;
-}
 
 Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads) {
   auto player = std::make_unique<BundlePlayer>();

@@ -8,9 +8,6 @@
 
 namespace acentric::cli {
 
-/// The folder of a bundle, or a walk?
-bool isBundle(const std::filesystem::path& path);
-
 /// With all that the view needs in memory.
 Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads);
 /// The view that the walk begins with.

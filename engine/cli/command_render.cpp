@@ -7,6 +7,7 @@
 #include "engine/cli/bundle_picture.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/frame_pictures.h"
+#include "engine/export/walk_read.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <map>
 
 #include "engine/base/json_text.h"
@@ -243,6 +245,14 @@ Result<std::unique_ptr<ByteRanges>> fileRanges(const std::filesystem::path& file
 
 Result<std::unique_ptr<BundleFiles>> walkFiles(std::unique_ptr<ByteRanges> ranges, const std::string& name) {
   return WalkFiles::open(std::move(ranges), name);
+}
+
+bool isBundle(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return std::filesystem::exists(path / kBundleIndex, error);
+  std::array<char, kMagic.size()> start{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(start.data(), start.size()) && start == kMagic;
 }
 
 Result<std::unique_ptr<BundleFiles>> bundleAt(const std::filesystem::path& path) {

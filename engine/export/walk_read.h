@@ -23,7 +23,9 @@ Result<std::unique_ptr<ByteRanges>> fileRanges(const std::filesystem::path& file
 /// All pages of the index are read at once. `name`: of the walk, for messages.
 Result<std::unique_ptr<BundleFiles>> walkFiles(std::unique_ptr<ByteRanges> ranges, const std::string& name);
 
-/// The folder of a bundle, or a walk.
+/// The folder of a bundle, or a walk?
+bool isBundle(const std::filesystem::path& path);
+/// Opened as what it is.
 Result<std::unique_ptr<BundleFiles>> bundleAt(const std::filesystem::path& path);
 
 }  // namespace acentric

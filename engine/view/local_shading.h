@@ -46,6 +46,7 @@ class LocalShading {
   const LocalMaterial& materialOf(std::uint32_t mesh) const {
     return materials_[static_cast<std::size_t>((*meshes_)[mesh].material)];
   }
+  const std::vector<LocalMaterial>& materials() const { return materials_; }  ///< by scene material
   /// Does an alpha-tested surface exist at this point?
   bool survivesMask(const LocalPoint& point) const;
   /// Display colour; alpha 255 unless the material is clear. Without baked light: the base colour.

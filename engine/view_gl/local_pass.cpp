@@ -9,14 +9,8 @@
 namespace acentric {
 namespace {
 
-/// What LocalShading would say of one material; the same rules for both renderers.
-std::vector<LocalMaterial> materialsOf(const WalkScene& scene) {
-  const LocalShading shading(scene);
-  std::vector<LocalMaterial> materials(scene.scene->materials.size());
-  for (std::size_t m = 0; m < scene.scene->meshes.size(); ++m)
-    materials[std::size_t(scene.scene->meshes[m].material)] = shading.materialOf(std::uint32_t(m));
-  return materials;
-}
+/// What LocalShading says of each material; the same rules for both renderers.
+std::vector<LocalMaterial> materialsOf(const WalkScene& scene) { return LocalShading(scene).materials(); }
 
 /// A texture that the scene names but does not hold reads as white.
 const std::shared_ptr<const ColourImage>* imageOf(const Scene& scene, const TextureUse& use) {

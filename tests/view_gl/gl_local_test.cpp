@@ -237,6 +237,10 @@ TEST_F(GlLocal, DrawsSurfacesOfARegionsOwnAsTheCpuDoes) {
   expectLikeCpu(scene, view(), 2, 0.01);
   EXPECT_TRUE(hasVariant("SURFACE_LIGHT"));
   expectLikeCpu(scene, view(), 2, 0.01);  // and once more from what is resident
+  auto bare = std::make_shared<Scene>(*scene.scene);
+  bare->meshes.clear();  // as in a walk that was shipped
+  scene.scene = std::move(bare);
+  expectLikeCpu(scene, view(), 2, 0.01);
 }
 
 TEST_F(GlLocal, FollowsAnExchangedLight) {

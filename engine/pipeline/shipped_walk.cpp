@@ -1,0 +1,246 @@
+#include "engine/pipeline/shipped_walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "engine/export/walk_read.h"
+#include "engine/geometry/conventions.h"
+
+namespace acentric {
+namespace {
+
+using ImagePtr = std::shared_ptr<const ColourImage>;
+
+/// Says which walk, and what can be done about it.
+Error inWalk(const ShippedWalk& walk, Error error, const std::string& instead = {}) {
+  error.message += instead;
+  if (error.kind != ErrorKind::unsupported)  // which says what to do
+    error.message += "; copy the walk again, or export it anew";
+  if (!error.where.starts_with(walk.file.string()))
+    error.where = walk.file.string() + (error.where.empty() ? "" : ", " + error.where);
+  return error;
+}
+
+/// What the index names once, in bytes.
+std::uint64_t bytesOf(const Bundle& bundle) {
+  std::map<std::string, std::uint64_t> files;
+  const auto add = [&](const auto& part) {
+    if (part) files[part->file.path] = part->file.bytes;
+  };
+  for (const BundleTexture& texture : bundle.textures) add(&texture);
+  for (const BundleStorey& storey : bundle.storeys) {
+    for (const BundleCamera& camera : storey.cameras) add(camera.full), add(camera.coarse);
+    for (const auto& local : storey.local) add(local);
+  }
+  std::uint64_t bytes = 0;
+  for (const auto& [path, size] : files) bytes += size;
+  return bytes;
+}
+
+/// Bundles keep no lattice. Numbers tell regions and cameras apart, and cells are as large as a region's
+/// edges are long.
+std::shared_ptr<const Layout> numbered(Layout layout) {
+  for (std::size_t r = 0; r < layout.regions.size(); ++r) layout.regions[r].id = {int(r), 0, 0};
+  for (std::size_t c = 0; c < layout.cameras.size(); ++c) layout.cameras[c].id = {int(c), 0, 0};
+  if (!layout.regions.empty()) {
+    const auto& corners = layout.regions.front().polygon.corners;
+    double around = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      around += glm::distance(corners[i], corners[(i + 1) % corners.size()]);
+    layout.spec.cellSize = std::clamp(around / double(corners.size()), kLeastCellSize, kLargestCellSize);
+  }
+  return std::make_shared<const Layout>(std::move(layout));
+}
+
+/// Several textures may share a picture, which is read once.
+Result<std::vector<ImagePtr>> readTextures(ShippedWalk& walk, TaskRunner& runner, const Progress& progress,
+                                           const std::stop_token& stop) {
+  const std::vector<BundleTexture>& textures = walk.bundle.textures;
+  std::map<std::string, std::size_t> first;
+  std::vector<std::size_t> toRead;
+  for (std::size_t t = 0; t < textures.size(); ++t)
+    if (first.emplace(textures[t].file.path, t).second) toRead.push_back(t);
+  std::vector<ImagePtr> images(textures.size());
+  std::mutex told;
+  double done = 0;
+  runner.parallelFor(toRead.size(), [&](std::size_t i) {
+    if (stop.stop_requested()) return;
+    auto image = readBundleTexture(*walk.files, textures[toRead[i]]);
+    const std::lock_guard lock(told);
+    if (image)
+      images[toRead[i]] = std::make_shared<const ColourImage>(std::move(*image));
+    else
+      walk.warnings.push_back(inWalk(walk, image.error(), ". It is white").describe());
+    if (progress) progress({++done, double(toRead.size()), "reading textures"});
+  });
+  if (stop.stop_requested()) return fail(ErrorKind::cancelled, "cancelled", walk.file.string());
+  for (std::size_t t = 0; t < textures.size(); ++t) images[t] = images[first[textures[t].file.path]];
+  return images;
+}
+
+/// The best rendition is the full one; the coarse one stands in where both are there.
+const BundleCapture* renditionOf(const BundleCamera& camera, Detail detail) {
+  const auto& best = camera.full ? camera.full : camera.coarse;
+  const auto& file = detail == Detail::full ? best : camera.coarse;
+  return file && (detail == Detail::full || camera.full) ? &*file : nullptr;
+}
+
+ContentKey keyOf(const BundleCamera& camera) {
+  const BundleCapture* best = renditionOf(camera, Detail::full);
+  return best != nullptr ? best->file.hash : ContentKey{};
+}
+
+class ShippedSource final : public WalkSource {
+ public:
+  ShippedSource(ShippedWalkPtr walk, int storey)
+      : walk_(std::move(walk)), storey_(walk_->bundle.storeys[std::size_t(storey)]) {}
+
+  std::uint64_t storedBytes(int camera, Detail detail) const override {
+    const BundleCapture* file = renditionOf(storey_.cameras[std::size_t(camera)], detail);
+    return file != nullptr ? file->file.bytes : 0;
+  }
+
+  Result<Capture> capture(int camera, Detail detail) const override {
+    const BundleCapture* file = renditionOf(storey_.cameras[std::size_t(camera)], detail);
+    if (file == nullptr) return fail(ErrorKind::notFound, "was not baked", fmt::format("camera {}", camera));
+    auto read = readBundleCapture(*walk_->files, storey_, std::size_t(camera), *file);
+    if (read) return read;
+    const bool coarse = detail == Detail::full && storedBytes(camera, Detail::coarse) > 0;
+    return tl::unexpected(inWalk(*walk_, read.error(), coarse ? ". The coarse capture stands in" : ""));
+  }
+
+  LocalPart local(int region, const std::stop_token&) const override {
+    LocalPart part;
+    auto read = readBundleLocal(*walk_->files, walk_->bundle, storey_, std::size_t(region));
+    if (!read) {
+      part.warnings.push_back(inWalk(*walk_, read.error(), ". Near geometry is missing there").describe());
+      const ConvexPolygon& grown = storey_.layout.regions[std::size_t(region)].grown;
+      read = LocalGeometry{grown, {}, {}, std::make_shared<const LocalSurfaces>()};
+    }
+    part.geometry = std::make_shared<const LocalGeometry>(std::move(*read));
+    return part;
+  }
+
+ private:
+  ShippedWalkPtr walk_;
+  const BundleStorey& storey_;
+};
+
+Status readAll(ShippedWalk& walk, TaskRunner& runner, const Progress& progress, const std::stop_token& stop) {
+  auto images = readTextures(walk, runner, progress, stop);
+  if (!images) return tl::unexpected(images.error());
+  walk.scene = sceneOf(walk.bundle, std::move(*images));
+  auto rays = RayScene::build(walk.scene, planEffects(*walk.scene, {}));
+  if (!rays) return tl::unexpected(rays.error());
+  walk.rays = std::move(*rays);
+  return {};
+}
+
+}  // namespace
+
+Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRunner& runner,
+                                       const Progress& progress, const std::stop_token& stop) {
+  auto walk = std::make_shared<ShippedWalk>();
+  walk->file = file;
+  auto files = bundleAt(file);
+  if (!isBundle(file) && (files || files.error().kind == ErrorKind::malformed))
+    return fail(ErrorKind::malformed,
+                "is neither a walk (*.acentric) nor the folder of a bundle (with bundle.json); `acentric "
+                "export` writes both",
+                file.string());
+  if (!files) return tl::unexpected(inWalk(*walk, files.error()));
+  walk->files = std::move(*files);
+  auto bundle = readBundle(*walk->files);
+  if (!bundle) return tl::unexpected(inWalk(*walk, bundle.error()));
+  walk->bundle = std::move(*bundle);
+  std::error_code error;
+  const bool oneFile = !std::filesystem::is_directory(file, error);
+  walk->bytes = oneFile ? std::filesystem::file_size(file, error) : bytesOf(walk->bundle);
+  for (const BundleStorey& storey : walk->bundle.storeys) walk->layouts.push_back(numbered(storey.layout));
+  if (const Status sound = projectOf(*walk).check(); !sound)
+    return fail(sound.error().kind, sound.error().describe(), file.string());
+  if (Status read = readAll(*walk, runner, progress, stop); !read) return tl::unexpected(read.error());
+  return walk;
+}
+
+Project projectOf(const ShippedWalk& walk) {
+  const Bundle& bundle = walk.bundle;
+  Project project;
+  project.scene = kBundleIndex;  // no model, and a project names one
+  project.storeys.clear();
+  for (std::size_t s = 0; s < bundle.storeys.size(); ++s)
+    project.storeys.push_back({bundle.storeys[s].name,
+                               walk.layouts[s]->spec,
+                               {bundle.storeys[s].start, bundle.storeys[s].startYaw}});
+  project.storey = bundle.storey;
+  project.view = bundle.view;
+  project.fovDegrees = degrees(bundle.fov);
+  project.exposure = bundle.exposure;
+  for (const BundleBookmark& b : bundle.bookmarks)
+    project.bookmarks.push_back({b.name, b.storey, b.pose.eye, b.pose.yaw, b.pose.pitch, degrees(b.fov)});
+  for (const BundlePath& from : bundle.paths) {
+    WalkPath path{from.name, from.storey, {}};
+    for (const BundlePose& p : from.poses) path.path.poses.push_back({p.eye, p.yaw, p.pitch, p.seconds});
+    project.paths.push_back(std::move(path));
+  }
+  // No bundle says how far up and down the eye may go: as far as its bookmarks and paths do.
+  double& range = project.bake.eyeRange = 0;
+  const auto reach = [&](int storey, const glm::dvec3& eye) {
+    range = std::max(range, std::abs(eye.z - walk.layouts[std::size_t(storey)]->eyeZ()));
+  };
+  for (const Bookmark& b : project.bookmarks) reach(b.storey, b.eye);
+  for (const WalkPath& path : project.paths)
+    for (const PathPose& pose : path.path.poses) reach(path.storey, pose.eye);
+  return project;
+}
+
+OpenProject openProject(const ShippedWalk& walk, const Project& project) {
+  OpenProject open;
+  open.file = walk.file;
+  open.project = project;
+  open.scene = walk.scene;
+  open.plan = walk.rays->plan();
+  open.rays = walk.rays;
+  open.layout = walk.layouts[std::size_t(project.storey)];
+  for (const BundleCamera& camera : walk.bundle.storeys[std::size_t(project.storey)].cameras)
+    open.keys.push_back(keyOf(camera));
+  return open;
+}
+
+CapturesOnDisk capturesOf(const ShippedWalk& walk, int storey) {
+  CapturesOnDisk there;
+  for (const BundleCamera& camera : walk.bundle.storeys[std::size_t(storey)].cameras) {
+    there.baked.push_back(camera.full.has_value());
+    there.stale.push_back(false);
+    there.bytes.push_back(camera.full ? camera.full->file.bytes : 0);
+  }
+  return there;
+}
+
+WalkStart startWalk(const ShippedWalkPtr& walk, int storey, const LoadedWalk* former) {
+  const BundleStorey& from = walk->bundle.storeys[std::size_t(storey)];
+  WalkStart start;
+  LoadedWalk& loaded = start.walk;
+  loaded.walk = walkSceneOf(walk->bundle, from, walk->scene);
+  loaded.walk.layout = walk->layouts[std::size_t(storey)];
+  loaded.standsIn.assign(from.cameras.size(), false);
+  for (const BundleCamera& camera : from.cameras) {
+    loaded.keys.push_back(keyOf(camera));
+    if (!camera.full) ++(camera.coarse ? loaded.coarse : loaded.missing);
+  }
+  if (former != nullptr) {
+    loaded.captureMemory = former->captureMemory;
+    const bool same = former->walk.layout == loaded.walk.layout;
+    if (same) loaded.walk.local = former->walk.local;
+    for (std::size_t c = 0; same && c < from.cameras.size(); ++c)
+      if (!former->standsIn[c]) loaded.walk.captures[c] = former->walk.captures[c];
+  }
+  start.source = std::make_shared<const ShippedSource>(walk, storey);
+  return start;
+}
+
+}  // namespace acentric
