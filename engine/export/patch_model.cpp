@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/export/texture_atlas.h"
+#include "engine/geometry/conventions.h"
 
 namespace acentric {
 namespace {
@@ -58,20 +59,35 @@ TexelBox coveredOf(const PatchPart& part) {
   return covered;
 }
 
-/// The plane of a patch as seen from its camera; places are columns and rows of the capture.
+/// The plane of a patch as seen from its camera. Places on it are columns and rows of the capture, or
+/// relative to the camera's centre of projection.
 struct PatchPlane {
   const ColumnCamera& camera;
   glm::dvec3 normal;
 
   glm::dvec3 direction(const glm::dvec2& at) const {
-    return {camera.directionAt(at.x), camera.tangentAt(std::clamp(at.y, 0.0, double(camera.rows)))};
+    const double steepest = radians(89.95);
+    return {camera.directionAt(at.x), std::tan(std::clamp(camera.elevationAt(at.y), -steepest, steepest))};
   }
   double inverse(const glm::dvec2& at) const { return glm::dot(normal, direction(at)); }
+  glm::dvec3 position(const glm::dvec2& at) const {
+    const glm::dvec3 towards = direction(at);
+    return towards / glm::dot(normal, towards);
+  }
+  glm::dvec2 seenAt(const glm::dvec3& position) const {
+    const double middle = 0.5 * camera.columns;
+    const double azimuth =
+        std::remainder(std::atan2(position.y, position.x) - camera.azimuthAt(middle), kTwoPi);
+    const double elevation = std::atan2(position.z, std::hypot(position.x, position.y));
+    return {middle + azimuth / camera.columnPitch(), (camera.topElevation - elevation) / camera.rowPitch()};
+  }
+  /// How far amid two places the capture saw something else than a texture that is laid on by them shows,
+  /// samples.
+  double error(const glm::dvec2& a, const glm::dvec2& b) const {
+    const glm::dvec2 apart = glm::abs(seenAt(0.5 * (position(a) + position(b))) - 0.5 * (a + b));
+    return std::max(apart.x, apart.y);
+  }
 };
-
-/// How far the middle of a side between inverse distances a and b lies from where a texture laid on by the
-/// ends shows it, as a share of the side.
-double swim(double a, double b) { return std::abs(a - b) / (2 * (a + b)); }
 
 struct Rectangle {
   glm::dvec2 low, high;
@@ -80,22 +96,24 @@ struct Rectangle {
 
 /// Cuts until textures lie right. What lies behind the plane's horizon is left out.
 void cut(const PatchPlane& plane, const Rectangle& whole, std::vector<Rectangle>& out) {
-  constexpr double kLeast = 0.5;        // samples
-  constexpr double kFarthest = 1e-5;    // 1/m
-  constexpr double kLargestAngle = 48;  // samples over which angles are as good as places
-  std::array<double, 4> w;
-  for (std::size_t i = 0; i < 4; ++i) w[i] = plane.inverse(whole.corners()[i]);
+  constexpr double kLeast = 0.5;      // samples
+  constexpr double kFarthest = 1e-5;  // 1/m
+  const std::array<glm::dvec2, 4> at = whole.corners();
+  const auto isBefore = [&](const glm::dvec2& place) { return plane.inverse(place) > kFarthest; };
+  const bool seen = std::ranges::all_of(at, isBefore);
+  if (!seen && std::ranges::none_of(at, isBefore)) return;
   const glm::dvec2 size = whole.high - whole.low;
-  const bool seen = std::ranges::all_of(w, [](double each) { return each > kFarthest; });
-  if (!seen && std::ranges::none_of(w, [](double each) { return each > kFarthest; })) return;
   double across = size.x, down = size.y;
   if (seen) {
-    across *= std::max({swim(w[0], w[1]), swim(w[2], w[3]), size.x > kLargestAngle ? 1.0 : 0.0});
-    down *= std::max({swim(w[0], w[2]), swim(w[1], w[3]), size.y > kLargestAngle ? 1.0 : 0.0});
-    if (std::max(across, down) <= kTextureError || std::max(size.x, size.y) <= kLeast) {
+    const double upper = plane.error(at[0], at[1]), lower = plane.error(at[2], at[3]);
+    const double left = plane.error(at[0], at[2]), right = plane.error(at[1], at[3]);
+    const double worst = std::max({upper, lower, left, right, plane.error(at[1], at[2])});
+    if (worst <= kTextureError || std::max(size.x, size.y) <= kLeast) {
       out.push_back(whole);
       return;
     }
+    if (std::max({upper, lower, left, right}) > kTextureError)
+      across = std::max(upper, lower), down = std::max(left, right);
   } else if (std::max(size.x, size.y) <= kLeast) {
     return;
   }
@@ -218,9 +236,7 @@ class Writer {
     for (const Rectangle& rectangle : rectangles_) {
       const auto vertex = std::uint32_t(mesh.positions.size());
       for (const glm::dvec2& corner : rectangle.corners()) {
-        const glm::dvec3 direction = plane.direction(corner);
-        mesh.positions.emplace_back(camera.centreOfProjection - model_.origin +
-                                    direction / glm::dot(plane.normal, direction));
+        mesh.positions.emplace_back(camera.centreOfProjection - model_.origin + plane.position(corner));
         mesh.uv.emplace_back((glm::dvec2(at) + corner - first) / glm::dvec2(page));
       }
       mesh.triangles.emplace_back(vertex, vertex + 1, vertex + 2);
