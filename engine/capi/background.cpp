@@ -63,8 +63,9 @@ std::vector<LoadJob> jobsOf(const BundlePlayer& runtime, const Wanted& wanted, L
   const auto add = [&](LoadJob job) {
     if (wants(job)) jobs.push_back(job);
   };
+  const std::vector<int> cameras = camerasOf(runtime, wanted);
   const auto addCaptures = [&](Loaded of) {
-    for (const int camera : camerasOf(runtime, wanted)) {
+    for (const int camera : cameras) {
       LoadJob job = like;
       job.storey = storey, job.number = std::size_t(camera);
       job.detail = renditionOf(runtime, storey, job.number, of);
@@ -94,18 +95,14 @@ acentric_status request(acentric_bundle& bundle, std::vector<LoadJob> jobs) {
 
 acentric_status acentric_request_view(acentric_bundle* bundle, const acentric_view* view,
                                       const acentric_settings* settings, int32_t detail) {
-  return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (view == nullptr) return refused(bundle, "view is NULL");
-    if (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL)
-      return refused(bundle, "detail: ACENTRIC_COARSE or ACENTRIC_FULL");
-    const auto wanted = wantedOf(runtime, *view, settings);
-    if (!wanted) return failedView(*bundle, wanted.error());
-    const auto wants = [&](const LoadJob& job) {
-      if (job.region) return !runtime.regionLoaded(job.storey, job.number);
-      return runtime.loaded(job.storey, job.number) < job.detail;
-    };
-    return request(*bundle, jobsOf(runtime, *wanted, Loaded(detail), wants, {}));
-  });
+  return forView(bundle, view, settings, wrongDetail(detail),
+                 [&](BundlePlayer& runtime, const Wanted& wanted) {
+                   const auto wants = [&](const LoadJob& job) {
+                     if (job.region) return !runtime.regionLoaded(job.storey, job.number);
+                     return runtime.loaded(job.storey, job.number) < job.detail;
+                   };
+                   return request(*bundle, jobsOf(runtime, wanted, Loaded(detail), wants, {}));
+                 });
 }
 
 acentric_status acentric_poll(acentric_bundle* bundle, int32_t* arrived) {

@@ -76,6 +76,23 @@ Result<Wanted> wantedOf(const BundlePlayer& runtime, const acentric_view& view,
                         const acentric_settings* settings);
 /// An eye outside every region has a code of its own.
 acentric_status failedView(acentric_bundle& bundle, const Error& error);
+/// body(runtime, wanted) of a view. `wrong`: what is wrong with another argument, or null.
+template <class Body>
+acentric_status forView(acentric_bundle* bundle, const acentric_view* view, const acentric_settings* settings,
+                        const char* wrong, const Body& body) noexcept {
+  return guarded(bundle, [&](BundlePlayer& runtime) {
+    if (view == nullptr) return refused(bundle, "view is NULL");
+    if (wrong != nullptr) return refused(bundle, wrong);
+    const auto wanted = wantedOf(runtime, *view, settings);
+    if (!wanted) return failedView(*bundle, wanted.error());
+    return body(runtime, *wanted);
+  });
+}
+/// Null where it is ACENTRIC_COARSE or ACENTRIC_FULL.
+inline const char* wrongDetail(int32_t detail) {
+  return detail == ACENTRIC_COARSE || detail == ACENTRIC_FULL ? nullptr
+                                                              : "detail: ACENTRIC_COARSE or ACENTRIC_FULL";
+}
 /// The rendition of a camera that there is and that comes nearest to `detail`; absent: it was not baked.
 Loaded renditionOf(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail);
 /// Roles of a camera that a region draws.

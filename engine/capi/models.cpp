@@ -116,17 +116,14 @@ void acentric_free_model(const acentric_model* model) { delete static_cast<const
 
 acentric_status acentric_request_models(acentric_bundle* bundle, const acentric_view* view,
                                         const acentric_settings* settings, int32_t texture_pixels) {
-  return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (view == nullptr) return refused(bundle, "view is NULL");
-    if (!isTextureSize(texture_pixels)) return refused(bundle, kTextureSize);
-    const auto wanted = wantedOf(runtime, *view, settings);
-    if (!wanted) return failedView(*bundle, wanted.error());
+  const char* const wrong = isTextureSize(texture_pixels) ? nullptr : kTextureSize;
+  return forView(bundle, view, settings, wrong, [&](BundlePlayer& runtime, const Wanted& wanted) {
     LoadJob like;
     like.model = true, like.texturePixels = texture_pixels;
     const auto wants = [&](const LoadJob& job) {
       return !bundle->handedOut.contains(job) && !hasBetter(*bundle, job);
     };
-    return request(*bundle, jobsOf(runtime, *wanted, Loaded::full, wants, like));
+    return request(*bundle, jobsOf(runtime, wanted, Loaded::full, wants, like));
   });
 }
 

@@ -230,22 +230,18 @@ acentric_status acentric_unload_textures(acentric_bundle* bundle) {
 
 acentric_status acentric_load_view(acentric_bundle* bundle, const acentric_view* view,
                                    const acentric_settings* settings, int32_t detail) {
-  return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (view == nullptr) return refused(bundle, "view is NULL");
-    if (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL)
-      return refused(bundle, "detail: ACENTRIC_COARSE or ACENTRIC_FULL");
-    const auto wanted = wantedOf(runtime, *view, settings);
-    if (!wanted) return failedView(*bundle, wanted.error());
-    const BundlePlayer::Needs& needs = wanted->needs;
-    for (const int camera : needs.cameras) {
-      const Loaded chosen = choose(runtime, needs.storey, std::size_t(camera), Loaded(detail));
-      if (chosen == Loaded::absent) continue;
-      if (const Status loaded = runtime.loadCapture(needs.storey, std::size_t(camera), chosen); !loaded)
-        return failed(*bundle, loaded.error());
-    }
-    if (!wanted->settings.localGeometry) return kOk;
-    return done(bundle, runtime.loadRegion(needs.storey, std::size_t(needs.region)));
-  });
+  return forView(
+      bundle, view, settings, wrongDetail(detail), [&](BundlePlayer& runtime, const Wanted& wanted) {
+        const BundlePlayer::Needs& needs = wanted.needs;
+        for (const int camera : needs.cameras) {
+          const Loaded chosen = choose(runtime, needs.storey, std::size_t(camera), Loaded(detail));
+          if (chosen == Loaded::absent) continue;
+          if (const Status loaded = runtime.loadCapture(needs.storey, std::size_t(camera), chosen); !loaded)
+            return failed(*bundle, loaded.error());
+        }
+        if (!wanted.settings.localGeometry) return kOk;
+        return done(bundle, runtime.loadRegion(needs.storey, std::size_t(needs.region)));
+      });
 }
 
 acentric_status acentric_render(acentric_bundle* bundle, const acentric_view* view,

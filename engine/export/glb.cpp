@@ -18,6 +18,9 @@ constexpr const char *kUnlit = "KHR_materials_unlit", *kMeshopt = "EXT_meshopt_c
                      *kWebp = "EXT_texture_webp";
 constexpr std::size_t kLargestGlb = 0xfffffff0;  // its lengths have 32 bits
 
+/// glTF's.
+int numberOf(Wrap mode) { return mode == Wrap::clamp ? 33071 : mode == Wrap::mirror ? 33648 : 10497; }
+
 void put(std::vector<std::byte>& out, std::uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(std::byte(word >> shift));
 }
@@ -62,40 +65,49 @@ int Glb::addAttribute(const std::vector<Value>& values, const char* type) {
                      values.size());
 }
 
-Result<int> Glb::addTexture(const ColourImage& image, const Sampler& sampler) {
-  const auto coded = coding_.webp ? encodeWebp(image, coding_.quality) : encodePng(image);
+Status Glb::add(DrawModel model) {
+  for (const DrawTexture& texture : model.textures)
+    if (Status added = addTexture(texture); !added) return added;
+  for (DrawMesh& mesh : model.meshes) {
+    for (glm::vec3& position : mesh.positions) position = gltfPosition(position);
+    addMesh(mesh);
+  }
+  return {};
+}
+
+Status Glb::addTexture(const DrawTexture& texture) {
+  const auto coded = coding_.webp ? encodeWebp(texture.image, coding_.quality) : encodePng(texture.image);
   if (!coded) return tl::unexpected(coded.error());
   const int view = addView(coded->data(), coded->size(), 0);
   json_["images"].push_back({{"bufferView", view}, {"mimeType", coding_.webp ? "image/webp" : "image/png"}});
-  json_["samplers"].push_back({{"magFilter", sampler.nearest ? kNearest : kLinear},
-                               {"minFilter", sampler.nearest ? kNearest : kLinear},
-                               {"wrapS", sampler.wrapU},
-                               {"wrapT", sampler.wrapV}});
+  json_["samplers"].push_back({{"magFilter", texture.nearest ? kNearest : kLinear},
+                               {"minFilter", texture.nearest ? kNearest : kLinear},
+                               {"wrapS", numberOf(texture.wrapU)},
+                               {"wrapT", numberOf(texture.wrapV)}});
   const auto number = int(json_["images"].size()) - 1;
   const Json source{{"source", number}};
-  Json texture{{"sampler", number}};
+  Json out{{"sampler", number}};
   if (coding_.webp) {
     use(kWebp, true);
-    texture["extensions"] = {{kWebp, source}};
+    out["extensions"] = {{kWebp, source}};
   } else {
-    texture.update(source);
+    out.update(source);
   }
-  json_["textures"].push_back(std::move(texture));
-  return number;
+  json_["textures"].push_back(std::move(out));
+  return {};
 }
 
-int Glb::addMaterial(const GlbMaterial& material) {
-  Json pbr{{"baseColorFactor", {material.factor.r, material.factor.g, material.factor.b, material.factor.a}},
+int Glb::addMaterial(const DrawMesh& mesh) {
+  Json pbr{{"baseColorFactor", {mesh.factor.r, mesh.factor.g, mesh.factor.b, mesh.factor.a}},
            {"metallicFactor", 0},
            {"roughnessFactor", 1}};
-  if (material.texture >= 0) pbr["baseColorTexture"] = {{"index", material.texture}};
-  Json out{{"name", material.name},
+  if (mesh.texture >= 0) pbr["baseColorTexture"] = {{"index", mesh.texture}};
+  Json out{{"name", mesh.material},
            {"pbrMetallicRoughness", std::move(pbr)},
-           {"doubleSided", material.doubleSided},
+           {"doubleSided", mesh.doubleSided},
            {"extensions", {{kUnlit, Json::object()}}}};
-  if (material.alpha == GlbMaterial::Alpha::blend) out["alphaMode"] = "BLEND";
-  if (material.alpha == GlbMaterial::Alpha::mask)
-    out["alphaMode"] = "MASK", out["alphaCutoff"] = material.cutoff;
+  if (mesh.alpha == AlphaMode::blend) out["alphaMode"] = "BLEND";
+  if (mesh.alpha == AlphaMode::mask) out["alphaMode"] = "MASK", out["alphaCutoff"] = mesh.cutoff;
   json_["materials"].push_back(std::move(out));
   return int(json_["materials"].size()) - 1;
 }
@@ -108,13 +120,13 @@ void Glb::addBounds(int positions, const glm::vec3& low, const glm::vec3& high) 
   bounds_.add(from + high);
 }
 
-Glb::Json Glb::primitiveOf(const GlbMesh& mesh, bool textured) {
+Glb::Json Glb::primitiveOf(const DrawMesh& mesh) {
   Json attributes{{"POSITION", addAttribute(mesh.positions, "VEC3")}};
   Bounds box;
   for (const glm::vec3& p : mesh.positions) box.add(p);
   addBounds(attributes["POSITION"], box.min, box.max);
-  if (textured && !mesh.uv.empty()) attributes["TEXCOORD_0"] = addAttribute(mesh.uv, "VEC2");
-  if (!mesh.colour.empty()) attributes["COLOR_0"] = addAttribute(mesh.colour, "VEC3");
+  if (mesh.texture >= 0 && !mesh.uv.empty()) attributes["TEXCOORD_0"] = addAttribute(mesh.uv, "VEC2");
+  if (!mesh.colours.empty()) attributes["COLOR_0"] = addAttribute(mesh.colours, "VEC3");
   const int view = addView(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3), kElementBuffer);
   const int indices = addAccessor(view, kGltfUnsignedInt, "SCALAR", 3 * mesh.triangles.size());
   return {{"attributes", std::move(attributes)}, {"indices", indices}};
@@ -149,10 +161,10 @@ int Glb::addPacked(const PackedAttribute& attribute, std::size_t vertices) {
   return accessor;
 }
 
-Glb::Json Glb::packedPrimitiveOf(const GlbMesh& mesh, bool textured) {
-  GlbMesh moved = mesh;
+Glb::Json Glb::packedPrimitiveOf(const DrawMesh& mesh) {
+  DrawMesh moved = mesh;
   for (glm::vec3& p : moved.positions) p -= coding_.middle;
-  if (!textured) moved.uv.clear();
+  if (mesh.texture < 0) moved.uv.clear();
   const PackedMesh packed = packMesh(moved, coding_.positionError);
   Json attributes{{"POSITION", addPacked(packed.positions, packed.vertices)}};
   addBounds(attributes["POSITION"], packed.low, packed.high);
@@ -164,23 +176,22 @@ Glb::Json Glb::packedPrimitiveOf(const GlbMesh& mesh, bool textured) {
           {"indices", addAccessor(view, kGltfUnsignedInt, "SCALAR", count)}};
 }
 
-void Glb::add(const std::string& node, const GlbMesh& mesh, int material) {
+void Glb::addMesh(const DrawMesh& mesh) {
+  const int material = addMaterial(mesh);
   if (mesh.triangles.empty()) return;
-  const bool textured =
-      json_["materials"][std::size_t(material)]["pbrMetallicRoughness"].contains("baseColorTexture");
-  Json primitive = coding_.meshopt ? packedPrimitiveOf(mesh, textured) : primitiveOf(mesh, textured);
+  Json primitive = coding_.meshopt ? packedPrimitiveOf(mesh) : primitiveOf(mesh);
   primitive["material"] = material;
   Json& nodes = json_["nodes"];
   if (nodes.is_null()) nodes = Json::array();
-  const auto known = std::ranges::find_if(nodes, [&](const Json& each) { return each["name"] == node; });
+  const auto known = std::ranges::find_if(nodes, [&](const Json& each) { return each["name"] == mesh.part; });
   if (known != nodes.end()) {
     json_["meshes"][known->at("mesh").get<std::size_t>()]["primitives"].push_back(std::move(primitive));
     return;
   }
   json_["scenes"][0]["nodes"].push_back(nodes.size());
-  nodes.push_back({{"name", node}, {"mesh", json_["meshes"].size()}});
+  nodes.push_back({{"name", mesh.part}, {"mesh", json_["meshes"].size()}});
   if (coding_.meshopt) nodes.back()["translation"] = {coding_.middle.x, coding_.middle.y, coding_.middle.z};
-  json_["meshes"].push_back({{"name", node}, {"primitives", Json::array({std::move(primitive)})}});
+  json_["meshes"].push_back({{"name", mesh.part}, {"primitives", Json::array({std::move(primitive)})}});
 }
 
 Result<std::uint64_t> Glb::write(const std::filesystem::path& file) const {
@@ -194,7 +205,8 @@ Result<std::uint64_t> Glb::write(const std::filesystem::path& file) const {
   const std::size_t size = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
   if (size > kLargestGlb)
     return fail(ErrorKind::tooLarge,
-                "would be larger than the 4 GB that a GLB can have: allow a larger error", file.string());
+                "would be larger than the 4 GB that a GLB can have: compress meshes and textures",
+                file.string());
   std::vector<std::byte> out;
   out.reserve(size);
   for (const std::uint32_t word :

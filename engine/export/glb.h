@@ -9,29 +9,12 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/image/image.h"
-#include "engine/scene/scene.h"
+#include "engine/export/draw_model.h"
 
 namespace acentric {
 
-/// glTF's numbers for types of components.
-inline constexpr int kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125, kGltfFloat = 5126;
-
-struct GlbMesh {
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec2> uv;      ///< empty, or one each: (0, 0) is the picture's upper left corner
-  std::vector<glm::vec3> colour;  ///< empty, or one each: display-linear, 0..1
-  std::vector<glm::uvec3> triangles;
-};
-
-struct GlbMaterial {
-  std::string name;
-  int texture = -1;  ///< of the document
-  glm::vec4 factor{1};
-  enum class Alpha : std::uint8_t { opaque, mask, blend } alpha = Alpha::opaque;
-  float cutoff = 0.5F;
-  bool doubleSided = true;
-};
+/// (x, y, z) with Z up as glTF has it, with Y up.
+inline glm::vec3 gltfPosition(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
 
 struct PackedAttribute;
 
@@ -55,16 +38,9 @@ class Glb {
 
   Glb(const std::string& generator, const GlbCoding& coding);
 
-  struct Sampler {
-    bool nearest = false;
-    int wrapU = kClamp, wrapV = kClamp;  ///< glTF's numbers
-  };
-  static constexpr int kClamp = 33071, kMirror = 33648, kRepeat = 10497;
-  /// Returns the texture's number. Without alpha it is stored as RGB.
-  Result<int> addTexture(const ColourImage& image, const Sampler& sampler);
-  int addMaterial(const GlbMaterial& material);
-  /// As a primitive of the node of that name, made when it is first named. Nothing without triangles.
-  void add(const std::string& node, const GlbMesh& mesh, int material);
+  /// Each mesh as a primitive of its part's node, which is made when it is first named; with Y up. Nothing of
+  /// meshes without triangles. Textures without alpha are stored as RGB. Once for a document.
+  Status add(DrawModel model);
   /// Of the scene.
   void setExtras(Json extras) { json_["scenes"][0]["extras"] = std::move(extras); }
 
@@ -75,13 +51,16 @@ class Glb {
   Result<std::uint64_t> write(const std::filesystem::path& file) const;
 
  private:
+  Status addTexture(const DrawTexture& texture);
+  int addMaterial(const DrawMesh& mesh);
+  void addMesh(const DrawMesh& mesh);
   int addView(const void* data, std::size_t bytes, int target);
   int addAccessor(int view, int componentType, const char* type, std::size_t count);
   template <class Value>
   int addAttribute(const std::vector<Value>& values, const char* type);
   /// With the bounds of its positions, as they are in the file.
-  Json primitiveOf(const GlbMesh& mesh, bool textured);
-  Json packedPrimitiveOf(const GlbMesh& mesh, bool textured);
+  Json primitiveOf(const DrawMesh& mesh);
+  Json packedPrimitiveOf(const DrawMesh& mesh);
   /// `stride`: bytes of an element; of triangles' indices `target` is that of elements.
   int addCodedView(const std::vector<std::byte>& coded, std::size_t count, std::size_t stride, int target,
                    bool exponential);

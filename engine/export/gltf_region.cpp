@@ -15,9 +15,6 @@
 namespace acentric {
 namespace {
 
-/// (x, y, z) with Z up as glTF has it, with Y up.
-glm::vec3 gltfPosition(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
-
 Glb::Json corners(const ConvexPolygon& polygon, double z) {
   Glb::Json out = Glb::Json::array();
   for (const glm::dvec2& corner : polygon.corners) {
@@ -59,31 +56,6 @@ Status addCaptures(const WalkScene& walk, int region, const GltfOptions& options
   report.patches = counts.patches, report.triangles = counts.triangles;
   report.textures = counts.textures, report.samples = counts.samples;
   return stop.stop_requested() ? fail(ErrorKind::cancelled, "writing glTF was stopped") : Status();
-}
-
-Status addModel(DrawModel model, Glb& glb) {
-  const auto wrap = [](Wrap mode) {
-    return mode == Wrap::clamp ? Glb::kClamp : mode == Wrap::mirror ? Glb::kMirror : Glb::kRepeat;
-  };
-  for (const DrawTexture& texture : model.textures) {
-    const auto made =
-        glb.addTexture(texture.image, {texture.nearest, wrap(texture.wrapU), wrap(texture.wrapV)});
-    if (!made) return tl::unexpected(made.error());
-  }
-  for (DrawMesh& mesh : model.meshes) {
-    using Alpha = GlbMaterial::Alpha;
-    const Alpha alpha = mesh.alpha == AlphaMode::mask    ? Alpha::mask
-                        : mesh.alpha == AlphaMode::blend ? Alpha::blend
-                                                         : Alpha::opaque;
-    for (glm::vec3& position : mesh.positions) position = gltfPosition(position);
-    const int material =
-        glb.addMaterial({mesh.material, mesh.texture, mesh.factor, alpha, mesh.cutoff, mesh.doubleSided});
-    glb.add(
-        mesh.part,
-        {std::move(mesh.positions), std::move(mesh.uv), std::move(mesh.colours), std::move(mesh.triangles)},
-        material);
-  }
-  return {};
 }
 
 /// Of positions as a share of their distance from the region's middle, so that none is off by more than
@@ -133,7 +105,7 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
     report.localTriangles = addNear(walk, *local, model);
   addSky(walk, glm::dvec3(from.polygon.centroid(), walk.layout->eyeZ()), model);
   Glb glb(options.generator, coding);
-  if (Status added = addModel(std::move(model), glb); !added) return tl::unexpected(added.error());
+  if (Status added = glb.add(std::move(model)); !added) return tl::unexpected(added.error());
   const double floor = walk.layout->spec.floorHeight;
   glb.setExtras({{"region", region},
                  {"kind", bundle_words::kKinds[std::size_t(from.kind)]},

@@ -63,7 +63,7 @@ void remap(Stream& stream, std::size_t before, std::size_t after, const std::vec
 
 }  // namespace
 
-PackedMesh packMesh(const GlbMesh& mesh, double positionError) {
+PackedMesh packMesh(const DrawMesh& mesh, double positionError) {
   require(!mesh.triangles.empty(), "a mesh has triangles");
   meshopt_encodeVertexVersion(kVertexVersion);
   meshopt_encodeIndexVersion(kIndexVersion);
@@ -79,8 +79,8 @@ PackedMesh packMesh(const GlbMesh& mesh, double positionError) {
                              : exponentialStream(&mesh.uv.front().x, vertices, 2, kUvBits));
     out.uv = {within ? kGltfUnsignedShort : kGltfFloat, within, !within, "VEC2", streams.back().stride, {}};
   }
-  if (!mesh.colour.empty()) {
-    streams.push_back(shortStream(&mesh.colour.front().x, vertices, 3, 4095));
+  if (!mesh.colours.empty()) {
+    streams.push_back(shortStream(&mesh.colours.front().x, vertices, 3, 4095));
     out.colour = {kGltfUnsignedShort, true, false, "VEC3", streams.back().stride, {}};
   }
 

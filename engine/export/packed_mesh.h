@@ -10,9 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/export/glb.h"
+#include "engine/export/draw_model.h"
 
 namespace acentric {
+
+/// glTF's numbers for types of components.
+inline constexpr int kGltfUnsignedShort = 5123, kGltfUnsignedInt = 5125, kGltfFloat = 5126;
 
 /// A vertex attribute, coded.
 struct PackedAttribute {
@@ -40,6 +43,6 @@ inline constexpr double kPackedColourError = 0.5 / 4095;
 
 /// `positionError`: at most so many times the distance from the origin (1 where that is less), down to 2^-22.
 /// The mesh has triangles.
-PackedMesh packMesh(const GlbMesh& mesh, double positionError);
+PackedMesh packMesh(const DrawMesh& mesh, double positionError);
 
 }  // namespace acentric

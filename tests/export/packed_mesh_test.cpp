@@ -33,8 +33,8 @@ std::vector<unsigned> indicesOf(const PackedMesh& packed) {
 }
 
 /// A sheet of squares, each with corners of its own, its colours and coordinates told by place.
-GlbMesh sheet(int side, float scale, float uvScale) {
-  GlbMesh mesh;
+DrawMesh sheet(int side, float scale, float uvScale) {
+  DrawMesh mesh;
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
       const auto first = std::uint32_t(mesh.positions.size());
@@ -42,7 +42,7 @@ GlbMesh sheet(int side, float scale, float uvScale) {
         const glm::vec2 at(float(a) / float(side), float(b) / float(side));
         mesh.positions.push_back(scale * glm::vec3(at.x - 0.3F, at.y - 0.6F, at.x * at.y + 0.1F));
         mesh.uv.push_back(uvScale * at);
-        mesh.colour.emplace_back(at.x, at.y, at.x * at.x);
+        mesh.colours.emplace_back(at.x, at.y, at.x * at.x);
       }
       mesh.triangles.emplace_back(first, first + 1, first + 2);
       mesh.triangles.emplace_back(first + 2, first + 1, first + 3);
@@ -51,17 +51,17 @@ GlbMesh sheet(int side, float scale, float uvScale) {
 }
 
 /// The vertex of `mesh` that is nearest in colour, which tells them apart.
-std::size_t sourceOf(const GlbMesh& mesh, const glm::vec3& colour) {
+std::size_t sourceOf(const DrawMesh& mesh, const glm::vec3& colour) {
   std::size_t best = 0;
-  for (std::size_t i = 1; i < mesh.colour.size(); ++i)
-    if (glm::distance(mesh.colour[i], colour) < glm::distance(mesh.colour[best], colour)) best = i;
+  for (std::size_t i = 1; i < mesh.colours.size(); ++i)
+    if (glm::distance(mesh.colours[i], colour) < glm::distance(mesh.colours[best], colour)) best = i;
   return best;
 }
 
 TEST(PackedMesh, IsWhatItWasToTheErrorsThatAreStated) {
   for (const float scale : {0.1F, 3.0F, 700.0F})
     for (const double error : {1e-3, 1e-5, 3e-7}) {
-      const GlbMesh mesh = sheet(20, scale, 1);
+      const DrawMesh mesh = sheet(20, scale, 1);
       const PackedMesh packed = packMesh(mesh, error);
       EXPECT_EQ(packed.vertices, 21U * 21U) << "corners that squares share are one vertex";
       ASSERT_EQ(packed.triangles, mesh.triangles.size());
@@ -77,7 +77,8 @@ TEST(PackedMesh, IsWhatItWasToTheErrorsThatAreStated) {
                   (error + slack) * std::max(1.0F, glm::length(mesh.positions[source])));
         for (int i = 0; i < 2; ++i)
           EXPECT_NEAR(float(uv[v][std::size_t(i)]) / 65535, mesh.uv[source][i], kPackedUvError + slack);
-        for (int i = 0; i < 3; ++i) EXPECT_NEAR(colour[i], mesh.colour[source][i], kPackedColourError + 2e-5);
+        for (int i = 0; i < 3; ++i)
+          EXPECT_NEAR(colour[i], mesh.colours[source][i], kPackedColourError + 2e-5);
         low = glm::min(low, positions[v]), high = glm::max(high, positions[v]);
       }
       EXPECT_EQ(low, packed.low);
@@ -96,7 +97,7 @@ TEST(PackedMesh, IsWhatItWasToTheErrorsThatAreStated) {
 }
 
 TEST(PackedMesh, KeepsCoordinatesThatRepeatATexture) {
-  const GlbMesh mesh = sheet(10, 2, 7.5F);
+  const DrawMesh mesh = sheet(10, 2, 7.5F);
   const PackedMesh packed = packMesh(mesh, 1e-4);
   ASSERT_EQ(packed.uv.componentType, kGltfFloat);
   const auto uv = decoded<glm::vec2>(packed.uv, packed.vertices);
@@ -109,7 +110,7 @@ TEST(PackedMesh, KeepsCoordinatesThatRepeatATexture) {
 }
 
 TEST(PackedMesh, TakesAFractionOfTheBytes) {
-  const GlbMesh mesh = sheet(60, 3, 1);
+  const DrawMesh mesh = sheet(60, 3, 1);
   const PackedMesh packed = packMesh(mesh, 1e-5);
   const std::size_t before = mesh.positions.size() * (12 + 8 + 12) + mesh.triangles.size() * 12;
   EXPECT_LT(packed.positions.coded.size() + packed.uv.coded.size() + packed.colour.coded.size() +
