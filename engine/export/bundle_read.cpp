@@ -9,6 +9,7 @@
 #include "engine/export/png.h"
 #include "engine/geometry/conventions.h"
 #include "engine/store/keyed.h"
+#include "engine/store/still_picture.h"
 
 namespace acentric {
 namespace {
@@ -108,7 +109,10 @@ Result<ColourImage> readBundleTexture(const BundleFiles& files, const BundleText
   const auto bytes = readChecked(files, texture.file);
   if (!bytes) return tl::unexpected(bytes.error());
   try {
-    return decodePng(*bytes, texture.width, texture.height, texture.file.path);
+    if (!isStill(*bytes)) return decodePng(*bytes, texture.width, texture.height, texture.file.path);
+    auto image = decodeStillColours(*bytes, texture.width, texture.height);
+    if (!image) return fail(image.error().kind, image.error().message, texture.file.path);
+    return image;
   } catch (const std::bad_alloc&) {
     return fail(ErrorKind::outOfSpace, "not enough memory for this picture", texture.file.path);
   }

@@ -14,8 +14,11 @@
 #include "engine/export/crop_light.h"
 #include "engine/export/export_target.h"
 #include "engine/export/local_file.h"
+#include "engine/export/png.h"
 #include "engine/export/region_order.h"
 #include "engine/image/coarse_capture.h"
+#include "engine/image/plane_numbers.h"
+#include "engine/store/still_picture.h"
 
 namespace acentric {
 namespace {
@@ -140,8 +143,11 @@ class BundleWriter {
     const std::optional<ContentKey>& full = storey.full[place.camera];
     const std::optional<ContentKey>& key = full ? full : storey.coarse[place.camera];
     if (!key) return {};
-    const auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
+    auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
     if (!capture) return tl::unexpected(capture.error());
+    // Bakes of earlier programs left samples up to a step away from rounded planes.
+    for (CaptureSamples* list : {static_cast<CaptureSamples*>(&*capture), &capture->reflections})
+      placeOnPlanes(*list, capture->camera, capture->distanceStep);
     note(*capture);
     camera.topElevation = capture->camera.topElevation;
     camera.bottomElevation = capture->camera.bottomElevation;
@@ -235,7 +241,10 @@ class BundleWriter {
     const ColourImage& image = *scene.images[std::size_t(texture.image)];
     auto [file, unwritten] = imageOf_.emplace(texture.image, BundleFile{});
     if (unwritten) {
-      auto written = writeTexture(image);
+      const bool nearest = std::ranges::any_of(scene.textures, [&](const Texture& other) {
+        return other.image == texture.image && other.nearest;
+      });
+      auto written = writeTexture(image, nearest);
       if (!written) return tl::unexpected(written.error());
       file->second = std::move(*written);
     }
@@ -244,16 +253,29 @@ class BundleWriter {
     return {};
   }
 
+  /// As AVIF where that is smaller: not of quality 100, and not of pictures that are read texel by texel.
+  Result<std::vector<std::byte>> codedTexture(const ColourImage& image, bool nearest,
+                                              const char*& ending) const {
+    auto png = encodePng(image);
+    ending = "png";
+    if (!png || nearest || input_.colourQuality == kLosslessColours ||
+        std::max(image.width, image.height) > kMostPictureSide)
+      return png;
+    auto avif = encodeStill(image, input_.colourQuality);
+    if (avif && avif->size() >= png->size()) return png;
+    ending = "avif";
+    return avif;
+  }
+
   /// Named after its content, so that equal pictures are one file.
-  Result<BundleFile> writeTexture(const ColourImage& image) {
-    const fs::path unnamed = folder_ / "textures" / "new.png";
-    if (Status written = writeColourImage(image, unnamed); !written) return tl::unexpected(written.error());
-    auto file = fileOf("textures/new.png");
-    if (!file) return file;
-    file->path = fmt::format("textures/{}.png", file->hash.toHex());
-    std::error_code error;
-    fs::rename(unnamed, folder_ / file->path, error);
-    if (error) return fail(ErrorKind::unreadable, error.message(), unnamed.string());
+  Result<BundleFile> writeTexture(const ColourImage& image, bool nearest) {
+    const char* ending = nullptr;
+    const auto bytes = codedTexture(image, nearest, ending);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const ContentKey hash = Hasher().bytes(bytes->data(), bytes->size()).finish();
+    BundleFile file{fmt::format("textures/{}.{}", hash.toHex(), ending), bytes->size(), hash};
+    if (Status written = writeFileAtomically(folder_ / file.path, *bytes); !written)
+      return tl::unexpected(written.error());
     return file;
   }
 

@@ -8,6 +8,7 @@ namespace {
 
 /// Larger numbers would have digits that the plane's floats have not.
 constexpr double kMostNumber = 1 << 25;
+constexpr double kStoredDigits = 0x1p-15;  ///< of an inverse distance, what stored ones are apart at most
 
 /// Binary digits that a change by `by` needs no more.
 int leftOut(double by) {
@@ -78,6 +79,25 @@ void roundPlanes(CaptureSamples& samples, const ColumnCamera& camera, double dis
     if (!numbers) continue;
     const SurfacePlane rounded = frame.planeAt(*numbers, scale);
     if (frame.exactNumbersOf(rounded, scale)) plane.normal = rounded.normal;
+  }
+  placeOnPlanes(samples, camera, distanceStep);
+}
+
+void placeOnPlanes(CaptureSamples& samples, const ColumnCamera& camera, double distanceStep) {
+  if (!samples.hasSilhouettes()) return;
+  std::vector<double> tangent;
+  for (int row = 0; row < camera.rows; ++row) tangent.push_back(camera.tangentAt(row + 0.5));
+  for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column) {
+    const glm::dvec2 direction = camera.directionAt(double(column) + 0.5);
+    const std::uint32_t first = samples.columnStart[column];
+    for (std::uint32_t i = first; i < samples.columnStart[column + 1]; ++i) {
+      float& w = samples.inverseDistance[i];
+      const double met = samples.planes[samples.plane[i]].inverseDistance(direction, tangent[samples.row[i]]);
+      const double apart = std::max(distanceStep, double(w) * kStoredDigits);
+      if (w > 0 && met > 0 && std::abs(met - double(w)) < 2 * apart)
+        w = storedInverseDistance(met, distanceStep);
+      if (i > first && samples.row[i] == samples.row[i - 1]) w = std::min(w, samples.inverseDistance[i - 1]);
+    }
   }
 }
 

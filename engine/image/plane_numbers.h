@@ -56,7 +56,12 @@ class PlaneFrame {
 /// The step of planes' numbers in captures whose distances are so far apart.
 inline double planeStep(double distanceStep) { return distanceStep / 4; }
 
-/// Each plane as its numbers tell it; one that they cannot tell stays as it is.
+/// Each plane as its numbers tell it, one that they cannot tell as it is, and samples where these have them
+/// (placeOnPlanes).
 void roundPlanes(CaptureSamples& samples, const ColumnCamera& camera, double distanceStep);
+
+/// Puts each sample where its pixel's ray meets its plane if that is within two steps of stored distances, so
+/// that the plane alone tells where it is. Samples of a pixel stay in order.
+void placeOnPlanes(CaptureSamples& samples, const ColumnCamera& camera, double distanceStep);
 
 }  // namespace acentric

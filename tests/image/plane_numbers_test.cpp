@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <tuple>
 
 #include "engine/geometry/conventions.h"
 
@@ -16,7 +17,8 @@ constexpr double kStep = 0x1p-12;
 
 ColumnCamera camera() { return {{2, 1, 1.6}, 0.3, kPi / 4, radians(60), radians(-70), 300, 400}; }
 
-/// Planes at random, each with a few samples near a pixel at random; every tenth reaches far.
+/// Planes at random, each with a few samples near a pixel at random, where its ray meets them; every tenth
+/// reaches far.
 CaptureSamples scattered(int planes) {
   std::mt19937 random(7);
   const auto pick = [&](double from, double to) {
@@ -25,7 +27,9 @@ CaptureSamples scattered(int planes) {
   struct Sample {
     int column, row;
     std::uint32_t plane;
+    float inverseDistance;
   };
+  const ColumnCamera columns = camera();
   std::vector<Sample> all;
   CaptureSamples out;
   for (int k = 0; k < planes; ++k) {
@@ -34,18 +38,23 @@ CaptureSamples scattered(int planes) {
     out.planes.push_back({glm::vec3(normal), std::uint32_t(k % 2)});
     const double reach = k % 10 == 0 ? 300 : pick(0, 6);
     const double column = pick(0, 300), row = pick(0, 400);
-    for (int n = 0; n < 1 + k % 5; ++n)
-      all.push_back({std::clamp(int(column + pick(-reach, reach)), 0, 299),
-                     std::clamp(int(row + pick(-reach, reach)), 0, 399), std::uint32_t(k)});
+    for (int n = 0; n < 1 + k % 5; ++n) {
+      const int c = std::clamp(int(column + pick(-reach, reach)), 0, 299);
+      const int r = std::clamp(int(row + pick(-reach, reach)), 0, 399);
+      const double met =
+          out.planes.back().inverseDistance(columns.directionAt(c + 0.5), columns.tangentAt(r + 0.5));
+      all.push_back({c, r, std::uint32_t(k), storedInverseDistance(std::max(met, 0.01), kStep)});
+    }
   }
   std::ranges::stable_sort(all, [](const Sample& a, const Sample& b) {
-    return std::pair(a.column, a.row) < std::pair(b.column, b.row);
+    return std::tuple(a.column, a.row, -a.inverseDistance) < std::tuple(b.column, b.row, -b.inverseDistance);
   });
   for (int column = 0; column <= 300; ++column)
     out.columnStart.push_back(
         std::uint32_t(std::ranges::lower_bound(all, column, {}, &Sample::column) - all.begin()));
   for (const Sample& sample : all)
-    out.row.push_back(std::uint16_t(sample.row)), out.plane.push_back(sample.plane);
+    out.row.push_back(std::uint16_t(sample.row)), out.plane.push_back(sample.plane),
+        out.inverseDistance.push_back(sample.inverseDistance);
   return out;
 }
 
@@ -92,9 +101,44 @@ TEST(PlaneNumbers, TellRoundedPlanesExactly) {
   EXPECT_EQ(again, samples);
 }
 
+TEST(PlaneNumbers, TellWhereSamplesAre) {
+  const CaptureSamples exact = scattered(2000);
+  CaptureSamples placed = exact;
+  const ColumnCamera columns = camera();
+  roundPlanes(placed, columns, kStep);
+  int moved = 0, told = 0;
+  for (std::size_t column = 0; column < 300; ++column)
+    for (std::uint32_t i = placed.columnStart[column]; i < placed.columnStart[column + 1]; ++i) {
+      const float was = exact.inverseDistance[i], is = placed.inverseDistance[i];
+      const double met = placed.planes[placed.plane[i]].inverseDistance(
+          columns.directionAt(double(column) + 0.5), columns.tangentAt(placed.row[i] + 0.5));
+      EXPECT_LE(std::abs(is - was), 3 * std::max(kStep, was * 0x1p-15));
+      EXPECT_EQ(is, storedInverseDistance(is, kStep)) << "of those that can be stored";
+      const bool first = i == placed.columnStart[column] || placed.row[i] != placed.row[i - 1];
+      if (!first) {
+        EXPECT_LE(is, placed.inverseDistance[i - 1]) << "nearest first";
+      }
+      moved += is != was, told += is == storedInverseDistance(met, kStep);
+    }
+  EXPECT_GT(moved, 50);
+  EXPECT_GT(told, int(0.4 * double(exact.row.size()))) << "all but the half that is behind the camera";
+}
+
+TEST(PlaneNumbers, LeaveSamplesOffTheirPlanesAndTheSkyInMirrors) {
+  CaptureSamples one;
+  one.columnStart = {0, 3}, one.row = {3, 4, 5}, one.inverseDistance = {2, 0.5f, 0}, one.plane = {0, 0, 0};
+  one.planes = {{glm::vec3(0)}};
+  ColumnCamera columns = camera();
+  columns.columns = 1;
+  const std::vector<float> were = one.inverseDistance;
+  placeOnPlanes(one, columns, kStep);
+  EXPECT_EQ(one.inverseDistance, were);
+}
+
 TEST(PlaneNumbers, AreSmallWhereSamplesLieCloseTogether) {
   CaptureSamples one;
-  one.columnStart = {0, 1, 1}, one.row = {100}, one.plane = {0}, one.planes = {{{0.5f, 0.3f, 0.1f}}};
+  one.columnStart = {0, 1, 1}, one.row = {100}, one.inverseDistance = {1}, one.plane = {0},
+  one.planes = {{{0.5f, 0.3f, 0.1f}}};
   ColumnCamera columns = camera();
   columns.columns = 2, columns.fovRadians /= 150;
   const PlaneScale near = planeReaches(one)[0].scale(columns);
@@ -110,7 +154,8 @@ TEST(PlaneNumbers, PlanesThatTheyCannotTellStay) {
   for (const glm::vec3& normal :
        {glm::vec3(huge, 0, huge), glm::vec3(0), glm::vec3(nan, 0, 1), glm::vec3(1e-20f)}) {
     CaptureSamples one;
-    one.columnStart = {0, 1}, one.row = {3}, one.plane = {0}, one.planes = {{normal}, {{1, 2, 3}}};
+    one.columnStart = {0, 1}, one.row = {3}, one.inverseDistance = {1}, one.plane = {0};
+    one.planes = {{normal}, {{1, 2, 3}}};
     ColumnCamera columns = camera();
     columns.columns = 1;
     CaptureSamples rounded = one;

@@ -377,26 +377,6 @@ TEST_F(CodedPack, OfDisplaysHasPictures) {
   EXPECT_THAT(read.error().message, testing::HasSubstr("makes no sense"));
 }
 
-TEST(StillPictures, OfAnotherSizeOrDamagedAreRefused) {
-  for (const int bits : {8, 10}) {
-    StillPicture picture{32, 16, bits, {}};
-    for (auto& plane : picture.planes)
-      for (int n = 0; n < 32 * 16; ++n) plane.push_back(std::uint16_t((75 << (bits - 8)) + n % 32));
-    const auto file = encodeStill(picture, 90);
-    ASSERT_TRUE(file) << file.error().describe();
-    const auto back = decodeStill(*file, 32, 16, bits);
-    ASSERT_TRUE(back) << back.error().describe();
-    for (int p = 0; p < 3; ++p)
-      for (std::size_t n = 0; n < 32 * 16; ++n)
-        ASSERT_NEAR(back->planes[p][n], picture.planes[p][n], 12) << bits << ' ' << p << ' ' << n;
-    for (const auto& [width, height] : {std::pair{16, 32}, {32, 32}, {31, 16}, {64, 8}})
-      EXPECT_FALSE(decodeStill(*file, width, height, bits)) << width << 'x' << height;
-    EXPECT_FALSE(decodeStill(*file, 32, 16, 18 - bits));
-    EXPECT_FALSE(decodeStill(std::span(*file).first(file->size() / 2), 32, 16, bits));
-    EXPECT_FALSE(decodeStill({}, 32, 16, bits));
-  }
-}
-
 TEST(ColourCodes, AreWithinAPartOfAnEighthBitCodeAndCoverAllThatHalvesHold) {
   const ColourCoder coder(ColourScale::radiance);
   for (std::uint16_t half = 0; half < 0x7c00; half = std::uint16_t(half + 7)) {
