@@ -21,16 +21,9 @@
 namespace acentric {
 namespace {
 
-/// To six bits behind the first: as good as the codes of a display, and half of the bytes on disk.
-HalfColour packLight(const glm::vec3& light) {
-  const auto rounded = [](std::uint16_t half) {
-    constexpr unsigned kStep = 1u << 4, kLargest = 0x7bf0;
-    return std::uint16_t(std::min((half + kStep / 2) & ~(kStep - 1), kLargest));
-  };
-  HalfColour packed = packColour({light, 1});
-  for (auto* channel : {&packed.r, &packed.g, &packed.b}) *channel = rounded(*channel);
-  return packed;
-}
+/// Of the ten bits behind the first six are kept: as good as the codes of a display, and half of the bytes.
+constexpr int kUnusedBits = 4;
+HalfColour packLight(const glm::vec3& light) { return roundedLight(packColour({light, 1}), kUnusedBits); }
 
 constexpr std::uint64_t kMaxSamples = 60'000'000;
 constexpr std::size_t kSamplesPerChunk = 2048;

@@ -18,7 +18,7 @@
 namespace acentric {
 
 inline constexpr const char* kBundleFormat = "acentric bundle";
-inline constexpr int kBundleVersion = 3;
+inline constexpr int kBundleVersion = 4;
 inline constexpr const char* kBundleIndex = "bundle.json";
 
 /// A file of the bundle.

@@ -26,6 +26,8 @@ namespace {
 /// Of columns and rows: what a page shows first is what it waits for.
 constexpr int kBundleCoarseFactor = 8;
 constexpr int kCoarseColourQuality = 85;
+/// Of light on near surfaces: what is left is true to 1/64 of it, three quarters of a code as it is shown.
+constexpr int kShippedUnusedBits = 5;
 
 namespace fs = std::filesystem;
 
@@ -196,7 +198,8 @@ class BundleWriter {
     if (!local) return tl::unexpected(local.error());
     if ((*local)->triangles.empty()) return {};
     const LocalGeometry own = croppedLight(
-        selfContained(**local, *input_.scene, input_.plan, storey.light.get(), input_.mirrors.get()));
+        selfContained(**local, *input_.scene, input_.plan, storey.light.get(), input_.mirrors.get()),
+        input_.colourQuality < kLosslessColours ? kShippedUnusedBits : 0);
     const std::string path = fmt::format("regions/{}.local", index);
     if (Status written = writeLocalFile(own, folder_ / path); !written) return written;
     auto file = fileOf(path);

@@ -55,7 +55,8 @@ LatticeTriangle smallest(const Used& used, int resolution) {
 
 class Cropper {
  public:
-  explicit Cropper(const LocalGeometry& local) : local_(local), from_(*local.surfaces), out_(local) {}
+  Cropper(const LocalGeometry& local, int unusedBits)
+      : local_(local), from_(*local.surfaces), unusedBits_(unusedBits), out_(local) {}
 
   LocalGeometry crop() {
     const std::vector<std::uint32_t> first = firstTrianglesOf(from_.meshes);
@@ -64,6 +65,7 @@ class Cropper {
     for (std::size_t m = 0; m < from_.meshes.size(); ++m) cropMesh(from_.meshes[m], first[m]);
     surfaces_.light.firstSample.push_back(std::uint32_t(surfaces_.light.light.size()));
     if (surfaces_.light.light.empty()) surfaces_.light = from_.light;
+    for (HalfColour& light : surfaces_.light.light) light = roundedLight(light, unusedBits_);
     std::vector<char> moved(out_.vertices.size(), 0);
     for (const LocalTriangle& t : out_.triangles) {
       const std::uint32_t source = first[t.mesh] + t.triangle;
@@ -153,6 +155,7 @@ class Cropper {
 
   const LocalGeometry& local_;
   const LocalSurfaces& from_;
+  const int unusedBits_;
   LocalGeometry out_;
   LocalSurfaces surfaces_;
   std::vector<LatticeTriangle> crops_;  ///< by source triangle; of size 0: it is kept
@@ -160,8 +163,8 @@ class Cropper {
 
 }  // namespace
 
-LocalGeometry croppedLight(const LocalGeometry& local) {
-  return local.surfaces->light.empty() ? local : Cropper(local).crop();
+LocalGeometry croppedLight(const LocalGeometry& local, int unusedBits) {
+  return local.surfaces->light.empty() ? local : Cropper(local, unusedBits).crop();
 }
 
 }  // namespace acentric

@@ -8,6 +8,7 @@ namespace acentric {
 
 /// `local` is self-contained. In place of a source triangle of which little is used comes the smallest one of
 /// its samples' lattice that holds all of that: its samples, and at its corners the attributes there.
-LocalGeometry croppedLight(const LocalGeometry& local);
+/// `unusedBits` of each channel of the light are rounded away.
+LocalGeometry croppedLight(const LocalGeometry& local, int unusedBits = 0);
 
 }  // namespace acentric

@@ -61,7 +61,7 @@ class LocalFileReader {
     constexpr std::uint8_t kKnown = kLight | kMirrors | kUv0 | kUv1 | kColours;
     if (!file_.describedAll() || meshes_.size() != meshes || ofVertices != places || ofTriangles != sources ||
         (arrays_.flags & ~kKnown) != 0 || (streamBytes_ > 0) != ((arrays_.flags & kLight) != 0) ||
-        !file_.mayHold(samples * std::uint64_t(sizeof(HalfColour))))
+        !file_.mayHold(samples * std::uint64_t(sizeof(HalfColour)) + triangles * kVerticesBytes))
       return file_.malformed("its description makes no sense");
     if (file_.rawBytes() != recordBytesOf(arrays_.flags, vertices, triangles, places, sources, streamBytes_))
       return file_.malformed("its counts contradict its size");
@@ -146,18 +146,29 @@ class LocalFileReader {
     return {};
   }
 
+  static bool isPlaced(const LocalVertex& v) {
+    return std::isfinite(v.position.x) && std::isfinite(v.position.y) && std::isfinite(v.position.z);
+  }
+
   Status checkTriangles() {
     for (const LocalVertex& v : local_.vertices) {
-      const bool placed =
-          std::isfinite(v.position.x) && std::isfinite(v.position.y) && std::isfinite(v.position.z);
       const auto inside = [](float w) { return w >= -kBeyond && w <= 1 + kBeyond; };
-      if (!placed || !inside(v.barycentric.x) || !inside(v.barycentric.y))
+      if (!isPlaced(v) || !inside(v.barycentric.x) || !inside(v.barycentric.y))
         return file_.malformed("has a vertex that lies nowhere in its source triangle");
     }
-    for (const glm::uvec4& t : arrays_.triangle) {
-      for (int c = 0; c < 3; ++c)
-        if (t[c] >= local_.vertices.size()) return file_.malformed("has a triangle without a vertex");
+    const std::size_t stored = local_.vertices.size();
+    for (glm::uvec4 t : arrays_.triangle) {
       if (t.w >= arrays_.source.size()) return file_.malformed("has a triangle of no source triangle");
+      if (glm::uvec3(t) == glm::uvec3(kWhole)) {
+        for (int c = 0; c < 3; ++c) {
+          t[c] = std::uint32_t(local_.vertices.size());
+          local_.vertices.push_back({arrays_.place[arrays_.source[t.w][c]].position, kCorners[c]});
+          if (!isPlaced(local_.vertices.back()))
+            return file_.malformed("has a source triangle with a corner that lies nowhere");
+        }
+      } else if (t.x >= stored || t.y >= stored || t.z >= stored) {
+        return file_.malformed("has a triangle without a vertex");
+      }
       auto mesh = std::ranges::upper_bound(firstTriangle_, t.w);  // of empty meshes the last
       const auto number = std::uint32_t(mesh - firstTriangle_.begin() - 1);
       local_.triangles.push_back({glm::uvec3(t), number, t.w - firstTriangle_[number]});

@@ -1,4 +1,5 @@
 #include <utility>
+#include <vector>
 
 #include "engine/base/contract.h"
 #include "engine/export/local_file.h"
@@ -8,6 +9,43 @@
 
 namespace acentric {
 namespace {
+
+/// Is it all of its source triangle, corner by corner?
+bool isWhole(const LocalGeometry& local, const LocalTriangle& triangle, const Mesh& mesh) {
+  const glm::uvec3& corners = mesh.triangles[triangle.triangle];
+  for (int c = 0; c < 3; ++c) {
+    const LocalVertex& vertex = local.vertices[triangle.vertices[c]];
+    if (vertex.barycentric != local_file::kCorners[c] || vertex.position != mesh.positions[corners[c]])
+      return false;
+  }
+  return true;
+}
+
+/// Vertices that triangles name, numbered as they are met.
+class UsedVertices {
+ public:
+  explicit UsedVertices(const LocalGeometry& local) : local_(local), number_(local.vertices.size(), kNone) {}
+
+  glm::uvec3 numbersOf(const LocalTriangle& triangle) {
+    glm::uvec3 numbers(0);
+    for (int c = 0; c < 3; ++c) {
+      std::uint32_t& number = number_[triangle.vertices[c]];
+      if (number == kNone) {
+        number = std::uint32_t(vertices.size());
+        vertices.push_back(local_.vertices[triangle.vertices[c]]);
+      }
+      numbers[c] = number;
+    }
+    return numbers;
+  }
+
+  std::vector<LocalVertex> vertices;
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  const LocalGeometry& local_;
+  std::vector<std::uint32_t> number_;
+};
 
 Status write(const LocalGeometry& local, const std::filesystem::path& path) {
   require(local.surfaces != nullptr, "what a bundle holds is self-contained");
@@ -19,15 +57,19 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
     firstTriangle.push_back(std::uint32_t(arrays.source.size()));
     arrays.flags |= arrays.append(mesh);
   }
-  for (const LocalTriangle& t : local.triangles)
-    arrays.triangle.push_back(glm::uvec4(t.vertices, firstTriangle[t.mesh] + t.triangle));
+  UsedVertices used(local);
+  for (const LocalTriangle& t : local.triangles) {
+    const bool whole = isWhole(local, t, surfaces.meshes[t.mesh]);
+    arrays.triangle.push_back(glm::uvec4(whole ? glm::uvec3(local_file::kWhole) : used.numbersOf(t),
+                                         firstTriangle[t.mesh] + t.triangle));
+  }
   if (!surfaces.light.empty()) arrays.flags |= local_file::kLight;
   if (!surfaces.mirrorPlanes.empty()) arrays.flags |= local_file::kMirrors;
   for (const auto& planes : surfaces.mirrorPlanes)
     arrays.plane.insert(arrays.plane.end(), planes.begin(), planes.end());
 
   BlockFileWriter file(BlockFileKind::localGeometry, {});
-  for (const std::size_t count : {local.vertices.size(), arrays.triangle.size(), arrays.place.size(),
+  for (const std::size_t count : {used.vertices.size(), arrays.triangle.size(), arrays.place.size(),
                                   arrays.source.size(), surfaces.light.light.size(), surfaces.meshes.size()})
     file.describe(static_cast<std::uint32_t>(count));
   file.describe(arrays.flags);
@@ -36,7 +78,8 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
       surfaces.light.empty() ? std::vector<std::byte>() : codeLight(surfaces.light, unused);
   file.describe(static_cast<std::uint32_t>(light.size()));
   file.describe(static_cast<std::uint8_t>(unused));
-  file.claim(surfaces.light.light.size() * sizeof(HalfColour));
+  file.claim(surfaces.light.light.size() * sizeof(HalfColour) +
+             arrays.triangle.size() * local_file::kVerticesBytes);
   for (const Mesh& mesh : surfaces.meshes) {
     file.describe(static_cast<std::uint32_t>(mesh.material));
     file.describe(static_cast<std::uint32_t>(mesh.positions.size()));
@@ -44,7 +87,7 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
     file.describe(local_file::flagsOf(mesh));
   }
   Status added;
-  local_file::forEachArray(local.vertices, std::as_const(arrays), surfaces.light,
+  local_file::forEachArray(std::as_const(used.vertices), std::as_const(arrays), surfaces.light,
                            [&](const auto& lanes, std::size_t count) {
                              if (added) added = file.addRecords(lanes, count);
                            });

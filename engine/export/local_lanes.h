@@ -11,6 +11,12 @@ namespace acentric::local_file {
 /// What a file has, or a mesh of it (the last three).
 inline constexpr std::uint8_t kLight = 1, kMirrors = 2, kUv0 = 4, kUv1 = 8, kColours = 16;
 
+/// In place of each of its vertices' numbers: a triangle that is all of its source triangle, whose corners
+/// are its vertices, in their order.
+inline constexpr std::uint32_t kWhole = 0xffffffff;
+inline constexpr std::uint64_t kVerticesBytes = 3 * sizeof(LocalVertex);  ///< of one
+inline constexpr glm::vec2 kCorners[3] = {{0, 0}, {1, 0}, {0, 1}};
+
 inline std::uint8_t flagsOf(const Mesh& mesh) {
   return std::uint8_t((mesh.uv[0].empty() ? 0 : kUv0) | (mesh.uv[1].empty() ? 0 : kUv1) |
                       (mesh.colours.empty() ? 0 : kColours));

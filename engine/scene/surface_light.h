@@ -6,6 +6,7 @@
 /// A triangle of resolution R has (R+1)(R+2)/2 samples at barycentric weights (i/R, j/R) of its 2nd and 3rd
 /// corner, 0 <= i, j and i + j <= R, stored with j fastest within i. R = 0 means "no light baked": black.
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -30,6 +31,14 @@ struct SurfaceLight {
   /// Interpolated light at barycentric weights (b1, b2) of corner 2 and 3.
   glm::vec3 at(std::uint32_t sceneTriangle, glm::vec2 barycentric, bool back) const;
 };
+
+/// Its channels with so many bits zero at the end, the nearest that are.
+inline HalfColour roundedLight(HalfColour light, int unusedBits) {
+  const unsigned step = 1u << unusedBits, largest = 0x7c00 - step;
+  for (std::uint16_t* channel : {&light.r, &light.g, &light.b})
+    *channel = std::uint16_t(std::min((*channel + step / 2) & ~(step - 1), largest));
+  return light;
+}
 
 /// The three samples of one side around a place, and their weights, which sum to 1. Places slightly outside
 /// the triangle read its border. R >= 1.

@@ -17,6 +17,7 @@ constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
   if (kind == BlockFileKind::capture) return kPlainCapture;
   if (kind == BlockFileKind::surfaceLight) return 4;
+  if (kind == BlockFileKind::localGeometry) return 3;
   return kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
 /// What a reader of the kind takes: captures in all of their versions.

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kChannels = {&HalfColour::g, &HalfColour::r, &HalfColour::b};  ///< as they are coded
 constexpr std::uint16_t kOne = 0x3c00;
 constexpr int kInfinite = 0x7c00;
-constexpr int kMostUnused = 4;
+constexpr int kMostUnused = 5;
 
 /// Writer and reader in one, as the coder is, of the fronts of triangles or of their backs.
 template <class Coder>

@@ -12,7 +12,7 @@ const file = (name: string) => ({ file: name, bytes: 10, hash: 'ab'.repeat(16) }
 function sound() {
   const corners = [[0, 0], [1, 0], [0, 1]];
   return {
-    format: 'acentric bundle', version: 3, name: 'room', exposure: 1, toneCurve: 'acentric neutral 1', fov: 1.05,
+    format: 'acentric bundle', version: 4, name: 'room', exposure: 1, toneCurve: 'acentric neutral 1', fov: 1.05,
     view: { maxSplatPixels: 16 }, storey: 0,
     sky: { zenith: [0, 0, 0], horizon: [0, 0, 0], ground: [0, 0, 0] },
     bounds: { min: [0, 0, 0], max: [1, 1, 1] },

@@ -9,7 +9,7 @@ import type {
 
 export const kIndexName = 'bundle.json';
 const kFormat = 'acentric bundle';
-const kVersion = 3;
+const kVersion = 4;
 const kToneCurve = 'acentric neutral 1';
 const kMost = 1 << 24; // of anything in a list
 const kLargestFile = 2 ** 31;
