@@ -45,7 +45,10 @@ Project everythingSet() {
   project.fovDegrees = 72.5;
   project.exposure = 0.123f;
   project.spawn() = {{1.25, 2.5}, radians(-90.0)};
-  project.storeys.push_back({"second [1, 2]", project.layout(), {{-3, 4}, radians(15.0)}});
+  project.storeys.push_back({"second [1, 2]",
+                             project.layout(),
+                             {{-3, 4}, radians(15.0), true},
+                             parseOutline("0,0;9,0;9,9").value()});
   project.storeys.back().layout.floorHeight = 3.1;
   project.storey = 1;
   project.bookmarks = {{"door", 0, {1, -2.5, 1.6}, radians(90.0), radians(-12.0), 75},
