@@ -108,11 +108,38 @@ Status NearGroundOptions::check() const {
 }
 
 double wayCost(double clearance) {
-  return 1 + std::max(0.0, std::min(clearance, kOpenClearance) - kStreetClearance) / kStreetClearance;
+  if (clearance < kGapClearance) return 3 - 2 * std::max(0.0, clearance) / kGapClearance;
+  return std::max(1.0, std::min(clearance, kOpenClearance) / kStreetClearance);
 }
 
 glm::dvec2 NearGround::startPlace() const {
   return grid.centreOf(start % grid.columns, start / grid.columns);
+}
+
+int startNear(const NearGround& ground, const glm::dvec2& place, double reach) {
+  const ProbeGrid& grid = ground.grid;
+  const auto isMiddle = [&](int x, int y) {
+    const float here = ground.clearance[grid.index(x, y)];
+    if (double(here) > kStreetClearance) return false;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (ground.floor.at(x + dx, y + dy) && ground.clearance[grid.index(x + dx, y + dy)] > here)
+          return false;
+    return true;
+  };
+  int best = -1;
+  double room = 0, away = 0;
+  for (int y = 0; y < grid.rows; ++y)
+    for (int x = 0; x < grid.columns; ++x) {
+      const double distance = glm::distance(grid.centreOf(x, y), place);
+      if (distance > reach || !ground.floor.at(x, y) || !isMiddle(x, y)) continue;
+      const int cell = int(grid.index(x, y));
+      // To the step of the grid: what is felt is no more exact.
+      const double here = std::round(double(ground.clearance[std::size_t(cell)]) / grid.step);
+      if (best >= 0 && (here < room || (here == room && distance >= away))) continue;
+      best = cell, room = here, away = distance;
+    }
+  return best >= 0 ? best : nearestCell(ground, place);
 }
 
 std::optional<glm::dvec2> mostEnclosedPlace(const Standing& standing) {
@@ -218,7 +245,8 @@ Result<NearGround> surveyNearGround(const Bounds& bounds, const NearGroundOption
   const auto floor = surveyOf(window);
   if (!floor) return tl::unexpected(floor.error());
   NearGround ground = groundOf(*floor);
-  ground.start = nearestCell(ground, *around);
+  ground.start =
+      options.around ? nearestCell(ground, *around) : startNear(ground, *around, 0.5 * kEnclosedSquare);
   require(ground.start >= 0, "a floor has cells");
   ground.wayTo = waysFrom(ground.start, ground.grid, ground.floor, ground.links, ground.clearance);
   return ground;

@@ -14,7 +14,7 @@ namespace acentric {
 
 struct NearGroundOptions {
   WalkableOptions walkable;  ///< its floorHeight is the walk plane's; its gridStep is not used
-  /// Plan, metres: where to begin; none: where most floor is enclosed.
+  /// Plan, metres: where to begin; none: in the middle of a street or a room, where most floor is enclosed.
   std::optional<glm::dvec2> around;
   double window = 600;  ///< metres: side of the square around it that is looked at closely
   double step = 2;      ///< metres between the places looked at in it, at least
@@ -22,11 +22,13 @@ struct NearGroundOptions {
   Status check() const;
 };
 
-/// What open ground costs: a metre of way whose nearest surface is `clearance` metres away counts as
-/// wayCost(clearance) metres: 1 within kStreetClearance of a surface, more in proportion beyond.
+// What a metre of way counts by what stands about: 1 in streets, more in the open and in gaps that one hardly
+// fits through.
 inline constexpr double kStreetClearance = 10;  ///< metres: in the middle of a street 20 m wide
+inline constexpr double kGapClearance = 2;      ///< metres
 /// Nothing farther away counts: see StandingRules::farthestWall.
 inline constexpr double kOpenClearance = 100;
+/// From kStreetClearance on in proportion to it; below kGapClearance up to three times as much.
 double wayCost(double clearance);
 
 struct NearGround {
@@ -55,6 +57,11 @@ std::vector<float> waysFrom(int start, const ProbeGrid& grid, const CellMask& fl
 /// What is `felt` about a cell bounds the clearance of the others by their distance from it along rows,
 /// columns and diagonals: least over all cells of felt + that.
 void spreadClearance(std::vector<float>& felt, const ProbeGrid& grid);
+
+/// Of the floor within `reach` metres of a place, the cell to begin at: the roomiest middle of a street or a
+/// room, where clearance is least to no side and no more than kStreetClearance, the nearest of these. Where
+/// there is none, the cell of the floor nearest to the place; -1 without any floor.
+int startNear(const NearGround& ground, const glm::dvec2& place, double reach);
 
 /// The middle clearance of the floor nearest to the start, so many square metres of it.
 double middleClearance(const NearGround& ground, double squareMetres);

@@ -76,15 +76,15 @@ std::optional<double> meanClearance(const ConvexPolygon& polygon, const NearGrou
   return sum / count;
 }
 
-void addSplits(const LayoutSpec& pattern, const CellId& id, const NearGround& ground,
+void addSplits(const LayoutSpec& pattern, const CellId& id, const NearGround& ground, double leastRoom,
                std::set<CellId>& splits) {
   const ConvexPolygon polygon = cellPolygon(pattern, id);
   const double room = roomOf(polygon);
-  if (id.level >= kMaxLevel || 0.5 * room < kLeastRoom * (1 - 1e-9)) return;
+  if (id.level >= kMaxLevel || 0.5 * room < leastRoom * (1 - 1e-9)) return;
   const auto clearance = meanClearance(polygon, ground);
   if (!clearance || kRoomToSplit * room <= *clearance) return;
   splits.insert(id);
-  for (const CellId& part : partsOf(pattern, id)) addSplits(pattern, part, ground, splits);
+  for (const CellId& part : partsOf(pattern, id)) addSplits(pattern, part, ground, leastRoom, splits);
 }
 
 /// Only those that regions of this layout come from.
@@ -127,7 +127,7 @@ NearGroundOptions lookingFor(const LayoutSpec& spec, const FirstLayoutLimit& lim
   near.walkable.floorHeight = spec.floorHeight;
   near.walkable.ignoreSides = ignoredSides;
   near.around = limit.around;
-  const double cell = limit.chooseCell ? cellWithRoom(spec.configuration, 0.5 * kMostRoom) : spec.cellSize;
+  const double cell = limit.chooseCell ? cellWithRoom(spec.configuration, kMostRoom) : spec.cellSize;
   // A ring has six cameras or so, whatever the configuration.
   const double rings = std::max(1.0, double(limit.cameras) / 6);
   const double side = cell * std::sqrt(rings * areaPerRing(spec.configuration));
@@ -155,7 +155,7 @@ bool exceeds(const LayoutSpec& spec, const FirstLayoutLimit& limit) {
   return cameras && *cameras > limit.cameras;
 }
 
-std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground) {
+std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground, double leastRoom) {
   std::set<CellId> splits;
   if (!canSplit(pattern.configuration)) return splits;
   LayoutSpec whole = pattern;
@@ -163,7 +163,7 @@ std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground) 
   const ProbeGrid& grid = ground.grid;
   const glm::dvec2 size = grid.step * glm::dvec2(grid.columns, grid.rows);
   for (const LatticeCell& cell : cellsIn(whole, grid.corner, grid.corner + size, kMaxRegions))
-    addSplits(whole, cell.id, ground, splits);
+    addSplits(whole, cell.id, ground, leastRoom, splits);
   return splits;
 }
 
@@ -205,8 +205,9 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   }
   if (!ground) return tl::unexpected(ground.error());
   const bool splits = limit.chooseCell && canSplit(kept.configuration);
+  const double room =
+      std::clamp(kRoomOfClearance * middleClearance(*ground, kGroundToMeasure), kLeastRoom, kMostRoom);
   if (limit.chooseCell) {
-    const double room = std::clamp(middleClearance(*ground, kGroundToMeasure), kLeastRoom, kMostRoom);
     kept.cellSize = roundTo(cellWithRoom(kept.configuration, room), 0.05);
     kept.nearBand = std::max(spec.nearBand, roundTo(kBandOfRoom * room, 0.05));
   }
@@ -218,8 +219,8 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   shift.crowding.trustSides = !ignoredSides;
   kept.latticeOrigin = findFreestOrigin(kept, shift, probe, stop).origin;
   if (splits) {
-    kept.cellSize = roundTo(cellWithRoom(kept.configuration, kMostRoom), 0.05);
-    kept.split = splitsFor(kept, *ground);
+    kept.cellSize = roundTo(cellWithRoom(kept.configuration, std::min(2 * room, kMostRoom)), 0.05);
+    kept.split = splitsFor(kept, *ground, 0.5 * room);
   }
   outline = largestOutline(kept, *ground, limit.cameras);  // as the cells are now, others fit it
   if (!outline) return tooFew(limit.cameras);

@@ -13,17 +13,18 @@ namespace acentric {
 /// firstCellSize gives larger ones only where the walkable area is vast.
 inline constexpr double kLargestUsualCell = 6.0;  ///< metres
 
-// Where not all ground is laid out, a ring has room for a circle as large as the middle distance to what
-// stands about: of all the ground where the walk begins for configurations that cannot be split, else of each
-// cell's.
-inline constexpr double kLeastRoom = 1.5, kMostRoom = 6;  ///< metres: radius of that circle
-inline constexpr double kGroundToMeasure = 10'000;        ///< square metres
-/// A cell is split where so much of its room is more than the mean distance to what stands about in it: a
-/// street is as wide as two cells of twice its mean distance, however they lie in it.
-inline constexpr double kRoomToSplit = 0.75;
+// Where not all ground is laid out, a ring's room (the radius of the circle within it) is twice the middle
+// distance to what stands about, on the ground where the walk begins: as large as the street is wide. Where
+// rings can be split, it is so of each region, between half and twice that.
+inline constexpr double kLeastRoom = 1.5, kMostRoom = 6;  ///< metres
+inline constexpr double kRoomOfClearance = 2;
+inline constexpr double kGroundToMeasure = 10'000;  ///< square metres
+/// Split where the mean distance to what stands about is less than this share of a region's room: in a street
+/// as wide as the region it is half of it, less what a survey's steps and the lattice's place take.
+inline constexpr double kRoomToSplit = 0.45;
 /// Where regions are large because nothing is near, so is what is drawn as polygons around them: pictures
 /// then look the same, only larger.
-inline constexpr double kBandOfRoom = 0.8;
+inline constexpr double kBandOfRoom = 0.75;
 
 struct FirstLayoutLimit {
   std::size_t cameras = 0;  ///< 0 = none

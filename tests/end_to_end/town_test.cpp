@@ -35,7 +35,7 @@ TEST(Town, HasAFirstLayoutThatCanBeBaked) {
   const ProcessResult made = town.make({});
   ASSERT_EQ(made.exitCode, 0) << made.errors;
   EXPECT_THAT(made.output,
-              AllOf(HasSubstr("configuration e with cells of 12 to 3 m"), HasSubstr("laid out: only "),
+              AllOf(HasSubstr("configuration e with cells of 12 to 6 m"), HasSubstr("laid out: only "),
                     HasSubstr("km2 that can be walked"), HasSubstr("2,000 cameras are the limit"),
                     HasSubstr("--max-cameras"), HasSubstr("--around x,y"), HasSubstr("plan: ")));
   const auto project = loadProject(town.file());

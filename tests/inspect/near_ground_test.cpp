@@ -95,8 +95,9 @@ TEST(NearGround, WaysAreAsShortAsRelaxingEveryStepUntilNothingChanges) {
   }
 }
 
-TEST(NearGround, OpenGroundCostsMoreThanAStreet) {
-  EXPECT_EQ(wayCost(0), 1);
+TEST(NearGround, OpenGroundAndGapsCostMoreThanAStreet) {
+  EXPECT_EQ(wayCost(0), 3);
+  EXPECT_EQ(wayCost(kGapClearance), 1);
   EXPECT_EQ(wayCost(kStreetClearance), 1);
   EXPECT_DOUBLE_EQ(wayCost(3 * kStreetClearance), 3);
   EXPECT_EQ(wayCost(std::numeric_limits<double>::infinity()), wayCost(kOpenClearance));
@@ -125,7 +126,7 @@ TEST(NearGround, BeginsWhereMostIsEnclosedAndFollowsTheStreet) {
   const BoxWorld world = streetOnAPlain();
   const auto ground = surveyNearGround(world.bounds(), onTheGround(), world.probe());
   ASSERT_TRUE(ground) << ground.error().describe();
-  EXPECT_NEAR(ground->startPlace().x, 100, 30);
+  EXPECT_NEAR(ground->startPlace().x, 100, 2) << "the middle of the street";
   EXPECT_NEAR(ground->startPlace().y, 0, 75);
   const auto clearanceAt = [&](double x, double y) {
     const glm::dvec2 at = (glm::dvec2(x, y) - ground->grid.corner) / ground->grid.step;

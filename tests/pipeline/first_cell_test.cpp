@@ -28,15 +28,15 @@ TEST(FirstCells, AreLargerOnAVastPlainSoThatTheLayoutStaysSmall) {
   }
 }
 
-/// Open floor with a wall at x = 0: the clearance is the distance from it.
-NearGround floorBesideAWall() {
+/// Open floor with things about it that stand closer and closer together towards x = 0.
+NearGround narrowingFloor() {
   NearGround ground;
   ground.grid = {{0, -60}, 2, 60, 60};
   ground.floor = CellMask(60, 60);
   std::ranges::fill(ground.floor.cells, std::uint8_t(1));
   ground.links.right = ground.links.up = ground.floor.cells;
   for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 60; ++x) ground.clearance.push_back(float(2 * x + 1));
+    for (int x = 0; x < 60; ++x) ground.clearance.push_back(float(0.25 * x));
   ground.start = int(ground.grid.index(2, 30));
   ground.wayTo = waysFrom(ground.start, ground.grid, ground.floor, ground.links, ground.clearance);
   return ground;
@@ -50,7 +50,7 @@ std::size_t camerasOf(LayoutSpec spec, Outline outline) {
 }
 
 TEST(FirstCells, HaveNoMoreCamerasThanTheLimitAndNearlyAsMany) {
-  const NearGround ground = floorBesideAWall();
+  const NearGround ground = narrowingFloor();
   std::vector<float> ways = ground.wayTo;
   std::ranges::sort(ways);
   for (const Configuration configuration : {Configuration::a, Configuration::b, Configuration::e})
@@ -75,12 +75,13 @@ TEST(FirstCells, HaveNoMoreCamerasThanTheLimitAndNearlyAsMany) {
 }
 
 TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
-  const NearGround ground = floorBesideAWall();
+  const NearGround ground = narrowingFloor();
+  constexpr double kLeast = 1.5;
   for (const Configuration configuration : {Configuration::e, Configuration::g}) {
     LayoutSpec spec;
     spec.configuration = configuration;
     spec.cellSize = configuration == Configuration::e ? 12 : 20;
-    spec.split = splitsFor(spec, ground);
+    spec.split = splitsFor(spec, ground, kLeast);
     spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
     const auto layout = buildLayout(spec);
     ASSERT_TRUE(layout) << layout.error().describe();
@@ -97,7 +98,7 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
         for (int x = 0; x < ground.grid.columns; ++x)
           if (polygon.containsClosed(ground.grid.centreOf(x, y)))
             sum += double(ground.clearance[ground.grid.index(x, y)]), ++count;
-      return count > 0 && kRoomToSplit * room > sum / count && 0.5 * room >= kLeastRoom * (1 - 1e-9);
+      return count > 0 && kRoomToSplit * room > sum / count && 0.5 * room >= kLeast * (1 - 1e-9);
     };
     std::set<int> levels;
     for (const Region& region : layout->regions) {
@@ -105,9 +106,9 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
       levels.insert(region.id.level);
     }
     for (const CellId& id : spec.split) EXPECT_TRUE(tooLarge(id));
-    EXPECT_GE(levels.size(), 2u) << "small at the wall, large in the open";
+    EXPECT_GE(levels.size(), 2u) << "small where it is narrow, large in the open";
   }
-  EXPECT_TRUE(splitsFor(LayoutSpec{}, ground).empty()) << "b has no parts";
+  EXPECT_TRUE(splitsFor(LayoutSpec{}, ground, kLeast).empty()) << "b has no parts";
 }
 
 /// Ground of 1 x 1 km with a square court of houses in a corner of it.
