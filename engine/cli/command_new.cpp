@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
 
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
@@ -74,14 +78,48 @@ std::string cellsText(const Layout& layout) {
                      std::ldexp(layout.spec.cellSize, -finest));
 }
 
-/// What the first bake will take, at a glance.
+constexpr std::chrono::seconds kPlanning{10};  ///< that a new project may wait for its plan
+
+/// What the first bake will take, at a glance; cancelled where that is not known in time.
 Result<BakeForecast> planOf(const std::vector<OpenProject>& storeys, const Common& common) {
   std::vector<BakeShare> shares;
   for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
   BakeForecastOptions options;
   options.glance = true;
   const auto runner = common.runner();
-  return forecastBake(shares, options, *runner, common.progress, common.stop);
+  std::stop_source late;
+  const std::stop_callback stopped(common.stop, [&] { late.request_stop(); });
+  const std::jthread clock([&late](const std::stop_token& known) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_for(lock, known, kPlanning, [] { return false; });
+    if (!known.stop_requested()) late.request_stop();
+  });
+  return forecastBake(shares, options, *runner, common.progress, late.get_token());
+}
+
+Status addPlan(const std::vector<OpenProject>& storeys, const std::filesystem::path& project,
+               const Common& common, Report& report) {
+  std::size_t cameras = 0;
+  double megapixels = 0;
+  for (const OpenProject& storey : storeys)
+    cameras += storey.layout->cameras.size(), megapixels += megapixelsOf(storey);
+  report.json["plan"] = {{"cameras", cameras}, {"megapixels", megapixels}};
+  const auto plan = planOf(storeys, common);
+  if (common.stop.stop_requested())
+    return fail(ErrorKind::cancelled, "stopped; the project is made", project.string());
+  if (plan) report.json["plan"].update(toJson(*plan));
+  std::string text;
+  if (plan)
+    text = describe(*plan);
+  else
+    text = fmt::format("{} cameras, {:.0f} Mpixel to bake; acentric estimate {} tells what that takes ({})",
+                       countText(cameras), megapixels, project.string(),
+                       plan.error().kind == ErrorKind::cancelled
+                           ? fmt::format("it is not known within {} s", kPlanning.count())
+                           : plan.error().describe());
+  report.text += fmt::format("plan: {}\n", text);
+  return {};
 }
 
 }  // namespace
@@ -182,10 +220,9 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   if (doubt)
     report.text +=
         fmt::format("  scale in doubt: {} (--metres-per-unit {:g})\n", doubt->text, doubt->metresPerUnit);
-  const auto plan = planOf(*storeys, common);
-  if (!plan) return tl::unexpected(plan.error());
-  report.json["plan"] = toJson(*plan);
-  report.text += fmt::format("plan: {}\n", describe(*plan));
+  if (options.estimate)
+    if (Status planned = addPlan(*storeys, options.output, common, report); !planned)
+      return tl::unexpected(planned.error());
   report.text += fmt::format("next: acentric bake {}\n", options.output.string());
   return report;
 }

@@ -55,6 +55,7 @@ void addNew(CLI::App& app, Chosen& chosen) {
                 "(default: the one with most floor)");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
+  c->add_flag("!--no-estimate", o.estimate, "Do not estimate what the bake will take, which takes seconds");
   c->add_flag("--force", o.force, "Replace an existing project file");
   c->add_flag(
       "--link", o.link,

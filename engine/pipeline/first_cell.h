@@ -44,9 +44,9 @@ bool exceeds(const LayoutSpec& spec, const FirstLayoutLimit& limit);
 Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& limit, const Bounds& bounds,
                               bool ignoredSides, const SurfaceProbe& probe, std::stop_token stop = {});
 
-/// Regions of the pattern's cell size, and their parts, that have too little room: see kRoomToSplit. Parts
-/// with less room than kLeastRoom are not made. None of configurations that cannot be split.
-std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground);
+/// Regions of the pattern's cell size, and their parts, that are to be split: see kRoomToSplit. No parts are
+/// made with less room than `leastRoom`, metres. None of configurations that cannot be split.
+std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground, double leastRoom);
 
 /// The most of the ground, in the order of its ways, that a layout of this pattern has no more cameras for.
 /// Nothing if the least has more.
