@@ -131,6 +131,21 @@ TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
               HasSubstr("/view/exposure"));
 }
 
+TEST(ProjectFile, RefusesHostileWalkableGround) {
+  const auto with = [](const std::string& walkable) {
+    return R"({"format":"acentric-project","version":1,"scene":"a.glb","storeys":[{"name":"floor","layout":)"
+           R"({"configuration":"b","cellSize":2},"walkable":)" +
+           walkable + "}]}";
+  };
+  EXPECT_TRUE(parseProject(with("[[[0,0],[1,0],[1,1]]]"), "p"));
+  EXPECT_THAT(refusalOf(with("7")), HasSubstr("/storeys/0/walkable"));
+  EXPECT_THAT(refusalOf(with("[[[0,0],[1,0]]]")), HasSubstr("/storeys/0/walkable/0"));
+  EXPECT_THAT(refusalOf(with("[[[0,0],[1,0],[1e9,1]]]")), HasSubstr("/storeys/0/walkable/0"));
+  std::string many = "[[[0,0]";
+  for (int k = 1; k < 5000; ++k) many += ",[" + std::to_string(k) + ",1]";
+  EXPECT_THAT(refusalOf(with(many + "]]")), HasSubstr("/storeys/0/walkable"));
+}
+
 TEST(ProjectFile, RefusesAModelOutsideItsFolder) {
   const std::string sound = formatProject(everythingSet());
   const auto stating = [&](const std::string& scene) {
