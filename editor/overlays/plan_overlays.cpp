@@ -58,6 +58,11 @@ void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& ou
     ui::drawDashed(list, view, loop, true, palette::text.withOpacity(0.42F), 1.2F);
 }
 
+void drawWalkable(ImDrawList& list, const ui::CanvasView& view, const Outline& walkable) {
+  for (const auto& loop : walkable.loops)
+    ui::drawDashed(list, view, loop, true, palette::text.withOpacity(0.2F), 1);
+}
+
 void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
                         const glm::dvec2* pointer) {
   for (const auto& loop : outline.loops) {

@@ -36,6 +36,8 @@ void drawBytesLegend(ImDrawList& list, const ui::CanvasView& view, std::uint64_t
 const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& view,
                                      const PlacementReport& report, const glm::dvec2& pointer);
 void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& outline);
+/// Ground that can be walked, of which the layout has a part: fainter.
+void drawWalkable(ImDrawList& list, const ui::CanvasView& view, const Outline& walkable);
 /// Corners that can be taken hold of; with a pointer, what a press there would do.
 void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
                         const glm::dvec2* pointer);

@@ -98,6 +98,20 @@ void drawDisk(Session& session) {
   ui::wrappedText(tight ? ui::palette::warning : ui::palette::text, text);
 }
 
+/// Of the layout as it is: captures, and how much of the ground they are for.
+void drawPlan(const Session& session) {
+  const Storey& storey = session.project().current();
+  std::string text =
+      fmt::format("{} captures for {:.0f} m²", ui::formatCount(session.built()->layout->cameras.size()),
+                  storey.layout.outline.area());
+  if (!storey.walkable.empty())
+    text += fmt::format(" of {:.0f} m² that can be walked", storey.walkable.area());
+  if (session.estimate() == nullptr) text += "; Estimate tells what baking them takes";
+  ui::mutedText("Plan");
+  ImGui::SameLine(ui::scaled(kValueX));
+  ui::wrappedText(ui::palette::text, text);
+}
+
 void drawFacts(PanelContext& context) {
   Session& session = context.session();
   const CaptureStatus* captures = session.captures().get();
@@ -114,6 +128,7 @@ void drawFacts(PanelContext& context) {
                                                       : std::string()),
                  kValueX);
   }
+  if (!session.baking().running()) drawPlan(session);
   drawDisk(session);
   if (const auto& last = session.lastBake(); last && !session.baking().running()) {
     const BakeReport& report = last->captures;

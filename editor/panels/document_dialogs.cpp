@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/pipeline/pipeline.h"
+#include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace {
@@ -41,6 +42,35 @@ void fillDraft(NewProjectDraft& draft, const Session& session) {
   draft.generation = session.generation();
 }
 
+/// As the project that was made has it, else as one of another configuration would, were all laid out.
+double derivedCell(const Project& project, Configuration configuration) {
+  if (configuration == project.layout().configuration) return project.layout().cellSize;
+  return firstCellSize(project.layout().outline.area(), configuration);
+}
+
+/// What was found to walk on, how much of it is laid out, and what baking it takes.
+void drawFound(const Session& session, const std::string& name) {
+  const Storey& storey = session.project().current();
+  const double laidOut = storey.layout.outline.area();
+  const double all = storey.walkable.empty() ? laidOut : storey.walkable.area();
+  std::string text = fmt::format("{}: {:.1f} m² to walk on were found", name, all);
+  if (!storey.walkable.empty())
+    text += fmt::format(
+        ", of which {:.1f} m² are laid out: all of it would take more than {} captures. Draw a larger or "
+        "another "
+        "outline to have more",
+        laidOut, ui::formatCount(std::uint64_t(kUsualMostCameras)));
+  ui::wrappedText(ui::palette::muted, text + ". All of this can be changed later.");
+  std::string plan = fmt::format("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
+  if (const BakeEstimate* estimate = session.estimate())
+    plan += fmt::format(": about {} to bake with {} threads, {} on disk",
+                        ui::formatDuration(estimate->seconds.value), session.bakeThreads(),
+                        ui::formatBytes(std::uint64_t(estimate->bytes.value)));
+  else if (session.estimating().running())
+    plan += ": what baking them takes is being estimated…";
+  ui::wrappedText(ui::palette::muted, plan);
+}
+
 void drawDraft(PanelContext& context, NewProjectDraft& draft) {
   std::vector<ui::Choice> choices;
   for (int i = 0; i <= int(Configuration::g); ++i)
@@ -51,8 +81,7 @@ void drawDraft(PanelContext& context, NewProjectDraft& draft) {
                   "How panoramas are placed: angle of a camera and the polygons of the lattice.");
   context.log.item("new.configuration");
   draft.configuration = Configuration(index);
-  if (draft.derived)
-    draft.cellSize = firstCellSize(context.session().project().layout().outline.area(), draft.configuration);
+  if (draft.derived) draft.cellSize = derivedCell(context.session().project(), draft.configuration);
   const ui::FieldEdit size =
       ui::numberField({"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
                        "Edge length of the polygons. At first about a dozen rings fill the walkable area."},
@@ -82,11 +111,12 @@ void drawNewProject(PanelContext& context, const DialogKeys& keys) {
     state.dialog = Dialog::none;
     return;
   }
-  if (draft.generation != session.generation()) fillDraft(draft, session);
+  if (draft.generation != session.generation()) {
+    fillDraft(draft, session);
+    session.glanceAtBake();
+  }
   if (!beginDialog("New project", 560)) return;
-  ui::wrappedText(ui::palette::muted,
-                  fmt::format("{}: {:.1f} m² to walk on were found. All of this can be changed later.",
-                              draft.model.filename().string(), session.project().layout().outline.area()));
+  drawFound(session, draft.model.filename().string());
   ImGui::Dummy({0, 4});
   drawDraft(context, draft);
   ButtonRow row(context, 2, dialogButtonWidth());

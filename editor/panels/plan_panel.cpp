@@ -132,6 +132,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   fulfilWish(context);
   coverage_.drawBelow(list, view_, session.coverage());
   drawLayout(context, list, hovered);
+  drawWalkable(list, view_, session.project().current().walkable);
   drawOutline(list, view_, session.project().layout().outline);
   coverage_.drawAbove(list, view_);
   const bool covered = state.overlay == PlanOverlay::coverage && state.coverageKind == CoverageKind::surfaces;

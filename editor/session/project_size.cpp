@@ -11,11 +11,15 @@ std::size_t nodesOf(const Container& container) {
   return container.size() * (sizeof(typename Container::value_type) + kNodeBytes);
 }
 
-std::size_t bytesBehind(const LayoutSpec& spec) {
-  std::size_t bytes =
-      nodesOf(spec.added) + nodesOf(spec.removed) + nodesOf(spec.split) + nodesOf(spec.freeApvs);
-  for (const auto& loop : spec.outline.loops) bytes += sizeof loop + loop.capacity() * sizeof(glm::dvec2);
+std::size_t bytesBehind(const Outline& outline) {
+  std::size_t bytes = 0;
+  for (const auto& loop : outline.loops) bytes += sizeof loop + loop.capacity() * sizeof(glm::dvec2);
   return bytes;
+}
+
+std::size_t bytesBehind(const LayoutSpec& spec) {
+  return nodesOf(spec.added) + nodesOf(spec.removed) + nodesOf(spec.split) + nodesOf(spec.freeApvs) +
+         bytesBehind(spec.outline);
 }
 
 }  // namespace
@@ -23,7 +27,8 @@ std::size_t bytesBehind(const LayoutSpec& spec) {
 std::size_t approximateBytes(const Project& project) {
   std::size_t bytes = sizeof project + project.scene.native().capacity() + nodesOf(project.effects);
   for (const Storey& storey : project.storeys)
-    bytes += sizeof storey + storey.name.capacity() + bytesBehind(storey.layout);
+    bytes +=
+        sizeof storey + storey.name.capacity() + bytesBehind(storey.layout) + bytesBehind(storey.walkable);
   return bytes;
 }
 

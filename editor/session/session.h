@@ -193,6 +193,8 @@ class Session {
   std::optional<double> bakeSecondsLeft() const;
   /// Of what the current storey lacks, by baking a little of it.
   void estimateBake();
+  /// The same of fewer probes, for a first idea.
+  void glanceAtBake();
   /// Null until asked for, and when something has changed since.
   const BakeEstimate* estimate() const;
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
@@ -391,6 +393,7 @@ class Session {
     BakeEstimate figures;
     EffectCosts costs;
   };
+  void estimateBake(bool glance);
   std::optional<Estimate> estimate_;
   std::optional<BakeForecast> bakeForecast_;
   BakeQueue bakeQueue_;

@@ -192,10 +192,14 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
     messages_.add(MessageLevel::error, "Baked, and could not be written: " + refused);
 }
 
-void Session::estimateBake() {
+void Session::estimateBake() { estimateBake(false); }
+
+void Session::glanceAtBake() { estimateBake(true); }
+
+void Session::estimateBake(bool glance) {
   if (!built_ || baking_.running() || walkRefuses("Estimating the bake")) return;
   estimate_.reset();
-  estimating_.restart("Estimating the bake", [this, open = built_, threads = bakeThreads(),
+  estimating_.restart("Estimating the bake", [this, glance, open = built_, threads = bakeThreads(),
                                               memory = std::size_t(preferences_.bakeMegabytes) *
                                                        1'000'000](const Job::Context& context) {
     const std::vector<bool> baked = bakedCameras(*open);
@@ -205,6 +209,7 @@ void Session::estimateBake() {
     EstimateOptions options;
     options.surfaceLight = !surfaceLightBaked(*open);
     options.memoryBytes = memory;
+    options.brief = options.glance = glance;
     Result<BakeEstimate> estimate = BakeEstimate{};
     if (!missing.empty() || options.surfaceLight) {
       TaskRunner runner(threads - 1);

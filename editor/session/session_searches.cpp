@@ -59,6 +59,8 @@ void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const
     return messages_.add(MessageLevel::warning, label + ": the layout was changed meanwhile; try again");
   Edit edit{project(), label};
   edit.project.layout() = spec;
+  Outline& walkable = edit.project.current().walkable;
+  if (spec.outline.area() >= walkable.area()) walkable = {};  // all of it is laid out
   if (apply(std::move(edit))) messages_.add(MessageLevel::good, found);
 }
 

@@ -119,6 +119,7 @@ Result<Project> editProject(const OpenProject& open, const LayoutOptions& option
     auto outline = findOutlineAt(*open.rays, project.layout().floorHeight, project.layout().eyeHeight);
     if (!outline) return tl::unexpected(outline.error());
     project.layout().outline = std::move(*outline);
+    project.current().walkable = {};  // all of it is laid out now
   } else if (!options.outline.empty()) {
     auto outline = parseOutline(options.outline);
     if (!outline) return tl::unexpected(outline.error());

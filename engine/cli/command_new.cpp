@@ -1,5 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/pipeline/first_cell.h"
 #include "engine/pipeline/scene_storeys.h"
@@ -36,11 +44,82 @@ Result<CollectedModel> makeAndSave(const NewOptions& options, const NewProjectOp
 
 /// Why cells that were not asked for are larger than usual; empty where they are not.
 std::string largeCellsText(const LayoutSpec& spec) {
-  if (spec.cellSize <= kLargestUsualCell) return {};
+  if (spec.cellSize <= kLargestUsualCell || !spec.split.empty()) return {};
   return fmt::format(
       "{:g} m, since {:.3g} km2 are walkable; choose smaller ones with --cell and a smaller area with "
       "--outline",
       spec.cellSize, 1e-6 * spec.outline.area());
+}
+
+std::string areaText(double squareMetres) {
+  return squareMetres < 1e5 ? fmt::format("{:.0f} m2", squareMetres)
+                            : fmt::format("{:.3g} km2", 1e-6 * squareMetres);
+}
+
+/// What of the ground is not laid out, and how to have it; empty where all is.
+std::string leftOutText(const Storey& storey, std::size_t mostCameras) {
+  if (storey.walkable.empty()) return {};
+  const double laid = storey.layout.outline.area(), all = storey.walkable.area();
+  return fmt::format(
+      "only {} of {} that can be walked, around ({:.0f}, {:.0f}), since {} cameras are the limit; more with "
+      "--max-cameras, another part with --around x,y, or one of your own with --outline",
+      areaText(laid), areaText(all), storey.spawn.position.x, storey.spawn.position.y,
+      countText(mostCameras));
+}
+
+/// "from 12 to 3 m" where cells are split.
+std::string cellsText(const Layout& layout) {
+  int finest = 0;
+  for (const Region& region : layout.regions) finest = std::max(finest, region.id.level);
+  if (finest == 0) return fmt::format("{:g} m", layout.spec.cellSize);
+  int largest = finest;
+  for (const Region& region : layout.regions) largest = std::min(largest, region.id.level);
+  return fmt::format("{:g} to {:g} m", std::ldexp(layout.spec.cellSize, -largest),
+                     std::ldexp(layout.spec.cellSize, -finest));
+}
+
+constexpr std::chrono::seconds kPlanning{10};  ///< that a new project may wait for its plan
+
+/// What the first bake will take, at a glance; cancelled where that is not known in time.
+Result<BakeForecast> planOf(const std::vector<OpenProject>& storeys, const Common& common) {
+  std::vector<BakeShare> shares;
+  for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
+  BakeForecastOptions options;
+  options.glance = true;
+  const auto runner = common.runner();
+  std::stop_source late;
+  const std::stop_callback stopped(common.stop, [&] { late.request_stop(); });
+  const std::jthread clock([&late](const std::stop_token& known) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_for(lock, known, kPlanning, [] { return false; });
+    if (!known.stop_requested()) late.request_stop();
+  });
+  return forecastBake(shares, options, *runner, common.progress, late.get_token());
+}
+
+Status addPlan(const std::vector<OpenProject>& storeys, const std::filesystem::path& project,
+               const Common& common, Report& report) {
+  std::size_t cameras = 0;
+  double megapixels = 0;
+  for (const OpenProject& storey : storeys)
+    cameras += storey.layout->cameras.size(), megapixels += megapixelsOf(storey);
+  report.json["plan"] = {{"cameras", cameras}, {"megapixels", megapixels}};
+  const auto plan = planOf(storeys, common);
+  if (common.stop.stop_requested())
+    return fail(ErrorKind::cancelled, "stopped; the project is made", project.string());
+  if (plan) report.json["plan"].update(toJson(*plan));
+  std::string text;
+  if (plan)
+    text = describe(*plan);
+  else
+    text = fmt::format("{} cameras, {:.0f} Mpixel to bake; acentric estimate {} tells what that takes ({})",
+                       countText(cameras), megapixels, project.string(),
+                       plan.error().kind == ErrorKind::cancelled
+                           ? fmt::format("it is not known within {} s", kPlanning.count())
+                           : plan.error().describe());
+  report.text += fmt::format("plan: {}\n", text);
+  return {};
 }
 
 }  // namespace
@@ -51,11 +130,18 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     return fail(ErrorKind::invalidArgument,
                 "exists already; give --force to replace it, or another name with -o",
                 options.output.string());
-  const auto configuration = parseConfiguration(options.configuration);
-  if (!configuration) return tl::unexpected(configuration.error());
-
   NewProjectOptions choices;
-  choices.configuration = *configuration;
+  if (options.configuration != "auto") {
+    const auto configuration = parseConfiguration(options.configuration);
+    if (!configuration) return tl::unexpected(configuration.error());
+    choices.configuration = *configuration;
+  }
+  choices.mostCameras = options.mostCameras;
+  if (!options.around.empty()) {
+    const auto around = parsePoint(options.around);
+    if (!around) return tl::unexpected(around.error());
+    choices.around = *around;
+  }
   choices.cellSize = options.cellSize;
   choices.eyeHeight = options.eyeHeight;
   choices.outline = options.outline;
@@ -91,18 +177,27 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   Json json = Json::array();
   for (const OpenProject& storey : *storeys) {
     const LayoutSpec& spec = storey.layout->spec;
-    json.push_back({{"name", storey.project.current().name},
-                    {"configuration", nameOf(spec.configuration)},
-                    {"cellSize", spec.cellSize},
-                    {"floorHeight", spec.floorHeight},
-                    {"walkableSquareMetres", spec.outline.area()},
-                    {"regions", storey.layout->regions.size()},
-                    {"cameras", storey.layout->cameras.size()}});
+    json.push_back(
+        {{"name", storey.project.current().name},
+         {"configuration", nameOf(spec.configuration)},
+         {"cellSize", spec.cellSize},
+         {"floorHeight", spec.floorHeight},
+         {"walkableSquareMetres",
+          (storey.project.current().walkable.empty() ? spec.outline : storey.project.current().walkable)
+              .area()},
+         {"laidOutSquareMetres", spec.outline.area()},
+         {"regions", storey.layout->regions.size()},
+         {"cameras", storey.layout->cameras.size()}});
     report.text += fmt::format(
-        "  {}: {:.1f} m2 walkable at z = {:.2f} m; configuration {} with {:g} m cells: {} regions, {} "
+        "  {}: {:.1f} m2 walkable at z = {:.2f} m; configuration {} with cells of {}: {} regions, {} "
         "cameras\n",
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
-        spec.cellSize, storey.layout->regions.size(), storey.layout->cameras.size());
+        cellsText(*storey.layout), storey.layout->regions.size(), storey.layout->cameras.size());
+    const std::string leftOut = leftOutText(storey.project.current(), options.mostCameras);
+    if (!leftOut.empty()) {
+      json.back()["leftOut"] = leftOut;
+      report.text += fmt::format("  laid out: {}\n", leftOut);
+    }
   }
   const std::string large = options.cellSize > 0 ? std::string() : largeCellsText(open->layout->spec);
   if (!large.empty()) report.text += fmt::format("  large cells: {}\n", large);
@@ -112,6 +207,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
                  {"triangles", open->scene->triangleCount()},
                  {"storey", open->project.current().name},
                  {"storeys", std::move(json)},
+                 {"mostCameras", options.mostCameras},
                  {"guessed", open->scene->report.guessed},
                  {"dropped", open->scene->report.dropped},
                  {"ignored", open->scene->report.ignored},
@@ -124,6 +220,9 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   if (doubt)
     report.text +=
         fmt::format("  scale in doubt: {} (--metres-per-unit {:g})\n", doubt->text, doubt->metresPerUnit);
+  if (options.estimate)
+    if (Status planned = addPlan(*storeys, options.output, common, report); !planned)
+      return tl::unexpected(planned.error());
   report.text += fmt::format("next: acentric bake {}\n", options.output.string());
   return report;
 }

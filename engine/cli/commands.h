@@ -15,11 +15,14 @@ namespace acentric::cli {
 
 struct NewOptions {
   std::filesystem::path scene, output;
-  std::string configuration = "b", outline = "auto", up = "guess", light = "guess";
+  std::string configuration = "auto", outline = "auto", up = "guess", light = "guess";
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
+  std::size_t mostCameras = kUsualMostCameras;  ///< 0 = no limit
+  std::string around;                           ///< "x,y"; empty = where most floor is enclosed
   std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
   bool ignoreSides = false, force = false;
-  bool link = false;  ///< to a model outside the project's folder, instead of bringing it there
+  bool estimate = true;  ///< what the bake will take
+  bool link = false;     ///< to a model outside the project's folder, instead of bringing it there
 };
 Result<Report> runNew(const NewOptions& options, const Common& common);
 /// What was brought into a project's folder.

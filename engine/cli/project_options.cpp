@@ -24,7 +24,10 @@ void addNew(CLI::App& app, Chosen& chosen) {
                     runNew);
   c->add_option("scene", o.scene, "Model file: glTF, GLB, OBJ, PLY, STL, FBX, DAE, ...")->required();
   c->add_option("-o,--output", o.output, "Project file to write (*.acentric.json)")->required();
-  c->add_option("--config", o.configuration, "Configuration a to g, of which the paper recommends b, e and g")
+  c->add_option(
+       "--config", o.configuration,
+       "Configuration a to g, of which the paper recommends b, e and g; auto: b, or e where only a part "
+       "of the ground is laid out")
       ->capture_default_str();
   c->add_option("--cell", o.cellSize,
                 "Edge length of the polygons in metres (default: from the walkable area)")
@@ -32,6 +35,13 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
+  c->add_option("--max-cameras", o.mostCameras,
+                "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = "
+                "all of it)")
+      ->check(CLI::Range(0, kMostFirstCameras))
+      ->capture_default_str();
+  c->add_option("--around", o.around,
+                "Where that part begins: x,y in metres (default: where most floor is enclosed)");
   c->add_option("--samples-per-degree", o.samplesPerDegree,
                 fmt::format("Resolution of the captures (default {})", BakeSettings{}.samplesPerDegree))
       ->check(CLI::Range(0.5, 64.0));
@@ -45,6 +55,7 @@ void addNew(CLI::App& app, Chosen& chosen) {
                 "(default: the one with most floor)");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
+  c->add_flag("!--no-estimate", o.estimate, "Do not estimate what the bake will take, which takes seconds");
   c->add_flag("--force", o.force, "Replace an existing project file");
   c->add_flag(
       "--link", o.link,

@@ -17,7 +17,7 @@ constexpr std::size_t kSlicedProbes = 8;
 /// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
 constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
 /// The same where it is to be brief: a tenth of the cameras, within these bounds.
-constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 5;
+constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 5, kGlanceSliced = 2;
 
 /// Ratio estimate of `part` per `whole` over the probes that have any of it, with its standard error; `share`
 /// of the population was probed.
@@ -61,8 +61,9 @@ struct Pace {
 /// How much of the time that parts foretell dense slices take.
 Result<Figure> measurePace(const std::vector<double>& pixels, const std::vector<int>& order,
                            const std::vector<CaptureProbe>& probes, const CaptureOverhead& overhead,
-                           bool brief, BakeProber& prober) {
-  const std::size_t count = std::min(brief ? kBriefSliced : kSlicedProbes, probes.size());
+                           const EstimateOptions& options, BakeProber& prober) {
+  const std::size_t wanted = !options.brief ? kSlicedProbes : options.glance ? kGlanceSliced : kBriefSliced;
+  const std::size_t count = std::min(wanted, probes.size());
   const auto slices = prober.bakeSlices({order.begin(), order.begin() + std::ptrdiff_t(count)});
   if (!slices) return tl::unexpected(slices.error());
   std::vector<Pace> tracing, writing;
@@ -88,8 +89,10 @@ Result<std::vector<CaptureProbe>> probeCaptures(const std::vector<int>& order, c
                                                 BakeProber& prober, const Progress& progress,
                                                 const std::stop_token& stop) {
   const double wanted = options.brief ? 0 : kCaptureRays * options.effort;
-  const std::size_t fewestProbes =
-      options.brief ? std::clamp(order.size() / 10, kFewestBriefProbes, kBriefProbes) : kFewestProbes;
+  const std::size_t fewestProbes = !options.brief
+                                       ? kFewestProbes
+                                       : std::clamp(order.size() / 10, kFewestBriefProbes,
+                                                    options.glance ? kFewestBriefProbes : kBriefProbes);
   double rays = 0;
   for (std::size_t probed = 0; probed < order.size(); ++probed) {
     if (probed >= fewestProbes && rays >= wanted) break;
@@ -144,7 +147,7 @@ Status estimateCaptures(const std::vector<double>& pixels, const EstimateOptions
   estimate.captureBytes = sum(perSample(&CaptureProbe::bytes), {}, cameras * overhead->bytes);
   const Figure tracing = sum(perPixel(&CaptureProbe::traceSeconds), {}, cameras * overhead->traceSeconds);
   const Figure writing = sum(perSample(&CaptureProbe::writeSeconds), {}, cameras * overhead->writeSeconds);
-  const auto pace = measurePace(pixels, order, *probes, *overhead, options.brief, prober);
+  const auto pace = measurePace(pixels, order, *probes, *overhead, options, prober);
   if (!pace) return tl::unexpected(pace.error());
   estimate.gatherSeconds = gathered.value * gathering.secondsPerRay;
   estimate.traceSeconds = sum(product(tracing, *pace), times(gathered, gathering.secondsPerRay));

@@ -95,6 +95,8 @@ struct EstimateOptions {
   bool captures = true, surfaceLight = true;  ///< what is to be baked
   /// A tenth of the probes, whatever the effort: good to within a factor of two or so, in seconds.
   bool brief = false;
+  /// With brief: a few probes, for a first idea.
+  bool glance = false;
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
   Status check() const;
 };

@@ -28,7 +28,7 @@ using FreeWay = std::array<float, 4>;
 struct Body {
   bool fits = false;
   bool seemsInside = false;
-  float enclosure = 0, wideEnclosure = 0;
+  float clearance = 0, enclosure = 0, wideEnclosure = 0;
   FreeWay freeWay{};
 };
 
@@ -61,6 +61,7 @@ Body feelAround(const glm::dvec2& at, const FloorLevel& level, const StandingRul
   }
   body.enclosure = static_cast<float>(near) / kSides;
   body.wideEnclosure = static_cast<float>(walls / kSides);
+  body.clearance = static_cast<float>(nearest);
   body.fits = nearest >= rules.wallClearance;
   const bool open = found <= kSides;  // hardly anything around tells anything
   body.seemsInside = level.maybeInside && (open ? level.faceDown : backs >= kInside * found);
@@ -177,8 +178,8 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
       for (const FloorLevel& level : levels[cell]) {
         const Body body = surveyor.feel(grid.centreOf(x, y), level);
         if (!body.fits) continue;
-        standing.spots.push_back(
-            {x, y, level.height, level.covered, body.seemsInside, body.enclosure, body.wideEnclosure});
+        standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside, body.clearance,
+                                  body.enclosure, body.wideEnclosure});
         freeWays.push_back(body.freeWay);
       }
       firstOfCell[cell + 1] = static_cast<int>(standing.spots.size());

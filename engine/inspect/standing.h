@@ -29,6 +29,7 @@ struct StandingSpot {
   float height = 0;  ///< of the floor, z, metres
   bool covered = false;
   bool seemsInside = false;  ///< of a solid
+  float clearance = 0;       ///< metres to the nearest obstacle in eight directions; infinite: none
   float enclosure = 0;       ///< share of the directions at eye height that meet a surface within wallReach
   float wideEnclosure = 0;   ///< likewise, walls up to farthestWall included: 0..1, at least enclosure
   /// Spots a step away towards +x, +y, -x, -y; -1 = none. If a leads to b, b leads back to a.

@@ -70,26 +70,6 @@ std::size_t cornersOf(const Outline& outline) {
   return corners;
 }
 
-Outline outlineOf(const CellMask& part, const ProbeGrid& grid) {
-  const Outline traced = traceOutline(part, grid);
-  Outline outline = simplifyOutline(traced, grid.step);
-  for (double coarser = 2; cornersOf(outline) > kMostCorners && coarser <= 16; coarser *= 2)
-    outline = simplifyOutline(traced, coarser * grid.step);
-  return outline;
-}
-
-/// Largest part without corner contacts. Taking those off can part what is left, so both are repeated until
-/// nothing changes.
-CellMask largestClearPart(const CellMask& mask, const CellLinks& links) {
-  CellMask part = largestPart(mask, links);
-  for (std::size_t before = part.count() + 1; part.count() < before;) {
-    before = part.count();
-    removeCornerContacts(part);
-    part = largestPart(part, links);
-  }
-  return part;
-}
-
 WalkPlane planeOf(const CellMask& part, const Slice& slice, const Standing& standing) {
   WalkPlane plane;
   std::vector<float> heights;
@@ -107,11 +87,30 @@ WalkPlane planeOf(const CellMask& part, const Slice& slice, const Standing& stan
   plane.height = *middle;
   plane.coveredShare = double(covered) / double(heights.size());
   plane.enclosure /= double(heights.size());
-  plane.outline = outlineOf(part, standing.grid);
+  plane.outline = outlineAround(part, standing.grid);
   return plane;
 }
 
 }  // namespace
+
+Outline outlineAround(const CellMask& part, const ProbeGrid& grid) {
+  const Outline traced = traceOutline(part, grid);
+  Outline outline = simplifyOutline(traced, grid.step);
+  for (double coarser = 2; cornersOf(outline) > kMostCorners && coarser <= 16; coarser *= 2)
+    outline = simplifyOutline(traced, coarser * grid.step);
+  return outline;
+}
+
+CellMask largestClearPart(const CellMask& mask, const CellLinks& links) {
+  // Taking corner contacts off can part what is left, so both are repeated until nothing changes.
+  CellMask part = largestPart(mask, links);
+  for (std::size_t before = part.count() + 1; part.count() < before;) {
+    before = part.count();
+    removeCornerContacts(part);
+    part = largestPart(part, links);
+  }
+  return part;
+}
 
 std::vector<WalkPlane> planesAt(const Standing& standing, double height, double tolerance, int most,
                                 int leastSpots, std::span<const std::uint8_t> taken) {

@@ -9,6 +9,9 @@
 
 namespace acentric {
 
+struct CellMask;
+struct CellLinks;
+
 struct WalkPlane {
   double height = 0;        ///< z, metres: the middle one of its floor
   Outline outline;          ///< one outer loop and its holes, simplified to about one grid step
@@ -22,5 +25,10 @@ struct WalkPlane {
 /// spots that belong to other planes.
 std::vector<WalkPlane> planesAt(const Standing& standing, double height, double tolerance, int most,
                                 int leastSpots = 1, std::span<const std::uint8_t> taken = {});
+
+/// The largest part of a mask that holds together by links, without cells that touch at a corner only.
+CellMask largestClearPart(const CellMask& mask, const CellLinks& links);
+/// Around such a part: one outer loop and its holes, simplified to about one grid step.
+Outline outlineAround(const CellMask& part, const ProbeGrid& grid);
 
 }  // namespace acentric

@@ -39,24 +39,6 @@ Status checkRange(const char* what, double value, double low, double high) {
   return refuse(fmt::format("{} is {}; it must lie in {}..{}", what, value, low, high));
 }
 
-Status checkOutline(const Outline& outline) {
-  std::size_t points = 0;
-  for (std::size_t l = 0; l < outline.loops.size(); ++l) {
-    const auto& loop = outline.loops[l];
-    if (loop.size() < 3)
-      return refuse(fmt::format("outline loop {} has {} points; it needs at least 3", l + 1, loop.size()));
-    for (const glm::dvec2& point : loop)
-      if (!(std::abs(point.x) <= kMaxCoordinate && std::abs(point.y) <= kMaxCoordinate))
-        return refuse(fmt::format("outline loop {} has the point ({}, {}); coordinates must lie within {} m",
-                                  l + 1, point.x, point.y, kMaxCoordinate));
-    points += loop.size();
-  }
-  if (points > kMaxOutlinePoints)
-    return refuse(
-        fmt::format("the outline has {} points, more than {}; simplify it", points, kMaxOutlinePoints));
-  return {};
-}
-
 std::string describe(const CellId& id) {
   return id.level == 0 ? fmt::format("({}, {}, {})", id.i, id.j, id.slot)
                        : fmt::format("({}, {}, {}, level {})", id.i, id.j, id.slot, id.level);
@@ -128,6 +110,24 @@ Result<Configuration> parseConfiguration(std::string_view name) {
 bool canSplit(Configuration configuration) {
   const LatticeTable* table = latticeTable(configuration);
   return table != nullptr && table->splits();
+}
+
+Status checkOutline(const Outline& outline) {
+  std::size_t points = 0;
+  for (std::size_t l = 0; l < outline.loops.size(); ++l) {
+    const auto& loop = outline.loops[l];
+    if (loop.size() < 3)
+      return refuse(fmt::format("outline loop {} has {} points; it needs at least 3", l + 1, loop.size()));
+    for (const glm::dvec2& point : loop)
+      if (!(std::abs(point.x) <= kMaxCoordinate && std::abs(point.y) <= kMaxCoordinate))
+        return refuse(fmt::format("outline loop {} has the point ({}, {}); coordinates must lie within {} m",
+                                  l + 1, point.x, point.y, kMaxCoordinate));
+    points += loop.size();
+  }
+  if (points > kMaxOutlinePoints)
+    return refuse(
+        fmt::format("the outline has {} points, more than {}; simplify it", points, kMaxOutlinePoints));
+  return {};
 }
 
 Status LayoutSpec::check() const {

@@ -58,6 +58,9 @@ struct LayoutSpec {
   bool operator==(const LayoutSpec&) const = default;
 };
 
+/// Loops of three corners or more, within 1e7 m, no more corners than an outline may have.
+Status checkOutline(const Outline& outline);
+
 inline constexpr int kMaxRegions = 250'000;
 
 }  // namespace acentric

@@ -129,6 +129,7 @@ Result<BakeForecast> forecastBake(std::span<const BakeShare> shares, const BakeF
     if (!share.any()) continue;
     EstimateOptions estimating;
     estimating.brief = options.brief;
+    estimating.glance = options.glance;
     estimating.effort = options.effort / double(shares.size());
     estimating.captures = !share.cameras.empty();
     estimating.surfaceLight = share.light;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
@@ -18,12 +17,6 @@
 namespace acentric {
 namespace fs = std::filesystem;
 namespace {
-
-/// Rings that a first layout aims at: enough to walk, few enough to bake in minutes.
-constexpr double kFirstRings = 12;
-constexpr double kSmallestFirstCell = 0.8;
-/// A first layout has no more: larger cells are chosen instead.
-constexpr double kMostFirstRings = 2000;
 
 double roundTo(double value, double step) { return std::round(value / step) * step; }
 
@@ -40,20 +33,6 @@ std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
 glm::dvec2 middleOf(const Outline& outline) {
   const auto [low, high] = extentOf(outline);
   return 0.5 * (low + high);
-}
-
-/// Area of lattice per ring, in units of the squared edge length.
-double areaPerRing(Configuration configuration) {
-  LayoutSpec unit;
-  unit.configuration = configuration;
-  unit.cellSize = 1;
-  const glm::dvec2 middle = cellPolygon(unit, {0, 0, 0}).centroid();
-  const glm::dvec2 along = cellPolygon(unit, {1, 0, 0}).centroid() - middle;
-  const glm::dvec2 across = cellPolygon(unit, {0, 1, 0}).centroid() - middle;
-  std::set<int> rings;
-  for (const LatticeCell& cell : cellsIn(unit, {-4, -4}, {4, 4}, 1000))
-    if (cell.kind == RegionKind::ring) rings.insert(cell.id.slot);
-  return std::abs(cross(along, across)) / double(std::max<std::size_t>(1, rings.size()));
 }
 
 /// The walk planes that the options ask for, the largest first.
@@ -115,39 +94,56 @@ std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
 
 /// Lays `pattern`'s cells on a walk plane.
 Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std::string name,
-                         bool ignoredSides, const RayScene& rays, std::stop_token stop) {
-  LayoutSpec spec = pattern;
+                         bool ignoredSides, const FirstLayoutLimit& limit, const RayScene& rays,
+                         std::stop_token stop) {
+  Storey storey{std::move(name), pattern, {}, {}};
+  LayoutSpec& spec = storey.layout;
   spec.outline = tidied(plane.outline);
   spec.floorHeight = roundTo(plane.height, 1e-4) + 0.0;  // never -0
   const glm::dvec2 middle = middleOf(spec.outline);
   spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
-  if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
-  ShiftOptions shift;
-  shift.crowding.trustSides = !ignoredSides;
-  spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(rays), stop).origin;
+  if (exceeds(spec, limit)) {
+    auto kept = keepWithin(spec, limit, rays.scene().bounds, ignoredSides, probeFor(rays), stop);
+    if (!kept) return tl::unexpected(kept.error());
+    if (kept->outline != spec.outline) storey.walkable = std::move(spec.outline);
+    spec = std::move(*kept);
+  } else {
+    if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
+    ShiftOptions shift;
+    shift.crowding.trustSides = !ignoredSides;
+    spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(rays), stop).origin;
+  }
   const auto layout = buildLayout(spec);
   if (!layout) return tl::unexpected(layout.error());
   if (layout->regions.empty())
     return fail(ErrorKind::invalidArgument,
                 "no region fits the outline; draw a larger one or choose smaller cells");
-  return Storey{std::move(name), std::move(spec), chooseStart(*layout, rays)};
+  storey.spawn = chooseStart(*layout, rays);
+  return storey;
+}
+
+/// Its share of all the cameras.
+FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const NewProjectOptions& options) {
+  double all = 0;
+  for (const WalkPlane& each : planes.planes) all += each.outline.area();
+  FirstLayoutLimit limit;
+  limit.cameras = std::size_t(std::ceil(double(options.mostCameras) * plane.outline.area() / all));
+  limit.around = options.around;
+  limit.chooseCell = options.cellSize <= 0;
+  limit.chooseConfiguration = !options.configuration;
+  return limit;
 }
 
 }  // namespace
-
-double firstCellSize(double walkableSquareMetres, Configuration configuration) {
-  const double perRing = areaPerRing(configuration);
-  const double middling = std::sqrt(walkableSquareMetres / (kFirstRings * perRing));
-  const double coarse = std::sqrt(walkableSquareMetres / (kMostFirstRings * perRing));
-  if (coarse > kLargestUsualCell) return std::min(std::ceil(coarse), kLargestCellSize);
-  return std::clamp(roundTo(middling, 0.05), kSmallestFirstCell, kLargestUsualCell);
-}
 
 Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
                             const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
                             const Progress& progress, std::stop_token stop) {
   if (!(options.eyeHeight > 0 && options.eyeHeight <= 1000))
     return fail(ErrorKind::invalidArgument, "eye height must lie in (0, 1000] metres");
+  if (options.outline != "auto" && options.around)
+    return fail(ErrorKind::invalidArgument, "give either an outline or a place to lay out around, not both",
+                options.outline);
   std::error_code error;
   if (!fs::exists(sceneFile, error))
     return fail(ErrorKind::notFound, "no such model file", sceneFile.string());
@@ -170,7 +166,7 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
       std::ranges::max_element(planes->planes, {}, [](const WalkPlane& p) { return p.outline.area(); });
 
   LayoutSpec pattern;
-  pattern.configuration = options.configuration;
+  pattern.configuration = options.configuration.value_or(Configuration::b);
   pattern.eyeHeight = options.eyeHeight;
   pattern.cellSize =
       options.cellSize > 0 ? options.cellSize : firstCellSize(largest->outline.area(), pattern.configuration);
@@ -179,9 +175,9 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
   std::vector<glm::dvec3> eyes;
   for (std::size_t s = 0; s < planes->planes.size(); ++s) {
     if (progress) progress({double(s), double(planes->planes.size()), "placing the cells"});
-    auto storey = storeyFor(pattern, planes->planes[s],
-                            planes->planes.size() == 1 ? "floor" : fmt::format("storey {}", s),
-                            planes->ignoredSides, **rays, stop);
+    auto storey = storeyFor(
+        pattern, planes->planes[s], planes->planes.size() == 1 ? "floor" : fmt::format("storey {}", s),
+        planes->ignoredSides, limitFor(planes->planes[s], *planes, options), **rays, stop);
     if (!storey) {
       Error failure = storey.error();
       failure.where = sceneFile.string();
@@ -209,7 +205,10 @@ Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::
   pattern.cellSize = like.cellSize;
   pattern.eyeHeight = like.eyeHeight;
   pattern.nearBand = like.nearBand;
-  return storeyFor(pattern, plane, std::move(name), ignoredSides, *open.rays, stop);
+  FirstLayoutLimit limit;
+  limit.cameras = kUsualMostCameras;
+  limit.chooseCell = false;
+  return storeyFor(pattern, plane, std::move(name), ignoredSides, limit, *open.rays, stop);
 }
 
 }  // namespace acentric

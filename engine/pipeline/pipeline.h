@@ -23,9 +23,15 @@
 
 namespace acentric {
 
+/// That a new project has at most, if nothing else is said, and that can be said.
+inline constexpr std::size_t kUsualMostCameras = 2000;
+inline constexpr int kMostFirstCameras = 10'000'000;
+
 struct NewProjectOptions {
   ImportOptions import;
-  Configuration configuration = Configuration::b;
+  /// None: b, or e, whose cells are as large as suits each place, where only a part of the ground is laid
+  /// out.
+  std::optional<Configuration> configuration;
   double cellSize = 0;           ///< metres; 0 = from the walkable area (about 12 rings, 0.8..6 m)
   double eyeHeight = 1.6;        ///< metres
   std::string outline = "auto";  ///< "auto" or parseOutline text
@@ -33,6 +39,10 @@ struct NewProjectOptions {
   bool everyStorey = false;      ///< with "auto": a layout on each storey; the walk begins on the largest
   bool ignoreSides = false;      ///< see inspect/walkable_outline.h
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
+  /// Of all storeys together, with "auto"; where there would be more, only a part of the ground is laid out
+  /// (first_cell.h), and the storeys' `walkable` has all of it. 0 = no limit.
+  std::size_t mostCameras = kUsualMostCameras;
+  std::optional<glm::dvec2> around;  ///< plan, metres: where such a part begins; none: where most is enclosed
 };
 
 /// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a

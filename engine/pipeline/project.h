@@ -28,6 +28,8 @@ struct Storey {
   std::string name;  ///< of no other storey
   LayoutSpec layout;
   Spawn spawn;
+  /// Ground that can be walked, of which the layout has a part; empty: the layout's outline is all of it.
+  Outline walkable;
   bool operator==(const Storey&) const = default;
 };
 inline constexpr int kMaxStoreys = 200;
@@ -71,8 +73,8 @@ struct Project {
   std::filesystem::path scene;  ///< relative to the project file's folder, and within it
   ImportOptions import;
   EffectOverrides effects;
-  std::vector<Storey> storeys{{"floor", {}, {}}};  ///< at least one
-  int storey = 0;                                  ///< the one that is worked on, and where the walk begins
+  std::vector<Storey> storeys{{"floor", {}, {}, {}}};  ///< at least one
+  int storey = 0;  ///< the one that is worked on, and where the walk begins
   BakeSettings bake;
   TriangleBudget budget;
   ViewSettings view;

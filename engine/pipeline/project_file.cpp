@@ -123,6 +123,15 @@ void read(const Json& json, const char* key, T& value) {
   if (const auto found = json.find(key); found != json.end()) value = found->get<T>();
 }
 
+Outline outlineFrom(const Json& json) {
+  Outline outline;
+  for (const Json& loop : json) {
+    outline.loops.emplace_back();
+    for (const Json& corner : loop) outline.loops.back().push_back(pointFrom(corner));
+  }
+  return outline;
+}
+
 LayoutSpec layoutFrom(const Json& json) {
   LayoutSpec spec;
   spec.configuration = *parseConfiguration(json.at("configuration").get<std::string>());
@@ -134,11 +143,7 @@ LayoutSpec layoutFrom(const Json& json) {
   read(json, "floorHeight", spec.floorHeight);
   read(json, "eyeHeight", spec.eyeHeight);
   read(json, "nearBand", spec.nearBand);
-  if (json.contains("outline"))
-    for (const Json& loop : json["outline"]) {
-      spec.outline.loops.emplace_back();
-      for (const Json& corner : loop) spec.outline.loops.back().push_back(pointFrom(corner));
-    }
+  if (json.contains("outline")) spec.outline = outlineFrom(json["outline"]);
   if (json.contains("added")) spec.added = cellsFrom(json["added"]);
   if (json.contains("removed")) spec.removed = cellsFrom(json["removed"]);
   if (json.contains("split")) spec.split = cellsFrom(json["split"]);
@@ -148,6 +153,7 @@ LayoutSpec layoutFrom(const Json& json) {
 
 Json toJson(const Storey& storey) {
   Json json{{"name", storey.name}, {"layout", toJson(storey.layout)}};
+  if (!storey.walkable.empty()) json["walkable"] = toJson(storey.walkable);
   if (storey.spawn.stored)
     json["spawn"] = {{"position", toJson(storey.spawn.position)},
                      {"yawDegrees", tidyDegrees(storey.spawn.yawRadians)}};
@@ -155,9 +161,10 @@ Json toJson(const Storey& storey) {
 }
 
 Storey storeyFrom(const Json& json, std::string name) {
-  Storey storey{std::move(name), layoutFrom(json.at("layout")), {{}, 0, false}};
+  Storey storey{std::move(name), layoutFrom(json.at("layout")), {{}, 0, false}, {}};
   if (const auto spawn = json.find("spawn"); spawn != json.end())
     storey.spawn = {pointFrom(spawn->at("position")), radians(spawn->value("yawDegrees", 0.0)), true};
+  if (json.contains("walkable")) storey.walkable = outlineFrom(json["walkable"]);
   return storey;
 }
 
@@ -276,6 +283,8 @@ Status checkStoreys(const Project& project) {
       return refuse(fmt::format("/name: '{}' is the name of another storey too", storey.name));
     if (const Status sound = storey.layout.check(); !sound)
       return refuse("/layout: " + sound.error().message);
+    if (const Status sound = checkOutline(storey.walkable); !sound)
+      return refuse("/walkable: " + sound.error().message);
     if (!std::isfinite(storey.spawn.position.x) || !std::isfinite(storey.spawn.position.y) ||
         !std::isfinite(storey.spawn.yawRadians))
       return refuse("/spawn: must hold finite numbers");

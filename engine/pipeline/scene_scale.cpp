@@ -82,14 +82,18 @@ class Rescaling {
   glm::dvec3 from_, to_;  ///< project origins
 };
 
+void rescale(Outline& outline, const Rescaling& to) {
+  for (auto& loop : outline.loops)
+    for (glm::dvec2& corner : loop) corner = to.plan(corner);
+}
+
 void rescale(LayoutSpec& spec, const Rescaling& to) {
   // Cells that were chosen one by one stay where they are; others are as large as suits people.
   if (!(spec.added.empty() && spec.removed.empty() && spec.split.empty()))
     spec.cellSize = std::clamp(to.length(spec.cellSize), kLeastCellSize, kLargestCellSize);
   spec.latticeOrigin = to.plan(spec.latticeOrigin);
   spec.floorHeight = to.height(spec.floorHeight);
-  for (auto& loop : spec.outline.loops)
-    for (glm::dvec2& corner : loop) corner = to.plan(corner);
+  rescale(spec.outline, to);
   for (auto& [number, apv] : spec.freeApvs) {
     apv.centre = to.plan(apv.centre);
     apv.offset *= to.length(1);
@@ -132,6 +136,7 @@ Project atScale(const Project& project, const Scene& scene, double metresPerUnit
   const auto floorOf = [&](int storey) { return project.storeys[std::size_t(storey)].layout.floorHeight; };
   for (Storey& storey : scaled.storeys) {
     rescale(storey.layout, to);
+    rescale(storey.walkable, to);
     storey.spawn.position = to.plan(storey.spawn.position);
   }
   for (Bookmark& bookmark : scaled.bookmarks) bookmark.eye = to.eye(bookmark.eye, floorOf(bookmark.storey));

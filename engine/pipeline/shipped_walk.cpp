@@ -175,7 +175,8 @@ Project projectOf(const ShippedWalk& walk) {
   for (std::size_t s = 0; s < bundle.storeys.size(); ++s)
     project.storeys.push_back({bundle.storeys[s].name,
                                walk.layouts[s]->spec,
-                               {bundle.storeys[s].start, bundle.storeys[s].startYaw}});
+                               {bundle.storeys[s].start, bundle.storeys[s].startYaw},
+                               {}});
   project.storey = bundle.storey;
   project.view = bundle.view;
   project.fovDegrees = degrees(bundle.fov);

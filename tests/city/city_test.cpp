@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "projects/city/generator/town.h"
+
 namespace acentric::city {
 namespace {
 
@@ -35,6 +37,23 @@ TEST(City, HasTheSameStreetsWhateverItsTriangles) {
             EXPECT_GE(std::max(std::abs(p.x), std::abs(p.y)), 6.0f)
                 << "something stands on the middle crossing";
           }
+}
+
+TEST(Town, IsFlatLargeAndAlwaysTheSame) {
+  const gallery::Model town = makeTown(), again = makeTown();
+  EXPECT_NEAR(double(trianglesOf(town)), 30'000, 3'000);
+  glm::vec3 low(1e9f), high(-1e9f);
+  ASSERT_EQ(town.things.size(), again.things.size());
+  for (std::size_t t = 0; t < town.things.size(); ++t)
+    for (std::size_t p = 0; p < town.things[t].parts.size(); ++p) {
+      const gallery::Shape& shape = town.things[t].parts[p].shape;
+      EXPECT_EQ(shape.positions, again.things[t].parts[p].shape.positions);
+      for (const glm::vec3& position : shape.positions)
+        low = glm::min(low, position), high = glm::max(high, position);
+    }
+  EXPECT_EQ(glm::vec2(low), glm::vec2(-1000));
+  EXPECT_EQ(glm::vec2(high), glm::vec2(1000));
+  EXPECT_EQ(low.z, 0);
 }
 
 }  // namespace

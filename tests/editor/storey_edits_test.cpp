@@ -8,7 +8,7 @@ namespace {
 Project house() {
   Project project;
   project.scene = "house.glb";
-  project.storeys = {{"hall", {}, {}}, {"cellar", {}, {}}, {"attic", {}, {}}};
+  project.storeys = {{"hall", {}, {}, {}}, {"cellar", {}, {}, {}}, {"attic", {}, {}, {}}};
   project.storeys[1].layout.floorHeight = -2.5;
   project.storeys[2].layout.floorHeight = 2.8;
   return project;

@@ -59,7 +59,7 @@ TEST(WalkEdits, ListsAreReorderedAndEndAtTheirEnds) {
 
 TEST(WalkEdits, GoingToABookmarkChangesStoreyAndFieldOfViewAlone) {
   Project edited = addBookmark(project(), kHere).project;
-  edited.storeys.push_back({"attic", {}, {}});
+  edited.storeys.push_back({"attic", {}, {}, {}});
   edited.storey = 1;
   edited.fovDegrees = 40;
   Project gone = goToBookmark(edited, 0).project;

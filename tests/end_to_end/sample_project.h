@@ -27,7 +27,7 @@ class SampleProject {
       : folder_(name) {
     std::filesystem::copy_file(ACENTRIC_SAMPLE_SCENE, folder_.path() / "gallery.glb");
     made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree",
-                      "1", "--cell", "2.5", "--outline", outline});
+                      "1", "--cell", "2.5", "--outline", outline, "--no-estimate"});
     Json project = read();
     project["bake"]["ambientRays"] = 4;
     project["bake"]["surfaceTexel"] = 0.5;

@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/layout/layout.h"
 #include "engine/pipeline/pipeline.h"
+#include "tests/inspect/box_world.h"
 
 namespace acentric {
 namespace {
+
+using test::BoxWorld;
 
 TEST(FirstCells, AreLargerOnAVastPlainSoThatTheLayoutStaysSmall) {
   for (const Configuration configuration : {Configuration::b, Configuration::e, Configuration::g}) {
@@ -21,6 +26,173 @@ TEST(FirstCells, AreLargerOnAVastPlainSoThatTheLayoutStaysSmall) {
     EXPECT_GT(layout->regions.size(), 100u) << nameOf(configuration);
     EXPECT_LT(layout->regions.size(), 12000u) << nameOf(configuration);
   }
+}
+
+/// Open floor with things about it that stand closer and closer together towards x = 0.
+NearGround narrowingFloor() {
+  NearGround ground;
+  ground.grid = {{0, -60}, 2, 60, 60};
+  ground.floor = CellMask(60, 60);
+  std::ranges::fill(ground.floor.cells, std::uint8_t(1));
+  ground.links.right = ground.links.up = ground.floor.cells;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) ground.clearance.push_back(float(0.25 * x));
+  ground.start = int(ground.grid.index(2, 30));
+  ground.wayTo = waysFrom(ground.start, ground.grid, ground.floor, ground.links, ground.clearance);
+  return ground;
+}
+
+std::size_t camerasOf(LayoutSpec spec, Outline outline) {
+  spec.outline = std::move(outline);
+  const auto layout = buildLayout(spec);
+  EXPECT_TRUE(layout);
+  return layout ? layout->cameras.size() : 0;
+}
+
+TEST(FirstCells, HaveNoMoreCamerasThanTheLimitAndNearlyAsMany) {
+  const NearGround ground = narrowingFloor();
+  std::vector<float> ways = ground.wayTo;
+  std::ranges::sort(ways);
+  for (const Configuration configuration : {Configuration::a, Configuration::b, Configuration::e})
+    for (const std::size_t most : {40, 300}) {
+      LayoutSpec spec;
+      spec.configuration = configuration;
+      spec.cellSize = 4;
+      const auto outline = largestOutline(spec, ground, most);
+      ASSERT_TRUE(outline) << nameOf(configuration) << most;
+      EXPECT_LE(camerasOf(spec, *outline), most) << nameOf(configuration);
+      // One prefix of the order after the other: none much larger would do.
+      double largest = 0;
+      for (std::size_t count = 1; count <= ways.size(); count += 3) {
+        const Outline prefix =
+            tidied(outlineAround(partWithin(ground, double(ways[count - 1])), ground.grid));
+        if (camerasOf(spec, prefix) <= most) largest = std::max(largest, prefix.area());
+        if (prefix.area() > 3 * outline->area()) break;
+      }
+      EXPECT_GT(outline->area(), 0.85 * largest) << nameOf(configuration) << most;
+    }
+  EXPECT_FALSE(largestOutline(LayoutSpec{}, ground, 2)) << "no region has so few";
+}
+
+TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
+  const NearGround ground = narrowingFloor();
+  constexpr double kLeast = 1.5;
+  for (const Configuration configuration : {Configuration::e, Configuration::g}) {
+    LayoutSpec spec;
+    spec.configuration = configuration;
+    spec.cellSize = configuration == Configuration::e ? 12 : 20;
+    spec.split = splitsFor(spec, ground, kLeast);
+    spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
+    const auto layout = buildLayout(spec);
+    ASSERT_TRUE(layout) << layout.error().describe();
+    const auto tooLarge = [&](const CellId& id) {
+      const ConvexPolygon polygon = cellPolygon(spec, id);
+      const glm::dvec2 middle = polygon.centroid();
+      double room = 1e9, sum = 0;
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const glm::dvec2 a = polygon.corners[k], along = polygon.corners[(k + 1) % polygon.size()] - a;
+        room = std::min(room, std::abs(cross(along, middle - a)) / glm::length(along));
+      }
+      int count = 0;
+      for (int y = 0; y < ground.grid.rows; ++y)
+        for (int x = 0; x < ground.grid.columns; ++x)
+          if (polygon.containsClosed(ground.grid.centreOf(x, y)))
+            sum += double(ground.clearance[ground.grid.index(x, y)]), ++count;
+      return count > 0 && kRoomToSplit * room > sum / count && 0.5 * room >= kLeast * (1 - 1e-9);
+    };
+    std::set<int> levels;
+    for (const Region& region : layout->regions) {
+      EXPECT_FALSE(tooLarge(region.id));
+      levels.insert(region.id.level);
+    }
+    for (const CellId& id : spec.split) EXPECT_TRUE(tooLarge(id));
+    EXPECT_GE(levels.size(), 2u) << "small where it is narrow, large in the open";
+  }
+  EXPECT_TRUE(splitsFor(LayoutSpec{}, ground, kLeast).empty()) << "b has no parts";
+}
+
+/// Ground of 1 x 1 km with a square court of houses in a corner of it.
+BoxWorld village() {
+  BoxWorld world;
+  world.boxes.push_back({{-500, -500, -1}, {500, 500, 0}});
+  for (int k = 0; k < 5; ++k)
+    for (const double side : {0.0, 24.0}) {
+      world.boxes.push_back({{240 + 12.0 * k, 240 + side, 0}, {250 + 12.0 * k, 250 + side, 8}});
+    }
+  return world;
+}
+
+LayoutSpec layoutOf(const BoxWorld& world) {
+  LayoutSpec spec;
+  spec.cellSize = 6;
+  const Bounds bounds = world.bounds();
+  spec.outline.loops = {{{bounds.min.x, bounds.min.y},
+                         {bounds.max.x, bounds.min.y},
+                         {bounds.max.x, bounds.max.y},
+                         {bounds.min.x, bounds.max.y}}};
+  return spec;
+}
+
+TEST(FirstCells, AreLaidWhereSomethingStandsAboutOnGroundThatIsTooLarge) {
+  const BoxWorld world = village();
+  const LayoutSpec spec = layoutOf(world);
+  FirstLayoutLimit limit;
+  limit.cameras = 400;
+  EXPECT_TRUE(exceeds(spec, limit));
+  const auto kept = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_TRUE(kept) << kept.error().describe();
+  EXPECT_EQ(kept->configuration, Configuration::e);
+  EXPECT_FALSE(exceeds(*kept, limit));
+  const auto layout = buildLayout(*kept);
+  ASSERT_TRUE(layout);
+  EXPECT_GT(layout->cameras.size(), 300u);
+  for (const Region& region : layout->regions) {
+    EXPECT_GT(region.polygon.centroid().x, 190);
+    EXPECT_LT(region.polygon.centroid().x, 350);
+  }
+  limit.chooseConfiguration = false;
+  const auto hexagons = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_TRUE(hexagons) << hexagons.error().describe();
+  EXPECT_EQ(hexagons->configuration, Configuration::b);
+  EXPECT_TRUE(hexagons->split.empty());
+  EXPECT_FALSE(exceeds(*hexagons, limit));
+  limit.chooseCell = false;
+  limit.around = glm::dvec2(-300, -300);
+  const auto there = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_TRUE(there) << there.error().describe();
+  EXPECT_EQ(there->cellSize, spec.cellSize);
+  EXPECT_TRUE(there->outline.contains({-300, -300}));
+  EXPECT_FALSE(exceeds(*there, limit));
+  limit.cameras = 3;
+  const auto none = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("--max-cameras"), std::string::npos);
+}
+
+TEST(FirstCells, AreLargerWhereNothingStandsAboutOnGroundThatIsTooLarge) {
+  BoxWorld world;
+  world.boxes.push_back({{-500, -500, -1}, {500, 500, 0}});
+  const LayoutSpec spec = layoutOf(world);
+  FirstLayoutLimit limit;
+  limit.cameras = 400;
+  const auto kept = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_TRUE(kept) << kept.error().describe();
+  EXPECT_EQ(kept->outline, spec.outline);
+  EXPECT_GT(kept->cellSize, 20);
+  EXPECT_FALSE(exceeds(*kept, limit));
+  limit.chooseCell = false;
+  const auto middle = keepWithin(spec, limit, world.bounds(), false, world.probe());
+  ASSERT_TRUE(middle) << middle.error().describe();
+  EXPECT_TRUE(middle->outline.contains({0, 0}));
+  EXPECT_EQ(middle->cellSize, spec.cellSize);
+  EXPECT_FALSE(exceeds(*middle, limit));
+}
+
+TEST(FirstCells, HaveNoLimitIfNoneIsSet) {
+  LayoutSpec spec;
+  spec.outline = parseOutline("0,0;90,0;90,90;0,90").value();
+  EXPECT_FALSE(exceeds(spec, {0, {}, true, true}));
+  EXPECT_TRUE(exceeds(spec, {100, {}, true, true}));
 }
 
 }  // namespace

@@ -45,7 +45,10 @@ Project everythingSet() {
   project.fovDegrees = 72.5;
   project.exposure = 0.123f;
   project.spawn() = {{1.25, 2.5}, radians(-90.0)};
-  project.storeys.push_back({"second [1, 2]", project.layout(), {{-3, 4}, radians(15.0)}});
+  project.storeys.push_back({"second [1, 2]",
+                             project.layout(),
+                             {{-3, 4}, radians(15.0), true},
+                             parseOutline("0,0;9,0;9,9").value()});
   project.storeys.back().layout.floorHeight = 3.1;
   project.storey = 1;
   project.bookmarks = {{"door", 0, {1, -2.5, 1.6}, radians(90.0), radians(-12.0), 75},
@@ -126,6 +129,21 @@ TEST(ProjectFile, RefusesWithAPointerToTheCulprit) {
               HasSubstr("/bake/ambientRays"));
   EXPECT_THAT(refusalOf(minimal(R"({"configuration":"b","cellSize":2})", R"(,"view":{"exposure":0})")),
               HasSubstr("/view/exposure"));
+}
+
+TEST(ProjectFile, RefusesHostileWalkableGround) {
+  const auto with = [](const std::string& walkable) {
+    return R"({"format":"acentric-project","version":1,"scene":"a.glb","storeys":[{"name":"floor","layout":)"
+           R"({"configuration":"b","cellSize":2},"walkable":)" +
+           walkable + "}]}";
+  };
+  EXPECT_TRUE(parseProject(with("[[[0,0],[1,0],[1,1]]]"), "p"));
+  EXPECT_THAT(refusalOf(with("7")), HasSubstr("/storeys/0/walkable"));
+  EXPECT_THAT(refusalOf(with("[[[0,0],[1,0]]]")), HasSubstr("/storeys/0/walkable/0"));
+  EXPECT_THAT(refusalOf(with("[[[0,0],[1,0],[1e9,1]]]")), HasSubstr("/storeys/0/walkable/0"));
+  std::string many = "[[[0,0]";
+  for (int k = 1; k < 5000; ++k) many += ",[" + std::to_string(k) + ",1]";
+  EXPECT_THAT(refusalOf(with(many + "]]")), HasSubstr("/storeys/0/walkable"));
 }
 
 TEST(ProjectFile, RefusesAModelOutsideItsFolder) {

@@ -1,0 +1,105 @@
+/// A first layout of ground that is too large to be laid out: what is laid out, what is said of it, and what
+/// is refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/layout/layout.h"
+#include "engine/pipeline/project.h"
+#include "tests/end_to_end/sample_project.h"
+
+namespace acentric::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// `acentric new` of the sample town.
+class Town {
+ public:
+  Town() : folder_("town") {}
+  ProcessResult make(std::vector<std::string> more) const {
+    std::vector<std::string> all = {"new",     ACENTRIC_SAMPLE_TOWN,   "-o", file(),
+                                    "--force", "--samples-per-degree", "1"};
+    all.insert(all.end(), more.begin(), more.end());
+    return acentric(all);
+  }
+  std::string file() const { return (folder_.path() / "town.acentric.json").string(); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST(Town, HasAFirstLayoutThatCanBeBaked) {
+  const Town town;
+  const ProcessResult made = town.make({});
+  ASSERT_EQ(made.exitCode, 0) << made.errors;
+  EXPECT_THAT(made.output,
+              AllOf(HasSubstr("configuration e with cells of 12 to 6 m"), HasSubstr("laid out: only "),
+                    HasSubstr("km2 that can be walked"), HasSubstr("2,000 cameras are the limit"),
+                    HasSubstr("--max-cameras"), HasSubstr("--around x,y"), HasSubstr("plan: ")));
+  const auto project = loadProject(town.file());
+  ASSERT_TRUE(project) << project.error().describe();
+  const Storey& storey = project->current();
+  const auto layout = buildLayout(storey.layout);
+  ASSERT_TRUE(layout);
+  EXPECT_LE(layout->cameras.size(), 2000u);
+  EXPECT_GT(layout->cameras.size(), 1500u);
+  EXPECT_GT(storey.walkable.area(), 3.5e6);
+  EXPECT_TRUE(storey.layout.outline.contains(storey.spawn.position) ||
+              layout->regionAt(storey.spawn.position));
+  // Houses stand close together within 300 m of the middle.
+  for (const auto& loop : storey.layout.outline.loops)
+    for (const glm::dvec2& corner : loop) {
+      EXPECT_LT(std::abs(corner.x), 450);
+      EXPECT_LT(std::abs(corner.y), 450);
+    }
+}
+
+TEST(Town, IsLaidOutAsMuchAndWhereItIsAsked) {
+  const Town town;
+  const ProcessResult made = town.make({"--max-cameras", "300", "--around", "-702,398", "--json"});
+  ASSERT_EQ(made.exitCode, 0) << made.errors;
+  const Json report = Json::parse(made.output);
+  EXPECT_EQ(report["mostCameras"], 300);
+  const Json& storey = report["storeys"][0];
+  EXPECT_LE(storey["cameras"].get<int>(), 300);
+  EXPECT_GT(storey["cameras"].get<int>(), 200);
+  EXPECT_GT(storey["walkableSquareMetres"].get<double>(), 3.5e6);
+  EXPECT_LT(storey["laidOutSquareMetres"].get<double>(), 3e4);
+  EXPECT_THAT(storey["leftOut"].get<std::string>(), HasSubstr("300 cameras are the limit"));
+  EXPECT_EQ(report["plan"]["cameras"], storey["cameras"]);
+  EXPECT_GT(report["plan"]["megapixels"].get<double>(), 0);
+  const auto project = loadProject(town.file());
+  ASSERT_TRUE(project);
+  EXPECT_LT(glm::distance(project->spawn().position, glm::dvec2(-702, 398)), 200);
+
+  const ProcessResult hexagons =
+      town.make({"--max-cameras", "300", "--config", "b", "--no-estimate", "--json"});
+  ASSERT_EQ(hexagons.exitCode, 0) << hexagons.errors;
+  EXPECT_FALSE(Json::parse(hexagons.output).contains("plan"));
+  EXPECT_EQ(Json::parse(hexagons.output)["storeys"][0]["configuration"], "b");
+  EXPECT_LE(Json::parse(hexagons.output)["storeys"][0]["cameras"].get<int>(), 300);
+}
+
+TEST(Town, RefusesLimitsAndPlacesThatMakeNoSense) {
+  const Town town;
+  for (const std::vector<std::string>& given : {std::vector<std::string>{"--max-cameras", "-1"},
+                                                {"--max-cameras", "1e99"},
+                                                {"--max-cameras", "many"},
+                                                {"--around", "nan,0"},
+                                                {"--around", "1"},
+                                                {"--around", "90000,0"},
+                                                {"--around", "0,0", "--outline", "0,0;5,0;5,5"}}) {
+    const ProcessResult refused = town.make(given);
+    EXPECT_NE(refused.exitCode, 0) << given.back();
+    EXPECT_FALSE(refused.errors.empty());
+    EXPECT_FALSE(std::filesystem::exists(town.file())) << given.back();
+  }
+  const ProcessResult few = town.make({"--max-cameras", "2"});
+  EXPECT_EQ(few.exitCode, 1);
+  EXPECT_THAT(few.errors, HasSubstr("2 cameras are too few for a single region"));
+}
+
+}  // namespace
+}  // namespace acentric::test
