@@ -15,8 +15,8 @@
 namespace acentric {
 namespace {
 
-/// A picture is sampled so many times finer than what it shows.
-constexpr double kOversampling = 2;
+/// A picture is sampled so many times finer than what it shows; edges where alpha is cut off are seen most.
+constexpr double kOversampling = 2, kMaskOversampling = 3;
 /// Of what is finer than texels, places across and down that a texel averages.
 constexpr int kMostParts = 4;
 
@@ -151,9 +151,12 @@ class Writer {
       distance = std::min(distance, eyeDistance(polygon_, eye_.z, surfaces_[t].corners));
       detail = std::min(detail, detailOf(*faces_[t].triangle));
     }
-    const double seen = std::max(kFinestTexel, distance * radians(1 / kTexelsPerDegree));
+    const bool masked = kinds_[surfaces_[chart.triangles.front()].kind].alpha == AlphaMode::mask;
+    const double seen =
+        std::max(masked ? kFinestMaskTexel : kFinestTexel, distance * radians(1 / kTexelsPerDegree));
+    const double finer = masked ? kMaskOversampling : kOversampling;
     const double fits = std::max(chart.size.x, chart.size.y) / (atlasPixels_ - 2 * kChartBorder);
-    return std::max({seen, std::min(detail / kOversampling, std::max(chart.size.x, seen)), fits});
+    return std::max({seen, std::min(detail / finer, std::max(chart.size.x, seen)), fits});
   }
 
   ChartPicture paint(const SurfaceChart& chart, double texel) const {

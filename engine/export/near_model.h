@@ -3,7 +3,8 @@
 /// together, is in texture atlases of their own, one picture for each chart (surface_charts.h).
 ///
 /// A chart has texels as fine as what it shows (its textures and its light), and no finer than an eye in the
-/// region resolves (kTexelsPerDegree), or than kFinestTexel. Where half as many show the same, it has those.
+/// region resolves (kTexelsPerDegree), or than kFinestTexel, or kFinestMaskTexel where alpha is cut off.
+/// Where half as many show the same, it has those.
 
 #include "engine/export/draw_model.h"
 #include "engine/view/walk_scene.h"
@@ -11,7 +12,7 @@
 namespace acentric {
 
 inline constexpr double kTexelsPerDegree = 20;
-inline constexpr double kFinestTexel = 0.002;  ///< metres
+inline constexpr double kFinestTexel = 0.002, kFinestMaskTexel = 0.001;  ///< metres
 /// Of a region: where there are more, all are coarser by one factor.
 inline constexpr double kMostNearTexels = 1 << 25;
 

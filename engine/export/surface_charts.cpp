@@ -54,7 +54,7 @@ class Grower {
     taken_.assign(triangles_.size(), 0);
     std::vector<SurfaceChart> charts;
     for (const std::uint32_t seed : order)
-      if (taken_[seed] == 0) charts.push_back(from(seed));
+      if (taken_[seed] == 0) std::ranges::move(cut(from(seed)), std::back_inserter(charts));
     return charts;
   }
 
@@ -102,6 +102,64 @@ class Grower {
     }
     layOut(chart);
     return chart;
+  }
+
+  /// With the border that a picture has around it, about.
+  static double roomOf(const glm::dvec2& size) {
+    constexpr double kBorder = 0.01;  // metres
+    return (size.x + kBorder) * (size.y + kBorder);
+  }
+
+  /// The chart, or what it is cut into where that takes less room. A frame's first cuts save nothing, so all
+  /// are tried before it is told.
+  std::vector<SurfaceChart> cut(SurfaceChart chart) const {
+    constexpr double kWorthwhile = 0.75, kFull = 0.8;
+    const std::size_t count = chart.triangles.size();
+    const double room = roomOf(chart.size);
+    double covered = 0;
+    std::vector<Corners> places;
+    for (const std::uint32_t t : chart.triangles) covered += areas_[t], places.push_back(placesOf(chart, t));
+    std::vector<SurfaceChart> whole{std::move(chart)};
+    if (count < 2 || covered > kFull * room) return whole;
+    struct Box {
+      glm::dvec2 low{HUGE_VAL}, high{-HUGE_VAL};
+      void add(const Corners& corners) {
+        for (const glm::dvec2& p : corners) low = glm::min(low, p), high = glm::max(high, p);
+      }
+    };
+    std::vector<std::size_t> best;
+    std::size_t bestCount = 0;
+    double least = HUGE_VAL;
+    for (int axis = 0; axis < 2; ++axis) {
+      std::vector<std::size_t> order(count);
+      std::iota(order.begin(), order.end(), std::size_t(0));
+      std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+        return places[i][0][axis] + places[i][1][axis] + places[i][2][axis];
+      });
+      std::vector<double> behind(count);  // of the i-th and all after it
+      Box box;
+      for (std::size_t i = count; i-- > 1;) box.add(places[order[i]]), behind[i] = roomOf(box.high - box.low);
+      box = {};
+      for (std::size_t i = 1; i < count; ++i) {
+        box.add(places[order[i - 1]]);
+        const double both = roomOf(box.high - box.low) + behind[i];
+        if (both < least) least = both, best = order, bestCount = i;
+      }
+    }
+    std::vector<SurfaceChart> parts;
+    double taken = 0;
+    for (const bool first : {true, false}) {
+      SurfaceChart part = whole[0];
+      part.triangles.clear();
+      for (std::size_t i = first ? 0 : bestCount; i < (first ? bestCount : count); ++i)
+        part.triangles.push_back(whole[0].triangles[best[i]]);
+      layOut(part);
+      for (SurfaceChart& each : cut(std::move(part))) {
+        taken += roomOf(each.size);
+        parts.push_back(std::move(each));
+      }
+    }
+    return taken < kWorthwhile * room ? parts : whole;
   }
 
   Corners placesOf(const SurfaceChart& chart, std::uint32_t t) const {
