@@ -12,7 +12,7 @@
 namespace acentric {
 
 inline constexpr double kTexelsPerDegree = 20;
-inline constexpr double kFinestTexel = 0.002, kFinestMaskTexel = 0.001;  ///< metres
+inline constexpr double kFinestTexel = 0.002, kFinestMaskTexel = 0.0015;  ///< metres
 /// Of a region: where there are more, all are coarser by one factor.
 inline constexpr double kMostNearTexels = 1 << 25;
 
