@@ -316,7 +316,7 @@ typedef struct acentric_model {
 ACENTRIC_API void acentric_clip_from_model(const acentric_view* view, const double origin[3], double near,
                                            float matrix[16]);
 
-/* `kind` and `number` as of acentric_need; of a region `detail` says nothing. Textures of captures have at
+/* `kind` and `number` as of acentric_need; of a region `detail` says nothing. Textures have at
  * most texture_pixels a side, 128 to 16384. Nothing has to be loaded, and nothing is. A model lives until it
  * is freed, whatever is closed. */
 ACENTRIC_API acentric_status acentric_make_model(acentric_bundle* bundle, int32_t storey, int32_t kind,

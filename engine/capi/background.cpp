@@ -76,7 +76,6 @@ std::vector<LoadJob> jobsOf(const BundlePlayer& runtime, const Wanted& wanted, L
   if (wanted.settings.localGeometry || like.model) {
     LoadJob job = like;
     job.region = true, job.storey = storey, job.number = std::size_t(wanted.needs.region);
-    job.texturePixels = 0;
     add(job);
   }
   if (detail == Loaded::full) addCaptures(Loaded::full);

@@ -98,7 +98,7 @@ acentric_status acentric_make_model(acentric_bundle* bundle, int32_t storey, int
     Result<DrawModel> made;
     if (kind == ACENTRIC_REGION) {
       if (!within(number, of.layout.regions.size())) return refused(bundle, "no such region");
-      made = regionModel(runtime, std::size_t(storey), std::size_t(number), runtime.images());
+      made = regionModel(runtime, std::size_t(storey), std::size_t(number), texture_pixels, runtime.images());
     } else if (kind == ACENTRIC_CAPTURE) {
       if (!within(number, of.cameras.size()) || (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL))
         return refused(bundle, "no such capture");

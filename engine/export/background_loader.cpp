@@ -64,7 +64,8 @@ Result<LoadedPart> BackgroundLoader::load(const LoadJob& job, const std::stop_to
     if (!read) return tl::unexpected(std::move(read.error()));
     return LoadedPart(std::move(*read));
   };
-  if (job.model && job.region) return partOf(regionModel(player_, job.storey, job.number, knownImages()));
+  if (job.model && job.region)
+    return partOf(regionModel(player_, job.storey, job.number, job.texturePixels, knownImages()));
   if (job.model)
     return partOf(captureModel(player_, job.storey, job.number, job.detail, job.texturePixels, stop));
   if (!job.region) return partOf(player_.readCapture(job.storey, job.number, job.detail));

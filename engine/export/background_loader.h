@@ -20,7 +20,7 @@ struct LoadJob {
   bool region = false;
   std::size_t storey = 0, number = 0;  ///< of the camera or region
   Loaded detail = Loaded::full;        ///< of a capture
-  int texturePixels = 0;               ///< of a capture's model
+  int texturePixels = 0;               ///< of a model
   auto operator<=>(const LoadJob&) const = default;
 };
 

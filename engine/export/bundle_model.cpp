@@ -24,13 +24,13 @@ Result<DrawModel> captureModel(const BundlePlayer& player, std::size_t storey, s
 }
 
 Result<DrawModel> regionModel(const BundlePlayer& player, std::size_t storey, std::size_t region,
-                              BundlePlayer::Images known) {
+                              int texturePixels, BundlePlayer::Images known) {
   auto read = player.readRegion(storey, region, std::move(known));
   if (!read) return tl::unexpected(read.error());
   const WalkScene walk = player.bareWalk(storey, std::move(read->images));
   DrawModel model;
   model.origin = {walk.layout->regions[region].polygon.centroid(), walk.layout->eyeZ()};
-  addNear(walk, read->local, model);
+  addNear(walk, region, read->local, texturePixels, model);
   addSky(walk, model.origin, model);
   return model;
 }

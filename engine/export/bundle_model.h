@@ -12,6 +12,6 @@ Result<DrawModel> captureModel(const BundlePlayer& player, std::size_t storey, s
                                Loaded detail, int texturePixels, const std::stop_token& stop = {});
 /// What is near a region, and the sky, around the region's middle at the height of the eye.
 Result<DrawModel> regionModel(const BundlePlayer& player, std::size_t storey, std::size_t region,
-                              BundlePlayer::Images known = {});
+                              int texturePixels, BundlePlayer::Images known = {});
 
 }  // namespace acentric

@@ -30,8 +30,8 @@ struct GlbCoding {
   int quality = 92;   ///< of WebP: its own 0..99, or kLosslessColours
 };
 
-/// Everything in it is drawn as it is: all materials are unlit (KHR_materials_unlit), light is in textures
-/// and vertex colours.
+/// Everything in it is drawn as it is: all materials are unlit (KHR_materials_unlit), light is in textures,
+/// the sky in vertex colours.
 class Glb {
  public:
   using Json = nlohmann::ordered_json;

@@ -102,7 +102,7 @@ Result<GltfRegionReport> writeGltfRegion(const WalkScene& walk, int region, cons
   if (Status added = addCaptures(walk, region, options, model, report, stop); !added)
     return tl::unexpected(added.error());
   if (const auto& local = walk.local[std::size_t(region)])
-    report.localTriangles = addNear(walk, *local, model);
+    report.localTriangles = addNear(walk, std::size_t(region), *local, options.atlasPixels, model).triangles;
   addSky(walk, glm::dvec3(from.polygon.centroid(), walk.layout->eyeZ()), model);
   Glb glb(options.generator, coding);
   if (Status added = glb.add(std::move(model)); !added) return tl::unexpected(added.error());

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 
@@ -21,43 +22,6 @@ struct TexelBox {
   glm::ivec2 size() const { return high - low; }
   bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };
-
-/// A part of a patch that fits a texture.
-struct PatchPart {
-  const ShownCapture* of = nullptr;
-  const DisplayPatch* patch = nullptr;
-  /// Any of these; with RoleMeshes::apart just these, and what has all roles of the patch, as where it
-  /// reaches under others.
-  std::uint8_t roles = 0;
-  bool apart = false;
-  TexelBox texels;
-
-  std::size_t texel(int column, int row) const {
-    return patch->firstTexel + std::size_t(column + 1) * (std::size_t(patch->rows) + 2) +
-           std::size_t(row + 1);
-  }
-  std::uint32_t cover(int column, int row) const {
-    const std::uint32_t word = of->capture->patches->cover[texel(column, row)];
-    const auto needs = std::uint8_t(word >> kTexelRoles);
-    return (apart ? needs == roles || needs == patch->roles : (needs & roles) != 0) ? word & kTexelParts : 0;
-  }
-  Rgba8 colour(int column, int row) const {
-    Rgba8 colour = of->capture->patches->colour[texel(column, row)];
-    const int parts = std::popcount(cover(column, row)), all = std::popcount(kTexelParts);
-    colour.a = std::uint8_t((colour.a * parts + all / 2) / all);
-    return colour;
-  }
-};
-
-/// What of the texels the roles want of the patch's own samples.
-TexelBox coveredOf(const PatchPart& part) {
-  TexelBox covered{part.texels.high, part.texels.low};
-  for (int c = part.texels.low.x; c < part.texels.high.x; ++c)
-    for (int r = part.texels.low.y; r < part.texels.high.y; ++r)
-      if (part.cover(c, r) != 0)
-        covered = {glm::min(covered.low, {c, r}), glm::max(covered.high, {c + 1, r + 1})};
-  return covered;
-}
 
 /// The plane of a patch as seen from its camera. Places on it are columns and rows of the capture, or
 /// relative to the camera's centre of projection.
@@ -88,6 +52,78 @@ struct PatchPlane {
     return std::max(apart.x, apart.y);
   }
 };
+
+/// Where a capture sees its flat mirrors, column by column: how near, as PatchPlane::inverse; 0 elsewhere.
+/// Empty where it sees none.
+std::vector<float> mirrorsOf(const DisplayCapture& capture) {
+  std::vector<float> nearest;
+  const DisplayPatches& all = *capture.patches;
+  for (const DisplayPatch& patch : all.patches) {
+    if (patch.mirror == 0) continue;
+    nearest.resize(std::size_t(capture.camera.columns) * std::size_t(capture.camera.rows));
+    const PatchPlane plane{capture.camera, glm::dvec3(patch.normal)};
+    for (int c = 0; c < patch.columns; ++c)
+      for (int r = 0; r < patch.rows; ++r) {
+        const std::size_t texel =
+            patch.firstTexel + std::size_t(c + 1) * (std::size_t(patch.rows) + 2) + std::size_t(r + 1);
+        if ((all.cover[texel] & kTexelParts) == 0) continue;
+        const glm::ivec2 at(patch.column + c, patch.row + r);
+        float& here = nearest[std::size_t(at.x) * std::size_t(capture.camera.rows) + std::size_t(at.y)];
+        here = std::max(here, float(plane.inverse(glm::dvec2(at) + 0.5)));
+      }
+  }
+  return nearest;
+}
+
+/// A part of a patch that fits a texture.
+struct PatchPart {
+  const ShownCapture* of = nullptr;
+  const DisplayPatch* patch = nullptr;
+  /// Any of these; with RoleMeshes::apart just these, and what has all roles of the patch, as where it
+  /// reaches under others.
+  std::uint8_t roles = 0;
+  bool apart = false;
+  const std::vector<float>* mirrors = nullptr;  ///< mirrorsOf the capture; null: none
+  TexelBox texels;
+
+  std::size_t texel(int column, int row) const {
+    return patch->firstTexel + std::size_t(column + 1) * (std::size_t(patch->rows) + 2) +
+           std::size_t(row + 1);
+  }
+  /// What a mirror hangs on: seen past its frame by a capture, it would cover what the mirror shows.
+  bool backsMirror(int column, int row) const {
+    constexpr double kAtMost = 0.1;  // metres behind it
+    const ColumnCamera& camera = of->capture->camera;
+    const glm::ivec2 at(patch->column + column, patch->row + row);
+    if (at.x < 0 || at.y < 0 || at.x >= camera.columns || at.y >= camera.rows) return false;
+    const double mirror =
+        double((*mirrors)[std::size_t(at.x) * std::size_t(camera.rows) + std::size_t(at.y)]);
+    const double own = PatchPlane{camera, glm::dvec3(patch->normal)}.inverse(glm::dvec2(at) + 0.5);
+    return mirror > 0 && own > 0 && own < 0.9999 * mirror && 1 / own - 1 / mirror < kAtMost;
+  }
+  std::uint32_t cover(int column, int row) const {
+    if (mirrors != nullptr && backsMirror(column, row)) return 0;
+    const std::uint32_t word = of->capture->patches->cover[texel(column, row)];
+    const auto needs = std::uint8_t(word >> kTexelRoles);
+    return (apart ? needs == roles || needs == patch->roles : (needs & roles) != 0) ? word & kTexelParts : 0;
+  }
+  Rgba8 colour(int column, int row) const {
+    Rgba8 colour = of->capture->patches->colour[texel(column, row)];
+    const int parts = std::popcount(cover(column, row)), all = std::popcount(kTexelParts);
+    colour.a = std::uint8_t((colour.a * parts + all / 2) / all);
+    return colour;
+  }
+};
+
+/// What of the texels the roles want of the patch's own samples.
+TexelBox coveredOf(const PatchPart& part) {
+  TexelBox covered{part.texels.high, part.texels.low};
+  for (int c = part.texels.low.x; c < part.texels.high.x; ++c)
+    for (int r = part.texels.low.y; r < part.texels.high.y; ++r)
+      if (part.cover(c, r) != 0)
+        covered = {glm::min(covered.low, {c, r}), glm::max(covered.high, {c + 1, r + 1})};
+  return covered;
+}
 
 struct Rectangle {
   glm::dvec2 low, high;
@@ -173,14 +209,19 @@ class Writer {
   /// `reflections`: those that mirrors show.
   void find(const ShownCapture& shown, bool reflections) {
     if (!shown.capture->patches) return;
+    const std::vector<float>* mirrors = nullptr;
+    if (!reflections) {
+      mirrors_.push_back(mirrorsOf(*shown.capture));
+      if (!mirrors_.back().empty()) mirrors = &mirrors_.back();
+    }
     for (const DisplayPatch& patch : shown.capture->patches->patches) {
       if ((patch.roles & shown.roles) == 0 || (patch.mirror != 0 && !reflections)) continue;
       const std::size_t before = parts_.size();
       if (roleMeshes_ == RoleMeshes::together) {
-        cutToSize({&shown, &patch, shown.roles, false, {}});
+        cutToSize({&shown, &patch, shown.roles, false, mirrors, {}});
       } else {
         for (const std::uint8_t roles : rolesWithin(shown, patch))
-          cutToSize({&shown, &patch, roles, true, {}});
+          cutToSize({&shown, &patch, roles, true, mirrors, {}});
       }
       counts_.patches += parts_.size() > before ? 1 : 0;
     }
@@ -248,6 +289,7 @@ class Writer {
   const int atlasPixels_;
   DrawModel& model_;
   std::vector<ShownCapture> behindMirrors_;
+  std::deque<std::vector<float>> mirrors_;  ///< of captures that see any
   std::vector<PatchPart> parts_;
   std::vector<Rectangle> rectangles_;
   PatchModelCounts counts_;

@@ -7,7 +7,7 @@
 
 namespace acentric {
 
-AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side) {
+AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side, int border) {
   AtlasPlan plan;
   plan.places.resize(sizes.size());
   std::vector<std::size_t> order(sizes.size());
@@ -16,7 +16,7 @@ AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side) {
   glm::ivec2 next(0);
   int shelf = 0;
   for (const std::size_t i : order) {
-    const glm::ivec2 size = sizes[i] + 2 * kAtlasBorder;
+    const glm::ivec2 size = sizes[i] + 2 * border;
     require(size.x <= side && size.y <= side, "a picture fits a page");
     if (next.x + size.x > side) next = {0, next.y + shelf}, shelf = 0;
     if (plan.pages.empty() || next.y + size.y > side) {
@@ -24,7 +24,7 @@ AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side) {
       next = glm::ivec2(0);
       shelf = 0;
     }
-    plan.places[i] = {int(plan.pages.size()) - 1, next + kAtlasBorder};
+    plan.places[i] = {int(plan.pages.size()) - 1, next + border};
     plan.pages.back() = glm::max(plan.pages.back(), next + size);
     shelf = std::max(shelf, size.y);
     next.x += size.x;

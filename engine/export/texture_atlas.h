@@ -21,6 +21,6 @@ struct AtlasPlan {
 inline constexpr int kAtlasBorder = 1;
 
 /// Rows of pictures of falling height. `side`: of a page, at least the largest picture with its border.
-AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side);
+AtlasPlan planAtlas(std::span<const glm::ivec2> sizes, int side, int border = kAtlasBorder);
 
 }  // namespace acentric

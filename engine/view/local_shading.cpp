@@ -70,8 +70,14 @@ LocalShading::LocalShading(const WalkScene& scene, const LocalGeometry& local) :
   firstTriangles_ = firstTrianglesOf(*meshes_);
 }
 
-bool LocalShading::hasLightOnBack(std::uint32_t triangle) const {
-  return triangle < light_->hasBack.size() && light_->hasBack[triangle] != 0;
+bool LocalShading::hasLightOnBack(std::uint32_t mesh, std::uint32_t triangle) const {
+  const std::size_t number = firstTriangles_[mesh] + triangle;
+  return light_ != nullptr && number < light_->hasBack.size() && light_->hasBack[number] != 0;
+}
+
+int LocalShading::lightResolution(std::uint32_t mesh, std::uint32_t triangle) const {
+  const std::size_t number = firstTriangles_[mesh] + triangle;
+  return light_ != nullptr && number < light_->resolution.size() ? int(light_->resolution[number]) : 0;
 }
 
 glm::vec4 LocalShading::baseColourAt(const LocalMaterial& material, const Mesh& mesh,
@@ -89,7 +95,18 @@ bool LocalShading::survivesMask(const LocalPoint& point) const {
   return baseColourAt(material, (*meshes_)[point.mesh], point).a >= material.material->alphaCutoff;
 }
 
+float LocalShading::alphaAt(const LocalPoint& point) const {
+  const LocalMaterial& material = materialOf(point.mesh);
+  if (!material.masked && !material.blended) return 1;
+  return std::clamp(baseColourAt(material, (*meshes_)[point.mesh], point).a, 0.0f, 1.0f);
+}
+
 Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) const {
+  const glm::vec4 shown = shownAt(point, eye);
+  return encodeShown(glm::vec3(shown), shown.a);
+}
+
+glm::vec4 LocalShading::shownAt(const LocalPoint& point, const glm::vec3& eye) const {
   const Mesh& mesh = (*meshes_)[point.mesh];
   const LocalMaterial& material = materialOf(point.mesh);
   const glm::vec4 base = baseColourAt(material, mesh, point);
@@ -98,7 +115,8 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
   const std::uint32_t triangle = firstTriangles_[point.mesh] + point.triangle;
   if (light_ != nullptr && !material.unlit) {
     light = triangle < light_->resolution.size()
-                ? light_->at(triangle, point.barycentric, point.back && hasLightOnBack(triangle))
+                ? light_->at(triangle, point.barycentric,
+                             point.back && hasLightOnBack(point.mesh, point.triangle))
                 : glm::vec3(0);
   }
   glm::vec3 radiance = glm::vec3(base) * light;
@@ -119,7 +137,7 @@ Rgba8 LocalShading::colourAt(const LocalPoint& point, const glm::vec3& eye) cons
     const float cosine = glm::dot(normalTowards(mesh, point, toEye), toEye);
     alpha *= glassAlpha(material.material->transmission, glm::vec3(base), cosine).alpha();
   }
-  return encodeForDisplay(radiance, exposure_, alpha);
+  return {toneMap(radiance, exposure_), alpha};
 }
 
 std::optional<SurfaceShade> LocalShading::triangle(const std::array<LocalPoint, 3>& corners) const {
@@ -185,7 +203,7 @@ std::optional<SurfaceShade> LocalShading::surfaceOf(const std::array<LocalPoint,
   if (triangle < light_->resolution.size() && light_->resolution[triangle] > 0) {
     if (light_->resolution[triangle] > SurfaceShade::kMaxResolution) return {};
     shade.resolution = light_->resolution[triangle];
-    light = light_->samplesOf(triangle, point.back && hasLightOnBack(triangle));
+    light = light_->samplesOf(triangle, point.back && hasLightOnBack(point.mesh, point.triangle));
   }
   shade.light = reinterpret_cast<const std::uint32_t*>(light);
   return shade;

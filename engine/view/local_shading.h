@@ -49,7 +49,11 @@ class LocalShading {
   const std::vector<LocalMaterial>& materials() const { return materials_; }  ///< by scene material
   /// Does an alpha-tested surface exist at this point?
   bool survivesMask(const LocalPoint& point) const;
-  /// Display colour; alpha 255 unless the material is clear. Without baked light: the base colour.
+  /// Its alpha, unless the effect plan leaves the material opaque: then 1. Not of glass.
+  float alphaAt(const LocalPoint& point) const;
+  /// Display-linear colour; alpha 1 unless the material is clear. Without baked light: the base colour.
+  glm::vec4 shownAt(const LocalPoint& point, const glm::vec3& eye) const;
+  /// The same as sRGB codes.
   Rgba8 colourAt(const LocalPoint& point, const glm::vec3& eye) const;
   /// The same for all points of an opaque triangle with these corners; nothing where that needs more than
   /// kernels know. Refers to the scene and its light.
@@ -58,10 +62,13 @@ class LocalShading {
   std::optional<ClearShade> clearTriangle(const std::array<LocalPoint, 3>& corners,
                                           const glm::vec3& eye) const;
 
+  /// Samples a side of its light, of a triangle of a mesh; 0: none.
+  int lightResolution(std::uint32_t mesh, std::uint32_t triangle) const;
+  /// Where there is none, the front's light serves both sides.
+  bool hasLightOnBack(std::uint32_t mesh, std::uint32_t triangle) const;
+
  private:
   std::optional<SurfaceShade> surfaceOf(const std::array<LocalPoint, 3>& corners) const;
-  /// Where there is none, the front's light serves both sides.
-  bool hasLightOnBack(std::uint32_t triangle) const;
   glm::vec4 baseColourAt(const LocalMaterial& material, const Mesh& mesh, const LocalPoint& point) const;
 
   const Scene* scene_;

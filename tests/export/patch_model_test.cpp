@@ -171,6 +171,46 @@ TEST(PatchModel, MirrorsAreOpenAndShowWhatLiesBehindThem) {
   EXPECT_GT(farthest, 6) << "what the mirror shows";
 }
 
+TEST(PatchModel, WhatAMirrorHangsOnDoesNotCoverWhatItShows) {
+  for (const double behind : {0.03, 0.5}) {
+    test::AnalyticScene scene;
+    scene.silhouettes = true;
+    scene.boxes.push_back({{4, -1, 0.5}, {4.001, 1, 2.5}, {0.9f, 0.9f, 0.9f, 1}});
+    scene.boxes.push_back({{4 + behind, -1.2, 0.3}, {4.6, 1.2, 2.7}, {0, 0, 0, 1}});
+    DisplayCapture capture = captureOf(scene);  // of two layers
+    const auto shown = [&] {
+      DrawModel model;
+      const ShownCapture each{&capture, 0xff};
+      return addPatches({&each, 1}, RoleMeshes::together, 1024, model).samples;
+    };
+    const std::size_t all = shown();
+    auto patches = std::make_shared<DisplayPatches>(*capture.patches);
+    std::size_t open = 0, hidden = 0;  // texels of the mirror, and those that are not of its patches' borders
+    for (DisplayPatch& patch : patches->patches) {
+      if (std::abs(double(patch.normal.x) - 1 / (4 - kCentre.x)) > 1e-4) continue;
+      patch.mirror = 1;
+      for (int c = 0; c < patch.columns + 2; ++c)
+        for (int r = 0; r < patch.rows + 2; ++r) {
+          const auto texel =
+              patch.firstTexel + std::size_t(c) * (std::size_t(patch.rows) + 2) + std::size_t(r);
+          if ((patches->cover[texel] & kTexelParts) == 0) continue;
+          ++open;
+          hidden += c > 0 && r > 0 && c <= patch.columns && r <= patch.rows ? 1 : 0;
+        }
+    }
+    capture.patches = patches;
+    ASSERT_GT(hidden, 300u);
+    const std::size_t gone = all - shown();
+    if (behind < 0.1) {
+      EXPECT_GE(gone, open + hidden) << "the board is behind the mirror in all of it";
+      EXPECT_LE(gone, 2 * open + hidden / 4);
+    } else {
+      EXPECT_EQ(gone, open) << "the mirror itself is open";
+    }
+    EXPECT_GT(shown(), 1000u) << "around it there is what was";
+  }
+}
+
 TEST(PatchModel, OfACaptureOfTheSkyThereIsNothing) {
   test::AnalyticScene sky;
   sky.floor = false, sky.silhouettes = true;
