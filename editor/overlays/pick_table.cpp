@@ -37,7 +37,7 @@ std::string verdictOf(const PointCoverage& coverage) {
 
 void headline(PanelContext& context, const ScenePick& pick) {
   const Scene& scene = *pick.of->scene;
-  const Mesh& mesh = scene.meshes[pick.point.mesh];
+  const Mesh& mesh = scene.meshOf(pick.point.mesh);
   const glm::dvec3& at = pick.point.position;
   ImGui::PushFont(context.window.fonts().bold);
   ImGui::TextUnformatted(mesh.name.empty() ? "Surface" : mesh.name.c_str());

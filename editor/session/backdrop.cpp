@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/image/colour.h"
+#include "engine/scene/instances.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric::editor {
@@ -15,7 +16,7 @@ constexpr Rgba8 kSolid{8, 9, 11, 255};
 constexpr float kDim = 0.16F;  // the lattice is drawn over it and must stand out
 
 glm::vec4 materialColour(const Scene& scene, const Hit& hit) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
+  const Mesh& mesh = scene.meshOf(hit.mesh);
   const Material& material = scene.materials[std::size_t(mesh.material)];
   glm::vec4 colour = material.baseColour;
   const auto& uvs = mesh.uv[material.baseColourTexture.uvSet];
@@ -31,7 +32,7 @@ glm::vec4 materialColour(const Scene& scene, const Hit& hit) {
 
 /// Lit from above and a little from the side, darker towards the floor, so that heights read.
 Rgba8 shade(const Scene& scene, const Hit& hit, float cutHeight, float floorHeight) {
-  const Material& material = scene.materials[std::size_t(scene.meshes[hit.mesh].material)];
+  const Material& material = scene.materials[std::size_t(scene.meshOf(hit.mesh).material)];
   // Looking down and meeting the back of a one-sided surface: the cut went through a solid.
   const glm::vec3 wound = hit.geometricNormal();
   if (wound.z < 0 && !material.doubleSided) return kSolid;
@@ -90,14 +91,18 @@ std::optional<std::pair<glm::dvec2, glm::dvec2>> cutTriangle(const std::array<gl
 }
 
 void drawCuts(const Scene& scene, float height, const Raster& raster, const std::stop_token& stop) {
-  for (const Mesh& mesh : scene.meshes) {
+  const std::vector<Bounds> own = boundsOf(scene.prototypes);
+  for (std::uint32_t m = 0; m < scene.placedCount(); ++m) {
     if (stop.stop_requested()) return;
-    for (const glm::uvec3& t : mesh.triangles) {
-      const std::array<glm::vec3, 3> corners = {mesh.positions[t.x], mesh.positions[t.y],
-                                                mesh.positions[t.z]};
-      if (const auto cut = cutTriangle(corners, height))
-        raster.line(raster.pixelOf(cut->first), raster.pixelOf(cut->second));
+    if (scene.isInstance(m)) {
+      const Instance& instance = scene.instances[m - scene.meshes.size()];
+      const Bounds box = boundsOf(instance, own[instance.prototype]);
+      if (!(box.min.z < height && box.max.z >= height)) continue;
     }
+    const PlacedMesh placed(scene, m);
+    for (std::uint32_t t = 0; t < placed.mesh().triangles.size(); ++t)
+      if (const auto cut = cutTriangle(placed.corners(t), height))
+        raster.line(raster.pixelOf(cut->first), raster.pixelOf(cut->second));
   }
 }
 

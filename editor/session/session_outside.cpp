@@ -101,7 +101,7 @@ void Session::watchScene(bool missing) {
   const fs::path model = sceneFileOf(file_, built_->project);
   if (missing) {
     sceneFiles_.state = SceneFiles::State::missing;
-    sceneFiles_.fromCache = !built_->scene->meshes.empty();
+    sceneFiles_.fromCache = built_->scene->placedCount() > 0;
     sceneWatch_.emplace(std::vector{FileStamp{model, {}, {}}});
     return;
   }

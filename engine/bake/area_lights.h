@@ -25,7 +25,9 @@ class AreaLights {
   AreaLights(const Scene& scene, const EffectPlan& plan);
   bool empty() const { return emitters_.empty(); }
   /// Does this mesh's glow arrive through here?
-  bool include(std::uint32_t mesh) const { return !empty() && lighting_[mesh] != 0; }
+  bool include(std::uint32_t mesh) const {
+    return !empty() && mesh < lighting_.size() && lighting_[mesh] != 0;  // else an instance
+  }
 
   /// Irradiance with nothing in between; not of an empty set.
   glm::vec3 irradiance(const Surface& surface) const;

@@ -10,6 +10,8 @@
 #include "engine/bake/part_rays.h"
 #include "engine/bake/surface_planes.h"
 #include "engine/bake/turned_samples.h"
+#include "engine/scene/instances.h"
+#include "engine/scene/placed_mesh.h"
 
 namespace acentric {
 namespace {
@@ -85,11 +87,10 @@ class EdgeOnFacets {
   }
 
   std::optional<Facet> facetOf(std::uint32_t number, std::uint32_t triangle) {
-    const Mesh& mesh = scene_.meshes[number];
-    const glm::uvec3& corners = mesh.triangles[triangle];
+    const std::array<glm::vec3, 3> corners = PlacedMesh(scene_, number).corners(triangle);
     Facet facet{number, triangle, {}, {}, 0, {}, 0, {}};
     auto& x = facet.corners;
-    for (int k = 0; k < 3; ++k) x[std::size_t(k)] = fromCamera(mesh.positions[corners[k]]);
+    for (std::size_t k = 0; k < 3; ++k) x[k] = fromCamera(corners[k]);
     const glm::dvec3 cross = glm::cross(x[1] - x[0], x[2] - x[0]), middle = (x[0] + x[1] + x[2]) / 3.0;
     const double area2 = glm::dot(cross, cross), distance2 = glm::dot(middle, middle),
                  volume = glm::dot(cross, x[0]);
@@ -103,7 +104,7 @@ class EdgeOnFacets {
       return glm::dot(plan, ahead_) < widestCosine_ * glm::length(plan);
     };
     if (std::ranges::all_of(x, isAside)) return {};
-    if (mirror_ != nullptr && !mayBeShown(mesh, corners, middle)) return {};
+    if (mirror_ != nullptr && !mayBeShown(corners, middle)) return {};
     facet.normal = cross / std::sqrt(area2);
     facet.height = glm::dot(facet.normal, x[0]);
     if (const double least = kLeastHeight * std::sqrt(distance2); std::abs(facet.height) < least) {
@@ -120,9 +121,9 @@ class EdgeOnFacets {
     return facet;
   }
   double part() const { return pitch_ / kCoverageParts; }
-  bool mayBeShown(const Mesh& mesh, const glm::uvec3& corners, const glm::dvec3& middle) {
-    for (int k = 0; k < 3; ++k)
-      if (!(mirror_->height(glm::dvec3(mesh.positions[corners[k]])) > 0)) return false;
+  bool mayBeShown(const std::array<glm::vec3, 3>& corners, const glm::dvec3& middle) {
+    for (const glm::vec3& corner : corners)
+      if (!(mirror_->height(glm::dvec3(corner)) > 0)) return false;
     const double distance = glm::length(middle);
     setting_.beyond->spansAlong(camera_.centreOfProjection, middle / distance, spans_);
     return std::ranges::any_of(spans_, [&](const MirrorSight::Span& span) {
@@ -224,7 +225,7 @@ class EdgeOnFacets {
     const double distance = glm::length(place.at);
     glm::dvec3 way = place.at / distance;
     if (mirror_ != nullptr) way = mirror_->reflected(way);
-    const glm::vec3 normal = triangleNormal(scene_.meshes[facet.mesh], facet.triangle);
+    const glm::vec3 normal = triangleNormal(PlacedMesh(scene_, facet.mesh), facet.triangle);
     const glm::dvec3 virtualPoint = camera_.centreOfProjection + place.at;
     const MetSurface surface(normal, mirror_ == nullptr ? virtualPoint : mirror_->imageOf(virtualPoint),
                              glm::vec3(way));
@@ -316,6 +317,41 @@ class EdgeOnFacets {
   std::vector<MirrorSight::Span> spans_;
 };
 
+/// How large the triangles of instances are. A distant one's may all be smaller than a part of a pixel: then
+/// none is a line of its own in the picture, and a forest need not be looked through leaf by leaf.
+class InstanceSizes {
+ public:
+  explicit InstanceSizes(const Scene& scene) : scene_(scene), bounds_(boundsOf(scene.prototypes)) {
+    for (const Mesh& mesh : scene.prototypes) {
+      double longest = 0;
+      for (const glm::uvec3& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+          longest =
+              std::max(longest, double(glm::distance(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]])));
+      longest_.push_back(longest);
+    }
+  }
+
+  bool allSmall(std::uint32_t placed, const ColumnCamera& camera) const {
+    const Instance& instance = scene_.instances[placed - scene_.meshes.size()];
+    const Bounds box = boundsOf(instance, bounds_[instance.prototype]);
+    const glm::dvec3 nearest =
+        glm::clamp(camera.centreOfProjection, glm::dvec3(box.min), glm::dvec3(box.max));
+    double stretch = 0;  // no less than the largest
+    for (int axis = 0; axis < 3; ++axis)
+      stretch += glm::dot(glm::dvec3(instance.worldFromPrototype[axis]),
+                          glm::dvec3(instance.worldFromPrototype[axis]));
+    const double part = std::min(camera.columnPitch(), camera.rowPitch()) / kCoverageParts;
+    return std::sqrt(stretch) * longest_[instance.prototype] <
+           part * glm::distance(nearest, camera.centreOfProjection);
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<Bounds> bounds_;   ///< by prototype, in its frame
+  std::vector<double> longest_;  ///< side of a triangle, by prototype
+};
+
 }  // namespace
 
 void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, TaskRunner& runner,
@@ -325,10 +361,12 @@ void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, Tas
     std::uint32_t mesh, first, end;
   };
   std::vector<Range> ranges;
-  for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    const MaterialRules& rule = setting.shader.rules()[std::size_t(scene.meshes[mesh].material)];
+  const InstanceSizes sizes(scene);
+  for (std::uint32_t mesh = 0; mesh < scene.placedCount(); ++mesh) {
+    const MaterialRules& rule = setting.shader.rules()[std::size_t(scene.meshOf(mesh).material)];
     if (rule.clear() || rule.masked) continue;
-    const std::size_t count = scene.meshes[mesh].triangles.size();
+    if (scene.isInstance(mesh) && sizes.allSmall(mesh, setting.columns)) continue;
+    const std::size_t count = scene.meshOf(mesh).triangles.size();
     for (std::size_t first = 0; first < count; first += kTrianglesPerTask)
       ranges.push_back(
           {mesh, std::uint32_t(first), std::uint32_t(std::min(first + kTrianglesPerTask, count))});

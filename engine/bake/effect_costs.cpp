@@ -60,12 +60,10 @@ class CostProbe {
     const double texel = gathered_->texel();
     double sum = 0;
     for (const Pixel& pixel : pixels_) {
-      const Mesh& mesh = scene_.scene().meshes[pixel.hit.mesh];
-      const glm::uvec3& t = mesh.triangles[pixel.hit.triangle];
-      const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+      const auto corners = PlacedMesh(scene_.scene(), pixel.hit.mesh).corners(pixel.hit.triangle);
+      const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
       const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-      const double places =
-          surfaceSampleCount(resolutionFor(mesh, pixel.hit.triangle, texel, GatheredLight::kMaxResolution));
+      const double places = surfaceSampleCount(resolutionFor(corners, texel, GatheredLight::kMaxResolution));
       const double density = pixelsPerSquareMetre(pixel);
       sum += area > 0 && density > 0 ? std::min(1.0, places / (3 * area * density)) : 1;
     }

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <numbers>
+#include <unordered_map>
 
 #include "engine/bake/surface.h"
 #include "engine/base/contract.h"
+#include "engine/scene/placed_mesh.h"
 #include "engine/scene/surface_light.h"
 
 namespace acentric {
@@ -50,8 +53,11 @@ bool gathersLight(const EffectPlan& plan, const BakeSettings& settings) {
 }
 
 std::uint32_t resolutionFor(const Mesh& mesh, std::uint32_t triangle, double texel, std::uint32_t most) {
-  const glm::uvec3& t = mesh.triangles[triangle];
-  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+  return resolutionFor(PlacedMesh(mesh, nullptr).corners(triangle), texel, most);
+}
+
+std::uint32_t resolutionFor(const std::array<glm::vec3, 3>& corners, double texel, std::uint32_t most) {
+  const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
   const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
   const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
   const double wanted = std::min(longest / texel, 4 * std::sqrt(area) / texel);
@@ -65,6 +71,38 @@ ValuesOnDemand::ValuesOnDemand(std::size_t count)
     : values_(
           static_cast<std::uint64_t*>(std::calloc(std::max<std::size_t>(count, 1), sizeof(std::uint64_t)))) {
   if (!values_) throw std::bad_alloc();
+}
+
+struct ScatteredValuesOnDemand::Shard {
+  struct Hash {
+    std::size_t operator()(const Key& key) const { return hashOf(key); }
+  };
+  std::mutex mutex;
+  std::unordered_map<Key, HalfColour, Hash> values;
+
+  static constexpr std::size_t kCount = 64, kMost = 65536;  // values in each: 200 MB in all
+  static std::uint32_t hashOf(const Key& key) {
+    return mixBits(key.place ^ mixBits(key.triangle ^ mixBits(key.placed)));
+  }
+};
+
+ScatteredValuesOnDemand::ScatteredValuesOnDemand() : shards_(std::make_unique<Shard[]>(Shard::kCount)) {}
+ScatteredValuesOnDemand::~ScatteredValuesOnDemand() = default;
+ScatteredValuesOnDemand::ScatteredValuesOnDemand(ScatteredValuesOnDemand&&) noexcept = default;
+
+std::optional<HalfColour> ScatteredValuesOnDemand::find(const Key& key) const {
+  Shard& shard = shards_[Shard::hashOf(key) >> 26];
+  const std::lock_guard lock(shard.mutex);
+  const auto found = shard.values.find(key);
+  if (found == shard.values.end()) return {};
+  return found->second;
+}
+
+bool ScatteredValuesOnDemand::keep(const Key& key, const HalfColour& value) const {
+  Shard& shard = shards_[Shard::hashOf(key) >> 26];
+  const std::lock_guard lock(shard.mutex);
+  if (shard.values.size() >= Shard::kMost) shard.values.clear();
+  return shard.values.try_emplace(key, value).second;
 }
 
 GatheredLight::Grids GatheredLight::layOut(double texel, bool corners) const {
@@ -104,6 +142,7 @@ GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings
   if (!bounced_) return;
   cells_ = layOut(kCellTexels * texel_, false);
   for (int n = 0; n < settings_.bounces; ++n) cellValues_.emplace_back(cells_.first.back());
+  instanceCells_.resize(std::size_t(settings_.bounces));
 }
 
 /// One of R x R equal triangles, and its middle.
@@ -131,7 +170,9 @@ struct GatheredLight::Cell {
 };
 
 GatheredLight::Side GatheredLight::sideOf(const Hit& hit, bool back) const {
-  return {hit.mesh, hit.triangle, firstTriangles_[hit.mesh] + hit.triangle, back};
+  if (hit.mesh + 1 < firstTriangles_.size())
+    return {hit.mesh, hit.triangle, firstTriangles_[hit.mesh] + hit.triangle, back};
+  return {hit.mesh, hit.triangle, mixBits(hit.mesh) + hit.triangle, back};
 }
 
 /// The side that has the number-th value of the grids; `within`: its number there.
@@ -153,10 +194,10 @@ GatheredLight::Side GatheredLight::sideAt(const Grids& grids, std::size_t number
 
 GatheredLight::Spot GatheredLight::spotOn(const Side& side, const glm::vec2& barycentric,
                                           double share) const {
-  const Mesh& mesh = scene_->scene().meshes[side.mesh];
-  const glm::uvec3& t = mesh.triangles[side.triangle];
-  const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-  const glm::vec3 normal = triangleNormal(mesh, side.triangle);
+  const PlacedMesh placed(scene_->scene(), side.mesh);
+  const auto corners = placed.corners(side.triangle);
+  const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
+  const glm::vec3 normal = triangleNormal(placed, side.triangle);
   return {side.mesh,
           side.triangle,
           side.sceneTriangle,
@@ -169,7 +210,7 @@ GatheredLight::Spot GatheredLight::spotOn(const Side& side, const glm::vec2& bar
 /// The normal is the corners': that of a hit may differ in its last bit from ray to ray, and who comes first
 /// to a place decides what all others read there.
 Surface GatheredLight::surfaceOf(const Side& side, const glm::vec2& barycentric) const {
-  const glm::vec3 normal = triangleNormal(scene_->scene().meshes[side.mesh], side.triangle);
+  const glm::vec3 normal = triangleNormal(PlacedMesh(scene_->scene(), side.mesh), side.triangle);
   const Hit hit{0, side.mesh, side.triangle, barycentric, normal};
   const glm::vec3 facing = side.back ? -hit.geometricNormal() : hit.geometricNormal();
   return surfaceAt<false>(scene_->scene(), hit, facing, {}, false);
@@ -178,7 +219,7 @@ Surface GatheredLight::surfaceOf(const Side& side, const glm::vec2& barycentric)
 GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& rays,
                                           const std::stop_token& stop) const {
   const Side side = sideOf(hit, back);
-  const SurfaceCell cell = surfaceCellAt(places_.resolution[side.sceneTriangle], hit.barycentric);
+  const SurfaceCell cell = surfaceCellAt(resolutionOf(places_, side, texel_), hit.barycentric);
   glm::vec4 sum(0);
   for (int c = 0; c < 3; ++c)
     if (cell.weight[c] > 0)
@@ -188,14 +229,23 @@ GatheredLight::Gathered GatheredLight::at(const Hit& hit, bool back, RayCounts& 
 
 HalfColour GatheredLight::placeLight(const Side& side, std::uint32_t i, std::uint32_t j, RayCounts& rays,
                                      const std::stop_token& stop) const {
-  const std::uint32_t r = places_.resolution[side.sceneTriangle];
-  const std::uint32_t first = places_.first[side.sceneTriangle] + (side.back ? surfaceSampleCount(r) : 0);
-  const std::uint32_t index = first + surfaceSampleIndex(r, i, j);
-  return values_.at(index, rays, [&](RayCounts& own) {
+  const std::uint32_t r = resolutionOf(places_, side, texel_);
+  const std::uint32_t within = (side.back ? surfaceSampleCount(r) : 0) + surfaceSampleIndex(r, i, j);
+  const auto gathered = [&](std::uint32_t index, RayCounts& own) {
     const Surface surface = surfaceOf(side, surfaceSamplePlace(r, i, j));
     const Gathered g = gather(surface, side.sceneTriangle, index, own, rays, stop);
     return stop.stop_requested() ? HalfColour(0) : packColour({g.radiance, 0.5f + 0.5f * g.open});
-  });
+  };
+  if (isInstance(side))
+    return instanceValues_.at({side.mesh, side.triangle, within}, rays,
+                              [&](RayCounts& own) { return gathered(within, own); });
+  const std::uint32_t index = places_.first[side.sceneTriangle] + within;
+  return values_.at(index, rays, [&](RayCounts& own) { return gathered(index, own); });
+}
+
+std::uint32_t GatheredLight::resolutionOf(const Grids& grids, const Side& side, double texel) const {
+  if (!isInstance(side)) return grids.resolution[side.sceneTriangle];
+  return resolutionFor(PlacedMesh(scene_->scene(), side.mesh).corners(side.triangle), texel, kMaxResolution);
 }
 
 /// A place by its number.
@@ -235,18 +285,22 @@ GatheredLight::Spot GatheredLight::cell(std::size_t number) const {
   return spotOn(side, Cell::numbered(r, within).middle, 1.0 / cellsOf(r));
 }
 
-double GatheredLight::areaOf(std::uint32_t sceneTriangle) const {
-  const auto next = std::ranges::upper_bound(firstTriangles_, sceneTriangle);
-  const auto mesh = std::uint32_t(next - firstTriangles_.begin()) - 1;
-  return spotOn({mesh, sceneTriangle - firstTriangles_[mesh], sceneTriangle, false}, {}, 1).squareMetres;
+GatheredLight::Spot GatheredLight::middleOf(std::uint32_t placed, std::uint32_t triangle, bool back) const {
+  return spotOn(sideOf({0, placed, triangle}, back), glm::vec2(1.0f / 3), 1);
 }
 
-double GatheredLight::placesPerSquareMetre(std::uint32_t sceneTriangle) const {
-  return surfaceSampleCount(places_.resolution[sceneTriangle]) / areaOf(sceneTriangle);
+double GatheredLight::areaOf(std::uint32_t placed, std::uint32_t triangle) const {
+  return spotOn({placed, triangle, 0, false}, {}, 1).squareMetres;
 }
 
-double GatheredLight::cellsPerSquareMetre(std::uint32_t sceneTriangle) const {
-  return cellsOf(cells_.resolution[sceneTriangle]) / areaOf(sceneTriangle);
+double GatheredLight::placesPerSquareMetre(std::uint32_t placed, std::uint32_t triangle) const {
+  const Side side = sideOf({0, placed, triangle}, false);
+  return surfaceSampleCount(resolutionOf(places_, side, texel_)) / areaOf(placed, triangle);
+}
+
+double GatheredLight::cellsPerSquareMetre(std::uint32_t placed, std::uint32_t triangle) const {
+  const Side side = sideOf({0, placed, triangle}, false);
+  return cellsOf(resolutionOf(cells_, side, kCellTexels * texel_)) / areaOf(placed, triangle);
 }
 
 void GatheredLight::gatherCell(std::size_t number, int bounces, RayCounts& rays,
@@ -303,19 +357,19 @@ glm::vec3 GatheredLight::sentBy(const Hit& hit, const glm::vec3& direction, int 
                                 const std::stop_token& stop) const {
   const Surface seen = surfaceAt<true>(scene_->scene(), hit, -direction, detail_, emission_);
   const glm::vec3 colour(seen.baseColour);
-  if (!lights(scene_->scene().meshes[hit.mesh].material)) return colour;
+  if (!lights(scene_->scene().meshOf(hit.mesh).material)) return colour;
   // What lights others by itself is among the lights.
   const glm::vec3 glow = scene_->areaLights().include(hit.mesh) ? glm::vec3(0) : seen.emission;
   const Side side = sideOf(hit, glm::dot(hit.geometricNormal(), direction) > 0);
-  const Cell cell = Cell::at(cells_.resolution[side.sceneTriangle], hit.barycentric);
+  const Cell cell = Cell::at(resolutionOf(cells_, side, kCellTexels * texel_), hit.barycentric);
   return colour * cellLight(side, cell, bounces - 1, rays, stop) + glow;
 }
 
 glm::vec3 GatheredLight::cellLight(const Side& side, const Cell& cell, int bounces, RayCounts& rays,
                                    const std::stop_token& stop) const {
-  const std::uint32_t r = cells_.resolution[side.sceneTriangle];
-  const std::uint32_t index = cells_.first[side.sceneTriangle] + (side.back ? cellsOf(r) : 0) + cell.index;
-  return glm::vec3(unpackColour(cellValues_[std::size_t(bounces)].at(index, rays, [&](RayCounts& own) {
+  const std::uint32_t r = resolutionOf(cells_, side, kCellTexels * texel_);
+  const std::uint32_t within = (side.back ? cellsOf(r) : 0) + cell.index;
+  const auto gathered = [&](std::uint32_t index, RayCounts& own) {
     const Surface surface = surfaceOf(side, cell.middle);
     glm::vec3 light = lights_.at(surface, own) * std::numbers::inv_pi_v<float>;
     if (bounces > 0)
@@ -323,7 +377,14 @@ glm::vec3 GatheredLight::cellLight(const Side& side, const Cell& cell, int bounc
           gatherBounced(surface, bounces, kCellRays, pointsFor(side.sceneTriangle, index), own, rays, stop)
               .radiance;
     return stop.stop_requested() ? HalfColour(0) : packColour({light, 1});
-  })));
+  };
+  const auto before = std::size_t(bounces);
+  if (isInstance(side))
+    return glm::vec3(unpackColour(instanceCells_[before].at(
+        {side.mesh, side.triangle, within}, rays, [&](RayCounts& own) { return gathered(within, own); })));
+  const std::uint32_t index = cells_.first[side.sceneTriangle] + within;
+  return glm::vec3(unpackColour(
+      cellValues_[before].at(index, rays, [&](RayCounts& own) { return gathered(index, own); })));
 }
 
 }  // namespace acentric

@@ -10,11 +10,13 @@
 /// kMaxPlaces for all triangles of the scene (512 MiB, of which memory is taken only where something is
 /// read), and get coarser where that is not enough.
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -68,6 +70,35 @@ HalfColour ValuesOnDemand::at(std::size_t index, RayCounts& rays, const Make& ma
   return made;
 }
 
+/// The same for places on instances, which are too many to lay out: kept by what they are read for, of the
+/// many only some. What is forgotten is made again, and is the same.
+class ScatteredValuesOnDemand {
+ public:
+  struct Key {
+    std::uint32_t placed = 0, triangle = 0, place = 0;
+    bool operator==(const Key&) const = default;
+  };
+  ScatteredValuesOnDemand();
+  ~ScatteredValuesOnDemand();
+  ScatteredValuesOnDemand(ScatteredValuesOnDemand&&) noexcept;
+  template <class Make>
+  HalfColour at(const Key& key, RayCounts& rays, const Make& make) const {
+    if (const auto known = find(key)) return *known;
+    RayCounts own;
+    const HalfColour made = make(own);
+    if (std::bit_cast<std::uint64_t>(made) == 0 || !keep(key, made)) return made;
+    own.gathered = own.total();
+    rays += own;
+    return made;
+  }
+
+ private:
+  struct Shard;
+  std::optional<HalfColour> find(const Key& key) const;
+  bool keep(const Key& key, const HalfColour& value) const;  ///< false: another thread was quicker
+  std::unique_ptr<Shard[]> shards_;
+};
+
 class GatheredLight {
  public:
   static constexpr std::uint64_t kMaxPlaces = 64ull << 20;  ///< both sides counted
@@ -90,13 +121,14 @@ class GatheredLight {
 
   /// What light is gathered for: a place that surfaces read, or a cell that bounces read.
   struct Spot {
-    std::uint32_t mesh = 0, triangle = 0;  ///< of the mesh
-    std::uint32_t sceneTriangle = 0;
+    std::uint32_t mesh = 0, triangle = 0;  ///< of the placed mesh
+    std::uint32_t sceneTriangle = 0;       ///< not of an instance
     bool back = false;
     glm::dvec3 position{0};   ///< amid what reads it, metres
     glm::vec3 normal{0};      ///< of its side, unit
     double squareMetres = 0;  ///< of the surface that reads it
   };
+  /// Of meshes; those on instances have no numbers.
   std::size_t placeCount() const { return places_.first.back(); }
   Spot place(std::size_t number) const;
   void gatherPlace(std::size_t number, RayCounts& rays, const std::stop_token& stop = {}) const;
@@ -105,9 +137,11 @@ class GatheredLight {
   Spot cell(std::size_t number) const;
   /// With its light after 0..bounces - 1 bounces.
   void gatherCell(std::size_t number, int bounces, RayCounts& rays, const std::stop_token& stop = {}) const;
+  /// The middle of one side of a triangle, with all of its area: also of an instance.
+  Spot middleOf(std::uint32_t placed, std::uint32_t triangle, bool back) const;
   /// On one side of a triangle.
-  double placesPerSquareMetre(std::uint32_t sceneTriangle) const;
-  double cellsPerSquareMetre(std::uint32_t sceneTriangle) const;
+  double placesPerSquareMetre(std::uint32_t placed, std::uint32_t triangle) const;
+  double cellsPerSquareMetre(std::uint32_t placed, std::uint32_t triangle) const;
   /// Is light gathered for what has this material?
   bool lights(int material) const { return !rules_[std::size_t(material)].unlit; }
 
@@ -124,15 +158,17 @@ class GatheredLight {
   Grids layOut(double texel, bool corners) const;
   /// One side of a triangle.
   struct Side {
-    std::uint32_t mesh = 0, triangle = 0;  ///< of the mesh
-    std::uint32_t sceneTriangle = 0;
+    std::uint32_t mesh = 0, triangle = 0;  ///< of the placed mesh
+    std::uint32_t sceneTriangle = 0;       ///< of an instance a number that tells rays apart
     bool back = false;
   };
   Side sideOf(const Hit& hit, bool back) const;
   Side sideAt(const Grids& grids, std::size_t number, std::uint32_t& within) const;
   struct Place;
   Place placeNumbered(std::size_t number) const;
-  double areaOf(std::uint32_t sceneTriangle) const;
+  bool isInstance(const Side& side) const { return side.mesh + 1 >= firstTriangles_.size(); }
+  std::uint32_t resolutionOf(const Grids& grids, const Side& side, double texel) const;
+  double areaOf(std::uint32_t placed, std::uint32_t triangle) const;
   Spot spotOn(const Side& side, const glm::vec2& barycentric, double share) const;
   Surface surfaceOf(const Side& side, const glm::vec2& barycentric) const;
   HalfColour placeLight(const Side& side, std::uint32_t i, std::uint32_t j, RayCounts& rays,
@@ -161,6 +197,8 @@ class GatheredLight {
   Grids places_, cells_;
   ValuesOnDemand values_;
   std::vector<ValuesOnDemand> cellValues_;  ///< by bounces before
+  ScatteredValuesOnDemand instanceValues_;
+  std::vector<ScatteredValuesOnDemand> instanceCells_;  ///< by bounces before
 };
 
 /// Is light from all around gathered with rays, rather than taken as if nothing were in the way?
@@ -168,6 +206,7 @@ bool gathersLight(const EffectPlan& plan, const BakeSettings& settings);
 
 /// Samples per edge of a triangle: the longest edge by the texel, but not more samples than a few per texel
 /// of area (needles).
+std::uint32_t resolutionFor(const std::array<glm::vec3, 3>& corners, double texel, std::uint32_t most);
 std::uint32_t resolutionFor(const Mesh& mesh, std::uint32_t triangle, double texel, std::uint32_t most);
 
 }  // namespace acentric

@@ -75,7 +75,7 @@ PartRays::PartRays(const ColumnMarch::Setting& setting, const CaptureSamples& sa
 double PartRays::loose() const { return kCurved * tolerance_; }
 
 bool PartRays::mayBe(bool opaque, const Hit& hit) const {
-  const std::size_t material(setting_.shader.scene().scene().meshes[hit.mesh].material);
+  const std::size_t material(setting_.shader.scene().scene().meshOf(hit.mesh).material);
   const MaterialRules& rule = setting_.shader.rules()[material];
   return opaque ? !rule.transmissive : rule.clear();
 }

@@ -62,7 +62,7 @@ PreviewTracer::Start PreviewTracer::startOf(const Ray& ray, double cutHeight) co
 
 bool PreviewTracer::seenFromBehind(const Hit& hit, const glm::vec3& direction) const {
   const Scene& scene = rays_->scene();
-  return !scene.materials[std::size_t(scene.meshes[hit.mesh].material)].doubleSided &&
+  return !scene.materials[std::size_t(scene.meshOf(hit.mesh).material)].doubleSided &&
          glm::dot(hit.across, direction) > 0;
 }
 
@@ -83,7 +83,7 @@ PreviewSeen PreviewTracer::follow(const Ray& ray, const Start& start, Hit hit) c
     passing *= 1 - alpha;
   };
   const auto colourOf = [&](const Hit& at, float& alpha) {
-    const auto material = std::size_t(scene.meshes[at.mesh].material);
+    const auto material = std::size_t(scene.meshOf(at.mesh).material);
     const MaterialRules& rules = rules_[material];
     const Surface surface = detail_.any() ? surfaceAt<true>(scene, at, toViewer, detail_, true)
                                           : surfaceAt<false>(scene, at, toViewer, detail_, true);
@@ -109,7 +109,7 @@ PreviewSeen PreviewTracer::follow(const Ray& ray, const Start& start, Hit hit) c
     if (!hit.found() || hit.distance > start.farthest) break;
     rest.nearest = justBehind(hit.distance);
     if (start.cut && seenFromBehind(hit, ray.direction) &&
-        !rules_[std::size_t(scene.meshes[hit.mesh].material)].clear()) {
+        !rules_[std::size_t(scene.meshOf(hit.mesh).material)].clear()) {
       if (start.atCut && !behind && inSolid(ray.origin + start.nearest * ray.direction)) {
         add(kCapColour, 1);
         seen.distance = start.nearest;

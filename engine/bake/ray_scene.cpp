@@ -11,7 +11,9 @@
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/surface.h"
+#include "engine/scene/instances.h"
 #include "engine/scene/material_rules.h"
+#include "engine/scene/placed_mesh.h"
 
 namespace acentric {
 namespace {
@@ -139,6 +141,7 @@ RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
     query.ray.tfar[i] = std::numeric_limits<float>::infinity();
     query.ray.mask[i] = mask;
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   rtcIntersect8(valid, scene, &context, &query);
   return query;
@@ -158,6 +161,21 @@ Status checkMesh(const Scene& scene, const Mesh& mesh) {
       !fits(mesh.uv[0].size()) || !fits(mesh.uv[1].size()))
     return bad("its attributes differ in number from its positions");
   return {};
+}
+
+Status checkInstances(const Scene& scene) {
+  for (const Mesh& prototype : scene.prototypes)
+    if (auto sound = checkMesh(scene, prototype); !sound) return sound;
+  for (const Instance& instance : scene.instances)
+    if (instance.prototype >= scene.prototypes.size() || !isPlacement(instance.worldFromPrototype))
+      return fail(ErrorKind::malformed, "an instance has no prototype, or a transform without an inverse",
+                  scene.name);
+  return {};
+}
+
+/// The placed mesh that was hit: instances have their own numbers, after the meshes'.
+std::uint32_t placedHit(unsigned geometry, unsigned instance) {
+  return instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
 }
 
 }  // namespace
@@ -181,11 +199,27 @@ struct RayScene::Embree {
   EmbreeScene scene;
   std::vector<std::unique_ptr<FilteredMesh>> filtered;  ///< address handed to Embree
 
+  std::vector<EmbreeScene> prototypes;  ///< by Scene::prototypes
+
   Status open(const std::string& name);
-  Status add(const Scene& source, std::uint32_t meshIndex, const MaterialRules& rules,
-             const DetailRules& detail);
+  EmbreeScene newScene() const;
+  /// As geometry `number` of `into`.
+  Status add(RTCScene into, unsigned number, const Scene& source, const Mesh& mesh,
+             const MaterialRules& rules, const DetailRules& detail);
+  /// All prototypes, and an instance of them for each of the scene's.
+  Status addInstances(const Scene& source, const std::vector<MaterialRules>& rules,
+                      const DetailRules& detail);
   Status commit(const std::string& name);
 };
+
+EmbreeScene RayScene::Embree::newScene() const {
+  EmbreeScene made(rtcNewScene(device.get()));
+  if (!made) return made;
+  rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_ROBUST);
+  // Not "high": its spatial splits may report one triangle twice, and a tint would count twice.
+  rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_MEDIUM);
+  return made;
+}
 
 Status RayScene::Embree::open(const std::string& name) {
   device = EmbreeDevice(rtcNewDevice("verbose=0"));
@@ -195,17 +229,13 @@ Status RayScene::Embree::open(const std::string& name) {
       rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) == 0)
     return fail(ErrorKind::unsupported,
                 "this Embree was built without ray masks or filter functions; install Debian's", name);
-  scene = EmbreeScene(rtcNewScene(device.get()));
+  scene = newScene();
   if (!scene) return embreeFailure(error.code, error.message, name);
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  // Not "high": its spatial splits may report one triangle twice, and a tint would count twice.
-  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_MEDIUM);
   return {};
 }
 
-Status RayScene::Embree::add(const Scene& source, std::uint32_t meshIndex, const MaterialRules& rules,
-                             const DetailRules& detail) {
-  const Mesh& mesh = source.meshes[meshIndex];
+Status RayScene::Embree::add(RTCScene into, unsigned number, const Scene& source, const Mesh& mesh,
+                             const MaterialRules& rules, const DetailRules& detail) {
   EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   if (!geometry) return embreeFailure(error.code, error.message, source.name);
   // Embree's own buffers: it reads 16 bytes at a time, beyond the end of a shared vector.
@@ -226,7 +256,37 @@ Status RayScene::Embree::add(const Scene& source, std::uint32_t meshIndex, const
     rtcSetGeometryOccludedFilterFunction(geometry.get(), passFilter);
   }
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene.get(), geometry.get(), meshIndex);
+  rtcAttachGeometryByID(into, geometry.get(), number);
+  return {};
+}
+
+Status RayScene::Embree::addInstances(const Scene& source, const std::vector<MaterialRules>& rules,
+                                      const DetailRules& detail) {
+  const auto rulesOf = [&](std::size_t prototype) -> const MaterialRules& {
+    return rules[std::size_t(source.prototypes[prototype].material)];
+  };
+  for (std::size_t p = 0; p < source.prototypes.size(); ++p) {
+    prototypes.push_back(newScene());
+    if (!prototypes.back()) return embreeFailure(error.code, error.message, source.name);
+    if (source.prototypes[p].triangles.empty()) continue;
+    if (auto added = add(prototypes.back().get(), 0, source, source.prototypes[p], rulesOf(p), detail);
+        !added)
+      return added;
+    rtcCommitScene(prototypes.back().get());
+  }
+  for (std::size_t i = 0; i < source.instances.size(); ++i) {
+    const Instance& instance = source.instances[i];
+    if (source.prototypes[instance.prototype].triangles.empty()) continue;
+    EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    if (!geometry) return embreeFailure(error.code, error.message, source.name);
+    rtcSetGeometryInstancedScene(geometry.get(), prototypes[instance.prototype].get());
+    rtcSetGeometryTimeStepCount(geometry.get(), 1);
+    rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                            &instance.worldFromPrototype[0].x);
+    rtcSetGeometryMask(geometry.get(), rulesOf(instance.prototype).clear() ? kClearMask : kSolidMask);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene.get(), geometry.get(), unsigned(source.meshes.size() + i));
+  }
   return {};
 }
 
@@ -253,9 +313,14 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const Ef
       const Mesh& mesh = source.meshes[m];
       if (auto sound = checkMesh(source, mesh); !sound) return tl::unexpected(sound.error());
       if (mesh.triangles.empty()) continue;
-      if (auto added = made->embree_->add(source, m, rules[std::size_t(mesh.material)], detail); !added)
+      if (auto added = made->embree_->add(made->embree_->scene.get(), m, source, mesh,
+                                          rules[std::size_t(mesh.material)], detail);
+          !added)
         return tl::unexpected(added.error());
     }
+    if (auto sound = checkInstances(source); !sound) return tl::unexpected(sound.error());
+    if (auto added = made->embree_->addInstances(source, rules, detail); !added)
+      return tl::unexpected(added.error());
     if (auto committed = made->embree_->commit(source.name); !committed)
       return tl::unexpected(committed.error());
     made->areaLights_ = std::make_unique<const AreaLights>(source, plan);
@@ -273,16 +338,22 @@ Hit RayScene::trace(const Ray& ray, unsigned mask) const {
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
   query.ray = embreeRay(ray, mask);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &context, &query);
   Hit hit;
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.distance = query.ray.tfar;
-  hit.mesh = query.hit.geomID;
+  hit.mesh = placedHit(query.hit.geomID, query.hit.instID[0]);
   hit.triangle = query.hit.primID;
   hit.barycentric = {query.hit.u, query.hit.v};
-  hit.across = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z};
+  hit.across = acrossOf(hit.mesh, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
   return hit;
+}
+
+/// Embree's normals are in the frame of what it traces.
+glm::vec3 RayScene::acrossOf(std::uint32_t placed, const glm::vec3& across) const {
+  if (!scene_->isInstance(placed)) return across;
+  return glm::vec3(PlacedMesh(*scene_, placed).turned(glm::dvec3(across)));
 }
 
 void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
@@ -292,10 +363,10 @@ void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& h
     hit.distance = std::numeric_limits<float>::infinity();
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     hit.distance = query.ray.tfar[i];
-    hit.mesh = query.hit.geomID[i];
+    hit.mesh = placedHit(query.hit.geomID[i], query.hit.instID[0][i]);
     hit.triangle = query.hit.primID[i];
     hit.barycentric = {query.hit.u[i], query.hit.v[i]};
-    hit.across = {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]};
+    hit.across = acrossOf(hit.mesh, {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]});
   }
 }
 
@@ -328,7 +399,7 @@ float RayScene::occluderDistance(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
   query.ray = embreeRay(ray, kSolidMask);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &context, &query);
   return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
                                                      : query.ray.tfar;

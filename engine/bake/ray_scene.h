@@ -24,7 +24,7 @@ struct Ray {
 
 struct Hit {
   float distance = std::numeric_limits<float>::infinity();  ///< metres; infinity = none
-  std::uint32_t mesh = 0;
+  std::uint32_t mesh = 0;  ///< placed mesh: one of the scene's own, or an instance (placed_mesh.h)
   std::uint32_t triangle = 0;
   glm::vec2 barycentric{0};  ///< weights of corner 2 and 3
   glm::vec3 across{0};       ///< normal to the triangle as wound (front side), of any length
@@ -94,6 +94,7 @@ class RayScene {
  private:
   struct Embree;
   Hit trace(const Ray& ray, unsigned mask) const;
+  glm::vec3 acrossOf(std::uint32_t placed, const glm::vec3& across) const;
   RayScene(ScenePtr scene, const EffectPlan& plan);
   ScenePtr scene_;
   EffectPlan plan_;

@@ -54,7 +54,7 @@ struct ShadingKernels {
   static Shaded shade(const Shader& shader, const Hit& hit, const glm::vec3& toViewer, bool seenInMirror,
                       const TextureArea* area, RayCounts& rays) {
     const RayScene& scene = *shader.scene_;
-    const auto material = std::size_t(scene.scene().meshes[hit.mesh].material);
+    const auto material = std::size_t(scene.scene().meshOf(hit.mesh).material);
     const MaterialRules& rules = shader.rules_[material];
     if constexpr (kSmall == DirectLight::none && kWide == DirectLight::none && kAround == Around::even &&
                   !kDetail && !kSpecial)
@@ -163,8 +163,8 @@ Shader::Shader(const RayScene& scene, const EffectPlan& plan, const BakeSettings
       std::any_of(rules_.begin(), rules_.end(), [](const MaterialRules& r) { return r.mirror || r.clear(); });
   kernel_ = ShadingKernels::find(switches_);
   if (ShadingKernels::isEven(switches_))
-    for (const Mesh& mesh : scene.scene().meshes) {
-      const auto material = std::size_t(mesh.material);
+    for (std::uint32_t placed = 0; placed < scene.scene().placedCount(); ++placed) {
+      const auto material = std::size_t(scene.scene().meshOf(placed).material);
       const Shaded look = ShadingKernels::evenly(*this, material, rules_[material]);
       evenColours_.push_back(packColour({look.radiance(), 1}));
     }

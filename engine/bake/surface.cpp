@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/mesh_attributes.h"
+#include "engine/scene/placed_mesh.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
@@ -50,10 +51,11 @@ glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
   return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
 }
 
-glm::vec3 mappedNormal(const TextureReader& textures, const Mesh& mesh, const Material& material,
+glm::vec3 mappedNormal(const TextureReader& textures, const PlacedMesh& placed, const Material& material,
                        const glm::uvec3& corners, const glm::vec2& b, const glm::vec3& normal) {
-  if (mesh.tangents.empty() || !textures.has(material.normalTexture)) return normal;
-  const glm::vec4 tangent = interpolate(mesh.tangents, corners, b);
+  if (placed.mesh().tangents.empty() || !textures.has(material.normalTexture)) return normal;
+  const glm::vec4 tangent = placed.tangent(corners.x) * (1 - b.x - b.y) + placed.tangent(corners.y) * b.x +
+                            placed.tangent(corners.z) * b.y;
   const glm::vec3 flat = glm::vec3(tangent) - normal * glm::dot(normal, glm::vec3(tangent));
   const glm::vec3 t = unitOr(flat, glm::vec3(0));
   if (t == glm::vec3(0)) return normal;
@@ -84,29 +86,33 @@ glm::vec4 baseColourAt(const Scene& scene, const Mesh& mesh, std::uint32_t trian
 template <bool kDetail>
 Surface surfaceAt(const Scene& scene, const Hit& hit, const glm::vec3& toViewer, const DetailRules& detail,
                   bool emission, const TextureArea* area) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
+  const PlacedMesh placed(scene, hit.mesh);
+  const Mesh& mesh = placed.mesh();
   const Material& material = scene.materials[std::size_t(mesh.material)];
   const glm::uvec3& corners = mesh.triangles[hit.triangle];
   const glm::vec2& b = hit.barycentric;
 
   const glm::vec3 wound = hit.geometricNormal();
   Surface surface;
-  surface.position = interpolate(mesh.positions, corners, b);
+  const auto at = placed.corners(hit.triangle);
+  surface.position = at[0] * (1 - b.x - b.y) + at[1] * b.x + at[2] * b.y;
   const bool front = glm::dot(wound, toViewer) >= 0;
   surface.geometricNormal = front ? wound : -wound;
   surface.rayOrigin =
-      surface.position + surface.geometricNormal * leaveDistance(mesh.positions[corners.x],
-                                                                 mesh.positions[corners.y],
-                                                                 mesh.positions[corners.z], wound);
+      surface.position +
+      surface.geometricNormal * (leaveDistance(at[0], at[1], at[2], wound) + placed.rounding(at[0], wound));
   glm::vec3 normal = wound;
-  if (!mesh.normals.empty()) normal = unitOr(interpolate(mesh.normals, corners, b), normal);
+  if (!mesh.normals.empty())
+    normal = unitOr(placed.normal(corners.x) * (1 - b.x - b.y) + placed.normal(corners.y) * b.x +
+                        placed.normal(corners.z) * b.y,
+                    normal);
   surface.metallic = material.metallic;
   surface.roughness = material.roughness;
   if (emission) surface.emission = material.emissive;
 
   if constexpr (kDetail) {
     const TextureReader textures(scene, mesh, corners, b, area);
-    if (detail.normalMaps) normal = mappedNormal(textures, mesh, material, corners, b, normal);
+    if (detail.normalMaps) normal = mappedNormal(textures, placed, material, corners, b, normal);
     surface.baseColour = baseColourOf(textures, mesh, material, corners, b, detail);
     if (detail.textures && textures.has(material.metallicRoughnessTexture)) {
       const glm::vec4 stored = textures.read(material.metallicRoughnessTexture, TexelKind::data);

@@ -35,9 +35,9 @@ SurfacePlane planeThrough(const glm::dvec3& normal, const glm::dvec3& corner, co
 
 SurfacePlane planeOf(const Scene& scene, const Hit& hit, const glm::dvec3& centre, const glm::vec3& direction,
                      bool away) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
-  const glm::dvec3 corner(mesh.positions[mesh.triangles[hit.triangle].x]);
-  SurfacePlane plane = planeThrough(glm::dvec3(triangleNormal(mesh, hit.triangle)), corner - centre,
+  const PlacedMesh placed(scene, hit.mesh);
+  const glm::dvec3 corner(placed.position(placed.mesh().triangles[hit.triangle].x));
+  SurfacePlane plane = planeThrough(glm::dvec3(triangleNormal(placed, hit.triangle)), corner - centre,
                                     double(hit.distance) * glm::dvec3(direction));
   plane.away = away ? 1 : 0;
   return plane;
@@ -45,9 +45,9 @@ SurfacePlane planeOf(const Scene& scene, const Hit& hit, const glm::dvec3& centr
 
 SurfacePlane imagePlaneOf(const Scene& scene, const Hit& hit, const FlatMirror& mirror,
                           const glm::dvec3& centre, const glm::dvec3& way, bool away) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
-  const glm::dvec3 corner(mesh.positions[mesh.triangles[hit.triangle].x]),
-      normal(triangleNormal(mesh, hit.triangle));
+  const PlacedMesh placed(scene, hit.mesh);
+  const glm::dvec3 corner(placed.position(placed.mesh().triangles[hit.triangle].x)),
+      normal(triangleNormal(placed, hit.triangle));
   SurfacePlane plane = planeThrough(mirror.reflected(normal), mirror.imageOf(corner) - centre, way);
   plane.away = away ? 1 : 0;
   return plane;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/image/colour.h"
+#include "engine/scene/placed_mesh.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
@@ -36,10 +37,9 @@ bool inTriangle(const glm::vec2& b) { return b.x >= 0 && b.y >= 0 && b.x + b.y <
 TextureArea::TextureArea(const TexturePyramids& pyramids, const Scene& scene, const Hit& hit,
                          const glm::vec3& direction, const SampleSpread& spread)
     : pyramids_(pyramids), middle_(hit.barycentric) {
-  const Mesh& mesh = scene.meshes[hit.mesh];
-  const glm::uvec3& corners = mesh.triangles[hit.triangle];
-  const glm::vec3 first = mesh.positions[corners.y] - mesh.positions[corners.x];
-  const glm::vec3 second = mesh.positions[corners.z] - mesh.positions[corners.x];
+  const auto corners = PlacedMesh(scene, hit.mesh).corners(hit.triangle);
+  const glm::vec3 first = corners[1] - corners[0];
+  const glm::vec3 second = corners[2] - corners[0];
   const glm::vec3 normal = glm::cross(first, second);
   const float square = glm::dot(normal, normal);
   const float facing = glm::dot(normal, direction), least = kLeastCosine * std::sqrt(square);

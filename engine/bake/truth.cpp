@@ -111,7 +111,7 @@ Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const Perspective
     for (int layer = 0; layer < kMaxBlendedLayers; ++layer) {
       const Hit hit = scene.trace(ray);
       if (!hit.found()) return false;
-      const MaterialRules& rule = rules[std::size_t(scene.scene().meshes[hit.mesh].material)];
+      const MaterialRules& rule = rules[std::size_t(scene.scene().meshOf(hit.mesh).material)];
       const Surface surface = surfaceAt<true>(scene.scene(), hit, -ray.direction, detail, false);
       const bool clear = rule.blended && surface.baseColour.a < kInvisibleAlpha;
       if (!clear && !rule.unlit && (rule.mirror || rule.transmissive || surface.metallic > kFaintlyMetallic))

@@ -12,6 +12,8 @@
 #include "engine/pipeline/knobs.h"
 #include "engine/pipeline/scene_storeys.h"
 #include "engine/pipeline/walk_stream.h"
+#include "engine/scene/instances.h"
+#include "engine/scene/local_geometry.h"
 #include "engine/view/view_cameras.h"
 #include "engine/view_gl/gl_renderer.h"
 
@@ -91,14 +93,24 @@ Status FrameMaker::openGl() {
 }
 
 /// A walk that shows every triangle, wherever the eye is, and nothing else.
-WalkScene polygonsOf(const OpenProject& open) {
+Result<WalkScene> polygonsOf(const OpenProject& open) {
+  if (open.imported->shownTriangleCount() > kMostNearTriangles && !open.imported->instances.empty())
+    return fail(
+        ErrorKind::tooLarge,
+        fmt::format("the polygons renderer draws every triangle; the scene has {} with all instances, "
+                    "more than {}",
+                    open.imported->shownTriangleCount(), kMostNearTriangles),
+        open.project.scene.string());
+  const ScenePtr scene = open.imported->instances.empty()
+                             ? open.scene
+                             : std::make_shared<const Scene>(flattened(*open.imported));
   glm::dvec2 low(open.scene->bounds.min), high(open.scene->bounds.max);
   const glm::dvec2 room = 0.01 * (high - low) + 1e-3;
   low -= room, high += room;
   const auto all = std::make_shared<const LocalGeometry>(
-      clipToPolygon(*open.scene, {{low, {high.x, low.y}, high, {low.x, high.y}}}));
+      clipToPolygon(*scene, {{low, {high.x, low.y}, high, {low.x, high.y}}}));
   WalkScene walk;
-  walk.scene = open.scene, walk.layout = open.layout, walk.plan = open.plan;
+  walk.scene = scene, walk.layout = open.layout, walk.plan = open.plan;
   walk.exposure = open.project.exposure;
   walk.captures.resize(open.layout->cameras.size());
   walk.local.assign(open.layout->regions.size(), all);
@@ -138,7 +150,10 @@ Status FrameMaker::load(const PerspectiveView& view) {
   if (onOpenGl(settings.renderer))
     if (Status opened = openGl(); !opened) return opened;
   if (shows_ == Shows::polygons) {
-    if (!shared_->polygons) shared_->polygons = polygonsOf(storeys_.front());
+    if (shared_->polygons) return {};
+    auto polygons = polygonsOf(storeys_.front());
+    if (!polygons) return tl::unexpected(polygons.error());
+    shared_->polygons = std::move(*polygons);
     return {};
   }
   const std::size_t storey = storeyAt(storeys_, view.eye);
@@ -315,6 +330,14 @@ std::string bytesText(std::uint64_t bytes) {
   if (bytes < 10'000'000) return fmt::format("{:.0f} kB", double(bytes) / 1e3);
   if (bytes < 10'000'000'000) return fmt::format("{:.1f} MB", double(bytes) / 1e6);
   return fmt::format("{:.2f} GB", double(bytes) / 1e9);
+}
+
+std::string trianglesText(const Scene& scene) {
+  std::string text = countText(scene.shownTriangleCount()) + " triangles";
+  if (!scene.instances.empty())
+    text += fmt::format(" ({} unique, {} instances)", countText(scene.uniqueTriangleCount()),
+                        countText(scene.instances.size()));
+  return text;
 }
 
 std::string countText(std::uint64_t count) {

@@ -137,6 +137,8 @@ double megapixelsOf(const OpenProject& open);
 /// "12.3 MB", "1,234,567".
 std::string bytesText(std::uint64_t bytes);
 std::string countText(std::uint64_t count);
+/// "27,126 triangles", "10,000,000 triangles (50,000 unique, 200 instances)".
+std::string trianglesText(const Scene& scene);
 Json toJson(const RayCounts& rays);
 Json toJson(const SampleCounts& samples);
 Json toJson(const FrameStats& stats);

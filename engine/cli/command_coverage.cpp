@@ -192,7 +192,7 @@ std::string surfaceCsv(const SurfaceCoverage& coverage, const Scene& scene) {
   for (const PointCoverage& p : coverage.points)
     csv += fmt::format("{:.6g},{:.6g},{:.6g},{},{},{},{},{},{},{},{},{:.5g},{},{:.5g},{:.5g}\n",
                        p.point.position.x, p.point.position.y, p.point.position.z, p.point.mesh,
-                       scene.meshes[p.point.mesh].material, nameOf(p.surfaceClass), p.seenFrom.size(),
+                       scene.meshOf(p.point.mesh).material, nameOf(p.surfaceClass), p.seenFrom.size(),
                        p.missedFrom.size(), p.eyesSeeing, p.eyesMissing, p.nearestRegion, p.nearestDistance,
                        p.camera, p.samplesPerMetre, p.pixelsPerMetre);
   return csv;
@@ -208,6 +208,10 @@ Json toJson(const CoverageSummary& summary) {
           {"missingShare", summary.missingShare()}};
 }
 
+struct NamedMesh {
+  std::string name;
+};
+
 template <class Things>
 Json namedSummaries(const std::vector<CoverageSummary>& summaries, const Things& things) {
   Json out = Json::array();
@@ -222,6 +226,9 @@ Json namedSummaries(const std::vector<CoverageSummary>& summaries, const Things&
 
 Json toJson(const SurfaceCoverage& coverage, const Scene& scene, const Layout& layout) {
   Json regions = Json::array(), histogram = Json::array();
+  std::vector<NamedMesh> all;
+  for (const auto* meshes : {&scene.meshes, &scene.prototypes})
+    for (const Mesh& mesh : *meshes) all.push_back({mesh.name});
   for (std::size_t r = 0; r < layout.regions.size(); ++r)
     regions.push_back(
         {{"region", r}, {"seen", coverage.seenByRegion[r]}, {"missed", coverage.missedByRegion[r]}});
@@ -233,7 +240,7 @@ Json toJson(const SurfaceCoverage& coverage, const Scene& scene, const Layout& l
           {"all", toJson(coverage.all)},
           {"histogram", std::move(histogram)},
           {"regions", std::move(regions)},
-          {"meshes", namedSummaries(coverage.byMesh, scene.meshes)},
+          {"meshes", namedSummaries(coverage.byMesh, all)},
           {"materials", namedSummaries(coverage.byMaterial, scene.materials)}};
 }
 

@@ -76,7 +76,7 @@ std::string walksText(const Project& project) {
 Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   const auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
-  const Scene& scene = *open->scene;
+  const Scene &scene = *open->scene, &model = *open->imported;
   const Layout& layout = *open->layout;
   const auto baked = bakedCameras(*open);
   const auto bakedCount = std::count(baked.begin(), baked.end(), true);
@@ -114,8 +114,12 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
       {"paths", std::move(paths)},
       {"scene",
        {{"file", open->project.scene.generic_string()},
-        {"triangles", scene.triangleCount()},
-        {"meshes", scene.meshes.size()},
+        {"triangles", scene.shownTriangleCount()},
+        {"uniqueTriangles", model.uniqueTriangleCount()},
+        {"instances", model.instances.size()},
+        {"nearInstances", open->near.instances.size()},
+        {"nearInstancedTriangles", open->near.triangles},
+        {"meshes", model.meshes.size() + model.prototypes.size()},
         {"materials", scene.materials.size()},
         {"textures", scene.textures.size()},
         {"lights", scene.lights.size()},
@@ -141,17 +145,17 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
         {"localTriangles", {{"min", budget.min}, {"median", budget.median}, {"max", budget.max}}}}},
       {"bake", {{"baked", bakedCount}, {"coarse", coarse}, {"of", baked.size()}, {"bytes", bytes}}}};
   report.text = fmt::format(
-      "scene    {}: {} triangles, {} meshes, {} materials, {} textures, {} lights; {:.2f} x {:.2f} x {:.2f} "
+      "scene    {}: {}, {} meshes, {} materials, {} textures, {} lights; {:.2f} x {:.2f} x {:.2f} "
       "m\n"
       "layout   {} ({}), cells of {:g} m, eye at {:g} m: {} regions, {} cameras, {:.1f} Mpixel\n"
       "local    {} / {} / {} triangles per region (least / median / most)\n"
       "baked    {} of {} cameras{}, {}\n",
-      open->project.scene.generic_string(), countText(scene.triangleCount()), scene.meshes.size(),
-      scene.materials.size(), scene.textures.size(), scene.lights.size(), size.x, size.y, size.z,
-      nameOf(layout.spec.configuration), describe(layout.spec.configuration), layout.spec.cellSize,
-      layout.spec.eyeHeight, layout.regions.size(), layout.cameras.size(), megapixels,
-      countText(std::uint64_t(budget.min)), countText(std::uint64_t(budget.median)),
-      countText(std::uint64_t(budget.max)), bakedCount, baked.size(),
+      open->project.scene.generic_string(), trianglesText(model),
+      model.meshes.size() + model.prototypes.size(), scene.materials.size(), scene.textures.size(),
+      scene.lights.size(), size.x, size.y, size.z, nameOf(layout.spec.configuration),
+      describe(layout.spec.configuration), layout.spec.cellSize, layout.spec.eyeHeight, layout.regions.size(),
+      layout.cameras.size(), megapixels, countText(std::uint64_t(budget.min)),
+      countText(std::uint64_t(budget.median)), countText(std::uint64_t(budget.max)), bakedCount, baked.size(),
       coarse > 0 ? fmt::format(" ({} more as previews or drafts)", coarse) : std::string(), bytesText(bytes));
   if (open->project.storeys.size() > 1)
     for (const Storey& storey : open->project.storeys)

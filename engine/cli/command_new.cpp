@@ -171,8 +171,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   if (!storeys) return tl::unexpected(storeys.error());
   const Report model = collectReport(*collected);
   Report report;
-  report.text =
-      fmt::format("{}: {} triangles\n", options.output.string(), countText(open->scene->triangleCount()));
+  report.text = fmt::format("{}: {}\n", options.output.string(), trianglesText(*open->imported));
   report.text += model.text;
   Json json = Json::array();
   for (const OpenProject& storey : *storeys) {
@@ -204,7 +203,9 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   const auto doubt = doubtScale(*open->rays, open->project.import);
   report.json = {{"project", options.output.string()},
                  {"model", model.json},
-                 {"triangles", open->scene->triangleCount()},
+                 {"triangles", open->imported->shownTriangleCount()},
+                 {"uniqueTriangles", open->imported->uniqueTriangleCount()},
+                 {"instances", open->imported->instances.size()},
                  {"storey", open->project.current().name},
                  {"storeys", std::move(json)},
                  {"mostCameras", options.mostCameras},
@@ -213,6 +214,10 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
                  {"ignored", open->scene->report.ignored},
                  {"scaleInDoubt", scaleJson(doubt)}};
   if (!large.empty()) report.json["largeCells"] = large;
+  if (const Status near = checkNear(open->near); !near) {
+    report.text += fmt::format("  not to be baked as it is: {}\n", near.error().message);
+    report.json["cannotBake"] = near.error().message;
+  }
   for (const auto& [label, lines] : {std::pair{"guessed", &open->scene->report.guessed},
                                      std::pair{"dropped", &open->scene->report.dropped},
                                      std::pair{"ignored", &open->scene->report.ignored}})

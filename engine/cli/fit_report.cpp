@@ -48,6 +48,7 @@ Status simplifyRegions(const OpenProject& open, const Project& project, const Tr
   report.success = true;
   const auto simplifying = reopenProject(open, project, common.host, common.progress, common.stop);
   if (!simplifying) return tl::unexpected(simplifying.error());
+  if (Status near = checkNear(simplifying->near); !near) return near;
   const auto budgets = countRegions(tree, *simplifying->layout, runner, {}, common.stop);
   if (!budgets) return tl::unexpected(budgets.error());
   const auto store = CaptureStore::open(captureFolderFor(simplifying->file));

@@ -7,14 +7,17 @@
 #include <optional>
 #include <vector>
 
+#include "engine/scene/instances.h"
 namespace acentric {
 namespace {
 
-constexpr double kLevel = 0.985;                          // |cosine| of the slope of treads and lintels
-constexpr std::size_t kMostPieces = 100000;               // level triangles that are looked at
-constexpr std::size_t kMostFound = 2000;                  // of steps and of doors
-constexpr int kFlight = 4;                                // steps, at least
-constexpr int kStrides = 4;                               // rays on the length of one riser
+constexpr double kLevel = 0.985;  // |cosine| of the slope of treads and lintels
+constexpr std::uint64_t kMostOfInstances =
+    2'000'000;                               // their triangles that are asked whether they are level
+constexpr std::size_t kMostPieces = 100000;  // level triangles that are looked at
+constexpr std::size_t kMostFound = 2000;     // of steps and of doors
+constexpr int kFlight = 4;                   // steps, at least
+constexpr int kStrides = 4;                  // rays on the length of one riser
 constexpr double kLeastGoing = 0.7, kLargestGoing = 4.5;  // length of a tread in risers
 constexpr double kAlike = 0.25;                           // share that lengths of one flight may differ by
 constexpr double kGroup = 1.2;  // of lengths that are about the same, the largest over the least
@@ -33,12 +36,13 @@ struct Found {
 /// Level triangles, either side up; a sample of them where there are very many.
 std::vector<Corners> levelPieces(const Scene& scene) {
   std::vector<Corners> pieces;
-  for (const Mesh& mesh : scene.meshes)
-    for (const glm::uvec3& t : mesh.triangles) {
-      const Corners c{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-      const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
-      if (std::abs(across.z) > kLevel * glm::length(across)) pieces.push_back(c);
-    }
+  eachTriangle(scene, kMostOfInstances,
+               [&](std::uint32_t, const PlacedMesh& placed, std::uint32_t triangle, double) {
+                 const auto at = placed.corners(triangle);
+                 const Corners c{at[0], at[1], at[2]};
+                 const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
+                 if (std::abs(across.z) > kLevel * glm::length(across)) pieces.push_back(c);
+               });
   if (pieces.size() <= kMostPieces) return pieces;
   std::vector<Corners> sample;
   for (std::size_t k = 0; k < kMostPieces; ++k) sample.push_back(pieces[k * pieces.size() / kMostPieces]);

@@ -21,7 +21,7 @@ SurfaceCoverage emptyCoverage(const Scene& scene, const Layout& layout, const Su
   SurfaceCoverage coverage;
   coverage.wanted = options.points;
   coverage.squareMetresPerPoint = area / options.points;
-  coverage.byMesh.resize(scene.meshes.size());
+  coverage.byMesh.resize(scene.meshes.size() + scene.prototypes.size());
   coverage.byMaterial.resize(scene.materials.size());
   coverage.seenByRegion.resize(layout.regions.size(), 0);
   coverage.missedByRegion.resize(layout.regions.size(), 0);
@@ -30,8 +30,13 @@ SurfaceCoverage emptyCoverage(const Scene& scene, const Layout& layout, const Su
 
 void add(const Scene& scene, PointCoverage&& point, SurfaceCoverage& coverage) {
   coverage.all.add(point);
-  coverage.byMesh[point.point.mesh].add(point);
-  const auto material = std::size_t(scene.meshes[point.point.mesh].material);
+  const std::uint32_t placed = point.point.mesh;
+  coverage
+      .byMesh[scene.isInstance(placed)
+                  ? scene.meshes.size() + scene.instances[placed - scene.meshes.size()].prototype
+                  : placed]
+      .add(point);
+  const auto material = std::size_t(scene.meshOf(point.point.mesh).material);
   coverage.byMaterial[material].add(point);
   for (const std::uint32_t region : point.seenFrom) ++coverage.seenByRegion[region];
   for (const std::uint32_t region : point.missedFrom) ++coverage.missedByRegion[region];

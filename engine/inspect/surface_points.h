@@ -13,8 +13,8 @@ namespace acentric {
 
 struct SurfacePoint {
   glm::dvec3 position{0};
-  glm::dvec3 normal{0, 0, 1};  ///< unit, as wound
-  std::uint32_t mesh = 0, triangle = 0;
+  glm::dvec3 normal{0, 0, 1};            ///< unit, as wound
+  std::uint32_t mesh = 0, triangle = 0;  ///< of the placed mesh (scene/placed_mesh.h)
 };
 
 class SurfacePoints {
@@ -29,9 +29,19 @@ class SurfacePoints {
   struct Ref {
     std::uint32_t mesh, triangle;
   };
+  /// Of a prototype: its triangles with area, and their areas summed, in its own frame.
+  struct Prototype {
+    std::vector<std::uint32_t> triangles;
+    std::vector<double> area;
+  };
+  void addInstances();
+  std::uint32_t triangleOf(std::uint32_t instance, double share, std::uint64_t n) const;
+
   ScenePtr scene_;
-  std::vector<Ref> triangles_;
-  std::vector<double> area_;  ///< of the triangles up to and with each
+  std::vector<Ref> triangles_;  ///< of meshes
+  std::vector<double> area_;    ///< of the meshes' triangles up to and with each, then of the instances
+  std::vector<Prototype> prototypes_;
+  std::vector<std::uint32_t> instances_;  ///< those with area
 };
 
 }  // namespace acentric

@@ -6,6 +6,8 @@
 
 #include "engine/base/contract.h"
 #include "engine/geometry/predicates/orientation.h"
+#include "engine/scene/instances.h"
+#include "engine/scene/placed_mesh.h"
 #include "engine/scene/polygon_clipper.h"
 
 namespace acentric {
@@ -31,25 +33,35 @@ bool hasArea(const std::array<glm::vec3, 3>& c) {
   return glm::cross(glm::dvec3(c[1]) - a, glm::dvec3(c[2]) - a) != glm::dvec3(0);
 }
 
+template <class Triangle>
+std::vector<Triangle> allOf(const std::vector<Mesh>& meshes, std::size_t first = 0,
+                            std::size_t end = std::numeric_limits<std::size_t>::max()) {
+  std::vector<Triangle> all;
+  for (std::size_t m = first; m < std::min(end, meshes.size()); ++m)
+    for (std::size_t t = 0; t < meshes[m].triangles.size(); ++t)
+      all.push_back({std::uint32_t(m), std::uint32_t(t)});
+  return all;
+}
+
 }  // namespace
 
-TriangleTree::TriangleTree(ScenePtr scene) : scene_(std::move(scene)) {
-  triangles_.reserve(scene_->triangleCount());
-  for (std::size_t m = 0; m < scene_->meshes.size(); ++m)
-    for (std::size_t t = 0; t < scene_->meshes[m].triangles.size(); ++t)
-      triangles_.push_back({std::uint32_t(m), std::uint32_t(t)});
-  sortTriangles();
-  makeNodes();
+TriangleTree::TriangleTree(ScenePtr scene)
+    : scene_(std::move(scene)), meshes_(scene_->meshes, allOf<Triangle>(scene_->meshes)) {
+  for (std::size_t p = 0; p < scene_->prototypes.size(); ++p)
+    prototypes_.emplace_back(scene_->prototypes, allOf<Triangle>(scene_->prototypes, p, p + 1));
+  const std::vector<Bounds> own = boundsOf(scene_->prototypes);
+  for (const Instance& instance : scene_->instances)
+    boxes_.push_back(boundsOf(instance, own[instance.prototype]));
 }
 
-std::array<glm::vec3, 3> TriangleTree::cornersOf(const Triangle& triangle) const {
-  const Mesh& mesh = scene_->meshes[triangle.mesh];
-  const glm::uvec3& at = mesh.triangles[triangle.index];
-  return {mesh.positions[at.x], mesh.positions[at.y], mesh.positions[at.z]};
-}
-
-void TriangleTree::sortTriangles() {
-  const Bounds bounds = boundsOf(*scene_);
+TriangleTree::Tree::Tree(const std::vector<Mesh>& meshes, std::vector<Triangle> all)
+    : triangles(std::move(all)) {
+  const auto cornersOf = [&](const Triangle& triangle) {
+    return PlacedMesh(meshes[triangle.mesh], nullptr).corners(triangle.index);
+  };
+  Bounds bounds;
+  for (const Triangle& triangle : triangles)
+    for (const glm::vec3& corner : cornersOf(triangle)) bounds.add(corner);
   const glm::vec2 low(bounds.min), size(bounds.size());
   const float extent = std::max(size.x, size.y);
   struct Entry {
@@ -57,8 +69,8 @@ void TriangleTree::sortTriangles() {
     Triangle triangle;
   };
   std::vector<Entry> entries;
-  entries.reserve(triangles_.size());
-  for (const Triangle& triangle : triangles_) {
+  entries.reserve(triangles.size());
+  for (const Triangle& triangle : triangles) {
     const auto c = cornersOf(triangle);
     const glm::vec2 min = glm::min(glm::vec2(c[0]), glm::min(glm::vec2(c[1]), glm::vec2(c[2])));
     const glm::vec2 max = glm::max(glm::vec2(c[0]), glm::max(glm::vec2(c[1]), glm::vec2(c[2])));
@@ -72,36 +84,62 @@ void TriangleTree::sortTriangles() {
                        triangle});
   }
   std::ranges::sort(entries, {}, &Entry::key);
-  for (std::size_t n = 0; n < entries.size(); ++n) triangles_[n] = entries[n].triangle;
-}
+  for (std::size_t n = 0; n < entries.size(); ++n) triangles[n] = entries[n].triangle;
 
-void TriangleTree::makeNodes() {
-  leaves_ = std::bit_ceil((triangles_.size() + kLeafTriangles - 1) / kLeafTriangles);
-  nodes_.resize(2 * leaves_);
-  for (std::size_t n = 0; n < triangles_.size(); ++n) {
-    Node& leaf = nodes_[leaves_ + n / kLeafTriangles];
-    const auto corners = cornersOf(triangles_[n]);
-    for (const glm::vec3& corner : corners)
-      leaf.min = glm::min(leaf.min, glm::vec2(corner)), leaf.max = glm::max(leaf.max, glm::vec2(corner));
+  leaves = std::bit_ceil((triangles.size() + kLeafTriangles - 1) / kLeafTriangles);
+  nodes.resize(2 * leaves);
+  for (std::size_t n = 0; n < triangles.size(); ++n) {
+    Node& leaf = nodes[leaves + n / kLeafTriangles];
+    const auto corners = cornersOf(triangles[n]);
+    for (const glm::vec3& corner : corners) leaf.box.add(corner);
     leaf.withArea += hasArea(corners) ? 1 : 0;
   }
-  for (std::size_t n = leaves_; n-- > 1;) {
-    const Node &a = nodes_[2 * n], &b = nodes_[2 * n + 1];
-    nodes_[n] = {glm::min(a.min, b.min), glm::max(a.max, b.max), a.withArea + b.withArea};
+  for (std::size_t n = leaves; n-- > 1;) {
+    const Node &a = nodes[2 * n], &b = nodes[2 * n + 1];
+    nodes[n] = {{glm::min(a.box.min, b.box.min), glm::max(a.box.max, b.box.max)}, a.withArea + b.withArea};
   }
 }
 
 /// One count. An edge is open while what is below the node may lie on both sides of it.
 class TriangleTree::Query {
  public:
-  Query(const TriangleTree& tree, const ConvexPolygon& polygon)
-      : tree_(tree), polygon_(polygon), clipper_(polygon) {
+  explicit Query(const ConvexPolygon& polygon) : polygon_(polygon), clipper_(polygon) {
     require(polygon.size() <= 64, "a region's polygon has at most 64 corners");
   }
 
+  /// `at`: where the meshes stand; null: as they are.
+  std::size_t count(const Tree& tree, const std::vector<Mesh>& meshes, const Instance* at) {
+    tree_ = &tree, meshes_ = &meshes, at_ = at;
+    if (polygon_.size() < 3 || tree.triangles.empty()) return 0;
+    return count(1, ~std::uint64_t(0) >> (64 - polygon_.size()));
+  }
+
+  /// May some of it lie inside?
+  bool meets(const Bounds& box) const {
+    std::uint64_t open = ~std::uint64_t(0) >> (64 - polygon_.size());
+    return !box.empty() && narrow(box, open);
+  }
+
+ private:
   std::size_t count(std::size_t node, std::uint64_t open) {
-    const Node& here = tree_.nodes_[node];
+    const Node& here = tree_->nodes[node];
     if (here.withArea == 0) return 0;
+    if (!narrow(at_ == nullptr ? here.box : boundsOf(*at_, here.box), open)) return 0;
+    if (open == 0) return here.withArea;
+    if (node < tree_->leaves) return count(2 * node, open) + count(2 * node + 1, open);
+    const std::size_t first = (node - tree_->leaves) * kLeafTriangles;
+    std::size_t sum = 0;
+    for (std::size_t n = first; n < std::min(first + kLeafTriangles, tree_->triangles.size()); ++n) {
+      const Triangle& t = tree_->triangles[n];
+      sum += countTriangle(PlacedMesh((*meshes_)[t.mesh], at_ == nullptr ? nullptr : &at_->worldFromPrototype)
+                               .corners(t.index),
+                           open);
+    }
+    return sum;
+  }
+
+  /// Closes the edges that the box lies inside of; false if it lies outside of one.
+  bool narrow(const Bounds& here, std::uint64_t& open) const {
     for (std::uint64_t left = open; left != 0; left &= left - 1) {
       const int e = std::countr_zero(left);
       const auto [a, b] = edge(e);
@@ -109,19 +147,12 @@ class TriangleTree::Query {
       const bool up = b.x > a.x, leftwards = b.y > a.y;
       const glm::dvec2 innermost(leftwards ? here.min.x : here.max.x, up ? here.max.y : here.min.y);
       const glm::dvec2 outermost(leftwards ? here.max.x : here.min.x, up ? here.min.y : here.max.y);
-      if (orientation(a, b, innermost) < 0) return 0;
+      if (orientation(a, b, innermost) < 0) return false;
       if (orientation(a, b, outermost) >= 0) open &= ~(std::uint64_t(1) << e);
     }
-    if (open == 0) return here.withArea;
-    if (node < tree_.leaves_) return count(2 * node, open) + count(2 * node + 1, open);
-    const std::size_t first = (node - tree_.leaves_) * kLeafTriangles;
-    std::size_t sum = 0;
-    for (std::size_t n = first; n < std::min(first + kLeafTriangles, tree_.triangles_.size()); ++n)
-      sum += countTriangle(tree_.cornersOf(tree_.triangles_[n]), open);
-    return sum;
+    return true;
   }
 
- private:
   std::pair<const glm::dvec2&, const glm::dvec2&> edge(int e) const {
     const std::size_t at = static_cast<std::size_t>(e);
     return {polygon_.corners[at], polygon_.corners[at + 1 == polygon_.size() ? 0 : at + 1]};
@@ -143,15 +174,23 @@ class TriangleTree::Query {
     return sum;
   }
 
-  const TriangleTree& tree_;
+  const Tree* tree_ = nullptr;
+  const std::vector<Mesh>* meshes_ = nullptr;
+  const Instance* at_ = nullptr;
   const ConvexPolygon& polygon_;
   PolygonClipper clipper_;
 };
 
 std::size_t TriangleTree::countClipped(const ConvexPolygon& polygon) const {
-  if (polygon.size() < 3 || triangles_.empty()) return 0;
-  const std::uint64_t all = ~std::uint64_t(0) >> (64 - polygon.size());
-  return Query(*this, polygon).count(1, all);
+  if (polygon.size() < 3) return 0;
+  Query query(polygon);
+  std::size_t sum = query.count(meshes_, scene_->meshes, nullptr);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const Instance& instance = scene_->instances[i];
+    if (query.meets(boxes_[i]))
+      sum += query.count(prototypes_[instance.prototype], scene_->prototypes, &instance);
+  }
+  return sum;
 }
 
 }  // namespace acentric

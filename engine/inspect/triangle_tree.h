@@ -17,7 +17,7 @@ class TriangleTree {
  public:
   explicit TriangleTree(ScenePtr scene);
 
-  /// As many as clipToPolygon(scene, polygon).triangles.
+  /// As many as clipToPolygon(flattened(scene), polygon).triangles.
   std::size_t countClipped(const ConvexPolygon& polygon) const;
 
  private:
@@ -25,18 +25,22 @@ class TriangleTree {
     std::uint32_t mesh, index;
   };
   struct Node {
-    glm::vec2 min{std::numeric_limits<float>::max()}, max{std::numeric_limits<float>::lowest()};
+    Bounds box;
     std::uint32_t withArea = 0;  ///< triangles below that are not degenerate
   };
+  /// Over triangles of some meshes, where these are.
+  struct Tree {
+    Tree(const std::vector<Mesh>& meshes, std::vector<Triangle> all);
+    std::vector<Triangle> triangles;  ///< neighbours in the plan and alike in size are neighbours here
+    std::size_t leaves = 0;           ///< a power of two; leaf k holds triangles [k, k + 1) * kLeafTriangles
+    std::vector<Node> nodes;          ///< children of n: 2n and 2n + 1; the root is 1, leaf k is leaves + k
+  };
   class Query;
-  std::array<glm::vec3, 3> cornersOf(const Triangle& triangle) const;
-  void sortTriangles();
-  void makeNodes();
 
   ScenePtr scene_;
-  std::vector<Triangle> triangles_;  ///< neighbours in the plan and alike in size are neighbours here
-  std::size_t leaves_ = 0;           ///< a power of two; leaf k holds triangles [k, k + 1) * kLeafTriangles
-  std::vector<Node> nodes_;          ///< children of n: 2n and 2n + 1; the root is 1, leaf k is leaves_ + k
+  Tree meshes_;
+  std::vector<Tree> prototypes_;  ///< in their own frames
+  std::vector<Bounds> boxes_;     ///< by instance
 };
 
 }  // namespace acentric

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/geometry/conventions.h"
+#include "engine/scene/instances.h"
 
 namespace acentric {
 namespace {
@@ -94,13 +95,17 @@ std::vector<glm::dvec2> cornersOf(const std::vector<Piece>& pieces) {
 
 WallSlice sliceWalls(const Scene& scene, double height, const std::stop_token& stop) {
   std::vector<Piece> pieces;
-  for (const Mesh& mesh : scene.meshes) {
+  const std::vector<Bounds> own = boundsOf(scene.prototypes);
+  for (std::uint32_t m = 0; m < scene.placedCount(); ++m) {
     if (stop.stop_requested()) return {};
-    for (const glm::uvec3& triangle : mesh.triangles) {
-      const std::array<glm::vec3, 3> corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
-                                             mesh.positions[triangle.z]};
-      if (const auto piece = cut(corners, height)) pieces.push_back(*piece);
+    if (scene.isInstance(m)) {
+      const Instance& instance = scene.instances[m - scene.meshes.size()];
+      const Bounds box = boundsOf(instance, own[instance.prototype]);
+      if (!(double(box.min.z) < height && double(box.max.z) >= height)) continue;
     }
+    const PlacedMesh placed(scene, m);
+    for (std::uint32_t t = 0; t < placed.mesh().triangles.size(); ++t)
+      if (const auto piece = cut(placed.corners(t), height)) pieces.push_back(*piece);
   }
   return {cornersOf(pieces), directionOfMost(pieces)};
 }

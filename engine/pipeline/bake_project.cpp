@@ -453,6 +453,7 @@ Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest
 Result<ProjectBakeReport> bakeProject(const OpenProject& open, const BakeRequest& request,
                                       const CaptureStore& store, TaskRunner& runner, const Progress& progress,
                                       std::stop_token stop) {
+  if (Status near = checkNear(open.near); !near) return tl::unexpected(near.error());
   const std::vector<int> cameras = request.cameras ? *request.cameras : bakingOrder(open);
   for (int camera : cameras)
     if (camera < 0 || camera >= int(open.keys.size()))

@@ -41,7 +41,7 @@ class SceneTracer final : public OpaqueTracer {
  private:
   /// As Shader finds the alpha of a hit.
   bool opaque(const Hit& hit, const glm::vec3& toViewer) const {
-    const auto material = std::size_t(rays_->scene().meshes[hit.mesh].material);
+    const auto material = std::size_t(rays_->scene().meshOf(hit.mesh).material);
     const MaterialRules& rules = rules_[material];
     if (!rules.clear()) return true;
     const Surface surface = detail_.any() ? surfaceAt<true>(rays_->scene(), hit, toViewer, detail_, false)

@@ -450,6 +450,7 @@ class ProjectProber final : public BakeProber {
 Result<BakeEstimate> estimateProjectBake(const OpenProject& open, const std::vector<int>& cameras,
                                          const EstimateOptions& options, TaskRunner& runner,
                                          const Progress& progress, std::stop_token stop) {
+  if (Status near = checkNear(open.near); !near) return tl::unexpected(near.error());
   std::vector<int> which = cameras;
   if (!options.captures)
     which.clear();

@@ -12,6 +12,7 @@
 #include "engine/bake/test_eyes.h"
 #include "engine/base/stopwatch.h"
 #include "engine/pipeline/coverage.h"
+#include "engine/scene/instances.h"
 
 namespace acentric {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using Spot = GatheredLight::Spot;
 
 constexpr std::size_t kPlaces = 4096, kCells = 512;  ///< asked, at most
+constexpr std::size_t kInstancePlaces = 4096;        ///< triangles of instances that are asked
 constexpr int kWaysFromCell = 8;
 /// Samples on a spot from which on it is as good as certain that one reads it.
 constexpr double kPlenty = 4;
@@ -174,9 +176,9 @@ class Forecaster {
     const double share = double(gathered_.placeCount()) / double(std::max<std::size_t>(1, numbers.size()));
     double captures = 0, any = 0, squares = 0;
     for (const Chances& c : places) captures += c.captures, any += c.any, squares += c.any * c.any;
-    const Chances cells = raysForCells();
-    forecast.captureRays = share * captures * raysPerPlace + cells.captures;
-    forecast.lightRays = share * any * raysPerPlace + cells.any - forecast.captureRays;
+    const Chances cells = raysForCells(), instances = raysForInstances(raysPerPlace);
+    forecast.captureRays = share * captures * raysPerPlace + cells.captures + instances.captures;
+    forecast.lightRays = share * any * raysPerPlace + cells.any + instances.any - forecast.captureRays;
     if (any > 0 && numbers.size() < gathered_.placeCount())
       forecast.relativeError = std::sqrt(std::max(0.0, squares - any * any / double(places.size()))) / any;
     return forecast;
@@ -184,9 +186,9 @@ class Forecaster {
 
  private:
   Chances ofPlace(const Spot& spot) const {
-    if (!gathered_.lights(open_.scene->meshes[spot.mesh].material)) return {};
+    if (!gathered_.lights(open_.scene->meshOf(spot.mesh).material)) return {};
     const double captures = readers_.chance(spot);
-    return {captures, readers_.lightReads(spot) ? 1 : captures};
+    return {captures, !open_.scene->isInstance(spot.mesh) && readers_.lightReads(spot) ? 1 : captures};
   }
 
   /// Gathers runs of places that begin with those given; rays for a place itself.
@@ -237,8 +239,9 @@ class Forecaster {
           across.at(aside * std::cos(angle), aside * std::sin(angle)) + cell.normal * std::sqrt(1 - u.x);
       const Hit hit = open_.rays->traceSolid({glm::vec3(cell.position), way, lift});
       if (!hit.found()) continue;
-      Spot met{hit.mesh, hit.triangle, firstTriangles_[hit.mesh] + hit.triangle};
-      const double places = gathered_.placesPerSquareMetre(met.sceneTriangle);
+      Spot met{hit.mesh, hit.triangle};
+      if (!open_.scene->isInstance(hit.mesh)) met.sceneTriangle = firstTriangles_[hit.mesh] + hit.triangle;
+      const double places = gathered_.placesPerSquareMetre(met.mesh, met.triangle);
       met.back = glm::dot(hit.across, way) > 0;
       met.position = cell.position + double(hit.distance) * glm::dvec3(way);
       met.normal = met.back ? -hit.geometricNormal() : hit.geometricNormal();
@@ -247,9 +250,62 @@ class Forecaster {
       const double each = cell.squareMetres / kWaysFromCell;
       sum.fromPlaces.captures += each * places * settings_.ambientRays * read.captures;
       sum.fromPlaces.any += each * places * settings_.ambientRays * read.any;
-      sum.fromCells += each * gathered_.cellsPerSquareMetre(met.sceneTriangle) * GatheredLight::kCellRays;
+      sum.fromCells +=
+          each * gathered_.cellsPerSquareMetre(met.mesh, met.triangle) * GatheredLight::kCellRays;
     }
     return sum;
+  }
+
+  /// For places and cells of instances, which have no numbers: by some of their triangles, each for its like.
+  Chances raysForInstances(double raysPerPlace) const {
+    struct Part {
+      std::uint32_t placed, triangle;
+      double stands;
+    };
+    std::vector<Part> parts;
+    if (!open_.scene->instances.empty())
+      eachTriangle(*open_.scene, kInstancePlaces / fewer_,
+                   [&](std::uint32_t placed, const PlacedMesh&, std::uint32_t triangle, double stands) {
+                     if (open_.scene->isInstance(placed)) parts.push_back({placed, triangle, stands});
+                   });
+    std::vector<Chances> rays(parts.size());
+    runner_.parallelFor(parts.size(), [&](std::size_t n) {
+      const FlushDenormals flush;
+      const Part& part = parts[n];
+      for (const bool back : {false, true}) {
+        if (stop_.stop_requested()) return;
+        Spot spot = gathered_.middleOf(part.placed, part.triangle, back);
+        const double area = spot.squareMetres;
+        if (!(area > 0)) continue;
+        const double places = area * gathered_.placesPerSquareMetre(part.placed, part.triangle);
+        spot.squareMetres = area * std::min(1.0, 6 / places);  // six cells read each
+        const Chances read = ofPlace(spot);
+        rays[n].captures += part.stands * places * read.captures * raysPerPlace;
+        rays[n].any += part.stands * places * read.any * raysPerPlace;
+        if (gathered_.cellCount() == 0 || !gathered_.lights(open_.scene->meshOf(part.placed).material))
+          continue;
+        const double cells = area * gathered_.cellsPerSquareMetre(part.placed, part.triangle);
+        spot.squareMetres = area / cells;
+        const Chances arriving = raysWith(arrivingAt(spot, std::uint32_t(n)), 1);
+        rays[n].captures += part.stands * cells * arriving.captures;
+        rays[n].any += part.stands * cells * arriving.any;
+      }
+    });
+    Chances sum;
+    for (const Chances& one : rays) sum.captures += one.captures, sum.any += one.any;
+    return sum;
+  }
+
+  /// Rays of a cell, of every bounce, by what comes to it; `direct`: those towards lights.
+  Chances raysWith(const Arriving& arriving, double direct) const {
+    const auto with = [&](double fromPlaces) {
+      double sum = 0;
+      for (int bounce = settings_.bounces - 1; bounce >= 0 && fromPlaces > 0; --bounce)
+        sum += chanceOf(bounce + 1 == settings_.bounces ? fromPlaces : arriving.fromCells) *
+               (direct + (bounce > 0 ? GatheredLight::kCellRays : 0));
+      return sum;
+    };
+    return {with(arriving.fromPlaces.captures), with(arriving.fromPlaces.any)};
   }
 
   /// Rays gathered for all cells that are read, of every bounce: the last from places, others from cells.
@@ -264,14 +320,7 @@ class Forecaster {
       const Arriving arriving = arrivingAt(cell, std::uint32_t(n));
       RayCounts direct;
       gathered_.gatherCell(numbers[n], 0, direct, stop_);
-      const auto raysWith = [&](double fromPlaces) {
-        double sum = 0;
-        for (int bounce = settings_.bounces - 1; bounce >= 0 && fromPlaces > 0; --bounce)
-          sum += chanceOf(bounce + 1 == settings_.bounces ? fromPlaces : arriving.fromCells) *
-                 (double(direct.total()) + (bounce > 0 ? GatheredLight::kCellRays : 0));
-        return sum;
-      };
-      rays[n] = {raysWith(arriving.fromPlaces.captures), raysWith(arriving.fromPlaces.any)};
+      rays[n] = raysWith(arriving, double(direct.total()));
     });
     Chances sum;
     for (const Chances& r : rays) sum.captures += r.captures, sum.any += r.any;

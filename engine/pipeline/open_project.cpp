@@ -1,11 +1,38 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/start_view.h"
+#include "engine/scene/instances.h"
 #include "engine/scene/local_geometry.h"
 
 namespace acentric {
 namespace {
+
+/// Instances near any storey as meshes, so that all storeys share one scene.
+void placeNear(const OpenProject* former, OpenProject& open) {
+  open.scene = open.imported;
+  if (open.imported->instances.empty()) return;
+  const auto alike = [](const Storey& a, const Storey& b) { return a.layout == b.layout; };
+  const auto& storeys = open.project.storeys;
+  const bool sameModel = former && former->imported == open.imported;
+  if (sameModel && std::ranges::equal(former->project.storeys, storeys, alike)) {
+    open.near = former->near, open.scene = former->scene;
+    return;
+  }
+  std::vector<Layout> layouts;
+  for (std::size_t s = 0; s < storeys.size(); ++s)
+    if (int(s) == open.project.storey)
+      layouts.push_back(*open.layout);
+    else if (auto layout = buildLayout(storeys[s].layout))  // else said when that storey is opened
+      layouts.push_back(std::move(*layout));
+  open.near = findNearInstances(*open.imported, layouts);
+  if (sameModel && former->near == open.near)
+    open.scene = former->scene;
+  else if (!open.near.instances.empty() && !open.near.tooMany())
+    open.scene = std::make_shared<const Scene>(withPlaced(*open.imported, open.near.instances));
+}
 
 /// `given`: instead of what the model file has.
 Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::path& file,
@@ -17,14 +44,22 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
   open.project = project;
 
   if (former && former->project.scene == project.scene && former->project.import == project.import) {
-    open.scene = former->scene;
+    open.imported = former->imported ? former->imported : former->scene;
   } else if (given) {
-    open.scene = given;
+    open.imported = given;
   } else {
     auto scene = importScene(sceneFileOf(file, project), project.import, host, progress, stop);
     if (!scene) return tl::unexpected(scene.error());
-    open.scene = *scene;
+    open.imported = *scene;
   }
+  if (former && former->project.layout() == project.layout()) {
+    open.layout = former->layout;
+  } else {
+    auto layout = buildLayout(project.layout());
+    if (!layout) return tl::unexpected(layout.error());
+    open.layout = std::make_shared<const Layout>(std::move(*layout));
+  }
+  placeNear(former, open);
   const bool sameRays = former && former->scene == open.scene && former->project.effects == project.effects;
   open.plan = sameRays ? former->plan : planEffects(*open.scene, project.effects);
   if (sameRays) {
@@ -36,13 +71,6 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
     if (!rays) return tl::unexpected(rays.error());
     open.rays = *rays;
     open.mirrors = flatMirrorsOf(*open.scene, open.plan);
-  }
-  if (former && former->project.layout() == project.layout()) {
-    open.layout = former->layout;
-  } else {
-    auto layout = buildLayout(project.layout());
-    if (!layout) return tl::unexpected(layout.error());
-    open.layout = std::make_shared<const Layout>(std::move(*layout));
   }
   open.keys = captureKeys(*open.scene, open.plan, project.bake, *open.layout);
   open.surfaceLightKey = keyOf(surfaceLightKeyParts(open));
@@ -108,6 +136,8 @@ KeyParts surfaceLightKeyParts(const OpenProject& open) {
   parts.push_back({"settings", settings.finish()});
   parts.push_back({"place", Hasher().value(open.layout->eyeZ()).finish()});
   parts.push_back({"regions", regions.finish()});
+  // Light is numbered through the meshes, of which there is one more for each of these.
+  if (!open.near.instances.empty()) parts.push_back({"instances", open.near.key()});
   return parts;
 }
 

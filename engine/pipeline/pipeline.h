@@ -14,6 +14,7 @@
 #include "engine/bake/bake.h"
 #include "engine/bake/truth.h"
 #include "engine/base/task_runner.h"
+#include "engine/pipeline/near_instances.h"
 #include "engine/pipeline/project.h"
 #include "engine/pipeline/scene_storeys.h"
 #include "engine/scene/simplify.h"
@@ -59,6 +60,9 @@ double firstCellSize(double walkableSquareMetres, Configuration configuration);
 struct OpenProject {
   std::filesystem::path file;
   Project project;
+  ScenePtr imported;   ///< as the model is
+  NearInstances near;  ///< of `imported`: those that reach into a region of some storey
+  /// The same with these as meshes; with too many of them (checkNear) as imported, for rays alone.
   ScenePtr scene;
   EffectPlan plan;
   RayScenePtr rays;

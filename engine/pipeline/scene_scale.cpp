@@ -7,10 +7,15 @@
 
 #include "engine/inspect/scale_doubt.h"
 #include "engine/pipeline/scene_probe.h"
+#include "engine/scene/instances.h"
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/project_origin.h"
 
 namespace acentric {
 namespace {
+
+/// Triangles of instances whose texels are measured.
+constexpr std::uint64_t kMostOfInstances = 2'000'000;
 
 /// Typical edge of a texel of the base colours, by area, metres; 0 where there are none.
 double typicalTexel(const Scene& scene) {
@@ -19,26 +24,29 @@ double typicalTexel(const Scene& scene) {
   };
   std::vector<Piece> pieces;
   double all = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    const TextureUse& use = scene.materials[std::size_t(mesh.material)].baseColourTexture;
-    if (!use.used() || mesh.uv[use.uvSet].empty()) continue;
-    const int number = scene.textures[std::size_t(use.texture)].image;
-    if (number < 0) continue;
-    const ColourImage& image = *scene.images[std::size_t(number)];
-    const auto& uv = mesh.uv[use.uvSet];
-    for (const glm::uvec3& t : mesh.triangles) {
-      const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
-      const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-      const auto texelOf = [&](unsigned corner) {
-        return glm::dvec2(use.transform * glm::vec3(uv[corner], 1)) * glm::dvec2(image.width, image.height);
-      };
-      const glm::dvec2 p = texelOf(t.x), q = texelOf(t.y) - p, r = texelOf(t.z) - p;
-      const double texels = 0.5 * std::abs(q.x * r.y - q.y * r.x);
-      if (!(area > 0 && texels > 0) || !std::isfinite(area / texels)) continue;
-      pieces.push_back({std::sqrt(area / texels), area});
-      all += area;
-    }
-  }
+  eachTriangle(scene, kMostOfInstances,
+               [&](std::uint32_t, const PlacedMesh& placed, std::uint32_t triangle, double stands) {
+                 const Mesh& mesh = placed.mesh();
+                 const TextureUse& use = scene.materials[std::size_t(mesh.material)].baseColourTexture;
+                 if (!hasCoordinates(mesh, use)) return;
+                 const int number = scene.textures[std::size_t(use.texture)].image;
+                 if (number < 0) return;
+                 const ColourImage& image = *scene.images[std::size_t(number)];
+                 const auto& uv = coordinatesOf(mesh, use);
+                 const auto corners = placed.corners(triangle);
+                 const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
+                 const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+                 const auto texelOf = [&](unsigned corner) {
+                   return glm::dvec2(use.transform * glm::vec3(uv[corner], 1)) *
+                          glm::dvec2(image.width, image.height);
+                 };
+                 const glm::uvec3& t = mesh.triangles[triangle];
+                 const glm::dvec2 p = texelOf(t.x), q = texelOf(t.y) - p, r = texelOf(t.z) - p;
+                 const double texels = 0.5 * std::abs(q.x * r.y - q.y * r.x);
+                 if (!(area > 0 && texels > 0) || !std::isfinite(area / texels)) return;
+                 pieces.push_back({std::sqrt(area / texels), stands * area});
+                 all += stands * area;
+               });
   std::ranges::sort(pieces, {}, &Piece::texel);
   double passed = 0;
   for (const Piece& piece : pieces)

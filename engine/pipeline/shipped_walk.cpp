@@ -203,7 +203,7 @@ OpenProject openProject(const ShippedWalk& walk, const Project& project) {
   OpenProject open;
   open.file = walk.file;
   open.project = project;
-  open.scene = walk.scene;
+  open.scene = open.imported = walk.scene;
   open.plan = walk.rays->plan();
   open.rays = walk.rays;
   open.layout = walk.layouts[std::size_t(project.storey)];

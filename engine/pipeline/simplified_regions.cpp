@@ -37,16 +37,18 @@ std::vector<glm::dvec2> eyesIn(const ConvexPolygon& polygon) {
 }  // namespace
 
 ContentKey simplifiedKey(const OpenProject& open, const Region& region) {
-  return Hasher()
-      .text("simplified local geometry")
+  Hasher hasher;
+  hasher.text("simplified local geometry")
       .value(kMethodVersion)
       .value(open.scene->key.high)
       .value(open.scene->key.low)
       .array(std::span<const glm::dvec2>(region.grown.corners))
       .value(open.project.budget.trianglesPerRegion)
       .value(open.project.budget.maxErrorMetres)
-      .value(open.project.bake.surfaceTexel)
-      .finish();
+      .value(open.project.bake.surfaceTexel);
+  if (!open.near.instances.empty())  // its triangles are numbered as the scene's are
+    hasher.value(open.near.key().high).value(open.near.key().low);
+  return hasher.finish();
 }
 
 std::vector<ContentKey> simplifiedKeys(const OpenProject& open) {

@@ -82,7 +82,7 @@ ViewWorth worthOf(const RayScene& rays, const glm::dvec3& eye, double yawRadians
       logarithms += std::log(std::clamp(distance, 1e-3, kFarthest));
       near += hit.found() && distance < kTooNear;
       sky += !hit.found();
-      if (hit.found()) kinds.emplace(int(hit.mesh), rays.scene().meshes[std::size_t(hit.mesh)].material);
+      if (hit.found()) kinds.emplace(int(hit.mesh), rays.scene().meshOf(hit.mesh).material);
     }
   constexpr double kRays = kAcross * kHigh;
   const int more = std::clamp(int(kinds.size()) - 1, 0, kManyKinds - 1);

@@ -107,6 +107,7 @@ void takeFormer(const OpenProject& open, const LoadedWalk& former, LoadedWalk& w
 }  // namespace
 
 Result<WalkStart> startWalk(const OpenProject& open, const LoadedWalk* former) {
+  if (Status near = checkNear(open.near); !near) return tl::unexpected(near.error());
   WalkStart start;
   LoadedWalk& loaded = start.walk;
   loaded.keys = open.keys;

@@ -15,9 +15,11 @@
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <optional>
 
 #include "engine/base/file.h"
 #include "engine/scene/assimp_materials.h"
+#include "engine/scene/instances.h"
 #include "engine/scene/source_scene.h"
 
 namespace acentric {
@@ -143,7 +145,24 @@ class AssimpReader {
   }
 
  private:
+  /// How many times each mesh is shown.
+  std::vector<std::uint32_t> usesOf() const {
+    std::vector<std::uint32_t> uses(from_.mNumMeshes, 0);
+    std::vector<const aiNode*> stack{from_.mRootNode};
+    while (!stack.empty()) {
+      const aiNode* node = stack.back();
+      stack.pop_back();
+      for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        if (node->mMeshes[i] < uses.size()) ++uses[node->mMeshes[i]];
+      for (unsigned i = 0; i < node->mNumChildren; ++i) stack.push_back(node->mChildren[i]);
+    }
+    return uses;
+  }
+
   Status walk() {
+    const std::vector<std::uint32_t> uses = usesOf();
+    prototypes_.resize(uses.size());
+    for (std::size_t m = 0; m < uses.size(); ++m) shared_.push_back(uses[m] > 1);
     std::vector<std::pair<const aiNode*, glm::dmat4>> stack{
         {from_.mRootNode, glm::scale(glm::dmat4(1), glm::dvec3(rootScale_))}};
     while (!stack.empty()) {
@@ -154,21 +173,48 @@ class AssimpReader {
       for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         if (node->mMeshes[i] >= from_.mNumMeshes)
           return fail(ErrorKind::malformed, "names a mesh that does not exist");
-        if (auto status = readMesh(*from_.mMeshes[node->mMeshes[i]], node->mName.C_Str(), world); !status)
-          return status;
+        if (auto status = readMesh(node->mMeshes[i], node->mName.C_Str(), world); !status) return status;
       }
       for (unsigned i = node->mNumChildren; i-- > 0;) stack.emplace_back(node->mChildren[i], world);
     }
     return {};
   }
 
-  Status readMesh(const aiMesh& mesh, const char* nodeName, const glm::dmat4& world) {
+  Status readMesh(unsigned number, const char* nodeName, const glm::dmat4& world) {
+    const aiMesh& mesh = *from_.mMeshes[number];
+    if (!shared_[number]) {
+      auto read = triangles(mesh, nodeName);
+      if (!read) return tl::unexpected(read.error());
+      if (read->triangles.empty()) return {};
+      applyTransform(*read, world);
+      scene_.meshes.push_back(std::move(*read));
+      return {};
+    }
+    if (!prototypes_[number]) {
+      auto read = triangles(mesh, nodeName);
+      if (!read) return tl::unexpected(read.error());
+      prototypes_[number] = std::uint32_t(scene_.prototypes.size());
+      scene_.prototypes.push_back(std::move(*read));
+    }
+    const SourceMesh& prototype = scene_.prototypes[*prototypes_[number]];
+    if (prototype.triangles.empty()) return {};
+    if (scene_.instances.size() >= kMaxInstances)
+      return fail(ErrorKind::tooLarge,
+                  fmt::format("has more than {} instances; make one mesh of those that stand together",
+                              kMaxInstances));
+    scene_.instances.push_back({*prototypes_[number], std::uint32_t(scene_.meshes.size()),
+                                mesh.mName.length > 0 ? mesh.mName.C_Str() : nodeName, world});
+    return {};
+  }
+
+  /// In the mesh's frame; none where it has none.
+  Result<SourceMesh> triangles(const aiMesh& mesh, const char* nodeName) {
     if (mesh.mPrimitiveTypes & aiPrimitiveType_POINT) scene_.ignored.add("points");
     if (mesh.mPrimitiveTypes & aiPrimitiveType_LINE) scene_.ignored.add("lines");
     if (mesh.mNumBones > 0) scene_.ignored.add("skins (the meshes stand as modelled)");
     scene_.indexCount += 3 * std::size_t(mesh.mNumFaces);
     if (scene_.indexCount > kMaxSceneIndices)
-      return fail(ErrorKind::tooLarge, "has more than 2^31 indices with all instances; split it");
+      return fail(ErrorKind::tooLarge, "has more than 2^31 indices; split it");
     SourceMesh out;
     out.name = mesh.mName.length > 0 ? mesh.mName.C_Str() : nodeName;
     out.triangles.reserve(mesh.mNumFaces);
@@ -177,13 +223,11 @@ class AssimpReader {
       if (face.mNumIndices == 3)
         out.triangles.emplace_back(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
     }
-    if (out.triangles.empty()) return {};
+    if (out.triangles.empty()) return out;
     const AssimpMaterial material = materials_.take(mesh.mMaterialIndex);
     out.material = material.index;
     readCorners(mesh, material, out);
-    applyTransform(out, world);
-    scene_.meshes.push_back(std::move(out));
-    return {};
+    return out;
   }
 
   void readCorners(const aiMesh& mesh, const AssimpMaterial& material, SourceMesh& out) {
@@ -267,6 +311,8 @@ class AssimpReader {
   double rootScale_;
   AssimpMaterials materials_;
   std::map<std::string, glm::dmat4> nodes_;
+  std::vector<char> shared_;                              ///< by mesh: is it shown more than once?
+  std::vector<std::optional<std::uint32_t>> prototypes_;  ///< by mesh, once it was read
 };
 
 }  // namespace

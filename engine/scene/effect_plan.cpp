@@ -50,8 +50,9 @@ class Planner {
  public:
   Planner(const Scene& scene, const EffectOverrides& overrides) : scene_(scene), overrides_(overrides) {
     std::vector<bool> used(scene.materials.size());
-    for (const Mesh& mesh : scene.meshes)
-      if (!mesh.triangles.empty()) used[std::size_t(mesh.material)] = true;
+    for (const auto* meshes : {&scene.meshes, &scene.prototypes})
+      for (const Mesh& mesh : *meshes)
+        if (!mesh.triangles.empty()) used[std::size_t(mesh.material)] = true;
     for (std::size_t m = 0; m < used.size(); ++m)
       if (used[m]) materials_.push_back(int(m));
     allUnlit_ = !materials_.empty();
@@ -109,12 +110,11 @@ class Planner {
                 [](const Material& m) { return m.unlit; });
 
     std::vector<std::string> coloured;
-    for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
-      const Mesh& mesh = scene_.meshes[i];
-      const auto tinted = [](const glm::u8vec4& c) { return c != glm::u8vec4(255); };
-      if (!mesh.triangles.empty() && std::any_of(mesh.colours.begin(), mesh.colours.end(), tinted))
-        coloured.push_back(nameOr(mesh.name, "mesh", i));
-    }
+    const auto tinted = [](const glm::u8vec4& c) { return c != glm::u8vec4(255); };
+    for (const auto* meshes : {&scene_.meshes, &scene_.prototypes})
+      for (const Mesh& mesh : *meshes)
+        if (!mesh.triangles.empty() && std::any_of(mesh.colours.begin(), mesh.colours.end(), tinted))
+          coloured.push_back(nameOr(mesh.name, "mesh", std::size_t(&mesh - meshes->data())));
     set(Effect::vertexColours, !coloured.empty(),
         coloured.empty() ? "no mesh has vertex colours other than white"
                          : listed(coloured, "mesh", "meshes", "with vertex colours"));

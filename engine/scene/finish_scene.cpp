@@ -18,12 +18,10 @@ struct Box {
   glm::dvec3 min{std::numeric_limits<double>::max()};
   glm::dvec3 max{std::numeric_limits<double>::lowest()};
   bool empty() const { return min.x > max.x; }
+  void add(const glm::dvec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
   void add(const SourceMesh& mesh) {
     for (const glm::uvec3& t : mesh.triangles)
-      for (int corner = 0; corner < 3; ++corner) {
-        min = glm::min(min, mesh.positions[t[corner]]);
-        max = glm::max(max, mesh.positions[t[corner]]);
-      }
+      for (int corner = 0; corner < 3; ++corner) add(mesh.positions[t[corner]]);
   }
   double diagonal() const { return empty() ? 0 : glm::length(max - min); }
 };
@@ -67,7 +65,7 @@ UpAxis chooseUp(const SourceScene& source, const ImportOptions& options, ReportL
     guessed.add(fmt::format("up axis: {} ({})", source.up == UpAxis::y ? "Y" : "Z", source.upSource));
     return source.up;
   }
-  if (const auto times = levelAlongZ(source.meshes)) {
+  if (const auto times = levelAlongZ(source)) {
     guessed.add(
         fmt::format("up axis: Z (the file states none; {:.1f} times as much of its surfaces is level with Z "
                     "up as with Y up)",
@@ -112,31 +110,45 @@ class Finisher {
 
   Result<Scene> finish(const std::string& name) {
     scene_.name = name;
-    Box box;
-    for (SourceMesh& mesh : source_.meshes) {
-      dropBroken(mesh, counts_);
-      box.add(mesh);
-    }
+    if (auto placed = placeInstances(source_, options_); !placed) return tl::unexpected(placed.error());
+    for (auto* meshes : {&source_.meshes, &source_.prototypes})
+      for (SourceMesh& mesh : *meshes) dropBroken(mesh, counts_);
+    for (const SourceMesh& mesh : source_.prototypes) prototypeBoxes_.emplace_back().add(mesh);
+    const Box box = boxOfAll();
     const auto nothing = [&] {
       return noSurfaces(counts_, fmt::format("{}", fmt::join(source_.ignored.take(), ", ")));
     };
     if (box.empty()) return nothing();
     placeEverything(box);
     cleanMeshes();
-    if (scene_.meshes.empty()) return nothing();
+    if (scene_.meshes.empty() && scene_.instances.empty()) return nothing();
     takeRest();
     return std::move(scene_);
   }
 
  private:
+  /// Of instances their prototypes' boxes, placed.
+  Box boxOfAll() const {
+    Box box;
+    for (const SourceMesh& mesh : source_.meshes) box.add(mesh);
+    for (const SourceInstance& instance : source_.instances) {
+      const Box& own = prototypeBoxes_[instance.prototype];
+      for (int corner = 0; corner < 8 && !own.empty(); ++corner) {
+        const glm::dvec3 at(corner & 1 ? own.min.x : own.max.x, corner & 2 ? own.min.y : own.max.y,
+                            corner & 4 ? own.min.z : own.max.z);
+        box.add(glm::dvec3(instance.worldFromMesh * glm::dvec4(at, 1)));
+      }
+    }
+    return box;
+  }
+
   void placeEverything(const Box& sourceBox) {
     metresPerUnit_ = chooseUnit(source_, options_, sourceBox.diagonal(), source_.guessed);
     const glm::dmat4 world = metresZUp(metresPerUnit_, chooseUp(source_, options_, source_.guessed));
-    Box box;
-    for (SourceMesh& mesh : source_.meshes) {
-      applyTransform(mesh, world);
-      box.add(mesh);
-    }
+    for (SourceMesh& mesh : source_.meshes) applyTransform(mesh, world);
+    for (SourceInstance& instance : source_.instances)
+      instance.worldFromMesh = world * instance.worldFromMesh;
+    const Box box = boxOfAll();
     scene_.origin = projectOriginFor(box.min, box.max);
     if (scene_.origin != glm::dvec3(0))
       source_.guessed.add(fmt::format("project origin: moved to ({}, {}, {}) m, near the scene",
@@ -161,13 +173,44 @@ class Finisher {
       if (progress_ && int(done) % 64 == 0)
         progress_({done, double(source_.meshes.size()), "checking meshes"});
       done += 1;
-      const Material& material = source_.materials[std::size_t(mesh.material)];
-      const TextureUse& normals = material.normalTexture;
-      Mesh clean = cleanMesh(std::move(mesh), scene_.origin, normals.used(), normals.uvSet, normals.transform,
-                             counts_);
+      Mesh clean = cleaned(std::move(mesh), scene_.origin);
       mesh = {};
       if (!clean.triangles.empty()) scene_.meshes.push_back(std::move(clean));
     }
+    cleanPrototypes();
+  }
+
+  Mesh cleaned(SourceMesh&& mesh, const glm::dvec3& origin) {
+    const TextureUse& normals = source_.materials[std::size_t(mesh.material)].normalTexture;
+    return cleanMesh(std::move(mesh), origin, normals.used(), normals.uvSet, normals.transform, counts_);
+  }
+
+  /// About their own middles, so that single precision holds them however far off they are modelled.
+  void cleanPrototypes() {
+    constexpr std::uint32_t kGone = ~0u;
+    std::vector<std::uint32_t> number;
+    std::vector<glm::dvec3> middles;
+    for (std::size_t p = 0; p < source_.prototypes.size(); ++p) {
+      const Box& box = prototypeBoxes_[p];
+      middles.push_back(box.empty() ? glm::dvec3(0) : 0.5 * box.min + 0.5 * box.max);
+      Mesh clean = cleaned(std::move(source_.prototypes[p]), middles.back());
+      source_.prototypes[p] = {};
+      number.push_back(clean.triangles.empty() ? kGone : std::uint32_t(scene_.prototypes.size()));
+      if (number.back() != kGone) scene_.prototypes.push_back(std::move(clean));
+    }
+    for (const SourceInstance& from : source_.instances) {
+      if (number[from.prototype] == kGone) continue;
+      glm::dmat4 at = from.worldFromMesh;
+      at[3] = glm::dvec4(glm::dvec3(at * glm::dvec4(middles[from.prototype], 1)) - scene_.origin, 1);
+      scene_.instances.push_back({number[from.prototype], glm::mat4x3(glm::dmat4x3(at))});
+    }
+    source_.instances = {};
+    // The same scene, in whatever order its file names them.
+    std::ranges::stable_sort(scene_.instances, [](const Instance& a, const Instance& b) {
+      if (a.prototype != b.prototype) return a.prototype < b.prototype;
+      const float *one = &a.worldFromPrototype[0].x, *other = &b.worldFromPrototype[0].x;
+      return std::lexicographical_compare(one, one + 12, other, other + 12);
+    });
   }
 
   void takeRest() {
@@ -185,8 +228,15 @@ class Finisher {
       source_.guessed.add(
           fmt::format("tangents: made for {}", counted(counts_.tangentsMade, "mesh", "meshes")));
     ImportReport& report = scene_.report;
-    report.found.push_back(fmt::format("{} in {}", counted(counts_.kept, "triangle", "triangles"),
-                                       counted(scene_.meshes.size(), "mesh", "meshes")));
+    if (scene_.instances.empty())
+      report.found.push_back(fmt::format("{} in {}", counted(counts_.kept, "triangle", "triangles"),
+                                         counted(scene_.meshes.size(), "mesh", "meshes")));
+    else
+      report.found.push_back(fmt::format(
+          "{} ({}), in {} and {} of {}", counted(scene_.shownTriangleCount(), "triangle", "triangles"),
+          counted(counts_.kept, "unique", "unique"), counted(scene_.meshes.size(), "mesh", "meshes"),
+          counted(scene_.instances.size(), "instance", "instances"),
+          counted(scene_.prototypes.size(), "shared mesh", "shared meshes")));
     report.found.push_back(fmt::format(
         "{}, {}, {}", counted(scene_.materials.size(), "material", "materials"),
         counted(scene_.textures.size(), "texture", "textures"), counted(ownLights, "light", "lights")));
@@ -206,6 +256,7 @@ class Finisher {
   const ImportOptions& options_;
   const Progress& progress_;
   double metresPerUnit_ = 1;
+  std::vector<Box> prototypeBoxes_;  ///< in their own frames
   CleaningCounts counts_;
   Scene scene_;
 };

@@ -87,6 +87,7 @@ class FlatMirrors {
   /// The first that all its corners lie in; kNoPlane if none.
   std::uint8_t findPlane(const Mesh& mesh, std::uint32_t triangle) const;
   std::uint8_t planeOf(std::uint32_t mesh, std::uint32_t triangle) const {
+    if (mesh >= planeOf_.size()) return kNoPlane;  // an instance
     const std::vector<std::uint8_t>& planes = planeOf_[mesh];
     return planes.empty() ? kNoPlane : planes[triangle];
   }

@@ -13,6 +13,7 @@
 #include "engine/scene/gltf_deformation.h"
 #include "engine/scene/gltf_file.h"
 #include "engine/scene/gltf_materials.h"
+#include "engine/scene/instances.h"
 #include "engine/scene/source_scene.h"
 
 namespace acentric {
@@ -29,7 +30,8 @@ class GltfReader {
         context_(context),
         scene_(std::move(scene)),
         materials_(model, context, scene_),
-        skins_(model) {}
+        skins_(model),
+        users_(usersOf(model)) {}
 
   Result<SourceScene> read() {
     scene_.metresPerUnit = 1;
@@ -109,24 +111,73 @@ class GltfReader {
     const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node.mesh)];
     const auto instances = instancesOf(node);
     if (!instances) return tl::unexpected(instances.error());
-    for (const tinygltf::Primitive& primitive : mesh.primitives) {
-      bool placed = false;
-      auto read = readPrimitive(primitive, node, mesh, placed);
-      if (!read) {
-        read.error().message = fmt::format("mesh {} ({}): {}", node.mesh, mesh.name, read.error().message);
-        return tl::unexpected(read.error());
+    const bool bends = node.skin >= 0 || !node.weights.empty();
+    const bool shared = !bends && (users_[std::size_t(node.mesh)] > 1 || instances->size() > 1);
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const std::string& name = node.name.empty() ? mesh.name : node.name;
+      if (shared) {
+        const auto known = prototypeOf(node, std::size_t(p));
+        if (!known) return tl::unexpected(known.error());
+        if (*known == kNoPrototype) continue;
+        for (const glm::dmat4& instance : *instances) {
+          if (scene_.instances.size() >= kMaxInstances)
+            return fail(ErrorKind::tooLarge,
+                        fmt::format("has more than {} instances; make one mesh of those that stand together",
+                                    kMaxInstances));
+          scene_.instances.push_back(
+              {*known, std::uint32_t(scene_.meshes.size()), name, worldFromNode * instance});
+        }
+        continue;
       }
+      bool placed = false;
+      auto read = readNamed(node, p, placed);
+      if (!read) return tl::unexpected(read.error());
       if (read->triangles.empty()) continue;
       for (std::size_t i = 0; i < instances->size(); ++i) {
-        scene_.indexCount += 3 * read->triangles.size();
-        if (scene_.indexCount > kMaxSceneIndices)
-          return fail(ErrorKind::tooLarge, "has more than 2^31 indices with all instances; split it");
         const bool last = i + 1 == instances->size();
         scene_.meshes.push_back(last ? std::move(*read) : *read);
         applyTransform(scene_.meshes.back(), (placed ? glm::dmat4(1) : worldFromNode) * (*instances)[i]);
+        if (Status counted = count(scene_.meshes.back()); !counted) return counted;
       }
     }
     return {};
+  }
+
+  Status count(const SourceMesh& mesh) {
+    scene_.indexCount += 3 * mesh.triangles.size();
+    if (scene_.indexCount > kMaxSceneIndices)
+      return fail(ErrorKind::tooLarge, "has more than 2^31 indices; split it");
+    return {};
+  }
+
+  Result<SourceMesh> readNamed(const tinygltf::Node& node, std::size_t primitive, bool& placed) {
+    const tinygltf::Mesh& mesh = model_.meshes[std::size_t(node.mesh)];
+    auto read = readPrimitive(mesh.primitives[primitive], node, mesh, placed);
+    if (!read)
+      read.error().message = fmt::format("mesh {} ({}): {}", node.mesh, mesh.name, read.error().message);
+    return read;
+  }
+
+  /// Read when it is first met; kNoPrototype where it has no triangles.
+  Result<std::uint32_t> prototypeOf(const tinygltf::Node& node, std::size_t primitive) {
+    const auto [known, isNew] = prototypes_.try_emplace({node.mesh, primitive}, kNoPrototype);
+    if (!isNew) return known->second;
+    bool placed = false;
+    auto read = readNamed(node, primitive, placed);
+    if (!read) return tl::unexpected(read.error());
+    if (read->triangles.empty()) return kNoPrototype;
+    if (Status counted = count(*read); !counted) return tl::unexpected(counted.error());
+    known->second = std::uint32_t(scene_.prototypes.size());
+    scene_.prototypes.push_back(std::move(*read));
+    return known->second;
+  }
+
+  /// How many nodes show each mesh, of the whole file.
+  static std::vector<std::uint32_t> usersOf(const tinygltf::Model& model) {
+    std::vector<std::uint32_t> users(model.meshes.size(), 0);
+    for (const tinygltf::Node& node : model.nodes)
+      if (node.mesh >= 0 && std::size_t(node.mesh) < users.size()) ++users[std::size_t(node.mesh)];
+    return users;
   }
 
   /// EXT_mesh_gpu_instancing, or one instance in place.
@@ -140,6 +191,13 @@ class GltfReader {
     for (const auto& [name, components] : {std::pair{"TRANSLATION", 3}, {"ROTATION", 4}, {"SCALE", 3}}) {
       const double accessor = numberOr(attributes, name, -1);
       if (accessor < 0) continue;
+      if (accessor < double(model_.accessors.size()) &&
+          model_.accessors[std::size_t(accessor)].count > kMaxInstances)
+        return fail(
+            ErrorKind::tooLarge,
+            fmt::format("node {} has {} instances; no more than {} can be: make one mesh of those that "
+                        "stand together",
+                        node.name, model_.accessors[std::size_t(accessor)].count, kMaxInstances));
       auto read = readGltfNumbers(model_, int(accessor), std::string_view(name) == "ROTATION");
       if (!read) return tl::unexpected(read.error());
       if (read->components != components || (count != 0 && read->count != count))
@@ -337,6 +395,9 @@ class GltfReader {
   SourceScene scene_;
   GltfMaterials materials_;
   GltfSkins skins_;
+  static constexpr std::uint32_t kNoPrototype = ~0u;
+  std::vector<std::uint32_t> users_;                                 ///< by mesh
+  std::map<std::pair<int, std::size_t>, std::uint32_t> prototypes_;  ///< by mesh and primitive
 };
 
 }  // namespace

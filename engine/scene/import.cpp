@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kEntryExtension = ".acscene";
 /// Raised whenever the same file would import to another scene than before.
-constexpr std::uint32_t kImportVersion = 2;
+constexpr std::uint32_t kImportVersion = 3;
 
 /// Entries are found by the model file's content; the files that it names are then compared one by one.
 /// What may be read depends on where the model lies.

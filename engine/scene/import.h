@@ -31,6 +31,9 @@ struct ImportOptions {
   bool defaultLight = true;   ///< add a sun and sky when the file has no light
   /// Guess: by the file's unlit materials, else by what textures and meshes look like (texture_light.h).
   Lighting lighting = Lighting::guess;
+  /// What stands in several places is placed mesh by mesh as long as that gives no more triangles in all; of
+  /// more, what has most stays instances. The host's to say.
+  std::uint64_t flatTriangles = 2'000'000;
   /// Read files outside the model's own folder too. The host's to say (ImportHost), never a project file's.
   bool outsideFiles = false;
 

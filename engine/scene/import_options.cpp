@@ -23,6 +23,7 @@ void ImportOptions::addTo(Hasher& hasher) const {
       .value(up)
       .value(std::uint8_t(defaultLight))
       .value(lighting)
+      .value(flatTriangles)
       .value(std::uint8_t(outsideFiles));
 }
 

@@ -28,6 +28,7 @@ std::string optionsToJson(const ImportOptions& options) {
                          {"up", int(options.up)},
                          {"defaultLight", options.defaultLight},
                          {"lighting", int(options.lighting)},
+                         {"flatTriangles", options.flatTriangles},
                          {"outsideFiles", options.outsideFiles}});
 }
 
@@ -41,6 +42,7 @@ Result<ImportOptions> optionsFromJson(const std::string& text) {
     options.up = static_cast<UpAxis>(value.at("up").get<std::uint8_t>());
     options.defaultLight = value.at("defaultLight").get<bool>();
     options.lighting = static_cast<Lighting>(value.at("lighting").get<std::uint8_t>());
+    options.flatTriangles = value.at("flatTriangles").get<std::uint64_t>();
     options.outsideFiles = value.at("outsideFiles").get<bool>();
     if (auto status = options.check(); !status) return tl::unexpected(status.error());
     return options;

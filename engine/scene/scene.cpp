@@ -1,6 +1,7 @@
 #include "engine/scene/scene.h"
 
 #include "engine/base/contract.h"
+#include "engine/scene/instances.h"
 
 namespace acentric {
 namespace {
@@ -59,6 +60,18 @@ std::size_t Scene::triangleCount() const {
   return count;
 }
 
+std::uint64_t Scene::instancedTriangleCount() const {
+  std::uint64_t count = 0;
+  for (const Instance& instance : instances) count += prototypes[instance.prototype].triangles.size();
+  return count;
+}
+
+std::uint64_t Scene::prototypeTriangleCount() const {
+  std::uint64_t count = 0;
+  for (const Mesh& mesh : prototypes) count += mesh.triangles.size();
+  return count;
+}
+
 std::vector<std::uint32_t> Scene::firstTriangles() const { return firstTrianglesOf(meshes); }
 
 std::vector<std::uint32_t> firstTrianglesOf(const std::vector<Mesh>& meshes) {
@@ -79,6 +92,15 @@ SceneParts partsOf(const Scene& scene) {
   geometry.value(scene.origin.x).value(scene.origin.y).value(scene.origin.z);
   geometry.value(std::uint64_t(scene.meshes.size()));
   for (const Mesh& mesh : scene.meshes) add(geometry, mesh);
+  if (!scene.instances.empty()) {  // scenes without any keep the keys that they had before there were some
+    geometry.text("instances").value(std::uint64_t(scene.prototypes.size()));
+    for (const Mesh& mesh : scene.prototypes) add(geometry, mesh);
+    geometry.value(std::uint64_t(scene.instances.size()));
+    for (const Instance& instance : scene.instances) {
+      geometry.value(instance.prototype);
+      addVector(geometry, &instance.worldFromPrototype[0].x, 12);
+    }
+  }
   materials.value(std::uint64_t(scene.materials.size()));
   for (const Material& material : scene.materials) add(materials, material);
   materials.value(std::uint64_t(scene.textures.size()));
@@ -112,6 +134,7 @@ Bounds boundsOf(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes)
     for (const glm::uvec3& triangle : mesh.triangles)
       for (int corner = 0; corner < 3; ++corner) bounds.add(mesh.positions[triangle[corner]]);
+  addInstances(scene, bounds);
   return bounds;
 }
 

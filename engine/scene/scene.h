@@ -1,7 +1,8 @@
 #pragma once
 /// Scene: everything imported from a model file, as one immutable value shared by all stages.
-/// Metres, Z up, positions relative to `origin` (project origin, double). Node transforms and instances are
-/// applied.
+/// Metres, Z up, positions relative to `origin` (project origin, double). Node transforms are applied. What
+/// stands in very many places is kept once, as a prototype, with an instance for each place (instances.h says
+/// which code sees what).
 
 #include <cstdint>
 #include <filesystem>
@@ -68,6 +69,12 @@ struct Mesh {
   std::vector<glm::uvec3> triangles;  ///< counter-clockwise = front, indices valid, no degenerate ones
 };
 
+/// A place where a prototype stands.
+struct Instance {
+  std::uint32_t prototype = 0;        ///< index into Scene::prototypes
+  glm::mat4x3 worldFromPrototype{1};  ///< invertible; a negative determinant mirrors it
+};
+
 enum class LightKind : std::uint8_t { directional, point, spot };
 
 /// KHR_lights_punctual.
@@ -120,7 +127,9 @@ struct Scene {
   SceneParts parts;      ///< of the key
   glm::dvec3 origin{0};  ///< project origin in source metres; world = position + origin
   std::vector<Material> materials;
-  std::vector<Mesh> meshes;
+  std::vector<Mesh> meshes;         ///< each stands where it is
+  std::vector<Mesh> prototypes;     ///< in frames of their own; seen through instances alone
+  std::vector<Instance> instances;  ///< each prototype has one at least
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const ColourImage>> images;
   std::vector<Light> lights;
@@ -128,7 +137,22 @@ struct Scene {
   Bounds bounds;
   ImportReport report;
 
+  /// Of `meshes`: those that have numbers, and may have light of their own.
   std::size_t triangleCount() const;
+  /// Of all instances together.
+  std::uint64_t instancedTriangleCount() const;
+  /// Of meshes and prototypes: those that are kept in memory.
+  std::uint64_t uniqueTriangleCount() const { return triangleCount() + prototypeTriangleCount(); }
+  std::uint64_t prototypeTriangleCount() const;
+  /// All that can be seen.
+  std::uint64_t shownTriangleCount() const { return triangleCount() + instancedTriangleCount(); }
+  /// Placed meshes are numbered through: first the meshes, then the instances.
+  std::uint32_t placedCount() const { return std::uint32_t(meshes.size() + instances.size()); }
+  bool isInstance(std::uint32_t placed) const { return placed >= meshes.size(); }
+  /// What stands there: of an instance its prototype, in the prototype's frame (placed_mesh.h tells where).
+  const Mesh& meshOf(std::uint32_t placed) const {
+    return placed < meshes.size() ? meshes[placed] : prototypes[instances[placed - meshes.size()].prototype];
+  }
   /// Scene-wide triangle numbers: mesh m's triangle t is firstTriangle(m) + t. meshes.size() + 1 entries.
   std::vector<std::uint32_t> firstTriangles() const;
 };

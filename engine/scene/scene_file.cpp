@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/scene/byte_stream.h"
 #include "engine/scene/import.h"
+#include "engine/scene/instances.h"
 
 namespace acentric {
 namespace {
@@ -110,6 +111,16 @@ void read(ByteReader& in, Mesh& m) {
   in.array(m.uv[1]);
   in.array(m.colours);
   in.array(m.triangles);
+}
+
+void write(ByteWriter& out, const Instance& i) {
+  out.value(i.prototype);
+  out.value(i.worldFromPrototype);
+}
+
+void read(ByteReader& in, Instance& i) {
+  in.value(i.prototype);
+  in.value(i.worldFromPrototype);
 }
 
 void write(ByteWriter& out, const Texture& t) {
@@ -221,6 +232,8 @@ void write(ByteWriter& out, const Scene& scene) {
   out.value(scene.origin);
   writeAll(out, scene.materials);
   writeAll(out, scene.meshes);
+  writeAll(out, scene.prototypes);
+  writeAll(out, scene.instances);
   writeAll(out, scene.textures);
   writeAll(out, scene.images);
   writeAll(out, scene.lights);
@@ -242,6 +255,8 @@ void read(ByteReader& in, Scene& scene) {
   in.value(scene.origin);
   readAll(in, scene.materials);
   readAll(in, scene.meshes);
+  readAll(in, scene.prototypes);
+  readAll(in, scene.instances);
   readAll(in, scene.textures);
   readAll(in, scene.images);
   readAll(in, scene.lights);
@@ -269,18 +284,22 @@ bool keepsPromises(const Scene& scene) {
     if (t.image < -1 || t.image >= int(scene.images.size())) return false;
   for (const auto& image : scene.images)
     if (!image) return false;
-  for (const Mesh& m : scene.meshes) {
+  const auto isSound = [&](const Mesh& m) {
     const std::size_t n = m.positions.size();
     const auto fits = [&](const auto& array, bool optional) {
       return array.size() == n || (optional && array.empty());
     };
-    if (m.material < 0 || m.material >= int(scene.materials.size())) return false;
-    if (!fits(m.normals, false) || !fits(m.tangents, true) || !fits(m.uv[0], true) || !fits(m.uv[1], true) ||
-        !fits(m.colours, true))
-      return false;
-    for (const glm::uvec3& t : m.triangles)
-      if (std::max({t.x, t.y, t.z}) >= n) return false;
-  }
+    return m.material >= 0 && m.material < int(scene.materials.size()) && fits(m.normals, false) &&
+           fits(m.tangents, true) && fits(m.uv[0], true) && fits(m.uv[1], true) && fits(m.colours, true) &&
+           std::ranges::all_of(m.triangles, [n](const glm::uvec3& t) {
+             return std::max({t.x, t.y, t.z}) < n;
+           });
+  };
+  if (!std::ranges::all_of(scene.meshes, isSound) || !std::ranges::all_of(scene.prototypes, isSound))
+    return false;
+  if (scene.instances.size() > kMaxInstances) return false;
+  for (const Instance& i : scene.instances)
+    if (i.prototype >= scene.prototypes.size() || !isPlacement(i.worldFromPrototype)) return false;
   if (!(scene.report.metresPerUnit > 0 && std::isfinite(scene.report.metresPerUnit))) return false;
   return scene.triangleCount() <= std::numeric_limits<std::uint32_t>::max();
 }

@@ -12,7 +12,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSceneFileVersion = 4;
+inline constexpr std::uint32_t kSceneFileVersion = 5;
 
 struct SceneFile {
   Scene scene;

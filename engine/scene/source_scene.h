@@ -31,6 +31,14 @@ struct SourceMesh {
   std::vector<glm::uvec3> triangles;  ///< indices not checked yet
 };
 
+/// A prototype once more, in file order among the meshes.
+struct SourceInstance {
+  std::uint32_t prototype = 0;  ///< index into SourceScene::prototypes
+  std::uint32_t before = 0;     ///< how many of SourceScene::meshes come before it
+  std::string name;
+  glm::dmat4 worldFromMesh{1};
+};
+
 struct SourceLight {
   Light light;  ///< direction and range in the file's axes and units; position is unused
   glm::dvec3 position{0};
@@ -53,6 +61,8 @@ class ReportLines {
 
 struct SourceScene {
   std::vector<SourceMesh> meshes;
+  std::vector<SourceMesh> prototypes;  ///< in frames of their own
+  std::vector<SourceInstance> instances;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const ColourImage>> images;
@@ -65,7 +75,7 @@ struct SourceScene {
   ReportLines ignored;
   ReportLines guessed;
 
-  std::size_t indexCount = 0;  ///< of all meshes so far, against kMaxSceneIndices
+  std::size_t indexCount = 0;  ///< of meshes and prototypes so far, against kMaxSceneIndices
 };
 
 /// What every reader is handed.
@@ -81,6 +91,11 @@ struct ReadContext {
 
 /// Places a mesh: positions, normals and tangents; a mirroring transform turns the winding round.
 void applyTransform(SourceMesh& mesh, const glm::dmat4& worldFromMesh);
+
+/// Places the prototypes that need not stay apart as meshes: all of them where that gives no more triangles
+/// than options.flatTriangles, else those with the fewest in all, and what mirrors or glows, which is looked
+/// for triangle by triangle; then also places whose transform has no inverse. In file order.
+Status placeInstances(SourceScene& scene, const ImportOptions& options);
 
 /// A colour image from bytes that may be broken; nothing, with a line in `ignored`, if it is.
 std::shared_ptr<const ColourImage> decodeOrIgnore(std::span<const std::byte> bytes, const std::string& name,

@@ -133,6 +133,7 @@ bool shines(const Light& light) { return light.intensity > 0 && light.colour != 
 
 std::optional<std::string> whyLightIsInTextures(const Scene& scene) {
   if (std::ranges::any_of(scene.lights, shines)) return std::nullopt;
+  if (!scene.instances.empty()) return std::nullopt;  // no scan shows one thing in many places
   double all = 0, plain = 0;
   std::set<int> pictures;
   for (const Mesh& mesh : scene.meshes) {
@@ -155,7 +156,8 @@ std::optional<std::string> whyLightIsInTextures(const Scene& scene) {
 
 bool applyLighting(Scene& scene, Lighting lighting, ReportLines& guessed) {
   std::vector<bool> used(scene.materials.size());
-  for (const Mesh& mesh : scene.meshes) used[std::size_t(mesh.material)] = true;
+  for (const auto* meshes : {&scene.meshes, &scene.prototypes})
+    for (const Mesh& mesh : *meshes) used[std::size_t(mesh.material)] = true;
   std::size_t declared = 0;  // unlit
   for (std::size_t m = 0; m < used.size(); ++m) declared += used[m] && scene.materials[m].unlit ? 1 : 0;
   const bool allDeclared = declared > 0 && declared == std::size_t(std::ranges::count(used, true));

@@ -15,4 +15,12 @@ glm::vec3 triangleNormal(const Mesh& mesh, std::uint32_t triangle) {
   return unitNormal(glm::cross(b - a, c - a));
 }
 
+glm::vec3 triangleNormal(const PlacedMesh& placed, std::uint32_t triangle) {
+  if (!placed.isInstance()) return triangleNormal(placed.mesh(), triangle);
+  const auto corners = placed.corners(triangle);
+  const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
+  const glm::dvec3 across = glm::cross(b - a, c - a);
+  return unitNormal(placed.mirrored() ? -across : across);
+}
+
 }  // namespace acentric

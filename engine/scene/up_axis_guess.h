@@ -12,6 +12,6 @@ namespace acentric {
 
 /// How many times more of the surfaces' area faces along Z than along Y, where that is plain and the scene is
 /// no higher along Z than along Y; nothing where Y may as well be up.
-std::optional<double> levelAlongZ(const std::vector<SourceMesh>& meshes);
+std::optional<double> levelAlongZ(const SourceScene& scene);
 
 }  // namespace acentric

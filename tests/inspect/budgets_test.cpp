@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "engine/scene/instances.h"
 #include "engine/scene/local_geometry.h"
 
 namespace acentric {
@@ -48,6 +49,29 @@ TEST(Budgets, CountWhatClippingEachRegionGives) {
       EXPECT_GT(counts[r], 0u);
     }
   }
+}
+
+TEST(Budgets, CountInstancesAsIfTheyWereMeshes) {
+  Scene scene = randomScene(300, 8, 0.5);
+  scene.prototypes = randomScene(400, 1, 0.2).meshes;
+  std::mt19937 engine(11);
+  const auto random = [&](float reach) {
+    return std::uniform_real_distribution<float>(-reach, reach)(engine);
+  };
+  for (std::uint32_t n = 0; n < 60; ++n) {
+    glm::mat4x3 place;
+    for (int column = 0; column < 3; ++column)
+      place[column] = glm::vec3(random(1), random(1), random(1)), place[column][column] += 1.5f;
+    if (n % 5 == 0) place[0] = -place[0];
+    place[3] = {random(7), random(7), random(1)};
+    scene.instances.push_back({n % 2, place});
+  }
+  const Scene flat = flattened(scene);
+  ASSERT_EQ(flat.triangleCount(), scene.shownTriangleCount());
+  const Layout layout = layoutOver(-3, 3, Configuration::b);
+  const std::vector<std::size_t> counts = countLocalTriangles(scene, layout);
+  for (std::size_t r = 0; r < counts.size(); ++r)
+    EXPECT_EQ(counts[r], clipToPolygon(flat, layout.regions[r].grown).triangles.size());
 }
 
 TEST(Budgets, AreZeroWhereThereIsNothing) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "engine/scene/instances.h"
+#include "engine/scene/triangle_normal.h"
 #include "tests/inspect/little_world.h"
 
 namespace acentric {
@@ -146,6 +148,32 @@ TEST(SurfacePoints, AreSpreadByArea) {
     EXPECT_NEAR(double(onFirst) / count, 6.0 / 28, 2.5 / count + 0.01);
     EXPECT_NEAR(double(up) / count, 7.0 / 28, 2.5 / count + 0.01);
   }
+}
+
+/// One as it is modelled, one doubled, one stretched and mirrored, and a mesh.
+TEST(SurfacePoints, AreSpreadByAreaOverInstancesToo) {
+  auto scene = std::make_shared<Scene>(*test::sceneOf({{{0, 0, 0}, {1, 1, 1}}, {{5, 0, 0}, {8, 2, 1}}}));
+  scene->prototypes.push_back(std::move(scene->meshes.back()));
+  scene->meshes.pop_back();
+  scene->instances = {{0, {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, 30}}},
+                      {0, {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {0, 0, 60}}},
+                      {0, {{-1, 0, 0}, {0, 3, 0}, {0, 0, 5}, {0, 0, 90}}}};
+  const Scene flat = flattened(*scene);
+  const SurfacePoints points(scene), reference(std::make_shared<const Scene>(flat));
+  EXPECT_NEAR(points.area(), reference.area(), 1e-5 * reference.area());
+  constexpr int kCount = 4000;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> met, expected;  // by placed mesh and triangle
+  for (std::uint64_t n = 0; n < kCount; ++n) {
+    const SurfacePoint point = points.at(n), other = reference.at(n);
+    ++met[{point.mesh, point.triangle}], ++expected[{other.mesh, other.triangle}];
+    const Mesh& mesh = flat.meshes[point.mesh];
+    const glm::dvec3 corner(mesh.positions[mesh.triangles[point.triangle].x]);
+    EXPECT_NEAR(glm::dot(point.normal, point.position - corner), 0, 1e-4) << "in its triangle's plane";
+    EXPECT_LT(glm::distance(point.normal, glm::dvec3(triangleNormal(mesh, point.triangle))), 1e-4);
+  }
+  for (const auto& [triangle, count] : expected)
+    EXPECT_NEAR(met[triangle], count, 4 * std::sqrt(double(count)) + 3)
+        << triangle.first << " " << triangle.second;
 }
 
 TEST(SurfaceCoverage, OfAnEmptyRoomMissesNothing) {
