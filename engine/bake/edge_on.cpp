@@ -317,11 +317,11 @@ class EdgeOnFacets {
   std::vector<MirrorSight::Span> spans_;
 };
 
-/// How large the triangles of instances are. A distant one's may all be smaller than a part of a pixel: then
-/// none is a line of its own in the picture, and a forest need not be looked through leaf by leaf.
-class InstanceSizes {
+/// Which instances may have a facet in the picture, so that a forest need not be looked through leaf by leaf.
+class InstanceSight {
  public:
-  explicit InstanceSizes(const Scene& scene) : scene_(scene), bounds_(boundsOf(scene.prototypes)) {
+  InstanceSight(const Scene& scene, const ColumnCamera& camera)
+      : scene_(scene), camera_(camera), bounds_(boundsOf(scene.prototypes)) {
     for (const Mesh& mesh : scene.prototypes) {
       double longest = 0;
       for (const glm::uvec3& t : mesh.triangles)
@@ -330,26 +330,47 @@ class InstanceSizes {
               std::max(longest, double(glm::distance(mesh.positions[t[k]], mesh.positions[t[(k + 1) % 3]])));
       longest_.push_back(longest);
     }
+    const double middle = camera.azimuthAt(0.5 * camera.columns);
+    ahead_ = {std::cos(middle), std::sin(middle)};
   }
 
-  bool allSmall(std::uint32_t placed, const ColumnCamera& camera) const {
+  /// False where all its triangles are smaller than a part of a pixel: none is a line of its own. `straight`:
+  /// also where it stands beside the picture; mirrors show what does.
+  bool mayShow(std::uint32_t placed, bool straight) const {
     const Instance& instance = scene_.instances[placed - scene_.meshes.size()];
     const Bounds box = boundsOf(instance, bounds_[instance.prototype]);
-    const glm::dvec3 nearest =
-        glm::clamp(camera.centreOfProjection, glm::dvec3(box.min), glm::dvec3(box.max));
-    double stretch = 0;  // no less than the largest
-    for (int axis = 0; axis < 3; ++axis)
-      stretch += glm::dot(glm::dvec3(instance.worldFromPrototype[axis]),
-                          glm::dvec3(instance.worldFromPrototype[axis]));
-    const double part = std::min(camera.columnPitch(), camera.rowPitch()) / kCoverageParts;
-    return std::sqrt(stretch) * longest_[instance.prototype] <
-           part * glm::distance(nearest, camera.centreOfProjection);
+    const glm::dvec3 eye = camera_.centreOfProjection;
+    const glm::dvec3 nearest = glm::clamp(eye, glm::dvec3(box.min), glm::dvec3(box.max));
+    const double part = std::min(camera_.columnPitch(), camera_.rowPitch()) / kCoverageParts;
+    if (stretchOf(instance.worldFromPrototype) * longest_[instance.prototype] <
+        part * glm::distance(nearest, eye))
+      return false;
+    if (!straight) return true;
+    const glm::dvec2 to(glm::dvec3(box.centre()) - eye);
+    const double reach = 0.5 * glm::length(glm::dvec2(box.size())), distance = glm::length(to);
+    if (!(reach < distance)) return true;
+    const double off = std::acos(std::clamp(glm::dot(to, ahead_) / distance, -1.0, 1.0));
+    return off - std::asin(reach / distance) <= 0.5 * camera_.fovRadians + 2 * camera_.columnPitch();
   }
 
  private:
+  /// No less than the most that a length grows: by Gershgorin's bound of the eigenvalues of its square.
+  static double stretchOf(const glm::mat4x3& m) {
+    double most = 0;
+    for (int row = 0; row < 3; ++row) {
+      double sum = 0;
+      for (int column = 0; column < 3; ++column)
+        sum += std::abs(glm::dot(glm::dvec3(m[row]), glm::dvec3(m[column])));
+      most = std::max(most, sum);
+    }
+    return std::sqrt(most);
+  }
+
   const Scene& scene_;
+  const ColumnCamera& camera_;
   std::vector<Bounds> bounds_;   ///< by prototype, in its frame
   std::vector<double> longest_;  ///< side of a triangle, by prototype
+  glm::dvec2 ahead_{0};
 };
 
 }  // namespace
@@ -360,20 +381,25 @@ void turnEdgeOnFacets(const ColumnMarch::Setting& setting, Capture& capture, Tas
   struct Range {
     std::uint32_t mesh, first, end;
   };
-  std::vector<Range> ranges;
-  const InstanceSizes sizes(scene);
-  for (std::uint32_t mesh = 0; mesh < scene.placedCount(); ++mesh) {
-    const MaterialRules& rule = setting.shader.rules()[std::size_t(scene.meshOf(mesh).material)];
-    if (rule.clear() || rule.masked) continue;
-    if (scene.isInstance(mesh) && sizes.allSmall(mesh, setting.columns)) continue;
-    const std::size_t count = scene.meshOf(mesh).triangles.size();
-    for (std::size_t first = 0; first < count; first += kTrianglesPerTask)
-      ranges.push_back(
-          {mesh, std::uint32_t(first), std::uint32_t(std::min(first + kTrianglesPerTask, count))});
-  }
+  const InstanceSight sight(scene, setting.columns);
+  const auto rangesOf = [&](bool straight) {
+    std::vector<Range> ranges;
+    for (std::uint32_t mesh = 0; mesh < scene.placedCount(); ++mesh) {
+      const MaterialRules& rule = setting.shader.rules()[std::size_t(scene.meshOf(mesh).material)];
+      if (rule.clear() || rule.masked) continue;
+      if (scene.isInstance(mesh) && !sight.mayShow(mesh, straight)) continue;
+      const std::size_t count = scene.meshOf(mesh).triangles.size();
+      for (std::size_t first = 0; first < count; first += kTrianglesPerTask)
+        ranges.push_back(
+            {mesh, std::uint32_t(first), std::uint32_t(std::min(first + kTrianglesPerTask, count))});
+    }
+    return ranges;
+  };
   const PartAngles parts(setting.columns);
   const int rows = setting.columns.rows;
   const auto turn = [&](const std::vector<const FlatMirror*>& mirrors, CaptureSamples& list) {
+    if (mirrors.empty()) return;
+    const std::vector<Range> ranges = rangesOf(mirrors.front() == nullptr);
     std::vector<Task> tasks(ranges.size() * mirrors.size());
     runner.parallelFor(tasks.size(), [&](std::size_t number) {
       const FlushDenormals flush;

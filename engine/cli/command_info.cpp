@@ -167,6 +167,14 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
        {std::pair{"found", &scene.report.found}, std::pair{"guessed", &scene.report.guessed},
         std::pair{"dropped", &scene.report.dropped}, std::pair{"ignored", &scene.report.ignored}})
     for (const std::string& line : *lines) report.text += fmt::format("{:<8} {}\n", label, line);
+  if (const Status near = checkNear(open->near); !near) {
+    report.text += fmt::format("near     {}\n", near.error().message);
+    report.json["cannotBake"] = near.error().message;
+  } else if (!open->near.instances.empty()) {
+    report.text +=
+        fmt::format("near     {} instances with {} triangles are placed as meshes, in regions or near\n",
+                    open->near.instances.size(), countText(open->near.triangles));
+  }
   if (doubt) report.text += fmt::format("{:<8} {}\n", "scale", doubt->text);
   report.text += effectsText(open->plan, costs);
 

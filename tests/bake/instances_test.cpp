@@ -260,6 +260,39 @@ TEST(InstancesInFrames, LookLikeMeshesWhereTheirPlacesAreExact) {
 }
 TEST(InstancesInFrames, LookLikeMeshesInAnyPlace) { expectSameFrames(crookedPlaces(), false, 0.01); }
 TEST(InstancesInFrames, LookLikeMeshesWithSilhouettes) { expectSameFrames(crookedPlaces(), true, 0.02); }
+/// Fins of instances that the camera sees nearly edge on are turned towards it as those of meshes are; those
+/// beside the picture, and those of which no triangle is as large as a part of a pixel, are left out.
+TEST(InstancesInFrames, TurnTheSameFacetsThatAreSeenEdgeOn) {
+  SceneBuilder builder;
+  builder.floor(builder.material(matte({0.6f, 0.6f, 0.6f})), 40).sun({0.4f, 0.3f, -0.8f}, 3);
+  const std::size_t first = builder.scene()->meshes.size();
+  const int paint = builder.material(matte({0.9f, 0.2f, 0.1f}));
+  for (int n = -4; n <= 4; ++n) {
+    const float y = 0.25f * float(n);
+    builder.box(paint, {-0.15f, y - 0.004f, 0.5f}, {0.15f, y + 0.004f, 3});
+  }
+  std::vector<glm::mat4x3> places;
+  for (int n = 0; n < 10; ++n) {
+    const float turn = 0.63f * float(n);
+    places.push_back(
+        place({{std::cos(turn), std::sin(turn), 0}, {-std::sin(turn), std::cos(turn), 0}, {0, 0, 1}},
+              {9 * std::cos(turn), 9 * std::sin(turn), 0}));
+  }
+  places.push_back(place(glm::mat3(1e-3f), {9, 3, 1}));  // too small for any picture
+  const Twins twins(instanced(*builder.scene(), first, places));
+  BakeSettings settings;
+  settings.samplesPerDegree = 4, settings.ambientRays = 0;
+  const LayoutCamera camera = cameraAt({0.25, 0}, {square(1)});
+  const Baked a = bakeAsSet(twins.instances, camera, settings), b = bakeAsSet(twins.meshes, camera, settings);
+  settings.silhouettes = false;
+  const Baked plain = bakeAsSet(twins.instances, camera, settings);
+  EXPECT_GT(a.capture.sampleCount(), plain.capture.sampleCount() + 200);
+  const Difference d = compare(a, b);
+  EXPECT_LE(double(d.otherCounts), 0.001 * double(d.pixels));
+  EXPECT_LE(double(d.otherDistances), 0.002 * double(d.samples));
+  EXPECT_LE(double(d.otherColours), 0.002 * double(d.samples));
+}
+
 /// Bounced light is sampled by numbers of triangles, which instances do not have: it differs by its noise.
 TEST(InstancesInFrames, LookLikeMeshesUnderBouncedLightButForItsNoise) {
   std::size_t first = 0;
