@@ -3,8 +3,8 @@
 /// any engine that draws triangles with a depth test. Axes are glTF's: Y up, metres, relative to the
 /// project's origin: (x, y, z) of ours is (x, z, -y) there.
 ///
-/// Captures are drawn as their patches (patch_model.h), near geometry as triangles with the baked light in their
-/// textures (near_model.h), and what lies infinitely far is a sphere (sky_model.h).
+/// Captures are drawn as their patches (patch_model.h), near geometry as triangles with the baked light in
+/// their textures (near_model.h), and what lies infinitely far is a sphere (sky_model.h).
 
 #include <filesystem>
 #include <stop_token>

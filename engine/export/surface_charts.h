@@ -1,8 +1,8 @@
 #pragma once
 /// Triangles of a surface in groups that lie flat enough to be drawn as one picture: charts. Neighbours by an
 /// edge of one kind whose normals are within kMostBend of the chart's make one chart, as long as no two of
-/// them overlap on its plane. One with much room around its triangles, such as a frame, is cut in two, between
-/// triangles, as often as that saves a quarter of the room.
+/// them overlap on its plane. One with much room around its triangles, such as a frame, is cut in two,
+/// between triangles, as often as that saves a quarter of the room.
 
 #include <array>
 #include <cstdint>
