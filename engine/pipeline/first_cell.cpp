@@ -57,34 +57,44 @@ double cellWithRoom(Configuration configuration, double room) {
   return room / roomOf(cellPolygon(unit, {0, 0, 0}));
 }
 
-/// Mean clearance of the floor whose middles lie in a polygon; nothing where there is none.
-std::optional<double> meanClearance(const ConvexPolygon& polygon, const NearGround& ground) {
+/// Of the grid's places in a polygon.
+struct Underfoot {
+  int places = 0, floor = 0;
+  double clearance = 0;  ///< mean of the floor
+};
+
+Underfoot underfoot(const ConvexPolygon& polygon, const NearGround& ground) {
   glm::dvec2 low = polygon.corners.front(), high = low;
   for (const glm::dvec2& corner : polygon.corners) low = glm::min(low, corner), high = glm::max(high, corner);
   const ProbeGrid& grid = ground.grid;
   const auto cellOf = [&](const glm::dvec2& p) { return glm::floor((p - grid.corner) / grid.step); };
   const glm::dvec2 first = cellOf(low), last = cellOf(high);
-  double sum = 0;
-  int count = 0;
+  Underfoot found;
   for (int y = std::max(0, int(first.y)); y <= std::min(grid.rows - 1, int(last.y)); ++y)
     for (int x = std::max(0, int(first.x)); x <= std::min(grid.columns - 1, int(last.x)); ++x) {
-      if (!ground.floor.at(x, y) || !polygon.containsClosed(grid.centreOf(x, y))) continue;
-      sum += double(ground.clearance[grid.index(x, y)]);
-      ++count;
+      if (!polygon.containsClosed(grid.centreOf(x, y))) continue;
+      ++found.places;
+      if (!ground.floor.at(x, y)) continue;
+      ++found.floor;
+      found.clearance += double(ground.clearance[grid.index(x, y)]);
     }
-  if (count == 0) return std::nullopt;
-  return sum / count;
+  if (found.floor > 0) found.clearance /= found.floor;
+  return found;
 }
 
 void addSplits(const LayoutSpec& pattern, const CellId& id, const NearGround& ground, double leastRoom,
-               std::set<CellId>& splits) {
+               CellChoice& choice) {
   const ConvexPolygon polygon = cellPolygon(pattern, id);
   const double room = roomOf(polygon);
-  if (id.level >= kMaxLevel || 0.5 * room < leastRoom * (1 - 1e-9)) return;
-  const auto clearance = meanClearance(polygon, ground);
-  if (!clearance || kRoomToSplit * room <= *clearance) return;
-  splits.insert(id);
-  for (const CellId& part : partsOf(pattern, id)) addSplits(pattern, part, ground, leastRoom, splits);
+  const Underfoot here = underfoot(polygon, ground);
+  const bool divisible =
+      canSplit(pattern.configuration) && id.level < kMaxLevel && 0.5 * room >= leastRoom * (1 - 1e-9);
+  if (divisible && here.floor > 0 && kRoomToSplit * room > here.clearance) {
+    choice.split.insert(id);
+    for (const CellId& part : partsOf(pattern, id)) addSplits(pattern, part, ground, leastRoom, choice);
+  } else if (here.places > 0 && here.floor < kLeastFloor * here.places) {
+    choice.removed.insert(id);
+  }
 }
 
 /// Only those that regions of this layout come from.
@@ -138,6 +148,13 @@ NearGroundOptions lookingFor(const LayoutSpec& spec, const FirstLayoutLimit& lim
 
 }  // namespace
 
+std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
+  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (const auto& loop : outline.loops)
+    for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
+  return {low, high};
+}
+
 double firstCellSize(double walkableSquareMetres, Configuration configuration) {
   const double perRing = areaPerRing(configuration);
   const double middling = std::sqrt(walkableSquareMetres / (kFirstRings * perRing));
@@ -155,16 +172,15 @@ bool exceeds(const LayoutSpec& spec, const FirstLayoutLimit& limit) {
   return cameras && *cameras > limit.cameras;
 }
 
-std::set<CellId> splitsFor(const LayoutSpec& pattern, const NearGround& ground, double leastRoom) {
-  std::set<CellId> splits;
-  if (!canSplit(pattern.configuration)) return splits;
+CellChoice chooseCells(const LayoutSpec& pattern, const NearGround& ground, double leastRoom) {
+  CellChoice choice;
   LayoutSpec whole = pattern;
   whole.split.clear();
   const ProbeGrid& grid = ground.grid;
   const glm::dvec2 size = grid.step * glm::dvec2(grid.columns, grid.rows);
   for (const LatticeCell& cell : cellsIn(whole, grid.corner, grid.corner + size, kMaxRegions))
-    addSplits(whole, cell.id, ground, leastRoom, splits);
-  return splits;
+    addSplits(whole, cell.id, ground, leastRoom, choice);
+  return choice;
 }
 
 std::optional<Outline> largestOutline(const LayoutSpec& pattern, const NearGround& ground,
@@ -197,20 +213,19 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   LayoutSpec kept = spec;
   if (limit.chooseConfiguration && limit.chooseCell) kept.configuration = Configuration::e;
   NearGroundOptions near = lookingFor(kept, limit, ignoredSides);
-  auto ground = surveyNearGround(bounds, near, probe);
+  Bounds about = bounds;  // other floor at this height lies elsewhere
+  const auto [low, high] = extentOf(spec.outline);
+  about.min = glm::max(about.min, glm::vec3(glm::vec2(low), about.min.z));
+  about.max = glm::min(about.max, glm::vec3(glm::vec2(high), about.max.z));
+  auto ground = surveyNearGround(about, near, probe);
   if (!ground && ground.error().kind == ErrorKind::notFound && !limit.around) {
     if (limit.chooseCell) return enlarged(spec, limit.cameras);
     near.around = spec.latticeOrigin;
-    ground = surveyNearGround(bounds, near, probe);
+    ground = surveyNearGround(about, near, probe);
   }
   if (!ground) return tl::unexpected(ground.error());
-  const bool splits = limit.chooseCell && canSplit(kept.configuration);
-  const double room =
-      std::clamp(kRoomOfClearance * middleClearance(*ground, kGroundToMeasure), kLeastRoom, kMostRoom);
-  if (limit.chooseCell) {
-    kept.cellSize = roundTo(cellWithRoom(kept.configuration, room), 0.05);
-    kept.nearBand = std::max(spec.nearBand, roundTo(kBandOfRoom * room, 0.05));
-  }
+  const double room = std::clamp(middleClearance(*ground, kGroundToMeasure), kLeastRoom, kMostRoom);
+  if (limit.chooseCell) kept.cellSize = roundTo(cellWithRoom(kept.configuration, room), 0.05);
   kept.latticeOrigin = glm::round(ground->startPlace() * 100.0) / 100.0;
   auto outline = largestOutline(kept, *ground, limit.cameras);
   if (!outline) return tooFew(limit.cameras);
@@ -218,18 +233,22 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   ShiftOptions shift;
   shift.crowding.trustSides = !ignoredSides;
   kept.latticeOrigin = findFreestOrigin(kept, shift, probe, stop).origin;
-  if (splits) {
-    kept.cellSize = roundTo(cellWithRoom(kept.configuration, std::min(2 * room, kMostRoom)), 0.05);
-    kept.split = splitsFor(kept, *ground, 0.5 * room);
+  if (limit.chooseCell) {
+    if (canSplit(kept.configuration))
+      kept.cellSize = roundTo(cellWithRoom(kept.configuration, 2 * room), 0.05);
+    CellChoice cells = chooseCells(kept, *ground, room);
+    kept.split = std::move(cells.split), kept.removed = std::move(cells.removed);
   }
   outline = largestOutline(kept, *ground, limit.cameras);  // as the cells are now, others fit it
   if (!outline) return tooFew(limit.cameras);
   kept.outline = std::move(*outline);
-  if (splits) {
-    const auto layout = buildLayout(kept);
-    if (!layout) return tl::unexpected(layout.error());
-    kept.split = splitsOf(*layout);
-  }
+  const auto layout = buildLayout(kept);
+  if (!layout) return tl::unexpected(layout.error());
+  kept.split = splitsOf(*layout);
+  std::erase_if(kept.removed, [&](const CellId& id) {
+    const bool lies = id.level == 0 || kept.split.contains(wholeOf(kept, id));
+    return !lies || !kept.outline.overlaps(cellPolygon(kept, id));
+  });
   return kept;
 }
 

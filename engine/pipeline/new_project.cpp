@@ -23,13 +23,6 @@ double roundTo(double value, double step) { return std::round(value / step) * st
 /// Three significant decimals: a value that a person can read and change.
 float tidy(float value) { return std::stof(fmt::format("{:.3g}", value)); }
 
-std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
-  glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
-  for (const auto& loop : outline.loops)
-    for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
-  return {low, high};
-}
-
 glm::dvec2 middleOf(const Outline& outline) {
   const auto [low, high] = extentOf(outline);
   return 0.5 * (low + high);
@@ -127,6 +120,7 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
   double all = 0;
   for (const WalkPlane& each : planes.planes) all += each.outline.area();
   FirstLayoutLimit limit;
+  if (options.outline != "auto") return limit;
   limit.cameras = std::size_t(std::ceil(double(options.mostCameras) * plane.outline.area() / all));
   limit.around = options.around;
   limit.chooseCell = options.cellSize <= 0;

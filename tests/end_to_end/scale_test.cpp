@@ -18,13 +18,14 @@ TEST(Scale, OfALandTooLargeForItsCellsIsAskedAboutWhereNoProjectCanBeMade) {
   const std::string project = (folder.path() / "land.acentric.json").string();
   ASSERT_TRUE(writeTextAtomically(
       model, "# File units = meters\nv 0 0 0\nv 90000 0 0\nv 90000 9 -90000\nv 0 9 -90000\nf 1 2 3 4\n"));
-  const ProcessResult refused =
-      runProcess({ACENTRIC_PROGRAM, "new", model, "--up", "y", "--cell", "6", "-o", project});
+  const ProcessResult refused = runProcess(
+      {ACENTRIC_PROGRAM, "new", model, "--up", "y", "--cell", "6", "--max-cameras", "0", "-o", project});
   EXPECT_EQ(refused.exitCode, 1);
   EXPECT_THAT(refused.errors, HasSubstr("it is 127 km across; at 0.01 metres per unit"));
   EXPECT_THAT(refused.errors, HasSubstr("--metres-per-unit 0.01"));
 
-  const ProcessResult large = runProcess({ACENTRIC_PROGRAM, "new", model, "--up", "y", "-o", project});
+  const ProcessResult large =
+      runProcess({ACENTRIC_PROGRAM, "new", model, "--up", "y", "--no-estimate", "-o", project});
   ASSERT_EQ(large.exitCode, 0) << large.errors;
   EXPECT_THAT(large.output, AllOf(HasSubstr("large cells: "), HasSubstr("--metres-per-unit 0.01")));
 

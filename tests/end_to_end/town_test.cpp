@@ -82,6 +82,17 @@ TEST(Town, IsLaidOutAsMuchAndWhereItIsAsked) {
   EXPECT_LE(Json::parse(hexagons.output)["storeys"][0]["cameras"].get<int>(), 300);
 }
 
+TEST(Town, IsLaidOutAsDrawnWhateverTheLimit) {
+  const Town town;
+  const ProcessResult made = town.make({"--outline", "-6,-150;6,-150;6,150;-6,150", "--cell", "3",
+                                        "--max-cameras", "100", "--no-estimate", "--json"});
+  ASSERT_EQ(made.exitCode, 0) << made.errors;
+  const Json storey = Json::parse(made.output)["storeys"][0];
+  EXPECT_GT(storey["cameras"].get<int>(), 1000);
+  EXPECT_FALSE(storey.contains("leftOut"));
+  EXPECT_EQ(storey["walkableSquareMetres"], storey["laidOutSquareMetres"]);
+}
+
 TEST(Town, RefusesLimitsAndPlacesThatMakeNoSense) {
   const Town town;
   for (const std::vector<std::string>& given : {std::vector<std::string>{"--max-cameras", "-1"},

@@ -81,7 +81,7 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
     LayoutSpec spec;
     spec.configuration = configuration;
     spec.cellSize = configuration == Configuration::e ? 12 : 20;
-    spec.split = splitsFor(spec, ground, kLeast);
+    spec.split = chooseCells(spec, ground, kLeast).split;
     spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
     const auto layout = buildLayout(spec);
     ASSERT_TRUE(layout) << layout.error().describe();
@@ -108,7 +108,37 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
     for (const CellId& id : spec.split) EXPECT_TRUE(tooLarge(id));
     EXPECT_GE(levels.size(), 2u) << "small where it is narrow, large in the open";
   }
-  EXPECT_TRUE(splitsFor(LayoutSpec{}, ground, kLeast).empty()) << "b has no parts";
+  EXPECT_TRUE(chooseCells(LayoutSpec{}, ground, kLeast).split.empty()) << "b has no parts";
+}
+
+TEST(FirstCells, AreLeftOutExactlyWhereThereIsHardlyAnyFloor) {
+  NearGround ground = narrowingFloor();
+  for (int y = 0; y < 60; ++y)  // a house with a yard
+    for (int x = 20; x < 40; ++x)
+      if (y >= 20 && y < 40 && !(x > 25 && x < 31 && y > 25 && y < 31))
+        ground.floor.cells[ground.grid.index(x, y)] = 0;
+  for (const Configuration configuration : {Configuration::b, Configuration::e}) {
+    LayoutSpec spec;
+    spec.configuration = configuration;
+    spec.cellSize = 8;
+    const CellChoice choice = chooseCells(spec, ground, 1.5);
+    spec.split = choice.split;
+    spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
+    const auto layout = buildLayout(spec);
+    ASSERT_TRUE(layout) << layout.error().describe();
+    std::size_t left = 0;
+    for (const Region& region : layout->regions) {
+      int places = 0, floor = 0;
+      for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 60; ++x)
+          if (region.polygon.containsClosed(ground.grid.centreOf(x, y)))
+            ++places, floor += ground.floor.at(x, y) ? 1 : 0;
+      const bool little = places > 0 && double(floor) < kLeastFloor * places;
+      EXPECT_EQ(choice.removed.contains(region.id), little) << nameOf(configuration);
+      left += little ? 1 : 0;
+    }
+    EXPECT_GT(left, 4u);
+  }
 }
 
 /// Ground of 1 x 1 km with a square court of houses in a corner of it.

@@ -168,6 +168,7 @@ TEST(SceneScale, IsChangedWithAllThatStandsOnTheModel) {
     if (storey.layout.outline.loops.empty()) storey.layout.outline.loops.emplace_back();
     storey.layout.outline.loops[0].push_back(glm::dvec2(onModel(corner, before)));
   }
+  storey.walkable = storey.layout.outline;
   storey.layout.latticeOrigin = storey.spawn.position = glm::dvec2(onModel({300, 200, 0}, before));
   storey.layout.freeApvs[2] = Apv{glm::dvec2(onModel({400, 300, 0}, before)), {2, 0}};
   storey.layout.removed = {{1, 2, 0}};
@@ -190,6 +191,7 @@ TEST(SceneScale, IsChangedWithAllThatStandsOnTheModel) {
   };
   EXPECT_NEAR(spec.floorHeight, onModel({0, 0, 40}, after).z, 1e-6);
   expectAt(spec.outline.loops[0][1], {600, 100, 0});
+  expectAt(scaled.current().walkable.loops[0][1], {600, 100, 0});
   expectAt(spec.latticeOrigin, {300, 200, 0});
   expectAt(scaled.spawn().position, {300, 200, 0});
   expectAt(spec.freeApvs.at(2).centre, {400, 300, 0});
