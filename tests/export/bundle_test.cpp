@@ -266,7 +266,7 @@ TEST_F(BundleTest, RefusesAnIndexThatIsWrongWithItsPlace) {
     return text.find(part) != std::string::npos ? "" : text;
   };
   EXPECT_EQ(has(refusal("acentric bundle", "other"), "/format"), "");
-  EXPECT_EQ(has(refusal("\"version\": 3", "\"version\": 4"), "/version"), "");
+  EXPECT_EQ(has(refusal("\"version\": 4", "\"version\": 5"), "/version"), "");
   EXPECT_EQ(has(refusal("\"exposure\"", "\"exposed\""), "lacks 'exposure'"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"../"), "/storeys/0/cameras/0/full/file"), "");
   EXPECT_EQ(has(refusal("\"captures/", "\"/tmp/"), "path within"), "");
