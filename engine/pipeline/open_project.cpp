@@ -6,9 +6,27 @@
 #include "engine/pipeline/start_view.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/local_geometry.h"
+#include "engine/scene/material_rules.h"
 
 namespace acentric {
 namespace {
+
+/// With the key of the model: captures show the same. Not where a plane mirror or a lamp is among them: those
+/// are such as meshes alone, and then are seen by all.
+Scene placedNear(const Scene& imported, const NearInstances& near) {
+  Scene scene = withPlaced(imported, near.instances);
+  const auto rules = materialRules(imported, planEffects(imported));
+  const bool changes = std::ranges::any_of(near.instances, [&](std::uint32_t i) {
+    const auto m = std::size_t(imported.prototypes[imported.instances[i].prototype].material);
+    return rules[m].mirror || (!rules[m].unlit && imported.materials[m].emissive != glm::vec3(0));
+  });
+  if (!changes) return scene;
+  Hasher geometry;
+  for (const ContentKey& key : {scene.parts.geometry, near.key()}) geometry.value(key.high).value(key.low);
+  scene.parts.geometry = geometry.finish();
+  scene.key = keyOf(scene.parts);
+  return scene;
+}
 
 /// Instances near any storey as meshes, so that all storeys share one scene.
 void placeNear(const OpenProject* former, OpenProject& open) {
@@ -31,7 +49,7 @@ void placeNear(const OpenProject* former, OpenProject& open) {
   if (sameModel && former->near == open.near)
     open.scene = former->scene;
   else if (!open.near.instances.empty() && !open.near.tooMany())
-    open.scene = std::make_shared<const Scene>(withPlaced(*open.imported, open.near.instances));
+    open.scene = std::make_shared<const Scene>(placedNear(*open.imported, open.near));
 }
 
 /// `given`: instead of what the model file has.

@@ -17,7 +17,8 @@ namespace acentric {
 namespace {
 
 /// A plane and wedges on it, 7 x 7 of them 1.5 m apart, in one mesh of a glTF file with instances.
-std::filesystem::path wedges(const std::filesystem::path& file, double apart = 1.5) {
+std::filesystem::path wedges(const std::filesystem::path& file, double glow = 0) {
+  constexpr double apart = 1.5;
   test::GltfBuilder gltf;
   std::vector<float> places, turns;
   for (int x = -3; x <= 3; ++x)
@@ -44,6 +45,7 @@ std::filesystem::path wedges(const std::filesystem::path& file, double apart = 1
   gltf.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
       {"TRANSLATION", gltf.vec3(places)}, {"ROTATION", gltf.vec4(turns)}};
   gltf.json["scenes"][0]["nodes"] = {0, 1};
+  if (glow > 0) gltf.json["materials"][1]["emissiveFactor"] = {glow, glow, glow};
   return gltf.write(file);
 }
 
@@ -147,6 +149,22 @@ TEST_F(NearInstancesTest, LookInAWalkAsTheSameMeshesDo) {
     ASSERT_TRUE(one && two);
     EXPECT_GT(psnrOf(one->colour, two->colour), 45) << "yaw " << yaw;
   }
+}
+
+/// A lamp that is placed because someone walks near it lights what other cameras see.
+TEST_F(NearInstancesTest, GiveTheSceneAKeyOfItsOwnWhereTheyAreLamps) {
+  const OpenProject plain = open("a", project(true));
+  EXPECT_EQ(plain.scene->key, plain.imported->key);
+  wedges(folder_ / "wedges.gltf", 1);
+  const OpenProject lamps = open("b", project(true));
+  ASSERT_EQ(lamps.near, plain.near);
+  EXPECT_NE(lamps.scene->key, lamps.imported->key);
+  EXPECT_EQ(lamps.scene->key, keyOf(lamps.scene->parts));
+  Project wider = lamps.project;
+  wider.layout().outline.loops = {{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}};
+  const auto other = reopenProject(lamps, wider, host_);
+  ASSERT_TRUE(other);
+  EXPECT_NE(other->scene->key, lamps.scene->key);
 }
 
 TEST_F(NearInstancesTest, OfWhichThereAreTooManyAreSaidAndNotBakedNorDrawn) {
