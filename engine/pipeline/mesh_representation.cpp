@@ -82,10 +82,21 @@ Layout everywhere(const OpenProject& open) {
   return layout;
 }
 
+/// A mesh of all polygons has light on each: instances have none of their own.
+Status checkWithoutInstances(const Scene& scene) {
+  if (scene.instances.empty()) return {};
+  return fail(ErrorKind::unsupported,
+              fmt::format("a mesh of all polygons cannot be made of a scene with {} instances; compare the "
+                          "other representations alone (--only)",
+                          scene.instances.size()),
+              scene.name);
+}
+
 }  // namespace
 
 Result<RepresentationBake> bakeOfMesh(const Workplace& at, const std::string& name,
                                       std::size_t mostTriangles) {
+  if (Status whole = checkWithoutInstances(*at.open.scene); !whole) return tl::unexpected(whole.error());
   RepresentationBake bake{at.open};
   bake.open.file = at.fileOf(name);
   bake.open.layout = std::make_shared<const Layout>(everywhere(at.open));
@@ -103,6 +114,7 @@ Result<RepresentationBake> bakeOfMesh(const Workplace& at, const std::string& na
 
 Result<Representation> makeMesh(const Workplace& at, const std::string& name, std::size_t mostTriangles) {
   const OpenProject& open = at.open;
+  if (Status whole = checkWithoutInstances(*open.scene); !whole) return tl::unexpected(whole.error());
   const auto store = openCaptures(at.fileOf(name));
   if (!store) return tl::unexpected(store.error());
   const BakeSettings& bake = open.project.bake;
