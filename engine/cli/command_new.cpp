@@ -67,15 +67,13 @@ std::string leftOutText(const Storey& storey, std::size_t mostCameras) {
       countText(mostCameras));
 }
 
-/// "from 12 to 3 m" where cells are split.
+/// "12 to 6 m" where cells are of several sizes.
 std::string cellsText(const Layout& layout) {
-  int finest = 0;
-  for (const Region& region : layout.regions) finest = std::max(finest, region.id.level);
-  if (finest == 0) return fmt::format("{:g} m", layout.spec.cellSize);
-  int largest = finest;
-  for (const Region& region : layout.regions) largest = std::min(largest, region.id.level);
-  return fmt::format("{:g} to {:g} m", std::ldexp(layout.spec.cellSize, -largest),
-                     std::ldexp(layout.spec.cellSize, -finest));
+  const auto [largest, finest] =
+      std::ranges::minmax_element(layout.regions, {}, [](const Region& region) { return region.id.level; });
+  const auto edge = [&](const Region& region) { return std::ldexp(layout.spec.cellSize, -region.id.level); };
+  if (largest->id.level == finest->id.level) return fmt::format("{:g} m", edge(*largest));
+  return fmt::format("{:g} to {:g} m", edge(*largest), edge(*finest));
 }
 
 constexpr std::chrono::seconds kPlanning{10};  ///< that a new project may wait for its plan

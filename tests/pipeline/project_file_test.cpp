@@ -45,10 +45,7 @@ Project everythingSet() {
   project.fovDegrees = 72.5;
   project.exposure = 0.123f;
   project.spawn() = {{1.25, 2.5}, radians(-90.0)};
-  project.storeys.push_back({"second [1, 2]",
-                             project.layout(),
-                             {{-3, 4}, radians(15.0), true},
-                             parseOutline("0,0;9,0;9,9").value()});
+  project.storeys.push_back({"second [1, 2]", project.layout(), {{-3, 4}, radians(15.0)}, {}});
   project.storeys.back().layout.floorHeight = 3.1;
   project.storey = 1;
   project.bookmarks = {{"door", 0, {1, -2.5, 1.6}, radians(90.0), radians(-12.0), 75},
@@ -73,7 +70,8 @@ std::string minimal(const std::string& layout, const std::string& more = "") {
 }
 
 TEST(ProjectFile, RoundTripsEveryField) {
-  const Project project = everythingSet();
+  Project project = everythingSet();
+  project.storeys.back().walkable = parseOutline("0,0;9,0;9,9").value();
   const auto back = parseProject(formatProject(project), "p");
   ASSERT_TRUE(back) << back.error().describe();
   EXPECT_EQ(*back, project);
