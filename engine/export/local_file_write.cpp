@@ -10,10 +10,12 @@
 namespace acentric {
 namespace {
 
-/// Is it all of its source triangle, corner by corner?
+/// Is it all of its source triangle, corner by corner? What names nothing that there is, is not.
 bool isWhole(const LocalGeometry& local, const LocalTriangle& triangle, const Mesh& mesh) {
+  if (triangle.triangle >= mesh.triangles.size()) return false;
   const glm::uvec3& corners = mesh.triangles[triangle.triangle];
   for (int c = 0; c < 3; ++c) {
+    if (triangle.vertices[c] >= local.vertices.size() || corners[c] >= mesh.positions.size()) return false;
     const LocalVertex& vertex = local.vertices[triangle.vertices[c]];
     if (vertex.barycentric != local_file::kCorners[c] || vertex.position != mesh.positions[corners[c]])
       return false;
@@ -21,7 +23,7 @@ bool isWhole(const LocalGeometry& local, const LocalTriangle& triangle, const Me
   return true;
 }
 
-/// Vertices that triangles name, numbered as they are met.
+/// Vertices that triangles name, numbered as they are met. Numbers of none stay so, for readers to refuse.
 class UsedVertices {
  public:
   explicit UsedVertices(const LocalGeometry& local) : local_(local), number_(local.vertices.size(), kNone) {}
@@ -29,6 +31,8 @@ class UsedVertices {
   glm::uvec3 numbersOf(const LocalTriangle& triangle) {
     glm::uvec3 numbers(0);
     for (int c = 0; c < 3; ++c) {
+      numbers[c] = triangle.vertices[c];
+      if (numbers[c] >= number_.size()) continue;
       std::uint32_t& number = number_[triangle.vertices[c]];
       if (number == kNone) {
         number = std::uint32_t(vertices.size());
