@@ -383,6 +383,55 @@ TEST_F(BundleTest, RefusesLocalFilesWithNumbersOutOfRange) {
   EXPECT_FALSE(changed([](auto&, auto& surfaces) { surfaces.mirrorPlanes[0][0] = 100; }));
 }
 
+TEST_F(BundleTest, KeepsWholeTrianglesWithoutVerticesOfTheirOwn) {
+  auto surfaces = std::make_shared<LocalSurfaces>();
+  Mesh mesh;
+  mesh.material = 0;
+  constexpr int kTriangles = 400;
+  LocalGeometry local;
+  const auto positionOf = [](int t, int c) {
+    return glm::vec3(std::sin(7.0f * float(t) + float(c)), std::cos(5.0f * float(3 * t + c)),
+                     0.01f * float(t));
+  };
+  for (int t = 0; t < kTriangles; ++t) {
+    const auto first = std::uint32_t(3 * t);
+    for (int c = 0; c < 3; ++c)
+      mesh.positions.push_back(positionOf(t, c)), mesh.normals.emplace_back(0, 0, 1);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    // Most are whole; the others begin at another corner, are cut, or lie a little off.
+    const int kind = t % 10;
+    for (int c = 0; c < 3; ++c) {
+      const int corner = kind == 1 ? (c + 1) % 3 : c;
+      LocalVertex vertex{positionOf(t, corner), glm::vec2(corner == 1 ? 1 : 0, corner == 2 ? 1 : 0)};
+      if (kind == 2 && c == 1) vertex.barycentric.x = 0.5f;
+      if (kind == 3 && c == 2) vertex.position.z += 1e-5f;
+      local.vertices.push_back(vertex);
+    }
+    local.triangles.push_back({{first, first + 1, first + 2}, 0, std::uint32_t(t)});
+  }
+  surfaces->meshes = {mesh};
+  local.surfaces = surfaces;
+  const auto bytesOf = [&](const LocalGeometry& geometry) {
+    EXPECT_TRUE(writeLocalFile(geometry, room / "whole.local"));
+    return *readFile(room / "whole.local");
+  };
+  const auto read = readLocalFile(bytesOf(local), "whole.local", 1, 0);
+  ASSERT_TRUE(read) << read.error().describe();
+  ASSERT_EQ(read->triangles.size(), local.triangles.size());
+  for (std::size_t t = 0; t < local.triangles.size(); ++t) {
+    EXPECT_EQ(read->triangles[t].triangle, local.triangles[t].triangle);
+    for (int c = 0; c < 3; ++c) {
+      const LocalVertex &a = read->vertices[read->triangles[t].vertices[c]],
+                        &b = local.vertices[local.triangles[t].vertices[c]];
+      EXPECT_EQ(a.position, b.position) << t;
+      EXPECT_EQ(a.barycentric, b.barycentric) << t;
+    }
+  }
+  LocalGeometry moved = local;
+  for (LocalVertex& vertex : moved.vertices) vertex.position.x += 1;
+  EXPECT_LT(4 * bytesOf(local).size(), 3 * bytesOf(moved).size()) << "seven in ten keep no vertices";
+}
+
 TEST_F(BundleTest, SurvivesAnyDamageOfItsIndex) {
   const std::string text = *readText(room / "bundle" / kBundleIndex);
   std::size_t refused = 0;
