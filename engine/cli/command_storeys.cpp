@@ -102,8 +102,12 @@ Result<Report> editStoreys(const StoreysOptions& options, const StoreyOptions& s
     report.json["storeys"].push_back({{"name", storey.name},
                                       {"floorHeight", storey.layout.floorHeight},
                                       {"squareMetres", storey.layout.outline.area()}});
-    report.text += fmt::format("{} {}: {:.2f} m, {:.1f} m2\n", storey == project.current() ? '>' : ' ',
-                               storey.name, storey.layout.floorHeight, storey.layout.outline.area());
+    const std::string rest = storey.walkable.empty() ? std::string()
+                                                     : fmt::format(" laid out, of {:.1f} that can be walked",
+                                                                   storey.walkable.area());
+    if (!rest.empty()) report.json["storeys"].back()["walkableSquareMetres"] = storey.walkable.area();
+    report.text += fmt::format("{} {}: {:.2f} m, {:.1f} m2{}\n", storey == project.current() ? '>' : ' ',
+                               storey.name, storey.layout.floorHeight, storey.layout.outline.area(), rest);
   }
   report.text += fmt::format("wrote {}\n", options.file.string());
   return report;

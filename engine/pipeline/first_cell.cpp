@@ -108,6 +108,26 @@ std::set<CellId> splitsOf(const Layout& layout) {
   return splits;
 }
 
+/// The same without splits and removals that change nothing of the layout. Where leaving them out would
+/// change it (a cell that was split into parts outside becomes a region), they stay.
+Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
+  const auto layout = buildLayout(spec);
+  if (!layout) return tl::unexpected(layout.error());
+  LayoutSpec fewer = spec;
+  fewer.split = splitsOf(*layout);
+  std::erase_if(fewer.removed, [&](const CellId& id) {
+    const bool lies = id.level == 0 || fewer.split.contains(wholeOf(fewer, id));
+    return !lies || !fewer.outline.overlaps(cellPolygon(fewer, id));
+  });
+  const auto same = buildLayout(fewer);
+  const auto ids = [](const Layout& of) {
+    std::vector<CellId> all;
+    for (const Region& region : of.regions) all.push_back(region.id);
+    return all;
+  };
+  return same && ids(*same) == ids(*layout) ? fewer : spec;
+}
+
 tl::unexpected<Error> tooFew(std::size_t cameras) {
   return fail(ErrorKind::invalidArgument,
               fmt::format("{} cameras are too few for a single region; allow more (--max-cameras)", cameras));
@@ -242,14 +262,7 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   outline = largestOutline(kept, *ground, limit.cameras);  // as the cells are now, others fit it
   if (!outline) return tooFew(limit.cameras);
   kept.outline = std::move(*outline);
-  const auto layout = buildLayout(kept);
-  if (!layout) return tl::unexpected(layout.error());
-  kept.split = splitsOf(*layout);
-  std::erase_if(kept.removed, [&](const CellId& id) {
-    const bool lies = id.level == 0 || kept.split.contains(wholeOf(kept, id));
-    return !lies || !kept.outline.overlaps(cellPolygon(kept, id));
-  });
-  return kept;
+  return withoutIdleChoices(kept);
 }
 
 }  // namespace acentric
