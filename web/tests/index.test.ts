@@ -79,7 +79,7 @@ describe('the index', () => {
 
   it.each<[string, (index: Index) => unknown, string]>([
     ['another format', (i) => (i.format = 'zip'), '/format'],
-    ['another version', (i) => (i.version = 4), 'version 4'],
+    ['another version', (i) => (i.version = 5), 'version 5'],
     ['another tone curve', (i) => (i.toneCurve = 'filmic'), '/toneCurve'],
     ['a path upwards', (i) => (i.textures[0].file = '../../etc/passwd.png'), '/textures/0/file'],
     ['an absolute path', (i) => (i.textures[0].file = '/etc/a.png'), '/textures/0/file'],

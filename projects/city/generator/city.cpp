@@ -106,13 +106,17 @@ gallery::Model makeCity(std::size_t triangles) {
       }
   for (int i = 0; i < 4; ++i) model.add("houses", walls[i], std::move(houses[i]));
   model.things.push_back(std::move(windows));
+  model.lights.push_back(sunlight());
+  return model;
+}
+
+gallery::Light sunlight() {
   gallery::Light sun;
   sun.name = "sun";
   sun.directional = true;
   sun.intensity = 3;
   sun.direction = glm::normalize(glm::vec3(0.5f, 0.35f, -0.8f));
-  model.lights.push_back(sun);
-  return model;
+  return sun;
 }
 
 }  // namespace acentric::city

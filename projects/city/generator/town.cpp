@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "projects/city/generator/city.h"
+
 namespace acentric::city {
 namespace {
 
@@ -97,12 +99,7 @@ gallery::Model makeTown() {
     }
   for (int i = 0; i < 4; ++i) model.add("walls", paints[i], std::move(walls[i]));
   model.add("roofs", tiles, std::move(roofs));
-  gallery::Light sun;
-  sun.name = "sun";
-  sun.directional = true;
-  sun.intensity = 3;
-  sun.direction = glm::normalize(glm::vec3(0.5f, 0.35f, -0.8f));
-  model.lights.push_back(sun);
+  model.lights.push_back(sunlight());
   return model;
 }
 
