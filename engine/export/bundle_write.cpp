@@ -257,24 +257,20 @@ class BundleWriter {
   }
 
   /// As AVIF where that is smaller: not of quality 100, and not of pictures that are read texel by texel.
-  Result<std::vector<std::byte>> codedTexture(const ColourImage& image, bool nearest,
-                                              const char*& ending) const {
+  Result<std::vector<std::byte>> codedTexture(const ColourImage& image, bool nearest) const {
     auto png = encodePng(image);
-    ending = "png";
     if (!png || nearest || input_.colourQuality == kLosslessColours ||
         std::max(image.width, image.height) > kMostPictureSide)
       return png;
     auto avif = encodeStill(image, input_.colourQuality);
-    if (avif && avif->size() >= png->size()) return png;
-    ending = "avif";
-    return avif;
+    return avif && avif->size() >= png->size() ? std::move(png) : std::move(avif);
   }
 
   /// Named after its content, so that equal pictures are one file.
   Result<BundleFile> writeTexture(const ColourImage& image, bool nearest) {
-    const char* ending = nullptr;
-    const auto bytes = codedTexture(image, nearest, ending);
+    const auto bytes = codedTexture(image, nearest);
     if (!bytes) return tl::unexpected(bytes.error());
+    const char* ending = isStill(*bytes) ? "avif" : "png";
     const ContentKey hash = Hasher().bytes(bytes->data(), bytes->size()).finish();
     BundleFile file{fmt::format("textures/{}.{}", hash.toHex(), ending), bytes->size(), hash};
     if (Status written = writeFileAtomically(folder_ / file.path, *bytes); !written)

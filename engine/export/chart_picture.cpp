@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "engine/base/contract.h"
+#include "engine/geometry/conventions.h"
 
 namespace acentric {
 namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// From left to right what of a triangle lies between two rows.
 std::optional<std::pair<double, double>> reachWithin(const std::array<glm::dvec2, 3>& triangle, double top,

@@ -84,7 +84,7 @@ class Writer {
       SurfaceTriangle surface;
       for (int i = 0; i < 3; ++i) surface.corners[std::size_t(i)] = local_.vertices[t.vertices[i]].position;
       surface.kind = kind->second;
-      surfaces_.push_back(surface), faces_.push_back({&t, back});
+      surfaces_.push_back(surface), faces_.push_back({&t, back}), details_.push_back(detailOf(t));
     };
     for (const LocalTriangle& t : local_.triangles) {
       if (walk_.mirrors && walk_.mirrors->planeOf(local_, t) != FlatMirrors::kNoPlane) continue;
@@ -149,7 +149,7 @@ class Writer {
     double distance = HUGE_VAL, detail = HUGE_VAL;
     for (const std::uint32_t t : chart.triangles) {
       distance = std::min(distance, eyeDistance(polygon_, eye_.z, surfaces_[t].corners));
-      detail = std::min(detail, detailOf(*faces_[t].triangle));
+      detail = std::min(detail, details_[t]);
     }
     const bool masked = kinds_[surfaces_[chart.triangles.front()].kind].alpha == AlphaMode::mask;
     const double seen =
@@ -174,8 +174,7 @@ class Writer {
     picture.texelsPerMetre = glm::dvec2(1 / texel);
     std::vector<int> parts;
     for (const std::uint32_t t : chart.triangles)
-      parts.push_back(
-          std::clamp(int(std::ceil(texel / std::max(detailOf(*faces_[t].triangle), 1e-9))), 1, kMostParts));
+      parts.push_back(std::clamp(int(std::ceil(texel / std::max(details_[t], 1e-9))), 1, kMostParts));
     std::vector<char> known(owners.size()), shown(owners.size());
     for (std::size_t i = 0; i < owners.size(); ++i) {
       const TexelOwner& owner = owners[i];
@@ -282,7 +281,8 @@ class Writer {
   const LocalShading shading_;
   std::vector<MeshKind> kinds_;
   std::vector<SurfaceTriangle> surfaces_;
-  std::vector<Face> faces_;  ///< of the surfaces
+  std::vector<Face> faces_;      ///< of the surfaces
+  std::vector<double> details_;  ///< detailOf each face's triangle
   NearModelCounts counts_;
 };
 

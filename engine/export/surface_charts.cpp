@@ -6,12 +6,12 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "engine/geometry/conventions.h"
+
 namespace acentric {
 namespace {
 
 using Corners = std::array<glm::dvec2, 3>;
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 struct CellHash {
   std::size_t operator()(const glm::i64vec3& c) const {

@@ -66,10 +66,7 @@ gallery::Model makeCity(std::size_t triangles) {
   const Detail detail = detailFor(triangles);
   gallery::Model model;
   const auto material = [&](const char* name, const glm::vec3& colour) {
-    gallery::Material m;
-    m.name = name;
-    m.baseColour = glm::vec4(colour, 1);
-    return model.add(std::move(m));
+    return model.add(matt(name, colour));
   };
   const int ground = material("asphalt", {0.16f, 0.16f, 0.17f}),
             frame = material("frame", {0.7f, 0.68f, 0.62f}), pane = material("pane", {0.05f, 0.08f, 0.12f});
@@ -108,6 +105,13 @@ gallery::Model makeCity(std::size_t triangles) {
   model.things.push_back(std::move(windows));
   model.lights.push_back(sunlight());
   return model;
+}
+
+gallery::Material matt(const char* name, const glm::vec3& colour) {
+  gallery::Material material;
+  material.name = name;
+  material.baseColour = glm::vec4(colour, 1);
+  return material;
 }
 
 gallery::Light sunlight() {

@@ -10,7 +10,8 @@ namespace acentric::city {
 /// the middle streets is there. About so many triangles, within a tenth from 100,000 to 20 million.
 gallery::Model makeCity(std::size_t triangles);
 
-/// Of the city and the town.
+// Of the city and the town.
+gallery::Material matt(const char* name, const glm::vec3& colour);
 gallery::Light sunlight();
 
 }  // namespace acentric::city

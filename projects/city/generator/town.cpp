@@ -50,10 +50,7 @@ void addHouse(Shape& walls, Shape& roof, const glm::mat4& placement, float width
 gallery::Model makeTown() {
   gallery::Model model;
   const auto material = [&](const char* name, const glm::vec3& colour) {
-    gallery::Material m;
-    m.name = name;
-    m.baseColour = glm::vec4(colour, 1);
-    return model.add(std::move(m));
+    return model.add(matt(name, colour));
   };
   const int grass = material("grass", {0.14f, 0.22f, 0.08f}),
             asphalt = material("asphalt", {0.16f, 0.16f, 0.17f}),
