@@ -12,6 +12,7 @@
 
 #include "engine/export/texture_atlas.h"
 #include "engine/geometry/conventions.h"
+#include "engine/image/colour.h"
 
 namespace acentric {
 namespace {
@@ -187,7 +188,7 @@ class Writer {
         add(part, atlas.places[i].at, atlas.pages[page],
             meshes[{part.patch->blended, part.apart ? part.roles : std::uint8_t(0xff)}]);
       }
-      const bool whole = std::ranges::all_of(picture.pixels, [](const Rgba8& p) { return p.a == 255; });
+      const bool whole = isOpaque(picture);
       for (auto& [key, mesh] : meshes) {
         if (mesh.triangles.empty()) continue;
         const auto& [blended, roles] = key;

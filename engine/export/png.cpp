@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <new>
+
+#include "engine/image/colour.h"
 
 namespace acentric {
 namespace {
@@ -113,7 +114,7 @@ Result<ColourImage> decodePng(std::span<const std::byte> bytes, int width, int h
 }
 
 Result<std::vector<std::byte>> encodePng(const ColourImage& image) {
-  const bool opaque = std::ranges::all_of(image.pixels, [](const Rgba8& p) { return p.a == 255; });
+  const bool opaque = isOpaque(image);
   Encoding work;
   if (!work.begin()) return fail(ErrorKind::outOfSpace, "a PNG cannot be written: there is no memory");
   if (!work.write(image, opaque))

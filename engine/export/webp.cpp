@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/contract.h"
+#include "engine/image/colour.h"
 #include "engine/image/colour_quality.h"
 
 namespace acentric {
@@ -49,7 +50,7 @@ Result<std::vector<std::byte>> encodeWebp(const ColourImage& image, int quality)
   work.picture.use_argb = 1;
   work.picture.writer = WebPMemoryWrite;
   work.picture.custom_ptr = &work.out;
-  const bool opaque = std::ranges::all_of(image.pixels, [](const Rgba8& p) { return p.a == 255; });
+  const bool opaque = isOpaque(image);
   const auto* codes = reinterpret_cast<const std::uint8_t*>(image.pixels.data());
   const auto import = opaque ? WebPPictureImportRGBX : WebPPictureImportRGBA;
   if (import(&work.picture, codes, image.width * 4) == 0 || WebPEncode(&config, &work.picture) == 0)

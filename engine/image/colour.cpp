@@ -111,4 +111,8 @@ Rgba8 blendOver(const Rgba8& source, const Rgba8& destination) {
   return Rgba8(mix(source.r, destination.r), mix(source.g, destination.g), mix(source.b, destination.b), 255);
 }
 
+bool isOpaque(const ColourImage& image) {
+  return std::ranges::all_of(image.pixels, [](const Rgba8& p) { return p.a == 255; });
+}
+
 }  // namespace acentric

@@ -38,4 +38,7 @@ Rgba8 encodeForDisplay(const glm::vec3& radiance, float exposure, float alpha = 
 /// 255.
 Rgba8 blendOver(const Rgba8& source, const Rgba8& destination);
 
+/// Has no pixel that anything behind it shows through?
+bool isOpaque(const ColourImage& image);
+
 }  // namespace acentric

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/base/contract.h"
+#include "engine/image/colour.h"
 
 namespace acentric {
 namespace {
@@ -157,7 +158,7 @@ Result<StillPicture> decodeStill(std::span<const std::byte> file, int width, int
 Result<std::vector<std::byte>> encodeStill(const ColourImage& colours, int quality) {
   require(quality >= 0 && quality <= kBestPictureQuality, "a picture's quality is 0..99");
   require(std::max(colours.width, colours.height) <= kMostPictureSide, "a picture's sides have a limit");
-  const bool opaque = std::ranges::all_of(colours.pixels, [](const Rgba8& p) { return p.a == 255; });
+  const bool opaque = isOpaque(colours);
   const AvifImage image =
       imageOf(colours.width, colours.height, 8, opaque ? AVIF_PLANES_YUV : AVIF_PLANES_ALL);
   if (!image) return noMemory();
