@@ -17,6 +17,7 @@
 #include "engine/export/png.h"
 #include "engine/export/region_order.h"
 #include "engine/image/coarse_capture.h"
+#include "engine/image/keep_samples.h"
 #include "engine/image/plane_numbers.h"
 #include "engine/store/still_picture.h"
 
@@ -49,6 +50,7 @@ class BundleWriter {
  private:
   struct CameraPlace {
     std::size_t storey, camera;
+    std::uint8_t roles;  ///< that regions of the bundle draw
   };
   struct RegionPlace {
     std::size_t storey, region;  ///< of the bundle
@@ -83,8 +85,21 @@ class BundleWriter {
     out.neighbours = touching(out.layout.regions);
     out.local.resize(out.layout.regions.size());
     out.cameras.resize(layout.cameras.size());
-    for (std::size_t c = 0; c < layout.cameras.size(); ++c) cameras_.push_back({place, c});
+    const std::vector<std::uint8_t> drawn = drawnRoles(out.layout);
+    for (std::size_t c = 0; c < layout.cameras.size(); ++c) cameras_.push_back({place, c, drawn[c]});
     bundle_.storeys.push_back(std::move(out));
+  }
+
+  /// Of each camera the roles that some region draws.
+  static std::vector<std::uint8_t> drawnRoles(const Layout& layout) {
+    std::vector<std::uint8_t> drawn(layout.cameras.size());
+    for (std::size_t r = 0; r < layout.regions.size(); ++r)
+      for (const auto* covers : {&layout.regions[r].covers, &layout.panoramas[r]})
+        for (const Cover& cover : *covers)
+          for (const Piece& piece : cover.pieces)
+            drawn[std::size_t(piece.camera)] |=
+                roleBit(layout.cameras[std::size_t(piece.camera)], piece.role);
+    return drawn;
   }
 
   /// body(index) for all; the first error by number.
@@ -139,6 +154,14 @@ class BundleWriter {
                                       : writeCodedPack(capture, key, file, kLosslessColours, stop_);
   }
 
+  /// Captures also hold what lattice regions need that are not placed. Without it planes may be coarser; and
+  /// bakes of earlier programs left samples a step away from theirs.
+  static void shrink(Capture& capture, std::uint8_t roles) {
+    keepRoles(capture, roles);
+    for (CaptureSamples* list : {static_cast<CaptureSamples*>(&capture), &capture.reflections})
+      roundPlanes(*list, capture.camera, capture.distanceStep);
+  }
+
   Status writeCamera(const CameraPlace& place) {
     const BundleStoreyInput& storey = input_.storeys[place.storey];
     BundleCamera& camera = bundle_.storeys[place.storey].cameras[place.camera];
@@ -147,9 +170,7 @@ class BundleWriter {
     if (!key) return {};
     auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
     if (!capture) return tl::unexpected(capture.error());
-    // Bakes of earlier programs left samples up to a step away from rounded planes.
-    for (CaptureSamples* list : {static_cast<CaptureSamples*>(&*capture), &capture->reflections})
-      placeOnPlanes(*list, capture->camera, capture->distanceStep);
+    if (input_.colourQuality < kLosslessColours) shrink(*capture, place.roles);
     note(*capture);
     camera.topElevation = capture->camera.topElevation;
     camera.bottomElevation = capture->camera.bottomElevation;

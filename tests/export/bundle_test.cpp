@@ -151,6 +151,27 @@ TEST_F(BundleTest, OfTheUsualQualityShowsItsProjectInFewerBytes) {
   }
 }
 
+TEST_F(BundleTest, OfTheUsualQualityHoldsWhatItsRegionsDrawAlone) {
+  const auto written = exportBundle({plain, 1}, room / "drawn", {false, "", kUsualColourQuality}, *runner);
+  ASSERT_TRUE(written) << written.error().describe();
+  EXPECT_LT(written->samples, report.samples) << "the layout's border has neighbours that are not placed";
+  const auto bundle = readBundle(room / "drawn");
+  ASSERT_TRUE(bundle) << bundle.error().describe();
+  const BundleStorey& storey = bundle->storeys.front();
+  std::vector<unsigned> drawn(storey.cameras.size());
+  for (const Region& region : storey.layout.regions)
+    for (const Cover& cover : region.covers)
+      for (const Piece& piece : cover.pieces)
+        drawn[std::size_t(piece.camera)] |=
+            roleBit(storey.layout.cameras[std::size_t(piece.camera)], piece.role);
+  for (std::size_t c = 0; c < drawn.size(); ++c) {
+    const auto capture = readCapturePack(room / "drawn" / storey.cameras[c].full->file.path);
+    ASSERT_TRUE(capture) << capture.error().describe();
+    for (const auto* roles : {&capture->roles, &capture->reflections.roles, &capture->background.roles})
+      EXPECT_TRUE(std::ranges::none_of(*roles, [&](unsigned bits) { return (bits & ~drawn[c]) != 0; }));
+  }
+}
+
 TEST_F(BundleTest, SaysWhatItsProjectUses) {
   const auto bundle = readBundle(room / "bundle");
   ASSERT_TRUE(bundle) << bundle.error().describe();
