@@ -57,6 +57,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--import-seconds", common.host.timeLimitSeconds, "Time limit of an import")
       ->capture_default_str();
+  app.add_option_function<double>(
+         "--import-memory",
+         [&common](double gigabytes) {
+           common.host.memoryLimitBytes = std::size_t(gigabytes * double(std::size_t(1) << 30));
+         },
+         "Gigabytes that a scene may take (default: three quarters of the machine's)")
+      ->check(CLI::Range(0.1, 1e5));
   app.add_flag(
       "--outside-files", common.host.outsideFiles,
       "Let models name files outside their own folder; what they name may end up in what is exported");

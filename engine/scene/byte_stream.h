@@ -1,9 +1,11 @@
 #pragma once
-/// Values to bytes and back, with every read checked against what is left. Little-endian machines only, as
-/// the rest of the engine. Private to this folder.
+/// Values to bytes and back, one behind the other, with every read checked against what is left.
+/// Little-endian machines only, as the rest of the engine. Private to this folder.
 
+#include <algorithm>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -13,6 +15,9 @@ namespace acentric {
 
 class ByteWriter {
  public:
+  using Sink = std::function<void(std::span<const std::byte>)>;
+  explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
+
   template <class T>
   void value(const T& v) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -29,27 +34,27 @@ class ByteWriter {
     value(std::uint64_t(v.size()));
     append(v.data(), v.size() * sizeof(T));
   }
-  std::vector<std::byte>& bytes() { return bytes_; }
 
  private:
   void append(const void* data, std::size_t size) {
-    if (size == 0) return;
-    const auto* from = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), from, from + size);
+    if (size > 0) sink_({static_cast<const std::byte*>(data), size});
   }
-  std::vector<std::byte> bytes_;
+  Sink sink_;
 };
 
-/// After the first read beyond the end every read gives zeros and `sound()` is false.
+/// After the first read beyond the end, or one that the source cannot serve, every read gives zeros and
+/// `sound()` is false.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  /// Fills the bytes, or is false.
+  using Source = std::function<bool(std::span<std::byte>)>;
+  /// `left`: how many bytes the source has.
+  ByteReader(Source source, std::uint64_t left) : source_(std::move(source)), left_(left) {}
 
   template <class T>
   void value(T& out) {
     static_assert(std::is_trivially_copyable_v<T>);
-    out = T{};
-    if (take(sizeof out)) std::memcpy(&out, bytes_.data() + at_ - sizeof out, sizeof out);
+    if (!take(&out, sizeof out)) out = T{};
   }
   /// An enumeration or flag stored in one byte, at most `last`.
   template <class T>
@@ -59,37 +64,44 @@ class ByteReader {
     if (byte > last) sound_ = false, byte = 0;
     out = static_cast<T>(byte);
   }
-  void text(std::string& out) {
-    const std::size_t size = length(1);
-    out.assign(reinterpret_cast<const char*>(bytes_.data() + at_), size);
-    at_ += size;
-  }
+  void text(std::string& out) { fill(out); }
   template <class T>
   void array(std::vector<T>& out) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::size_t size = length(sizeof(T));
-    out.resize(size);
-    if (size > 0) std::memcpy(out.data(), bytes_.data() + at_, size * sizeof(T));
-    at_ += size * sizeof(T);
+    fill(out);
   }
   /// A count of things that each take at least `least` bytes: never more than fit in what is left.
   std::size_t length(std::size_t least) {
     std::uint64_t count = 0;
     value(count);
-    if (count > (bytes_.size() - at_) / least) sound_ = false;
+    if (count > left_ / least) sound_ = false;
     return sound_ ? std::size_t(count) : 0;
   }
   bool sound() const { return sound_; }
-  bool atEnd() const { return at_ == bytes_.size(); }
+  bool atEnd() const { return left_ == 0; }
 
  private:
-  bool take(std::size_t size) {
-    sound_ = sound_ && size <= bytes_.size() - at_;
-    if (sound_) at_ += size;
+  /// Memory is touched as bytes arrive: a size that is a lie costs no more than what there is.
+  template <class Container>
+  void fill(Container& out) {
+    using T = typename Container::value_type;
+    constexpr std::size_t kStep = (std::size_t(1) << 20) / sizeof(T) + 1;
+    const std::size_t size = length(sizeof(T));
+    out.clear();
+    out.reserve(size);
+    while (out.size() < size && sound_) {
+      const std::size_t had = out.size();
+      out.resize(std::min(size, had + kStep));
+      if (!take(out.data() + had, (out.size() - had) * sizeof(T))) out.clear();
+    }
+  }
+  bool take(void* to, std::size_t size) {
+    sound_ = sound_ && size <= left_ && source_({static_cast<std::byte*>(to), size});
+    if (sound_) left_ -= size;
     return sound_;
   }
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
+  Source source_;
+  std::uint64_t left_;
   bool sound_ = true;
 };
 

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <type_traits>
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
@@ -142,6 +145,38 @@ Result<nlohmann::json> checkJson(std::string_view text, FileAccess& access) {
   return parsed;
 }
 
+/// The member of an object, or the element of an array, of that name or number; null where there is none.
+template <class Key>
+const nlohmann::json& partOf(const nlohmann::json& whole, const Key& key) {
+  static const nlohmann::json kNone;
+  if constexpr (std::is_integral_v<Key>)
+    return whole.is_array() && key < whole.size() ? whole[key] : kNone;
+  else
+    return whole.is_object() && whole.contains(key) ? whole[key] : kNone;
+}
+
+std::size_t numberOf(const nlohmann::json& json) {
+  return json.is_number_unsigned() ? json.get<std::size_t>() : std::numeric_limits<std::size_t>::max();
+}
+
+/// Of meshes that nodes show, each counted once, by what the file says of them.
+std::uint64_t triangleCount(const nlohmann::json& json) {
+  std::set<std::size_t> shown;
+  for (const auto& node : partOf(json, "nodes")) shown.insert(numberOf(partOf(node, "mesh")));
+  std::uint64_t triangles = 0;
+  for (const std::size_t mesh : shown)
+    for (const auto& primitive : partOf(partOf(partOf(json, "meshes"), mesh), "primitives")) {
+      const auto& indices = partOf(primitive, "indices");
+      const auto& corners = indices.is_null() ? partOf(partOf(primitive, "attributes"), "POSITION") : indices;
+      const std::size_t count =
+          numberOf(partOf(partOf(partOf(json, "accessors"), numberOf(corners)), "count"));
+      const bool isRow = numberOf(partOf(primitive, "mode")) != TINYGLTF_MODE_TRIANGLES &&
+                         !partOf(primitive, "mode").is_null();
+      if (count <= std::numeric_limits<std::uint32_t>::max()) triangles += isRow ? count : count / 3;
+    }
+  return triangles;
+}
+
 /// The file with other JSON: what follows a GLB's JSON chunk stays.
 std::vector<std::byte> withJson(std::span<const std::byte> file, const GltfText& text, std::string json) {
   while (text.binary && json.size() % 4 != 0) json += ' ';
@@ -177,6 +212,7 @@ Status loadGltf(const ReadContext& context, tinygltf::Model& model, ReportLines&
   FileAccess access{&context, &ignored, {}, {}};
   auto json = checkJson(text->json, access);
   if (!json) return tl::unexpected(json.error());
+  if (Status fits = checkRoom(triangleCount(*json), context.memoryBytes); !fits) return fits;
   const auto compression = takeCompression(*json, text->binary);
   if (!compression) return tl::unexpected(compression.error());
   if (compression->any()) *bytes = withJson(*bytes, *text, jsonText(*json));

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/physical_memory.h"
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/scene/scene.h"
@@ -46,8 +47,9 @@ struct ImportOptions {
 struct ImportHost {
   std::filesystem::path importer;     ///< empty = `acentric-importer` beside the running program
   std::filesystem::path cacheFolder;  ///< empty = userCacheFolder()/"scenes"
-  double timeLimitSeconds = 120;
-  std::size_t memoryLimitBytes = std::size_t(8) << 30;
+  double timeLimitSeconds = 600;
+  /// That a scene may take: while it is read, and by what its file says of it, opened.
+  std::size_t memoryLimitBytes = physicalMemory() / 4 * 3;
   bool useCache = true;
   bool outsideFiles = false;  ///< models may name files outside their own folder
 };

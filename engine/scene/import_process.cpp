@@ -127,11 +127,11 @@ class Listener {
 };
 
 tl::unexpected<Error> tooMuchMemory(const ImportHost& host, const std::string& where) {
-  return fail(
-      ErrorKind::outOfSpace,
-      fmt::format("needs more memory than the limit of {} MiB; the file is damaged, or raise the limit",
-                  host.memoryLimitBytes >> 20),
-      where);
+  return fail(ErrorKind::outOfSpace,
+              fmt::format("needs more memory than the limit of {} MiB; the file is damaged, or raise "
+                          "the limit with --import-memory",
+                          host.memoryLimitBytes >> 20),
+              where);
 }
 
 Status verdict(int status, const Listener& heard, const ImportHost& host, const std::string& where) {

@@ -24,7 +24,7 @@ bool isGltf(const std::filesystem::path& path) {
 }
 
 Result<SceneFile> parseUnguarded(const std::filesystem::path& path, const ImportOptions& options,
-                                 const Progress& progress) {
+                                 const Progress& progress, std::uint64_t memoryBytes) {
   if (auto status = options.check(); !status) return tl::unexpected(status.error());
   std::error_code error;
   const auto type = std::filesystem::status(path, error).type();
@@ -36,9 +36,11 @@ Result<SceneFile> parseUnguarded(const std::filesystem::path& path, const Import
   if (std::filesystem::file_size(path, error) == 0) return fail(ErrorKind::malformed, "is empty");
 
   References references(path, options.outsideFiles);
-  const ReadContext context{path, references, progress};
+  const ReadContext context{path, references, progress, memoryBytes};
   auto source = isGltf(path) ? readGltf(context) : readWithAssimp(context);
   if (!source) return tl::unexpected(source.error());
+  if (Status fits = checkRoom(source->indexCount / 3, memoryBytes); !fits)
+    return tl::unexpected(fits.error());
   auto scene = finishScene(std::move(*source), path.stem().string(), options, progress);
   if (!scene) return tl::unexpected(scene.error());
   auto dependencies = references.dependencies();
@@ -49,10 +51,10 @@ Result<SceneFile> parseUnguarded(const std::filesystem::path& path, const Import
 }  // namespace
 
 Result<SceneFile> parseModel(const std::filesystem::path& path, const ImportOptions& options,
-                             const Progress& progress) {
+                             const Progress& progress, std::uint64_t memoryBytes) {
   Result<SceneFile> result = [&]() -> Result<SceneFile> {
     try {
-      return parseUnguarded(path, options, progress);
+      return parseUnguarded(path, options, progress, memoryBytes);
     } catch (const std::bad_alloc&) {
       return fail(ErrorKind::outOfSpace, "needs more memory than there is");
     } catch (const std::length_error&) {

@@ -6,7 +6,8 @@
 
 namespace acentric {
 
+/// `memoryBytes`: that the scene may take; 0: as many as it likes.
 Result<SceneFile> parseModel(const std::filesystem::path& path, const ImportOptions& options,
-                             const Progress& progress);
+                             const Progress& progress, std::uint64_t memoryBytes = 0);
 
 }  // namespace acentric

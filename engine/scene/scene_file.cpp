@@ -4,7 +4,11 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -28,13 +32,13 @@ struct Header {
   ContentKey checksum;
 };
 
-ContentKey checksumOf(const Header& header, std::span<const std::byte> rest) {
-  Hasher hasher;
-  hasher.value(header.version)
+/// `hasher` has had what follows the header.
+ContentKey checksumOf(const Header& header, Hasher& hasher) {
+  return hasher.value(header.version)
       .value(header.dependencyBytes)
       .value(header.packedBytes)
-      .value(header.unpackedBytes);
-  return hasher.bytes(rest.data(), rest.size()).finish();
+      .value(header.unpackedBytes)
+      .finish();
 }
 
 void write(ByteWriter& out, const TextureUse& use) {
@@ -308,33 +312,15 @@ tl::unexpected<Error> malformed(const char* message, const std::filesystem::path
   return fail(ErrorKind::malformed, message, path.string());
 }
 
-Result<std::vector<std::byte>> packed(std::span<const std::byte> bytes, const std::filesystem::path& path) {
-  std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
-  const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1);
-  if (ZSTD_isError(size))
-    return fail(ErrorKind::internal, fmt::format("packing failed: {}", ZSTD_getErrorName(size)),
-                path.string());
-  out.resize(size);
-  return out;
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+File openFile(const std::filesystem::path& path, const char* mode) {
+  return File(std::fopen(path.c_str(), mode), &std::fclose);
 }
 
-}  // namespace
-
-Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) try {
-  ByteWriter scene, dependencies;
-  write(scene, file.scene);
-  writeAll(dependencies, file.dependencies);
-  const auto body = packed(scene.bytes(), path);
-  if (!body) return tl::unexpected(body.error());
-  Header header;
-  header.dependencyBytes = dependencies.bytes().size();
-  header.packedBytes = body->size();
-  header.unpackedBytes = scene.bytes().size();
-  std::vector<std::byte>& rest = dependencies.bytes();
-  rest.insert(rest.end(), body->begin(), body->end());
-  header.checksum = checksumOf(header, rest);
-
-  ByteWriter out;
+std::vector<std::byte> bytesOf(const Header& header) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(
+      [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); });
   out.value(kMagic);
   out.value(header.version);
   out.value(std::uint32_t(0));
@@ -342,56 +328,207 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
   out.value(header.packedBytes);
   out.value(header.unpackedBytes);
   out.value(header.checksum);
-  out.bytes().insert(out.bytes().end(), rest.begin(), rest.end());
-  return writeFileAtomically(path, out.bytes());
+  return bytes;
+}
+
+template <class Write>
+std::uint64_t sizeOf(const Write& write) {
+  std::uint64_t size = 0;
+  ByteWriter counter([&](std::span<const std::byte> part) { size += part.size(); });
+  write(counter);
+  return size;
+}
+
+/// Writes to a file what it is given, hashed and counted.
+class HashedOutput {
+ public:
+  explicit HashedOutput(std::FILE* file) : file_(file) {}
+  void write(std::span<const std::byte> bytes) {
+    sound_ = sound_ && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+    hasher_.bytes(bytes.data(), bytes.size());
+    written_ += bytes.size();
+  }
+  bool sound() const { return sound_; }
+  std::uint64_t written() const { return written_; }
+  Hasher& hasher() { return hasher_; }
+
+ private:
+  std::FILE* file_;
+  Hasher hasher_;
+  std::uint64_t written_ = 0;
+  bool sound_ = true;
+};
+
+/// One zstd frame of a known size, in pieces.
+class Packer {
+ public:
+  Packer(HashedOutput& out, std::uint64_t unpackedBytes)
+      : out_(out), context_(ZSTD_createCCtx(), &ZSTD_freeCCtx), buffer_(ZSTD_CStreamOutSize()) {
+    if (!context_) throw std::bad_alloc();
+    check(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, 1));
+    check(ZSTD_CCtx_setPledgedSrcSize(context_.get(), unpackedBytes));
+  }
+  void add(std::span<const std::byte> bytes) { pass(bytes, ZSTD_e_continue); }
+  /// What went wrong; null: nothing.
+  const char* close() {
+    pass({}, ZSTD_e_end);
+    return trouble_;
+  }
+
+ private:
+  void check(std::size_t result) {
+    if (ZSTD_isError(result) && trouble_ == nullptr) trouble_ = ZSTD_getErrorName(result);
+  }
+  void pass(std::span<const std::byte> bytes, ZSTD_EndDirective until) {
+    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+    for (std::size_t left = 1; trouble_ == nullptr && (until == ZSTD_e_end ? left > 0 : in.pos < in.size);) {
+      ZSTD_outBuffer packed{buffer_.data(), buffer_.size(), 0};
+      left = ZSTD_compressStream2(context_.get(), &packed, &in, until);
+      check(left);
+      out_.write(std::span(buffer_).first(packed.pos));
+    }
+  }
+  HashedOutput& out_;
+  std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context_;
+  std::vector<std::byte> buffer_;
+  const char* trouble_ = nullptr;
+};
+
+/// The frame that the rest of a file is, in pieces.
+class Unpacker {
+ public:
+  explicit Unpacker(std::FILE* file)
+      : file_(file), context_(ZSTD_createDCtx(), &ZSTD_freeDCtx), buffer_(ZSTD_DStreamInSize()) {
+    if (!context_) throw std::bad_alloc();
+  }
+  bool read(std::span<std::byte> bytes) {
+    ZSTD_outBuffer out{bytes.data(), bytes.size(), 0};
+    while (out.pos < out.size) {
+      if (in_.pos == in_.size)
+        in_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_), 0};
+      const std::size_t before = out.pos;
+      ended_ = ZSTD_decompressStream(context_.get(), &out, &in_);
+      if (ZSTD_isError(ended_) || (in_.size == 0 && out.pos == before)) return false;
+    }
+    return true;
+  }
+  /// Nothing follows what was read.
+  bool atEnd() {
+    std::byte more;
+    ZSTD_outBuffer out{&more, 1, 0};
+    if (ended_ != 0) {
+      if (in_.pos == in_.size)
+        in_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_), 0};
+      ended_ = ZSTD_decompressStream(context_.get(), &out, &in_);
+    }
+    return ended_ == 0 && out.pos == 0 && in_.pos == in_.size && std::fgetc(file_) == EOF;
+  }
+
+ private:
+  std::FILE* file_;
+  std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context_;
+  std::vector<std::byte> buffer_;
+  ZSTD_inBuffer in_{nullptr, 0, 0};
+  std::size_t ended_ = 1;  ///< 0: the frame has
+};
+
+ByteReader readerOf(std::FILE* file, std::uint64_t bytes) {
+  return {
+      [file](std::span<std::byte> out) { return std::fread(out.data(), 1, out.size(), file) == out.size(); },
+      bytes};
+}
+
+/// Of all that follows where the file is.
+Hasher hashedRest(std::FILE* file) {
+  Hasher hasher;
+  std::vector<std::byte> piece(std::size_t(1) << 20);
+  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), file))
+    hasher.bytes(piece.data(), got);
+  return hasher;
+}
+
+}  // namespace
+
+Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) try {
+  const auto writeScene = [&](ByteWriter& out) { write(out, file.scene); };
+  const auto writeDependencies = [&](ByteWriter& out) { writeAll(out, file.dependencies); };
+  Header header;
+  header.dependencyBytes = sizeOf(writeDependencies);
+  header.unpackedBytes = sizeOf(writeScene);
+  return replaceFileAtomically(path, [&](const std::filesystem::path& temporary) -> Status {
+    const File stream = openFile(temporary, "wb");
+    const auto failed = [&] {
+      return fail(errno == ENOSPC || errno == EDQUOT ? ErrorKind::outOfSpace : ErrorKind::unreadable,
+                  fmt::format("writing failed: {}", std::strerror(errno)), path.string());
+    };
+    if (!stream) return failed();
+    std::vector<std::byte> head = bytesOf(header);  // as yet without checksum and packed size
+    if (std::fwrite(head.data(), 1, head.size(), stream.get()) != head.size()) return failed();
+    HashedOutput out(stream.get());
+    ByteWriter dependencies([&](std::span<const std::byte> bytes) { out.write(bytes); });
+    writeDependencies(dependencies);
+    Packer packer(out, header.unpackedBytes);
+    ByteWriter scene([&](std::span<const std::byte> bytes) { packer.add(bytes); });
+    writeScene(scene);
+    if (const char* trouble = packer.close())
+      return fail(ErrorKind::internal, fmt::format("packing failed: {}", trouble), path.string());
+    header.packedBytes = out.written() - header.dependencyBytes;
+    header.checksum = checksumOf(header, out.hasher());
+    head = bytesOf(header);
+    if (!out.sound() || std::fseek(stream.get(), 0, SEEK_SET) != 0 ||
+        std::fwrite(head.data(), 1, head.size(), stream.get()) != head.size() ||
+        std::fflush(stream.get()) != 0)
+      return failed();
+    return {};
+  });
 } catch (const std::bad_alloc&) {
-  return fail(ErrorKind::outOfSpace, "the scene does not fit in memory twice, as writing it needs",
-              path.string());
+  return fail(ErrorKind::outOfSpace, "there is not enough memory to write the scene", path.string());
 }
 
 Result<SceneFile> readSceneFile(const std::filesystem::path& path,
                                 const std::function<bool(const std::vector<Dependency>&)>& accept) try {
-  const auto bytes = readFile(path, kMaxUnpacked);
-  if (!bytes) return tl::unexpected(bytes.error());
-  if (bytes->size() < kHeaderBytes ||
-      !std::equal(std::begin(kMagic), std::end(kMagic), reinterpret_cast<const char*>(bytes->data())))
-    return malformed("is not a scene file", path);
+  const File file = openFile(path, "rb");
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!file || error)
+    return fail(std::filesystem::exists(path) ? ErrorKind::unreadable : ErrorKind::notFound,
+                "cannot be opened for reading", path.string());
   Header header;
+  std::array<char, sizeof kMagic> magic{};
   std::uint32_t zero = 0;
-  ByteReader in(std::span<const std::byte>(*bytes).subspan(sizeof kMagic));
+  ByteReader in = readerOf(file.get(), size);
+  in.value(magic);
   in.value(header.version);
   in.value(zero);
   in.value(header.dependencyBytes);
   in.value(header.packedBytes);
   in.value(header.unpackedBytes);
   in.value(header.checksum);
+  if (!in.sound() || !std::ranges::equal(magic, kMagic)) return malformed("is not a scene file", path);
   if (header.version != kSceneFileVersion || zero != 0)
     return fail(ErrorKind::unsupported,
                 fmt::format("is version {} of the scene file; this program reads version {}", header.version,
                             kSceneFileVersion),
                 path.string());
-  const std::span<const std::byte> rest = std::span<const std::byte>(*bytes).subspan(kHeaderBytes);
-  if (header.dependencyBytes > rest.size() || header.packedBytes != rest.size() - header.dependencyBytes)
+  const std::uint64_t rest = size - kHeaderBytes;
+  if (header.dependencyBytes > rest || header.packedBytes != rest - header.dependencyBytes)
     return malformed("is cut off or too long", path);
-  if (checksumOf(header, rest) != header.checksum)
+  if (header.unpackedBytes > kMaxUnpacked) return malformed("has a broken size", path);
+  Hasher hasher = hashedRest(file.get());
+  if (checksumOf(header, hasher) != header.checksum)
     return malformed("is damaged: its checksum is wrong", path);
+  if (std::fseek(file.get(), long(kHeaderBytes), SEEK_SET) != 0) return malformed("cannot be read", path);
 
   SceneFile out;
-  ByteReader dependencies(rest.first(header.dependencyBytes));
+  ByteReader dependencies = readerOf(file.get(), header.dependencyBytes);
   readAll(dependencies, out.dependencies);
   if (!dependencies.sound() || !dependencies.atEnd()) return malformed("has a broken list of files", path);
   if (accept && !accept(out.dependencies)) return out;
 
-  const std::span<const std::byte> body = rest.subspan(header.dependencyBytes);
-  const unsigned long long unpacked = ZSTD_getFrameContentSize(body.data(), body.size());
-  if (unpacked != header.unpackedBytes || unpacked > kMaxUnpacked)
-    return malformed("has a broken size", path);
-  const std::unique_ptr<std::byte[]> buffer(new std::byte[unpacked]);
-  const std::size_t got = ZSTD_decompress(buffer.get(), unpacked, body.data(), body.size());
-  if (ZSTD_isError(got) || got != unpacked) return malformed("cannot be unpacked", path);
-  ByteReader scene(std::span(buffer.get(), std::size_t(unpacked)));
+  Unpacker unpacker(file.get());
+  ByteReader scene([&](std::span<std::byte> bytes) { return unpacker.read(bytes); }, header.unpackedBytes);
   read(scene, out.scene);
-  if (!scene.sound() || !scene.atEnd() || !keepsPromises(out.scene))
+  if (!scene.sound() || !scene.atEnd() || !unpacker.atEnd() || !keepsPromises(out.scene))
     return malformed("has broken contents", path);
   return out;
 } catch (const std::bad_alloc&) {

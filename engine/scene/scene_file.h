@@ -2,8 +2,10 @@
 /// The scene file as the cache keeps it: a Scene and the files that it was made from. Private to this folder.
 ///
 /// Layout, little-endian: 8 bytes "ACSCENE\n"; u32 version; u32 zero; u64 bytes of the dependency block; u64
-/// bytes packed; u64 bytes unpacked; 16 bytes XXH3-128 of all that follows and of the four sizes; the
+/// bytes packed; u64 bytes unpacked; 16 bytes XXH3-128 of all that follows, then of version and sizes; the
 /// dependency block; the scene, zstd. Any other version is refused: the file can always be made again.
+///
+/// Both ways the scene passes through in pieces: it is in memory once.
 
 #include <functional>
 
@@ -12,7 +14,7 @@
 
 namespace acentric {
 
-inline constexpr std::uint32_t kSceneFileVersion = 5;
+inline constexpr std::uint32_t kSceneFileVersion = 6;
 
 struct SceneFile {
   Scene scene;

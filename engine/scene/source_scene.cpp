@@ -22,6 +22,22 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", digits, count == 1 ? one : many);
 }
 
+Status checkRoom(std::uint64_t triangles, std::uint64_t memoryBytes) {
+  // Measured with 8 and 50 million triangles without normals, which have three vertices each; of these
+  // bytes two thirds are the ray tracer's.
+  constexpr std::uint64_t kBytesPerTriangle = 230;
+  constexpr double kGigabyte = 1 << 30;
+  if (memoryBytes == 0 || triangles <= memoryBytes / kBytesPerTriangle) return {};
+  return fail(
+      ErrorKind::tooLarge,
+      fmt::format("has {}, those of instances counted once, which take about {:.1f} GB of memory; {:.1f} GB "
+                  "may be taken: raise that with --import-memory if there is more, show what is repeated as "
+                  "instances, simplify the model or split it",
+                  counted(triangles, "triangle", "triangles"),
+                  double(triangles) * double(kBytesPerTriangle) / kGigabyte,
+                  double(memoryBytes) / kGigabyte));
+}
+
 void ReportLines::add(std::string line) {
   if (seen_.contains(line)) return;
   if (lines_.size() >= kMaxReportLines) {

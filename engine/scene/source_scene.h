@@ -83,11 +83,16 @@ struct ReadContext {
   std::filesystem::path path;
   References& references;
   const Progress& progress;
+  std::uint64_t memoryBytes = 0;  ///< that the scene may take; 0: as many as it likes
 
   void tell(double done, double total, const char* stage) const {
     if (progress) progress({done, total, stage});
   }
 };
+
+/// Refuses so many triangles, those of prototypes counted once, if a project of them would take more memory
+/// than it may: before anything of their size is read.
+Status checkRoom(std::uint64_t triangles, std::uint64_t memoryBytes);
 
 /// Places a mesh: positions, normals and tangents; a mirroring transform turns the winding round.
 void applyTransform(SourceMesh& mesh, const glm::dmat4& worldFromMesh);

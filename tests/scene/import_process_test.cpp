@@ -153,6 +153,19 @@ TEST_F(ImportProcess, MemoryIsWatched) {
   EXPECT_THAT(error.message, HasSubstr("64 MiB"));
 }
 
+TEST_F(ImportProcess, WhatTakesMoreMemoryThanItMayIsRefusedBeforeItIsRead) {
+  builder.json["accessors"].push_back({{"componentType", 5125}, {"count", 300'000'000}, {"type", "SCALAR"}});
+  builder.primitive()["indices"] = builder.json["accessors"].size() - 1;
+  model = builder.write(folder.path() / "heavy.gltf");
+  host.memoryLimitBytes = std::size_t(1) << 30;
+  const auto scene = importScene(model, {}, host);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().kind, ErrorKind::tooLarge);
+  EXPECT_THAT(scene.error().describe(), HasSubstr("heavy.gltf: has 100,000,000 triangles"));
+  EXPECT_THAT(scene.error().message, HasSubstr("1.0 GB may be taken"));
+  EXPECT_THAT(scene.error().message, HasSubstr("--import-memory"));
+}
+
 TEST_F(ImportProcess, CancellingStopsTheImporter) {
   std::stop_source stop;
   const std::jthread later([&] {

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     last = now;
     say(progressLine(state));
   };
-  const auto parsed = parseModel(argv[1], *options, progress);
+  const auto parsed = parseModel(argv[1], *options, progress, memory);
   if (!parsed) return refuse(parsed.error());
   if (auto status = writeSceneFile(*parsed, argv[3]); !status) return refuse(status.error());
   say(writtenLine());
