@@ -30,9 +30,11 @@ Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectO
     opened.recovered = file;
   } else {
     TaskRunner runner(processors_ - 1);
-    projectFile = suggestedProjectFile(file);
-    project = makeProject(file, projectFile, options, options_.importHost, runner, context.progress(),
-                          context.stop());
+    auto made = makeProject(file, suggestedProjectFile(file), options, options_.importHost, runner,
+                            context.progress(), context.stop());
+    if (!made) return tl::unexpected(made.error());
+    opened.open = std::move(*made), opened.untitled = true;
+    return opened;
   }
   if (!project) return tl::unexpected(project.error());
   opened.untitled = !isProjectFile(file);

@@ -66,7 +66,7 @@ Result<Model> makeModel(const fs::path& scene, const fs::path& folder, const Ben
   const auto project =
       makeProject(folder / collected->scene, file, choices, host, runner, common.progress, common.stop);
   if (!project) return tl::unexpected(project.error());
-  if (Status saved = saveProject(*project, file); !saved) return tl::unexpected(saved.error());
+  if (Status saved = saveProject(project->project, file); !saved) return tl::unexpected(saved.error());
   Model model;
   model.importSeconds = importing.seconds();
   const Stopwatch opening;

@@ -23,21 +23,26 @@ void takeBack(const CollectedModel& collected) {
   std::filesystem::remove(collected.folder.parent_path(), error);  // unless it holds others
 }
 
-Result<CollectedModel> makeAndSave(const NewOptions& options, const NewProjectOptions& choices,
-                                   const Common& common) {
+struct MadeProject {
+  CollectedModel model;
+  OpenProject open;
+};
+
+Result<MadeProject> makeAndSave(const NewOptions& options, const NewProjectOptions& choices,
+                                const Common& common) {
   auto collected =
       collectModel(options.scene, options.output, choices.import,
                    options.link ? Collect::link : Collect::files, common.host, common.progress, common.stop);
-  if (!collected) return collected;
+  if (!collected) return tl::unexpected(collected.error());
   const auto runner = common.runner();
-  const auto project = makeProject(options.output.parent_path() / collected->scene, options.output, choices,
-                                   common.host, *runner, common.progress, common.stop);
+  auto project = makeProject(options.output.parent_path() / collected->scene, options.output, choices,
+                             common.host, *runner, common.progress, common.stop);
   Status made;
   if (!project)
     made = tl::unexpected(project.error());
-  else if (made = saveProject(*project, options.output); made)
+  else if (made = saveProject(project->project, options.output); made)
     made = mustExist(options.output);
-  if (made) return collected;
+  if (made) return MadeProject{std::move(*collected), std::move(*project)};
   takeBack(*collected);
   return tl::unexpected(made.error());
 }
@@ -161,13 +166,12 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     if (!storey) return tl::unexpected(storey.error());
     choices.storey = *storey;
   }
-  const auto collected = makeAndSave(options, choices, common);
-  if (!collected) return tl::unexpected(collected.error());
-  const auto open = openProject(options.output, common.host, common.progress, common.stop);
-  if (!open) return tl::unexpected(open.error());
+  const auto made = makeAndSave(options, choices, common);
+  if (!made) return tl::unexpected(made.error());
+  const OpenProject* open = &made->open;
   const auto storeys = acentric::openStoreys(*open, common.host, common.progress, common.stop);
   if (!storeys) return tl::unexpected(storeys.error());
-  const Report model = collectReport(*collected);
+  const Report model = collectReport(made->model);
   Report report;
   report.text = fmt::format("{}: {}\n", options.output.string(), trianglesText(*open->imported));
   report.text += model.text;

@@ -130,9 +130,9 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
 
 }  // namespace
 
-Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
-                            const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
-                            const Progress& progress, std::stop_token stop) {
+Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
+                                const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
+                                const Progress& progress, std::stop_token stop) {
   if (!(options.eyeHeight > 0 && options.eyeHeight <= 1000))
     return fail(ErrorKind::invalidArgument, "eye height must lie in (0, 1000] metres");
   if (options.outline != "auto" && options.around)
@@ -150,7 +150,11 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
 
   const auto scene = importScene(sceneFile, options.import, host, progress, stop);
   if (!scene) return tl::unexpected(scene.error());
-  const auto rays = RayScene::build(*scene, planEffects(**scene));
+  OpenProject bare;  // without a layout
+  bare.file = projectFile, bare.project = project;
+  bare.imported = bare.scene = *scene;
+  bare.plan = planEffects(**scene);
+  const auto rays = RayScene::build(*scene, bare.plan);
   if (!rays) return tl::unexpected(rays.error());
 
   if (progress) progress({0, 0, "finding the walkable area"});
@@ -187,8 +191,8 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
   const auto layout = buildLayout(project.layout());
   if (!layout) return tl::unexpected(layout.error());
   project.exposure = tidy(estimateExposure(**rays, sampleEyes(*layout, 8), project.bake, runner));
-  if (Status sound = project.check(); !sound) return tl::unexpected(sound.error());
-  return project;
+  bare.rays = *rays, bare.mirrors = flatMirrorsOf(**scene, bare.plan);
+  return reopenProject(bare, project, host, progress, stop);
 }
 
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,

@@ -46,12 +46,6 @@ struct NewProjectOptions {
   std::optional<glm::dvec2> around;  ///< plan, metres: where such a part begins; none: where most is enclosed
 };
 
-/// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a
-/// spawn. The scene lies in the folder of `projectFile` (collect_model.h). Does not write.
-Result<Project> makeProject(const std::filesystem::path& sceneFile, const std::filesystem::path& projectFile,
-                            const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
-                            const Progress& progress = {}, std::stop_token stop = {});
-
 /// The cell size that a new project has if none is chosen, metres.
 double firstCellSize(double walkableSquareMetres, Configuration configuration);
 
@@ -77,6 +71,13 @@ KeyParts captureKeyParts(const OpenProject& open, int camera);
 /// What the key of the surfaces' light is made of: it depends on which triangles some region draws as local
 /// geometry, and from where mirrors are seen.
 KeyParts surfaceLightKeyParts(const OpenProject& open);
+
+/// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a
+/// spawn, and opens that. The scene lies in the folder of `projectFile` (collect_model.h). Does not write.
+Result<OpenProject> makeProject(const std::filesystem::path& sceneFile,
+                                const std::filesystem::path& projectFile, const NewProjectOptions& options,
+                                const ImportHost& host, TaskRunner& runner, const Progress& progress = {},
+                                std::stop_token stop = {});
 
 Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
                                 const Progress& progress = {}, std::stop_token stop = {});
