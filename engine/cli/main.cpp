@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <new>
 
 #include "engine/base/interrupt.h"
 #include "engine/base/json_text.h"
@@ -36,6 +37,13 @@ int finish(const Result<Report>& result, bool json) {
   else
     fmt::print("{}", result->text);
   return result->success ? 0 : kFailed;
+}
+
+Result<Report> runWithinMemory(const Chosen& chosen, const Common& common) try {
+  return chosen.run(common);
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::outOfSpace,
+              "there is not enough memory for this: close other programs, or make the scene smaller");
 }
 
 }  // namespace
@@ -95,5 +103,5 @@ int main(int argc, char** argv) {
     (void)std::fflush(stderr);
   };
   if (const auto notice = importCacheNotice(common.host)) fmt::print(stderr, "acentric: {}\n", *notice);
-  return finish(chosen.run(common), json);
+  return finish(runWithinMemory(chosen, common), json);
 }
