@@ -108,6 +108,7 @@ bool ScatteredValuesOnDemand::keep(const Key& key, const HalfColour& value) cons
 GatheredLight::Grids GatheredLight::layOut(double texel, bool corners) const {
   const Scene& scene = scene_->scene();
   Grids grids;
+  grids.first.clear();
   std::uint64_t next = 0;
   for (const Mesh& mesh : scene.meshes)
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -120,7 +121,7 @@ GatheredLight::Grids GatheredLight::layOut(double texel, bool corners) const {
   return grids;
 }
 
-GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings)
+GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings, std::uint64_t mostPlaces)
     : scene_(&scene),
       settings_(GatherSettings::of(settings)),
       lights_(scene, settings),
@@ -133,16 +134,16 @@ GatheredLight::GatheredLight(const RayScene& scene, const BakeSettings& settings
       firstTriangles_(scene.scene().firstTriangles()),
       values_(0) {
   detail_.normalMaps = false;  // too fine for what is sent into the distance
+  if (bounced_) scatteredCells_.resize(std::size_t(settings_.bounces));
+  laidOut_ = firstTriangles_.back() <= mostPlaces / (2 * surfaceSampleCount(1));
+  if (!laidOut_) return;
   constexpr double kGrowth = 1.2;
-  const double coarsest = double(glm::length(scene.scene().bounds.size()));
-  for (places_ = layOut(texel_, true); places_.first.back() > kMaxPlaces && texel_ < coarsest;)
+  for (places_ = layOut(texel_, true); places_.first.back() > mostPlaces;)
     places_ = layOut(texel_ *= kGrowth, true);
-  if (places_.first.back() > kMaxPlaces) throw std::bad_alloc();
   values_ = ValuesOnDemand(places_.first.back());
   if (!bounced_) return;
   cells_ = layOut(kCellTexels * texel_, false);
   for (int n = 0; n < settings_.bounces; ++n) cellValues_.emplace_back(cells_.first.back());
-  instanceCells_.resize(std::size_t(settings_.bounces));
 }
 
 /// One of R x R equal triangles, and its middle.
@@ -236,15 +237,15 @@ HalfColour GatheredLight::placeLight(const Side& side, std::uint32_t i, std::uin
     const Gathered g = gather(surface, side.sceneTriangle, index, own, rays, stop);
     return stop.stop_requested() ? HalfColour(0) : packColour({g.radiance, 0.5f + 0.5f * g.open});
   };
-  if (isInstance(side))
-    return instanceValues_.at({side.mesh, side.triangle, within}, rays,
-                              [&](RayCounts& own) { return gathered(within, own); });
+  if (!isLaidOut(side.mesh))
+    return scatteredValues_.at({side.mesh, side.triangle, within}, rays,
+                               [&](RayCounts& own) { return gathered(within, own); });
   const std::uint32_t index = places_.first[side.sceneTriangle] + within;
   return values_.at(index, rays, [&](RayCounts& own) { return gathered(index, own); });
 }
 
 std::uint32_t GatheredLight::resolutionOf(const Grids& grids, const Side& side, double texel) const {
-  if (!isInstance(side)) return grids.resolution[side.sceneTriangle];
+  if (isLaidOut(side.mesh)) return grids.resolution[side.sceneTriangle];
   return resolutionFor(PlacedMesh(scene_->scene(), side.mesh).corners(side.triangle), texel, kMaxResolution);
 }
 
@@ -379,8 +380,8 @@ glm::vec3 GatheredLight::cellLight(const Side& side, const Cell& cell, int bounc
     return stop.stop_requested() ? HalfColour(0) : packColour({light, 1});
   };
   const auto before = std::size_t(bounces);
-  if (isInstance(side))
-    return glm::vec3(unpackColour(instanceCells_[before].at(
+  if (!isLaidOut(side.mesh))
+    return glm::vec3(unpackColour(scatteredCells_[before].at(
         {side.mesh, side.triangle, within}, rays, [&](RayCounts& own) { return gathered(within, own); })));
   const std::uint32_t index = cells_.first[side.sceneTriangle] + within;
   return glm::vec3(unpackColour(

@@ -8,7 +8,8 @@
 /// A place is gathered when it is first read, whoever reads it; its value depends on the place alone, so the
 /// order and the number of threads change nothing. Grids have 8 bytes a place and side, are bounded by
 /// kMaxPlaces for all triangles of the scene (512 MiB, of which memory is taken only where something is
-/// read), and get coarser where that is not enough.
+/// read), and get coarser where that is not enough. Of a scene with more triangles than that has room for,
+/// and of instances, only the places that were read lately are kept.
 
 #include <array>
 #include <atomic>
@@ -70,8 +71,8 @@ HalfColour ValuesOnDemand::at(std::size_t index, RayCounts& rays, const Make& ma
   return made;
 }
 
-/// The same for places on instances, which are too many to lay out: kept by what they are read for, of the
-/// many only some. What is forgotten is made again, and is the same.
+/// The same for places that are too many to lay out: kept by what they are read for, of the many only some.
+/// What is forgotten is made again, and is the same.
 class ScatteredValuesOnDemand {
  public:
   struct Key {
@@ -109,7 +110,7 @@ class GatheredLight {
   static constexpr int kCellRays = 32;
   static constexpr double kCellTexels = 4;
 
-  GatheredLight(const RayScene& scene, const BakeSettings& settings);
+  GatheredLight(const RayScene& scene, const BakeSettings& settings, std::uint64_t mostPlaces = kMaxPlaces);
 
   struct Gathered {
     glm::vec3 radiance{0};  ///< cosine-weighted mean, i.e. what a white Lambert surface sends back
@@ -128,7 +129,9 @@ class GatheredLight {
     glm::vec3 normal{0};      ///< of its side, unit
     double squareMetres = 0;  ///< of the surface that reads it
   };
-  /// Of meshes; those on instances have no numbers.
+  /// Are the places of a placed mesh laid out? Those of others have no numbers.
+  bool isLaidOut(std::uint32_t placed) const { return laidOut_ && placed + 1 < firstTriangles_.size(); }
+  /// Of those that are.
   std::size_t placeCount() const { return places_.first.back(); }
   Spot place(std::size_t number) const;
   void gatherPlace(std::size_t number, RayCounts& rays, const std::stop_token& stop = {}) const;
@@ -152,7 +155,7 @@ class GatheredLight {
  private:
   /// One grid per triangle and side: the finest reads between corners of cells, bounces read whole cells.
   struct Grids {
-    std::vector<std::uint32_t> first;  ///< by scene triangle, + 1 sentinel
+    std::vector<std::uint32_t> first{0};  ///< by scene triangle, + 1 sentinel
     std::vector<std::uint16_t> resolution;
   };
   Grids layOut(double texel, bool corners) const;
@@ -166,7 +169,6 @@ class GatheredLight {
   Side sideAt(const Grids& grids, std::size_t number, std::uint32_t& within) const;
   struct Place;
   Place placeNumbered(std::size_t number) const;
-  bool isInstance(const Side& side) const { return side.mesh + 1 >= firstTriangles_.size(); }
   std::uint32_t resolutionOf(const Grids& grids, const Side& side, double texel) const;
   double areaOf(std::uint32_t placed, std::uint32_t triangle) const;
   Spot spotOn(const Side& side, const glm::vec2& barycentric, double share) const;
@@ -194,11 +196,12 @@ class GatheredLight {
   DetailRules detail_;
   double texel_ = 0;
   std::vector<std::uint32_t> firstTriangles_;
+  bool laidOut_ = true;  ///< the meshes' places
   Grids places_, cells_;
   ValuesOnDemand values_;
   std::vector<ValuesOnDemand> cellValues_;  ///< by bounces before
-  ScatteredValuesOnDemand instanceValues_;
-  std::vector<ScatteredValuesOnDemand> instanceCells_;  ///< by bounces before
+  ScatteredValuesOnDemand scatteredValues_;
+  std::vector<ScatteredValuesOnDemand> scatteredCells_;  ///< by bounces before
 };
 
 /// Is light from all around gathered with rays, rather than taken as if nothing were in the way?

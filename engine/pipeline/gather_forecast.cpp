@@ -20,7 +20,7 @@ namespace {
 using Spot = GatheredLight::Spot;
 
 constexpr std::size_t kPlaces = 4096, kCells = 512;  ///< asked, at most
-constexpr std::size_t kInstancePlaces = 4096;        ///< triangles of instances that are asked
+constexpr std::size_t kScatteredPlaces = 4096;       ///< triangles of instances that are asked
 constexpr int kWaysFromCell = 8;
 /// Samples on a spot from which on it is as good as certain that one reads it.
 constexpr double kPlenty = 4;
@@ -176,7 +176,7 @@ class Forecaster {
     const double share = double(gathered_.placeCount()) / double(std::max<std::size_t>(1, numbers.size()));
     double captures = 0, any = 0, squares = 0;
     for (const Chances& c : places) captures += c.captures, any += c.any, squares += c.any * c.any;
-    const Chances cells = raysForCells(), instances = raysForInstances(raysPerPlace);
+    const Chances cells = raysForCells(), instances = raysForScattered(raysPerPlace);
     forecast.captureRays = share * captures * raysPerPlace + cells.captures + instances.captures;
     forecast.lightRays = share * any * raysPerPlace + cells.any + instances.any - forecast.captureRays;
     if (any > 0 && numbers.size() < gathered_.placeCount())
@@ -256,18 +256,26 @@ class Forecaster {
     return sum;
   }
 
-  /// For places and cells of instances, which have no numbers: by some of their triangles, each for its like.
-  Chances raysForInstances(double raysPerPlace) const {
+  /// For places and cells that have no numbers: by some of their triangles, each for its like.
+  Chances raysForScattered(double raysPerPlace) const {
     struct Part {
       std::uint32_t placed, triangle;
       double stands;
     };
     std::vector<Part> parts;
     if (!open_.scene->instances.empty())
-      eachTriangle(*open_.scene, kInstancePlaces / fewer_,
+      eachTriangle(*open_.scene, kScatteredPlaces / fewer_,
                    [&](std::uint32_t placed, const PlacedMesh&, std::uint32_t triangle, double stands) {
                      if (open_.scene->isInstance(placed)) parts.push_back({placed, triangle, stands});
                    });
+    if (!open_.scene->meshes.empty() && !gathered_.isLaidOut(0)) {
+      const std::uint32_t all = firstTriangles_.back(), step = all / (kScatteredPlaces / fewer_) + 1;
+      std::uint32_t mesh = 0;
+      for (std::uint64_t n = 0; n < all; n += step) {
+        while (firstTriangles_[mesh + 1] <= n) ++mesh;
+        parts.push_back({mesh, std::uint32_t(n - firstTriangles_[mesh]), double(step)});
+      }
+    }
     std::vector<Chances> rays(parts.size());
     runner_.parallelFor(parts.size(), [&](std::size_t n) {
       const FlushDenormals flush;

@@ -207,6 +207,34 @@ TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
   EXPECT_LT(std::sqrt(square / count), 0.01 * sum / count);
 }
 
+/// A scene with more triangles than there are places: what is kept of those read lately is what they would
+/// be.
+TEST(GatheredLight, OfMoreTrianglesThanPlacesIsTheSame) {
+  SceneBuilder builder;
+  const int white = builder.material(matte());
+  builder.box(white, {-4, -3, 0}, {4, 3, 3}, true)
+      .box(white, {0.5f, 0.5f, 0.2f}, {1.5f, 1.2f, 1})
+      .sky(glm::vec3(1));
+  const auto scene = builder.rays();
+  const GatheredLight whole(*scene, {}), few(*scene, {}, 100);
+  EXPECT_GT(whole.placeCount(), 100u);
+  EXPECT_EQ(few.placeCount(), 0u);
+  EXPECT_TRUE(whole.isLaidOut(0));
+  EXPECT_FALSE(few.isLaidOut(0));
+  RayCounts rays, again;
+  for (RayCounts* counts : {&rays, &again})
+    for (int i = 0; i < 200; ++i) {
+      const glm::vec3 way =
+          glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
+      const Hit hit = scene->trace({{-1, -1, 1.5f}, way});
+      ASSERT_TRUE(hit.found());
+      const bool back = glm::dot(hit.geometricNormal(), way) > 0;
+      EXPECT_EQ(few.at(hit, back, *counts).radiance, whole.at(hit, back, *counts).radiance);
+    }
+  EXPECT_GT(rays.total(), 0u);
+  EXPECT_EQ(again.total(), 0u) << "kept";
+}
+
 /// Rooms of which every place and cell is asked for.
 SceneBuilder furnishedRoom() {
   SceneBuilder builder;
