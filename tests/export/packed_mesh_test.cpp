@@ -19,7 +19,7 @@ std::vector<Value> decoded(const PackedAttribute& attribute, std::size_t vertice
                                        reinterpret_cast<const unsigned char*>(attribute.coded.data()),
                                        attribute.coded.size()),
             0);
-  if (attribute.exponential) meshopt_decodeFilterExp(out.data(), vertices, sizeof(Value));
+  if (attribute.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), vertices, sizeof(Value));
   return out;
 }
 
