@@ -24,7 +24,7 @@ constexpr float kVerge = kStreetHalf + kKerb;    // where grass begins
 constexpr float kTownEnd = 86;                   // houses, either way
 constexpr float kFront = 11.5f;                  // of houses, from the street's middle
 constexpr float kFenceAt = 7.6f;
-constexpr float kFlat = 16;         // ground is level so far from the street
+constexpr float kFlat = 19;         // ground is level so far from the street
 constexpr float kLeastReach = 240;  // of the ground, from the street
 constexpr float kSpacing = 5.2f;    // between trees of the woods
 
@@ -221,17 +221,25 @@ std::vector<Place> allPlaces(std::size_t trees, const std::vector<HousePlace>& h
   return all;
 }
 
+/// From -last to last, by `step(y)` from 0 on either way.
+template <class Step>
+std::vector<float> mirrored(float last, const Step& step) {
+  std::vector<float> there, all;
+  for (float y = 0; y < last; y += step(y)) there.push_back(y);
+  there.push_back(last);
+  for (std::size_t i = there.size(); i > 1; --i) all.push_back(-there[i - 1]);
+  all.insert(all.end(), there.begin(), there.end());
+  return all;
+}
+
 /// Rows along y, columns across the street, on either side of it: so far beyond it in all directions.
 Shape ground(float reach) {
   Shape out;
-  std::vector<float> rows, columns{kVerge, 5, 7.5f, 11, 16, 22, 29, 38, 50, 66, 86};
+  std::vector<float> columns{kVerge, 5, 7.5f, 11, 16, 22, 29, 38, 50, 66, 86};
   while (columns.back() < reach) columns.push_back(std::min(reach, 1.3f * columns.back()));
-  const float last = kStreetEnd + reach;
-  for (float y = 0; y < last; y += y < 40 ? 8.0f : y < 200 ? 12.0f : 60.0f) rows.push_back(y);
-  rows.push_back(last);
-  std::vector<float> ys;
-  for (std::size_t i = rows.size(); i > 1; --i) ys.push_back(-rows[i - 1]);
-  ys.insert(ys.end(), rows.begin(), rows.end());
+  const std::vector<float> ys = mirrored(kStreetEnd + reach, [](float y) {
+    return y < 40 ? 8.0f : y < 200 ? 12.0f : 60.0f;
+  });
   const auto put = [&](float across, float y) {
     // Beyond the street's ends both sides meet.
     const glm::vec2 p(streetAt(y) + across, y);
@@ -265,17 +273,17 @@ Shape ground(float reach) {
 /// Between two distances from its middle.
 Shape streetStrip(float from, float to, float reach) {
   Shape out;
-  const float last = kStreetEnd + reach;
-  for (float y = -last; y < last;) {
-    const float next = std::min(last, y + (std::abs(y) < kStreetEnd + 100 ? 4.0f : 60.0f));
+  const std::vector<float> ys =
+      mirrored(kStreetEnd + reach, [](float y) { return y < kStreetEnd + 100 ? 4.0f : 60.0f; });
+  for (std::size_t row = 0; row + 1 < ys.size(); ++row) {
     const auto put = [&](float across, float at) {
       const glm::vec2 p(streetAt(at) + across, at);
       return out.add({p, groundAt(p)}, {0, 0, 1}, {across, -at});
     };
-    const auto a = put(from, y), b = put(to, y), c = put(to, next), d = put(from, next);
+    const auto a = put(from, ys[row]), b = put(to, ys[row]), c = put(to, ys[row + 1]),
+               d = put(from, ys[row + 1]);
     out.triangle(a, b, c);
     out.triangle(a, c, d);
-    y = next;
   }
   return out;
 }

@@ -18,7 +18,7 @@ struct ForestOptions {
 
 /// The street leads along y through the origin, straight there for 20 m either way, 6 m wide, at z = 0. It
 /// and the houses are the same whatever the number; plants grow in number and in detail alike, by its square
-/// root, those near the street first. Within 3 % of the triangles asked for.
+/// root, those near the street first. Within 5 % of the triangles asked for.
 gallery::Model makeForest(const ForestOptions& options);
 
 /// Metres of the street's middle from x = 0, there.

@@ -198,8 +198,8 @@ Canvas birchPicture(int size) {
     const float streak = fractalNoise({p.x * 3, p.y * 40, 0}, 3, 95, 1);
     const float patch = fractalNoise({p.x * 3, p.y * 7, 4}, 4, 96, 1);
     const glm::vec3 white = colour(0xdcd7cb) * (0.93f + 0.1f * patch);
-    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.6f * smooth(0.32f, 0.5f, streak));
-    return glm::mix(lined, colour(0x25211d), smooth(0.2f, 0.3f, patch));
+    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.75f * smooth(0.16f, 0.34f, streak));
+    return glm::mix(lined, colour(0x25211d), smooth(0.12f, 0.19f, patch));
   });
   return canvas;
 }

@@ -29,7 +29,9 @@ constexpr int kFloat = kGltfFloat, kUnsignedInt = kGltfUnsignedInt, kUnsignedSho
               kUnsignedByte = 5121;
 constexpr int kVertices = 34962, kIndices = 34963;
 constexpr const char *kMeshopt = "EXT_meshopt_compression", *kInstancing = "EXT_mesh_gpu_instancing";
-constexpr double kCompactError = 1.0 / 4096;
+/// Positions, by their distance from their origin: of what stands in several places, and of what lies where
+/// it is told, maybe far away.
+constexpr double kInstancedError = 1.0 / 4096, kPlacedError = 1.0 / 65536;
 constexpr float kPlaceSteps = 256;  // a metre, or a scale of 1
 
 /// glTF has Y up: (x, y, z) becomes (x, z, -y).
@@ -176,7 +178,7 @@ class Writer {
     return static_cast<int>(root_["accessors"].size()) - 1;
   }
 
-  Json compactPrimitive(const Part& part) {
+  Json compactPrimitive(const Part& part, double error) {
     const Shape& shape = part.shape;
     const Material& material = model_.materials[static_cast<std::size_t>(part.material)];
     DrawMesh mesh;
@@ -191,7 +193,7 @@ class Writer {
     mesh.colours = shape.colours;
     for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3)
       mesh.triangles.emplace_back(shape.indices[i], shape.indices[i + 1], shape.indices[i + 2]);
-    const PackedMesh packed = packMesh(mesh, kCompactError, normals);
+    const PackedMesh packed = packMesh(mesh, error, normals);
     const auto add = [&](const PackedAttribute& a, Json extra = Json::object()) {
       return addCodedAccessor(a.coded, packed.vertices, a.stride, a.filter, kVertices, a.componentType,
                               a.normalized, a.type, std::move(extra));
@@ -236,8 +238,9 @@ class Writer {
               {"SCALE", add(scales, "VEC3", kFloat, false)}}}};
   }
 
-  Json primitive(const Part& part) {
-    if (coding_ == ModelCoding::compact) return compactPrimitive(part);
+  Json primitive(const Part& part, bool instanced) {
+    if (coding_ == ModelCoding::compact)
+      return compactPrimitive(part, instanced ? kInstancedError : kPlacedError);
     const Shape& shape = part.shape;
     const Material& material = model_.materials[static_cast<std::size_t>(part.material)];
     std::vector<glm::vec3> positions, normals;
@@ -284,7 +287,7 @@ class Writer {
     for (const Thing& thing : model_.things) {
       Json primitives = Json::array();
       for (const Part& part : thing.parts)
-        if (!part.shape.indices.empty()) primitives.push_back(primitive(part));
+        if (!part.shape.indices.empty()) primitives.push_back(primitive(part, thing.placements.size() > 1));
       root_["meshes"].push_back({{"name", thing.name}, {"primitives", primitives}});
       const std::size_t mesh = root_["meshes"].size() - 1;
       if (coding_ == ModelCoding::compact && thing.placements.size() > 1) {

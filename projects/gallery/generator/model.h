@@ -71,9 +71,9 @@ struct Model {
 
 enum class ModelCoding {
   plain,
-  /// Meshes by EXT_meshopt_compression, positions rounded by at most 1/4096 of their distance from their
-  /// origin; what stands in several places by EXT_mesh_gpu_instancing, places rounded to 1/256 of a metre.
-  /// Placements turn and scale alike in all directions.
+  /// Meshes by EXT_meshopt_compression, positions rounded by at most 1/65536 of their distance from their
+  /// origin; what stands in several places by EXT_mesh_gpu_instancing, its positions rounded by 1/4096, its
+  /// places to 1/256 of a metre and its scales to 1/256. Placements turn and scale alike in all directions.
   compact,
 };
 
