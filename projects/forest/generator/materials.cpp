@@ -195,11 +195,11 @@ Canvas barkPicture(int size, const glm::vec3& dark, const glm::vec3& light, floa
 Canvas birchPicture(int size) {
   Canvas canvas(size, size);
   canvas.fill([](const glm::vec2& p) {
-    const float streak = fractalNoise({p.x * 3, p.y * 40, 0}, 3, 95, 1);
-    const float patch = fractalNoise({p.x * 3, p.y * 7, 4}, 4, 96, 1);
-    const glm::vec3 white = colour(0xdcd7cb) * (0.93f + 0.1f * patch);
-    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.75f * smooth(0.16f, 0.34f, streak));
-    return glm::mix(lined, colour(0x25211d), smooth(0.12f, 0.19f, patch));
+    const float streak = fractalNoise({p.x * 4, p.y * 40, 0}, 3, 95, 4);
+    const float patch = fractalNoise({p.x * 4, p.y * 12, 4}, 3, 96, 4);
+    const glm::vec3 white = colour(0xdcd7cb) * (0.95f + 0.1f * patch);
+    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.75f * smooth(0.2f, 0.38f, streak));
+    return glm::mix(lined, colour(0x25211d), smooth(0.3f, 0.38f, patch));
   });
   return canvas;
 }
