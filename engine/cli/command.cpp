@@ -31,7 +31,9 @@ std::size_t Common::walkBytes() const {
 
 namespace {
 constexpr double kNearStorey = 0.5;  // metres
-}
+/// Triangles, instances and all, that are drawn all at once: they take some hundred bytes each.
+constexpr std::uint64_t kMostPolygons = 12'000'000;
+}  // namespace
 
 struct FrameMaker::Shared {
   std::vector<std::unique_ptr<WalkStream>> walks;  // of storeys_
@@ -94,12 +96,12 @@ Status FrameMaker::openGl() {
 
 /// A walk that shows every triangle, wherever the eye is, and nothing else.
 Result<WalkScene> polygonsOf(const OpenProject& open) {
-  if (open.imported->shownTriangleCount() > kMostNearTriangles && !open.imported->instances.empty())
+  if (open.imported->shownTriangleCount() > kMostPolygons && !open.imported->instances.empty())
     return fail(
         ErrorKind::tooLarge,
         fmt::format("the polygons renderer draws every triangle; the scene has {} with all instances, "
                     "more than {}",
-                    open.imported->shownTriangleCount(), kMostNearTriangles),
+                    open.imported->shownTriangleCount(), kMostPolygons),
         open.project.scene.string());
   const ScenePtr scene = open.imported->instances.empty()
                              ? open.scene

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <ctime>
 #include <numeric>
 
 #include "engine/base/stopwatch.h"
@@ -13,10 +14,11 @@ namespace {
 
 /// Milliseconds of frames, by part.
 struct Timings {
-  std::vector<double> total, plan, warp, local, fill;
+  std::vector<double> total, processor, plan, warp, local, fill;
   double samplesRead = 0, samplesDrawn = 0, localTriangles = 0;
 
-  void add(const FrameStats& stats) {
+  void add(const FrameStats& stats, double processorSeconds) {
+    processor.push_back(processorSeconds * 1e3);
     total.push_back(stats.totalSeconds * 1e3), plan.push_back(stats.planSeconds * 1e3);
     warp.push_back(stats.warpSeconds * 1e3), local.push_back(stats.localSeconds * 1e3);
     fill.push_back(stats.fillSeconds * 1e3);
@@ -24,6 +26,9 @@ struct Timings {
     localTriangles += double(stats.localTriangles);
   }
 };
+
+/// That all threads took until now.
+double processorSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Bytes that are read of a sample.
 constexpr double kBytesPerSample = sizeof(PackedSample) + sizeof(Rgba8);
@@ -61,16 +66,26 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
   const auto runner = common.runner();
 
   std::vector<std::unique_ptr<FrameMaker>> makers;
+  std::vector<std::string> names;  // of the makers
+  Json leftOut = Json::array();
   double loadSeconds = 0;
   for (const std::string& name : options.renderers) {
     const Stopwatch watch;
     auto maker = FrameMaker::create(walk->storeys, name, common, *runner, options.look);
     if (!maker) return tl::unexpected(maker.error());
     if (!makers.empty()) (*maker)->shareWalksOf(*makers.front());
-    if (Status loaded = (*maker)->load(views.front()); !loaded) return tl::unexpected(loaded.error());
+    if (Status loaded = (*maker)->load(views.front()); !loaded) {
+      if (!options.leaveOut || loaded.error().kind != ErrorKind::tooLarge)
+        return tl::unexpected(loaded.error());
+      leftOut.push_back({{"renderer", name}, {"why", loaded.error().message}});
+      continue;
+    }
     if (makers.empty()) loadSeconds = watch.seconds();
     makers.push_back(std::move(*maker));
+    names.push_back(name);
   }
+  if (makers.empty())
+    return fail(ErrorKind::tooLarge, "no renderer can hold the scene", options.project.string());
   // Renderers take turns frame by frame, so that a change of the machine's speed meets them all.
   std::vector<Timings> timings(makers.size());
   for (int repeat = 0; repeat < options.repeats + 1; ++repeat)
@@ -80,18 +95,20 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
         if (common.progress)
           common.progress({double(repeat) * double(views.size()) + double(v),
                            double(options.repeats + 1) * double(views.size()), "timing"});
+        const double before = processorSeconds();
         auto frame = makers[m]->render(views[v]);
+        const double took = processorSeconds() - before;
         if (!frame) return tl::unexpected(frame.error());
         const FrameStats stats = frame->stats;
         makers[m]->recycle(std::move(*frame));
         if (repeat == 0) continue;  // warms caches and uploads
-        timings[m].add(stats);
+        timings[m].add(stats, took);
       }
   const double readRate = streamingReadRate(*runner);
   Report report;
   report.json = measuredOn(runner->threads());
   report.json.update({{"project", options.project.string()},
-                      {"triangles", walk->storeys.front().scene->triangleCount()},
+                      {"triangles", walk->storeys.front().imported->shownTriangleCount()},
                       {"width", walk->size.width},
                       {"height", walk->size.height},
                       {"frames", views.size()},
@@ -99,7 +116,8 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
                       {"reconstruction", nameOf(makers.front()->settings.reconstruction)},
                       {"loadSeconds", loadSeconds},
                       {"readGigabytesPerSecond", readRate / 1e9},
-                      {"renderers", Json::array()}});
+                      {"renderers", Json::array()},
+                      {"leftOut", leftOut}});
   report.text = fmt::format("{}, {} threads, {}x{}, {} frames x {}; the first captures loaded in {:.2f} s\n",
                             processorName(), runner->threads(), walk->size.width, walk->size.height,
                             views.size(), options.repeats, loadSeconds);
@@ -110,8 +128,9 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
     const double warpSeconds = std::accumulate(t.warp.begin(), t.warp.end(), 0.0) / 1e3;
     const double rate = warpSeconds > 0 ? t.samplesRead / warpSeconds : 0;
     const Spread total = spreadOf(t.total), warp = spreadOf(t.warp);
-    report.json["renderers"].push_back({{"renderer", options.renderers[m]},
+    report.json["renderers"].push_back({{"renderer", names[m]},
                                         {"frameMs", spreadJson(t.total)},
+                                        {"processorMs", spreadJson(t.processor)},
                                         {"planMs", spreadJson(t.plan)},
                                         {"warpMs", spreadJson(t.warp)},
                                         {"localMs", spreadJson(t.local)},
@@ -121,8 +140,8 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
                                         {"localTrianglesPerFrame", t.localTriangles / frames},
                                         {"megasamplesPerSecond", rate / 1e6},
                                         {"shareOfReadRate", rate * kBytesPerSample / readRate}});
-    report.text += fmt::format("  {:<11} frame {:8.2f} ms median, {:8.2f} p99", options.renderers[m],
-                               total.median, total.p99);
+    report.text +=
+        fmt::format("  {:<11} frame {:8.2f} ms median, {:8.2f} p99", names[m], total.median, total.p99);
     if (rate > 0)
       report.text += fmt::format(
           "; plan {:.2f}, warp {:.2f} (p99 {:.2f}), local {:.2f}, fill {:.2f}; {:.0f} M samples/s",
@@ -130,6 +149,9 @@ Result<Report> runBench(const BenchOptions& options, const Common& common) {
           rate / 1e6);
     report.text += "\n";
   }
+  for (const Json& each : leftOut)
+    report.text += fmt::format("  {:<11} left out: {}\n", each["renderer"].get<std::string>(),
+                               each["why"].get<std::string>());
   return report;
 }
 

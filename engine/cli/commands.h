@@ -255,6 +255,7 @@ struct BenchOptions {
   bool stream = false;  ///< walk in real time, while captures come and go
   double metresPerSecond = 1.4;
   bool waitForCaptures = false;  ///< of a stream
+  bool leaveOut = false;         ///< renderers that cannot hold the scene; else they are a failure
 };
 /// As it is being walked: frames with captures missing or coarse, the longest frame, memory, loads.
 Result<Report> runBenchStream(const BenchOptions& options, const Common& common);
@@ -265,6 +266,7 @@ struct BenchGrowthOptions {
   std::vector<std::filesystem::path> projects;
   BenchOptions view{{}, {}, "1280x720", {}, {"list", "polygons", "gl-polygons", "truth"}, 8, 1};
   std::filesystem::path chart;
+  bool processorTime = false;  ///< in place of what passes on the clock
 };
 Result<Report> runBenchGrowth(const BenchGrowthOptions& options, const Common& common);
 

@@ -206,11 +206,16 @@ void addBenchGrowth(CLI::App& bench, Chosen& chosen) {
       add(bench, chosen, "growth",
           "Time frames of several projects, and draw how they grow with the number of triangles",
           "  acentric bench growth small.acentric.json large.acentric.json --chart growth.svg\n"
-          "  tools/city-growth FOLDER     # makes cities of 0.1, 1 and 10 million triangles, and bakes them",
+          "  tools/city-growth FOLDER     # makes cities of 0.1, 1 and 10 million triangles, and bakes them\n"
+          "  tools/city-growth --forest FOLDER    # a town in a forest, of 0.1 to 1,000 million",
           runBenchGrowth);
   c->add_option("projects", o.projects, "Project files, baked")->required();
   addFrameTiming(*c, o.view);
   c->add_option("--chart", o.chart, "Chart to draw: .svg or .png");
+  c->add_flag(
+      "--processor-time", o.processorTime,
+      "Tell what all threads together took, for machines that do other work too, in place of what passed "
+      "on the clock");
 }
 
 void addBenchBake(CLI::App& bench, Chosen& chosen) {

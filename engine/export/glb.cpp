@@ -133,7 +133,7 @@ Glb::Json Glb::primitiveOf(const DrawMesh& mesh) {
 }
 
 int Glb::addCodedView(const std::vector<std::byte>& coded, std::size_t count, std::size_t stride, int target,
-                      bool exponential) {
+                      const std::string& filter) {
   use(kMeshopt, true);
   const int view = addView(coded.data(), coded.size(), target);
   Json& json = json_["bufferViews"].back();
@@ -144,7 +144,7 @@ int Glb::addCodedView(const std::vector<std::byte>& coded, std::size_t count, st
            {"byteStride", stride},
            {"count", count},
            {"mode", vertices ? "ATTRIBUTES" : "TRIANGLES"}};
-  if (exponential) how["filter"] = "EXPONENTIAL";
+  if (!filter.empty()) how["filter"] = filter;
   // As those without the extension see it: of a buffer that has no bytes.
   json["buffer"] = 1, json["byteOffset"] = decoded_, json["byteLength"] = count * stride;
   if (vertices) json["byteStride"] = stride;
@@ -154,8 +154,7 @@ int Glb::addCodedView(const std::vector<std::byte>& coded, std::size_t count, st
 }
 
 int Glb::addPacked(const PackedAttribute& attribute, std::size_t vertices) {
-  const int view =
-      addCodedView(attribute.coded, vertices, attribute.stride, kArrayBuffer, attribute.exponential);
+  const int view = addCodedView(attribute.coded, vertices, attribute.stride, kArrayBuffer, attribute.filter);
   const int accessor = addAccessor(view, attribute.componentType, attribute.type.c_str(), vertices);
   if (attribute.normalized) json_["accessors"][std::size_t(accessor)]["normalized"] = true;
   return accessor;
@@ -171,7 +170,7 @@ Glb::Json Glb::packedPrimitiveOf(const DrawMesh& mesh) {
   if (!packed.uv.coded.empty()) attributes["TEXCOORD_0"] = addPacked(packed.uv, packed.vertices);
   if (!packed.colour.coded.empty()) attributes["COLOR_0"] = addPacked(packed.colour, packed.vertices);
   const std::size_t count = 3 * packed.triangles;
-  const int view = addCodedView(packed.coded, count, sizeof(std::uint32_t), kElementBuffer, false);
+  const int view = addCodedView(packed.coded, count, sizeof(std::uint32_t), kElementBuffer, "");
   return {{"attributes", std::move(attributes)},
           {"indices", addAccessor(view, kGltfUnsignedInt, "SCALAR", count)}};
 }

@@ -63,7 +63,7 @@ class Glb {
   Json packedPrimitiveOf(const DrawMesh& mesh);
   /// `stride`: bytes of an element; of triangles' indices `target` is that of elements.
   int addCodedView(const std::vector<std::byte>& coded, std::size_t count, std::size_t stride, int target,
-                   bool exponential);
+                   const std::string& filter);
   int addPacked(const PackedAttribute& attribute, std::size_t vertices);
   void addBounds(int positions, const glm::vec3& low, const glm::vec3& high);
   void use(const char* extension, bool required);

@@ -35,6 +35,7 @@ Status draw(const Chart& chart, const Axis& x, const Axis& y, cairo_surface_t* s
   canvas.fillRectangle({0, 0}, {kWidth, kHeight}, kPaper);
   canvas.text(chart.title, {kLeft, 40}, kTitle, kInkColour, Align::left, true);
   canvas.text(chart.subtitle, {kLeft, 66}, kText, kFaintColour);
+  canvas.text(chart.note, {kLeft, 88}, kText, kFaintColour);
   const auto line = [&](const glm::dvec2& a, const glm::dvec2& b) {
     canvas.path({a, b}, false);
     canvas.strokePath(kGrid, 1, false);
@@ -52,7 +53,10 @@ Status draw(const Chart& chart, const Axis& x, const Axis& y, cairo_surface_t* s
   canvas.text(chart.across, {0.5 * (x.from + x.to), y.from + 50}, kText, kInkColour, Align::middle);
   canvas.text(chart.up, {x.from, y.to - 10}, kText, kInkColour);
 
-  // Names stand at the ends of their lines, the lowest first, none over another.
+  // Names stand at the ends of their lines, the lowest first, none over another; beside the axes, but of
+  // lines that end before others.
+  double last = 0;
+  for (const ChartLine& each : chart.lines) last = std::max(last, each.points.back().x);
   std::vector<std::size_t> order(chart.lines.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::sort(order, std::greater{},
@@ -68,6 +72,10 @@ Status draw(const Chart& chart, const Axis& x, const Axis& y, cairo_surface_t* s
       canvas.circle(p, kDot);
       canvas.fillPath(colour);
       canvas.endPath();
+    }
+    if (chart.lines[i].points.back().x < last) {
+      canvas.text(chart.lines[i].name, points.back() + glm::dvec2(14, 5), kText, kInkColour);
+      continue;
     }
     free = std::min(points.back().y + 5, free - 1.3 * kText);
     canvas.text(chart.lines[i].name, {x.to + 14, free}, kText, kInkColour);

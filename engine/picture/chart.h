@@ -17,6 +17,7 @@ struct ChartLine {
 
 struct Chart {
   std::string title, subtitle;
+  std::string note;        ///< below the subtitle, or empty
   std::string across, up;  ///< what the axes show, with units
   std::vector<ChartLine> lines;
 };

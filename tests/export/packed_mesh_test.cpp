@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace acentric {
 namespace {
@@ -19,7 +20,7 @@ std::vector<Value> decoded(const PackedAttribute& attribute, std::size_t vertice
                                        reinterpret_cast<const unsigned char*>(attribute.coded.data()),
                                        attribute.coded.size()),
             0);
-  if (attribute.exponential) meshopt_decodeFilterExp(out.data(), vertices, sizeof(Value));
+  if (attribute.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), vertices, sizeof(Value));
   return out;
 }
 
@@ -107,6 +108,27 @@ TEST(PackedMesh, KeepsCoordinatesThatRepeatATexture) {
         sourceOf(mesh, glm::vec3(colours[v][0], colours[v][1], colours[v][2]) / 65535.0F);
     EXPECT_LT(glm::distance(uv[v], mesh.uv[source]), 2e-5F);
   }
+}
+
+TEST(PackedMesh, KeepsNormalsToAboutADegree) {
+  const DrawMesh mesh = sheet(12, 2, 1);
+  std::vector<glm::vec3> normals;
+  for (const glm::vec3& colour : mesh.colours)
+    normals.push_back(
+        glm::normalize(glm::vec3(colour.x - 0.4F, colour.y - 0.6F, colour.x * colour.y - 0.2F)));
+  const PackedMesh packed = packMesh(mesh, 1e-5, normals);
+  ASSERT_EQ(packed.normals.filter, "OCTAHEDRAL");
+  ASSERT_EQ(packed.normals.componentType, kGltfByte);
+  auto rows = decoded<std::array<std::int8_t, 4>>(packed.normals, packed.vertices);
+  meshopt_decodeFilterOct(rows.data(), rows.size(), 4);
+  const auto colours = decoded<std::array<std::uint16_t, 4>>(packed.colour, packed.vertices);
+  for (std::size_t v = 0; v < packed.vertices; ++v) {
+    const std::size_t source =
+        sourceOf(mesh, glm::vec3(colours[v][0], colours[v][1], colours[v][2]) / 65535.0F);
+    const glm::vec3 normal = glm::normalize(glm::vec3(rows[v][0], rows[v][1], rows[v][2]));
+    EXPECT_GT(glm::dot(normal, normals[source]), std::cos(0.02F)) << v;
+  }
+  EXPECT_TRUE(packMesh(mesh, 1e-5).normals.coded.empty()) << "none where there are none";
 }
 
 TEST(PackedMesh, TakesAFractionOfTheBytes) {

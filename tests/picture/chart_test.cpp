@@ -27,6 +27,26 @@ Chart twoLines() {
   return chart;
 }
 
+TEST(Chart, NamesALineThatEndsBeforeOthersAtItsOwnEnd) {
+  const fs::path path = pathFor("short.png");
+  Chart chart = twoLines();
+  chart.lines[1].points.back() = {1e4, 10'000};
+  ASSERT_TRUE(writeChart(chart, path));
+  const auto image = readColourImage(path);
+  ASSERT_TRUE(image);
+  glm::ivec2 end(-1);
+  for (int y = 0; y < image->height; ++y)
+    for (int x = 0; x < image->width; ++x)
+      if (image->at(x, y) == categoryColour(1) && x > end.x) end = {x, y};
+  ASSERT_GT(end.x, 200);
+  ASSERT_LT(end.x, image->width - 300) << "it ends in the middle";
+  int ink = 0;
+  for (int y = end.y - 12; y <= end.y + 12; ++y)
+    for (int x = end.x + 5; x <= end.x + 60; ++x) ink += image->at(x, y).r < 100 ? 1 : 0;
+  EXPECT_GT(ink, 40) << "letters";
+  fs::remove(path);
+}
+
 TEST(Chart, DrawsEqualValuesLevelAndPowersStraight) {
   const fs::path path = pathFor("lines.png");
   ASSERT_TRUE(writeChart(twoLines(), path));

@@ -4,15 +4,19 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "engine/base/contract.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/export/packed_mesh.h"
 
 namespace acentric::gallery {
 namespace {
@@ -21,8 +25,14 @@ static_assert(std::endian::native == std::endian::little, "glTF buffers are litt
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kUnsignedByte = 5121;
+constexpr int kFloat = kGltfFloat, kUnsignedInt = kGltfUnsignedInt, kUnsignedShort = kGltfUnsignedShort,
+              kUnsignedByte = 5121;
 constexpr int kVertices = 34962, kIndices = 34963;
+constexpr const char *kMeshopt = "EXT_meshopt_compression", *kInstancing = "EXT_mesh_gpu_instancing";
+/// Positions, by their distance from their origin: of what stands in several places, and of what lies where
+/// it is told, maybe far away.
+constexpr double kInstancedError = 1.0 / 4096, kPlacedError = 1.0 / 65536;
+constexpr float kPlaceSteps = 256;  // a metre, or a scale of 1
 
 /// glTF has Y up: (x, y, z) becomes (x, z, -y).
 glm::vec3 yUp(const glm::vec3& v) { return {v.x, v.z, -v.y}; }
@@ -42,7 +52,7 @@ Json list(const glm::vec3& v) { return list(std::span(glm::value_ptr(v), 3)); }
 
 class Writer {
  public:
-  explicit Writer(const Model& model) : model_(model) {}
+  Writer(const Model& model, ModelCoding coding) : model_(model), coding_(coding) {}
 
   /// JSON without the buffer's uri; the buffer's bytes are in `buffer()`.
   Json document() {
@@ -57,10 +67,17 @@ class Writer {
     for (std::size_t i = 0; i < root_["nodes"].size(); ++i) nodes.push_back(i);
     root_["scenes"][0]["nodes"] = nodes;
     Json used = Json::array();
-    for (const auto& [name, isUsed] : extensions_)
-      if (isUsed) used.push_back(name);
+    Json required = Json::array();
+    for (const auto& [name, isRequired] : extensions_) {
+      used.push_back(name);
+      if (isRequired) required.push_back(name);
+    }
     root_["extensionsUsed"] = used;
+    if (!required.empty()) root_["extensionsRequired"] = required;
     root_["buffers"] = Json::array({Json{{"byteLength", buffer_.size()}}});
+    if (decoded_ > 0)
+      root_["buffers"].push_back(
+          {{"byteLength", decoded_}, {"extensions", {{kMeshopt, {{"fallback", true}}}}}});
     return root_;
   }
   const std::vector<std::byte>& buffer() const { return buffer_; }
@@ -115,12 +132,12 @@ class Writer {
         if (m.emissionStrength != 1) {
           out["extensions"]["KHR_materials_emissive_strength"] = {
               {"emissiveStrength", plain(m.emissionStrength)}};
-          extensions_["KHR_materials_emissive_strength"] = true;
+          extensions_["KHR_materials_emissive_strength"] = false;
         }
       }
       if (m.transmission > 0) {
         out["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", plain(m.transmission)}};
-        extensions_["KHR_materials_transmission"] = true;
+        extensions_["KHR_materials_transmission"] = false;
       }
       if (m.alphaCutoff) {
         out["alphaMode"] = "MASK";
@@ -131,7 +148,99 @@ class Writer {
     }
   }
 
-  Json primitive(const Part& part) {
+  bool textured(const Material& material) const {
+    return material.picture >= 0 || material.normalPicture >= 0;
+  }
+
+  /// Rows as `coded` has them; those without the extension see them in a buffer that has no bytes.
+  int addCodedAccessor(const std::vector<std::byte>& coded, std::size_t rows, std::size_t stride,
+                       const std::string& filter, int target, int component, bool normalized,
+                       const std::string& type, Json extra = Json::object()) {
+    const int at = addView(coded, target);
+    Json& view = root_["bufferViews"].back();
+    const bool attributes = target == kVertices;
+    Json how{{"buffer", 0},
+             {"byteOffset", view["byteOffset"]},
+             {"byteLength", view["byteLength"]},
+             {"byteStride", stride},
+             {"count", rows},
+             {"mode", attributes ? "ATTRIBUTES" : "TRIANGLES"}};
+    if (!filter.empty()) how["filter"] = filter;
+    view["buffer"] = 1, view["byteOffset"] = decoded_, view["byteLength"] = rows * stride;
+    if (attributes) view["byteStride"] = stride;
+    view["extensions"] = {{kMeshopt, how}};
+    decoded_ += rows * stride;  // a multiple of four
+    extensions_[kMeshopt] = true;
+    Json accessor{{"bufferView", at}, {"componentType", component}, {"count", rows}, {"type", type}};
+    if (normalized) accessor["normalized"] = true;
+    accessor.update(extra);
+    root_["accessors"].push_back(accessor);
+    return static_cast<int>(root_["accessors"].size()) - 1;
+  }
+
+  Json compactPrimitive(const Part& part, double error) {
+    const Shape& shape = part.shape;
+    const Material& material = model_.materials[static_cast<std::size_t>(part.material)];
+    DrawMesh mesh;
+    std::vector<glm::vec3> normals;
+    for (const glm::vec3& p : shape.positions) mesh.positions.push_back(yUp(p));
+    for (const glm::vec3& n : shape.normals) normals.push_back(yUp(n));
+    if (textured(material)) {
+      mesh.uv = shape.uv;
+      if (material.metres > 0)
+        for (glm::vec2& t : mesh.uv) t /= material.metres;
+    }
+    mesh.colours = shape.colours;
+    for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3)
+      mesh.triangles.emplace_back(shape.indices[i], shape.indices[i + 1], shape.indices[i + 2]);
+    const PackedMesh packed = packMesh(mesh, error, normals);
+    const auto add = [&](const PackedAttribute& a, Json extra = Json::object()) {
+      return addCodedAccessor(a.coded, packed.vertices, a.stride, a.filter, kVertices, a.componentType,
+                              a.normalized, a.type, std::move(extra));
+    };
+    Json attributes;
+    attributes["POSITION"] = add(packed.positions, {{"min", list(packed.low)}, {"max", list(packed.high)}});
+    attributes["NORMAL"] = add(packed.normals);
+    extensions_["KHR_mesh_quantization"] = true;  // its bytes
+    if (!packed.uv.coded.empty()) attributes["TEXCOORD_0"] = add(packed.uv);
+    if (!packed.colour.coded.empty()) attributes["COLOR_0"] = add(packed.colour);
+    Json out{{"attributes", attributes}};
+    out["indices"] = addCodedAccessor(packed.coded, 3 * packed.triangles, sizeof(std::uint32_t), "", kIndices,
+                                      kUnsignedInt, false, "SCALAR");
+    out["material"] = part.material;
+    return out;
+  }
+
+  /// EXT_mesh_gpu_instancing.
+  Json instances(const std::vector<glm::mat4>& placements) {
+    std::vector<glm::vec3> places, scales;
+    std::vector<glm::i16vec4> turns;
+    const auto stepped = [](float v) { return std::round(v * kPlaceSteps) / kPlaceSteps; };
+    for (const glm::mat4& placement : placements) {
+      const glm::mat4 m = yUp(placement);
+      const float scale = stepped(glm::length(glm::vec3(m[0])));
+      const glm::quat turn = glm::quat_cast(glm::mat3(
+          glm::normalize(glm::vec3(m[0])), glm::normalize(glm::vec3(m[1])), glm::normalize(glm::vec3(m[2]))));
+      require(scale > 0 && glm::determinant(glm::mat3(m)) > 0, "a placement turns and scales");
+      places.emplace_back(stepped(m[3].x), stepped(m[3].y), stepped(m[3].z));
+      turns.emplace_back(glm::round(32767.0f * glm::vec4(turn.x, turn.y, turn.z, turn.w)));
+      scales.emplace_back(scale);
+    }
+    const auto add = [&](const auto& rows, const char* type, int component, bool normalized) {
+      constexpr std::size_t kStride = sizeof(rows[0]);
+      return addCodedAccessor(codedRows(rows.data(), rows.size(), kStride), rows.size(), kStride, "",
+                              kVertices, component, normalized, type);
+    };
+    extensions_[kInstancing] = true;
+    return {{"attributes",
+             {{"TRANSLATION", add(places, "VEC3", kFloat, false)},
+              {"ROTATION", add(turns, "VEC4", kGltfShort, true)},
+              {"SCALE", add(scales, "VEC3", kFloat, false)}}}};
+  }
+
+  Json primitive(const Part& part, bool instanced) {
+    if (coding_ == ModelCoding::compact)
+      return compactPrimitive(part, instanced ? kInstancedError : kPlacedError);
     const Shape& shape = part.shape;
     const Material& material = model_.materials[static_cast<std::size_t>(part.material)];
     std::vector<glm::vec3> positions, normals;
@@ -147,7 +256,7 @@ class Writer {
     attributes["POSITION"] =
         addAccessor(positions, "VEC3", kFloat, kVertices, count, {{"min", list(low)}, {"max", list(high)}});
     attributes["NORMAL"] = addAccessor(normals, "VEC3", kFloat, kVertices, count);
-    if (material.picture >= 0 || material.normalPicture >= 0) {
+    if (textured(material)) {
       std::vector<glm::vec2> uv = shape.uv;
       if (material.metres > 0)
         for (glm::vec2& t : uv) t /= material.metres;
@@ -178,9 +287,15 @@ class Writer {
     for (const Thing& thing : model_.things) {
       Json primitives = Json::array();
       for (const Part& part : thing.parts)
-        if (!part.shape.indices.empty()) primitives.push_back(primitive(part));
+        if (!part.shape.indices.empty()) primitives.push_back(primitive(part, thing.placements.size() > 1));
       root_["meshes"].push_back({{"name", thing.name}, {"primitives", primitives}});
       const std::size_t mesh = root_["meshes"].size() - 1;
+      if (coding_ == ModelCoding::compact && thing.placements.size() > 1) {
+        root_["nodes"].push_back({{"name", thing.name},
+                                  {"mesh", mesh},
+                                  {"extensions", {{kInstancing, instances(thing.placements)}}}});
+        continue;
+      }
       for (std::size_t i = 0; i < thing.placements.size(); ++i) {
         Json node{
             {"name", thing.placements.size() > 1 ? fmt::format("{} {}", thing.name, i + 1) : thing.name},
@@ -216,13 +331,15 @@ class Writer {
     }
     if (lights.empty()) return;
     root_["extensions"]["KHR_lights_punctual"]["lights"] = lights;
-    extensions_["KHR_lights_punctual"] = true;
+    extensions_["KHR_lights_punctual"] = false;
   }
 
   const Model& model_;
   Json root_ = Json::object();
   std::vector<std::byte> buffer_;
-  std::map<std::string, bool> extensions_;
+  ModelCoding coding_;
+  std::map<std::string, bool> extensions_;  ///< is it required?
+  std::size_t decoded_ = 0;                 ///< bytes of what is coded, once it is decoded
 };
 
 void appendWord(std::vector<std::byte>& out, std::size_t value) {
@@ -263,11 +380,11 @@ void Model::add(std::string name, int material, Shape shape) {
   things.push_back({std::move(name), {{material, std::move(shape)}}, {glm::mat4(1)}});
 }
 
-Status writeModel(const Model& model, const std::filesystem::path& path) {
+Status writeModel(const Model& model, const std::filesystem::path& path, ModelCoding coding) {
   const std::string ending = path.extension().string();
   if (ending != ".glb" && ending != ".gltf")
     return fail(ErrorKind::invalidArgument, "the name must end in .glb or .gltf", path.string());
-  Writer writer(model);
+  Writer writer(model, coding);
   Json document = writer.document();
   if (ending == ".glb") return writeFileAtomically(path, binaryFile(jsonText(document), writer.buffer()));
   std::filesystem::path buffer = path;

@@ -69,7 +69,16 @@ struct Model {
   void add(std::string name, int material, Shape shape);
 };
 
+enum class ModelCoding {
+  plain,
+  /// Meshes by EXT_meshopt_compression, positions rounded by at most 1/65536 of their distance from their
+  /// origin; what stands in several places by EXT_mesh_gpu_instancing, its positions rounded by 1/4096, its
+  /// places to 1/256 of a metre and its scales to 1/256. Placements turn and scale alike in all directions.
+  compact,
+};
+
 /// Binary glTF 2.0, or for the ending .gltf JSON with one .bin beside it. Same model, same bytes. Atomic.
-Status writeModel(const Model& model, const std::filesystem::path& path);
+Status writeModel(const Model& model, const std::filesystem::path& path,
+                  ModelCoding coding = ModelCoding::plain);
 
 }  // namespace acentric::gallery
