@@ -92,14 +92,17 @@ Status FrameMaker::openGl() {
   return {};
 }
 
+/// With instances, of which each is placed.
+constexpr std::uint64_t kMostPolygons = 10'000'000;
+
 /// A walk that shows every triangle, wherever the eye is, and nothing else.
 Result<WalkScene> polygonsOf(const OpenProject& open) {
-  if (open.imported->shownTriangleCount() > kMostNearTriangles && !open.imported->instances.empty())
+  if (open.imported->shownTriangleCount() > kMostPolygons && !open.imported->instances.empty())
     return fail(
         ErrorKind::tooLarge,
         fmt::format("the polygons renderer draws every triangle; the scene has {} with all instances, "
                     "more than {}",
-                    open.imported->shownTriangleCount(), kMostNearTriangles),
+                    open.imported->shownTriangleCount(), kMostPolygons),
         open.project.scene.string());
   const ScenePtr scene = open.imported->instances.empty()
                              ? open.scene
