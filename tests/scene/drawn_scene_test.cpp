@@ -63,29 +63,30 @@ TEST(DrawnScene, OfNoInstanceIsTheSceneItself) {
 
 TEST(DrawnScene, HasExcerptsAsThoseTrianglesOfTheWholeInstance) {
   const ScenePtr scene = tracedScene();
-  const DrawnScene drawn(scene, excerpts());
+  const auto some = excerpts();
+  const DrawnScene drawn(scene, some);
   ASSERT_EQ(drawn.scene().meshes.size(), 3u);
   EXPECT_TRUE(drawn.scene().instances.empty());
   EXPECT_TRUE(drawn.scene().prototypes.empty());
-  for (std::size_t e = 0; e < excerpts()->size(); ++e) {
-    const InstanceExcerpt& excerpt = (*excerpts())[e];
+  for (std::size_t e = 0; e < some->size(); ++e) {
+    const InstanceExcerpt& excerpt = (*some)[e];
     const Mesh whole = placedAsMesh(*scene, scene->instances[excerpt.instance]);
-    const Mesh& some = drawn.scene().meshes[1 + e];
-    ASSERT_EQ(some.triangles.size(), excerpt.triangles.size());
-    EXPECT_LT(some.positions.size(), whole.positions.size()) << "only vertices that are used";
-    EXPECT_EQ(some.material, whole.material);
-    for (std::size_t t = 0; t < some.triangles.size(); ++t)
+    const Mesh& part = drawn.scene().meshes[1 + e];
+    ASSERT_EQ(part.triangles.size(), excerpt.triangles.size());
+    EXPECT_LT(part.positions.size(), whole.positions.size()) << "only vertices that are used";
+    EXPECT_EQ(part.material, whole.material);
+    for (std::size_t t = 0; t < part.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = some.triangles[t][k], b = whole.triangles[excerpt.triangles[t]][k];
-        EXPECT_EQ(some.positions[a], whole.positions[b]);
-        EXPECT_EQ(some.normals[a], whole.normals[b]);
-        EXPECT_EQ(some.tangents[a], whole.tangents[b]);
-        EXPECT_EQ(some.uv[0][a], whole.uv[0][b]);
-        EXPECT_EQ(some.colours[a], whole.colours[b]);
+        const std::uint32_t a = part.triangles[t][k], b = whole.triangles[excerpt.triangles[t]][k];
+        EXPECT_EQ(part.positions[a], whole.positions[b]);
+        EXPECT_EQ(part.normals[a], whole.normals[b]);
+        EXPECT_EQ(part.tangents[a], whole.tangents[b]);
+        EXPECT_EQ(part.uv[0][a], whole.uv[0][b]);
+        EXPECT_EQ(part.colours[a], whole.colours[b]);
       }
-    EXPECT_TRUE(some.uv[1].empty());
-    EXPECT_EQ(drawn.boxes()[1 + e].min, boundsOf({some})[0].min);
-    EXPECT_EQ(drawn.boxes()[1 + e].max, boundsOf({some})[0].max);
+    EXPECT_TRUE(part.uv[1].empty());
+    EXPECT_EQ(drawn.boxes()[1 + e].min, boundsOf({part})[0].min);
+    EXPECT_EQ(drawn.boxes()[1 + e].max, boundsOf({part})[0].max);
   }
 }
 
