@@ -6,7 +6,7 @@
 #include <mutex>
 #include <new>
 #include <numbers>
-#include <unordered_map>
+#include <span>
 
 #include "engine/bake/surface.h"
 #include "engine/base/contract.h"
@@ -73,17 +73,27 @@ ValuesOnDemand::ValuesOnDemand(std::size_t count)
   if (!values_) throw std::bad_alloc();
 }
 
+/// A set-associative cache: a value lies in one of the few places that its key's hash allows, and takes that
+/// of another when these are full.
 struct ScatteredValuesOnDemand::Shard {
-  struct Hash {
-    std::size_t operator()(const Key& key) const { return hashOf(key); }
+  struct Entry {
+    Key key;
+    HalfColour value;  ///< zero: empty
   };
-  std::mutex mutex;
-  std::unordered_map<Key, HalfColour, Hash> values;
+  struct Free {
+    void operator()(Entry* entries) const { std::free(entries); }
+  };
+  static constexpr std::size_t kCount = 64, kSets = 32768, kWays = 4;  // 168 MB in all
+  static constexpr unsigned kCountBits = 6;
 
-  static constexpr std::size_t kCount = 64, kMost = 65536;  // values in each: 200 MB in all
+  std::mutex mutex;
+  std::unique_ptr<Entry[], Free> entries;  ///< zero memory that nobody touched costs nothing
+  std::size_t nextWay = 0;
+
   static std::uint32_t hashOf(const Key& key) {
     return mixBits(key.place ^ mixBits(key.triangle ^ mixBits(key.placed)));
   }
+  std::span<Entry> placesFor(std::uint32_t hash) { return {entries.get() + kWays * (hash % kSets), kWays}; }
 };
 
 ScatteredValuesOnDemand::ScatteredValuesOnDemand() : shards_(std::make_unique<Shard[]>(Shard::kCount)) {}
@@ -91,18 +101,35 @@ ScatteredValuesOnDemand::~ScatteredValuesOnDemand() = default;
 ScatteredValuesOnDemand::ScatteredValuesOnDemand(ScatteredValuesOnDemand&&) noexcept = default;
 
 std::optional<HalfColour> ScatteredValuesOnDemand::find(const Key& key) const {
-  Shard& shard = shards_[Shard::hashOf(key) >> 26];
+  const std::uint32_t hash = Shard::hashOf(key);
+  Shard& shard = shards_[hash >> (32 - Shard::kCountBits)];
   const std::lock_guard lock(shard.mutex);
-  const auto found = shard.values.find(key);
-  if (found == shard.values.end()) return {};
-  return found->second;
+  if (!shard.entries) return {};
+  for (const Shard::Entry& entry : shard.placesFor(hash))
+    if (entry.key == key && entry.value != HalfColour(0)) return entry.value;
+  return {};
 }
 
 bool ScatteredValuesOnDemand::keep(const Key& key, const HalfColour& value) const {
-  Shard& shard = shards_[Shard::hashOf(key) >> 26];
+  const std::uint32_t hash = Shard::hashOf(key);
+  Shard& shard = shards_[hash >> (32 - Shard::kCountBits)];
   const std::lock_guard lock(shard.mutex);
-  if (shard.values.size() >= Shard::kMost) shard.values.clear();
-  return shard.values.try_emplace(key, value).second;
+  if (!shard.entries) {
+    shard.entries.reset(
+        static_cast<Shard::Entry*>(std::calloc(Shard::kSets * Shard::kWays, sizeof(Shard::Entry))));
+    if (!shard.entries) throw std::bad_alloc();
+  }
+  const std::span<Shard::Entry> places = shard.placesFor(hash);
+  Shard::Entry* place = nullptr;
+  for (Shard::Entry& entry : places) {
+    if (entry.value == HalfColour(0))
+      place = place == nullptr ? &entry : place;
+    else if (entry.key == key)
+      return false;
+  }
+  if (place == nullptr) place = &places[shard.nextWay++ % Shard::kWays];
+  *place = {key, value};
+  return true;
 }
 
 GatheredLight::Grids GatheredLight::layOut(double texel, bool corners) const {

@@ -25,7 +25,10 @@ namespace {
 constexpr int kUnusedBits = 4;
 HalfColour packLight(const glm::vec3& light) { return roundedLight(packColour({light, 1}), kUnusedBits); }
 
+/// Beyond one at each corner, which every triangle has.
 constexpr std::uint64_t kMaxSamples = 60'000'000;
+/// In all.
+constexpr std::uint64_t kMostNumbered = std::uint64_t(1) << 31;
 constexpr std::size_t kSamplesPerChunk = 2048;
 constexpr std::uint32_t kMaxResolution = 256;
 constexpr std::uint32_t kFiner = 4;  ///< times, where light changes abruptly
@@ -34,51 +37,44 @@ struct TriangleRef {
   std::uint32_t mesh = 0;
   std::uint32_t triangle = 0;
   std::uint32_t sceneTriangle = 0;
-  LightSides sides = LightSides::front;
-};
-
-struct Plan {
-  std::vector<TriangleRef> triangles;  ///< wanted ones, in scene order
-  double texel = 0;
 };
 
 class SurfaceLightBaker {
  public:
-  SurfaceLightBaker(const RayScene& scene, const std::vector<LightSides>& wanted,
+  SurfaceLightBaker(const RayScene& scene, const DrawnScene& drawn, const std::vector<LightSides>& wanted,
                     const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                     const std::stop_token& stop = {})
-      : scene_(scene),
+      : drawn_(drawn),
+        scene_(drawn.scene()),
         shader_(scene, settings, stop),
+        wanted_(wanted),
         viewer_(viewer),
-        rules_(materialRules(scene.scene(), scene.plan())) {
-    plan_.texel = settings.surfaceTexel;
-    std::uint32_t number = 0;
-    for (std::uint32_t m = 0; m < scene.scene().meshes.size(); ++m)
-      for (std::uint32_t t = 0; t < scene.scene().meshes[m].triangles.size(); ++t, ++number)
-        if (wanted[number] != LightSides::none) plan_.triangles.push_back({m, t, number, wanted[number]});
-  }
+        rules_(materialRules(scene.scene(), scene.plan())),
+        firstTriangles_(scene_.firstTriangles()),
+        texel_(settings.surfaceTexel) {}
 
   /// Chooses resolutions; a texel that asks for more than the limit grows until it fits.
   Status layOut() {
-    const std::size_t count = scene_.scene().triangleCount();
+    const std::size_t count = scene_.triangleCount();
     light_.resolution.assign(count, 0);
     light_.hasBack.assign(count, 0);
     constexpr double kGrowth = 1.2;
-    const double coarsest = glm::length(scene_.scene().bounds.size());  // one sample a corner
-    while (samplesAt(plan_.texel) > kMaxSamples) {
-      plan_.texel *= kGrowth;
-      if (plan_.texel > coarsest)
-        return fail(
-            ErrorKind::tooLarge,
-            fmt::format("{} triangles need surface light; even one sample a corner is above the limit of {}. "
-                        "Remove regions or simplify the scene",
-                        plan_.triangles.size(), kMaxSamples),
-            scene_.scene().name);
-    }
-    for (const TriangleRef& ref : plan_.triangles) {
-      light_.resolution[ref.sceneTriangle] = std::uint16_t(resolution(ref, plan_.texel));
+    eachWanted(0, count, [&](const TriangleRef& ref) {
+      cornerSamples_ += surfaceSampleCount(1) * (hasBack(ref) ? 2 : 1);
+    });
+    if (cornerSamples_ + kMaxSamples > kMostNumbered)
+      return fail(
+          ErrorKind::tooLarge,
+          fmt::format(
+              "surface light has {} samples with one at each corner of what regions draw, and at most "
+              "{} can be. Draw a smaller outline, choose a smaller near band, or simplify the scene",
+              cornerSamples_, kMostNumbered - kMaxSamples),
+          scene_.name);
+    while (samplesAt(texel_) > cornerSamples_ + kMaxSamples) texel_ *= kGrowth;
+    eachWanted(0, count, [&](const TriangleRef& ref) {
+      light_.resolution[ref.sceneTriangle] = std::uint16_t(resolution(ref, texel_));
       light_.hasBack[ref.sceneTriangle] = hasBack(ref) ? 1 : 0;
-    }
+    });
     place();
     return {};
   }
@@ -88,24 +84,25 @@ class SurfaceLightBaker {
   void refine() {
     const SurfaceLight coarse = std::move(light_);
     const float usual = usualLight(coarse);
+    const std::size_t count = coarse.resolution.size();
     light_.hasBack = coarse.hasBack;
-    isFiner_.assign(coarse.resolution.size(), 0);
-    for (const TriangleRef& ref : plan_.triangles)
-      isFiner_[ref.sceneTriangle] = isAbrupt(coarse, ref.sceneTriangle, usual);
+    isFiner_.assign(count, 0);
+    for (std::uint32_t t = 0; t < count; ++t)
+      if (isWanted(t)) isFiner_[t] = isAbrupt(coarse, t, usual);
     for (std::uint32_t finer = kFiner; finer >= 1; finer /= 2) {
       light_.resolution = coarse.resolution;
       std::uint64_t samples = 0;
-      for (const TriangleRef& ref : plan_.triangles) {
-        std::uint16_t& resolution = light_.resolution[ref.sceneTriangle];
-        if (isFiner_[ref.sceneTriangle] != 0)
-          resolution = std::uint16_t(std::min(resolution * finer, kMaxResolution));
-        samples += samplesOf(light_, ref.sceneTriangle);
+      for (std::uint32_t t = 0; t < count; ++t) {
+        if (!isWanted(t)) continue;
+        std::uint16_t& resolution = light_.resolution[t];
+        if (isFiner_[t] != 0) resolution = std::uint16_t(std::min(resolution * finer, kMaxResolution));
+        samples += samplesOf(light_, t);
       }
-      if (samples <= kMaxSamples) break;
+      if (samples <= cornerSamples_ + kMaxSamples) break;
     }
     place();
-    for (const TriangleRef& ref : plan_.triangles) {
-      const std::uint32_t t = ref.sceneTriangle;
+    for (std::uint32_t t = 0; t < count; ++t) {
+      if (!isWanted(t)) continue;
       isFiner_[t] = light_.resolution[t] != coarse.resolution[t];
       if (!isFiner_[t])
         std::copy(coarse.light.begin() + coarse.firstSample[t],
@@ -114,47 +111,57 @@ class SurfaceLightBaker {
     }
   }
 
-  /// Runs of triangles of about equal work: [starts[i], starts[i + 1]).
+  /// Runs of triangles of about equal work, by scene-wide number: [starts[i], starts[i + 1]).
   std::vector<std::size_t> chunkStarts() const {
     std::vector<std::size_t> starts{0};
-    std::size_t samples = 0;
-    for (std::size_t i = 0; i < plan_.triangles.size(); ++i) {
-      const std::uint32_t t = plan_.triangles[i].sceneTriangle;
+    std::size_t samples = 0, last = 0;
+    for (std::uint32_t t = 0; t < light_.resolution.size(); ++t) {
+      if (!isWanted(t)) continue;
+      last = t + 1;
       samples += light_.firstSample[t + 1] - light_.firstSample[t];
       if (samples < kSamplesPerChunk) continue;
-      starts.push_back(i + 1);
+      starts.push_back(last);
       samples = 0;
     }
-    if (starts.back() != plan_.triangles.size()) starts.push_back(plan_.triangles.size());
+    if (starts.back() < last) starts.push_back(last);
     return starts;
   }
 
   /// Is one of a run's triangles among these?
   bool holdsAny(std::size_t first, std::size_t last, const std::vector<std::uint8_t>& triangles) const {
-    return std::any_of(plan_.triangles.begin() + std::ptrdiff_t(first),
-                       plan_.triangles.begin() + std::ptrdiff_t(last),
-                       [&](const TriangleRef& ref) { return triangles[ref.sceneTriangle] != 0; });
+    for (std::size_t t = first; t < last; ++t)
+      if (isWanted(t) && triangles[t] != 0) return true;
+    return false;
   }
 
   bool refines(std::size_t first, std::size_t last) const { return holdsAny(first, last, isFiner_); }
 
   void bakeTriangles(std::size_t first, std::size_t last, const std::stop_token& stop) {
-    for (std::size_t i = first; i < last; ++i)
-      if (isFiner_.empty() || isFiner_[plan_.triangles[i].sceneTriangle] != 0)
-        bakeTriangle(plan_.triangles[i], stop);
+    eachWanted(first, last, [&](const TriangleRef& ref) {
+      if (isFiner_.empty() || isFiner_[ref.sceneTriangle] != 0) bakeTriangle(ref, stop);
+    });
   }
 
   /// The samples of a run of triangles lie one behind the other.
   std::span<HalfColour> samplesOf(std::size_t first, std::size_t last) {
-    const std::uint32_t begin = light_.firstSample[plan_.triangles[first].sceneTriangle];
-    const std::uint32_t end = light_.firstSample[plan_.triangles[last - 1].sceneTriangle + 1];
+    const std::uint32_t begin = light_.firstSample[first], end = light_.firstSample[last];
     return std::span(light_.light).subspan(begin, end - begin);
   }
 
-  double texel() const { return plan_.texel; }
+  double texel() const { return texel_; }
   SurfaceLight take() { return std::move(light_); }
 
  private:
+  bool isWanted(std::size_t sceneTriangle) const { return wanted_[sceneTriangle] != LightSides::none; }
+  /// Calls `visit` for each triangle that is wanted, of those numbered [first, last).
+  template <class Visit>
+  void eachWanted(std::size_t first, std::size_t last, const Visit& visit) const {
+    auto mesh = std::uint32_t(std::ranges::upper_bound(firstTriangles_, first) - firstTriangles_.begin()) - 1;
+    for (std::size_t t = first; t < last; ++t) {
+      while (t >= firstTriangles_[mesh + 1]) ++mesh;
+      if (isWanted(t)) visit(TriangleRef{mesh, std::uint32_t(t) - firstTriangles_[mesh], std::uint32_t(t)});
+    }
+  }
   static std::uint64_t samplesOf(const SurfaceLight& light, std::uint32_t t) {
     return light.resolution[t] == 0
                ? 0
@@ -168,7 +175,7 @@ class SurfaceLightBaker {
       light_.firstSample[t + 1] = light_.firstSample[t] + std::uint32_t(samplesOf(light_, t));
     light_.light.assign(light_.firstSample[count], HalfColour(0));
   }
-  const Mesh& meshOf(const TriangleRef& ref) const { return scene_.scene().meshes[ref.mesh]; }
+  const Mesh& meshOf(const TriangleRef& ref) const { return scene_.meshes[ref.mesh]; }
   std::uint32_t resolution(const TriangleRef& ref, double texel) const {
     // Unlit surfaces have the light 1 everywhere.
     if (rules_[std::size_t(meshOf(ref).material)].unlit) return 1;
@@ -176,13 +183,14 @@ class SurfaceLightBaker {
   }
   bool hasBack(const TriangleRef& ref) const {
     const auto material = std::size_t(meshOf(ref).material);
-    return ref.sides == LightSides::both || scene_.scene().materials[material].doubleSided ||
+    return wanted_[ref.sceneTriangle] == LightSides::both || scene_.materials[material].doubleSided ||
            rules_[material].clear();
   }
   std::uint64_t samplesAt(double texel) const {
     std::uint64_t sum = 0;
-    for (const TriangleRef& ref : plan_.triangles)
+    eachWanted(0, wanted_.size(), [&](const TriangleRef& ref) {
       sum += std::uint64_t(surfaceSampleCount(resolution(ref, texel))) * (hasBack(ref) ? 2 : 1);
+    });
     return sum;
   }
 
@@ -200,10 +208,11 @@ class SurfaceLightBaker {
       for (std::uint32_t i = 0; i <= r; ++i) {
         for (std::uint32_t j = 0; i + j <= r; ++j) {
           if (stop.stop_requested()) return;
-          const Hit hit{0, ref.mesh, ref.triangle, surfaceSamplePlace(r, i, j), normal};
-          const glm::vec3 position = mesh.positions[corners.x] * (1 - hit.barycentric.x - hit.barycentric.y) +
-                                     mesh.positions[corners.y] * hit.barycentric.x +
-                                     mesh.positions[corners.z] * hit.barycentric.y;
+          const glm::vec2 at = surfaceSamplePlace(r, i, j);
+          const DrawnScene::Place met = drawn_.traced(ref.mesh, ref.triangle, at);
+          const Hit hit{0, met.placed, met.triangle, met.barycentric, normal};
+          const glm::vec3 position = mesh.positions[corners.x] * (1 - at.x - at.y) +
+                                     mesh.positions[corners.y] * at.x + mesh.positions[corners.z] * at.y;
           const Shaded shaded = shader_.shade(hit, toViewer(ref.sceneTriangle, position, facing), rays);
           light_.light[first + surfaceSampleIndex(r, i, j)] = packLight(shaded.light);
         }
@@ -221,12 +230,16 @@ class SurfaceLightBaker {
     return height > 0 ? unit : height < 0 ? unit - 2 * height * facing : facing;
   }
 
-  const RayScene& scene_;
+  const DrawnScene& drawn_;
+  const Scene& scene_;  ///< of what is drawn
   Shader shader_;
+  const std::vector<LightSides>& wanted_;  ///< by scene triangle, as is `viewer_`
   const std::vector<glm::vec3>& viewer_;
   std::vector<MaterialRules> rules_;
-  Plan plan_;
+  std::vector<std::uint32_t> firstTriangles_;
+  double texel_;  ///< metres
   SurfaceLight light_;
+  std::uint64_t cornerSamples_ = 0;    ///< one at each corner
   std::vector<std::uint8_t> isFiner_;  ///< by scene triangle, once light is refined; empty before
 };
 
@@ -343,22 +356,25 @@ Status bakeRuns(SurfaceLightBaker& baker, const std::vector<std::size_t>& starts
 
 }  // namespace
 
-Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
+Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const DrawnScene& drawn,
+                                      const std::vector<LightSides>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                                       TaskRunner& runner, const Progress& progress, std::stop_token stop,
                                       SurfaceLightParts* parts) {
-  const std::size_t triangles = scene.scene().triangleCount();
+  const std::size_t triangles = drawn.scene().triangleCount();
   require(wanted.size() == triangles && viewer.size() == triangles,
           "surface light is asked for triangle by triangle");
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
   try {
-    SurfaceLightBaker baker(scene, wanted, viewer, settings, stop);
+    SurfaceLightBaker baker(scene, drawn, wanted, viewer, settings, stop);
     if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
     const auto starts = baker.chunkStarts();
     const std::string coarse =
         baker.texel() > settings.surfaceTexel
-            ? fmt::format("baking surface light (texel raised to {:.3g} m to stay within {} million samples)",
-                          baker.texel(), kMaxSamples / 1'000'000)
+            ? fmt::format(
+                  "baking surface light (texel raised to {:.3g} m to stay within {} million samples "
+                  "beside those at corners)",
+                  baker.texel(), kMaxSamples / 1'000'000)
             : std::string("baking surface light");
     const bool isWhole = parts == nullptr || parts->only.empty();
     for (const bool isFine : {false, true}) {
@@ -376,13 +392,13 @@ Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<L
   }
 }
 
-Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
-                                        const BakeSettings& settings) {
-  require(wanted.size() == scene.scene().triangleCount(), "surface light is asked for triangle by triangle");
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const DrawnScene& drawn,
+                                        const std::vector<LightSides>& wanted, const BakeSettings& settings) {
+  require(wanted.size() == drawn.scene().triangleCount(), "surface light is asked for triangle by triangle");
   if (auto sound = settings.check(); !sound) return tl::unexpected(sound.error());
   try {
     const std::vector<glm::vec3> noViewer;
-    SurfaceLightBaker baker(scene, wanted, noViewer, settings);
+    SurfaceLightBaker baker(scene, drawn, wanted, noViewer, settings);
     if (auto laidOut = baker.layOut(); !laidOut) return tl::unexpected(laidOut.error());
     return baker.take();
   } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 #include "engine/bake/ray_scene.h"
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
+#include "engine/scene/drawn_scene.h"
 #include "engine/scene/surface_light.h"
 #include "engine/scene/surface_light_part.h"
 
@@ -32,16 +33,17 @@ struct SurfaceLightParts {
   std::vector<std::uint8_t> only = {};
 };
 
-/// `wanted` and `viewer` are by scene triangle; `viewer` is an eye position for view-dependent light
-/// (mirrors), frozen there. Fails only when cancelled or too large.
-Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
+/// `wanted` and `viewer` are by drawn triangle; `viewer` is an eye position for view-dependent light
+/// (mirrors), frozen there. `drawn`: of the scene that is traced. Fails only when cancelled or too large.
+Result<SurfaceLight> bakeSurfaceLight(const RayScene& scene, const DrawnScene& drawn,
+                                      const std::vector<LightSides>& wanted,
                                       const std::vector<glm::vec3>& viewer, const BakeSettings& settings,
                                       TaskRunner& runner, const Progress& progress = {},
                                       std::stop_token stop = {}, SurfaceLightParts* parts = nullptr);
 
 /// Where the samples of each triangle would lie, all of them black: no ray is traced. Fails only when too
 /// large.
-Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const std::vector<LightSides>& wanted,
-                                        const BakeSettings& settings);
+Result<SurfaceLight> layOutSurfaceLight(const RayScene& scene, const DrawnScene& drawn,
+                                        const std::vector<LightSides>& wanted, const BakeSettings& settings);
 
 }  // namespace acentric

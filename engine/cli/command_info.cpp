@@ -117,7 +117,7 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
         {"triangles", scene.shownTriangleCount()},
         {"uniqueTriangles", model.uniqueTriangleCount()},
         {"instances", model.instances.size()},
-        {"nearInstances", open->near.instances.size()},
+        {"nearInstances", open->near.instances},
         {"nearInstancedTriangles", open->near.triangles},
         {"meshes", model.meshes.size() + model.prototypes.size()},
         {"materials", scene.materials.size()},
@@ -170,10 +170,10 @@ Result<Report> runInfo(const InfoOptions& options, const Common& common) {
   if (const Status near = checkNear(open->near); !near) {
     report.text += fmt::format("near     {}\n", near.error().message);
     report.json["cannotBake"] = near.error().message;
-  } else if (!open->near.instances.empty()) {
+  } else if (open->near.any()) {
     report.text +=
-        fmt::format("near     {} instances with {} triangles are placed as meshes, in regions or near\n",
-                    open->near.instances.size(), countText(open->near.triangles));
+        fmt::format("near     of {} instances {} triangles lie in regions or near, and are drawn\n",
+                    open->near.instances, countText(open->near.triangles));
   }
   if (doubt) report.text += fmt::format("{:<8} {}\n", "scale", doubt->text);
   report.text += effectsText(open->plan, costs);

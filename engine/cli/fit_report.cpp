@@ -63,7 +63,7 @@ Status simplifyRegions(const OpenProject& open, const Project& project, const Tr
   double done = 0;
   runner.parallelFor(over.size(), [&](std::size_t n) {
     const Region& region = simplifying->layout->regions[std::size_t(over[n])];
-    const auto full = std::make_shared<const LocalGeometry>(clipToPolygon(*simplifying->scene, region.grown));
+    const auto full = std::make_shared<const LocalGeometry>(clipToPolygon(*simplifying->drawn, region.grown));
     made[n] = simplifiedRegion(*simplifying, over[n], full, light, *store, common.stop);
     const std::lock_guard lock(mutex);
     if (common.progress)

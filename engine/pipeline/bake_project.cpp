@@ -201,7 +201,7 @@ class StoreyBake {
   /// What one region draws; what was baked of it is the light's own, and is not baked again.
   Status bakeFirstLight(const Region& region) {
     const Stopwatch watch;
-    const std::vector<std::uint8_t> near = localTrianglesOf(*open_.scene, region, stop_);
+    const std::vector<std::uint8_t> near = localTrianglesOf(*open_.drawn, region, stop_);
     if (std::ranges::find(near, 1) == near.end()) return {};
     auto light = gatherLight(near);
     if (!light) return tl::unexpected(withAdvice(light.error()));
@@ -251,7 +251,7 @@ class StoreyBake {
  private:
   /// Of what `only` marks, or of all.
   Result<SurfaceLight> gatherLight(std::vector<std::uint8_t> only) {
-    if (!local_) local_ = localTrianglesOf(*open_.rays, *open_.layout, runner_, stop_);
+    if (!local_) local_ = localTrianglesOf(*open_.rays, *open_.drawn, *open_.layout, runner_, stop_);
     const ContentKey& key = open_.surfaceLightKey;
     SurfaceLightParts parts;
     parts.only = std::move(only);
@@ -260,8 +260,8 @@ class StoreyBake {
       if (Status sound = sink_.mayGoOn(); !sound) return sound;
       return store_.putSurfaceLightPart(key, part);
     };
-    auto light = bakeSurfaceLight(*open_.rays, local_->wanted, local_->viewer, open_.project.bake, runner_,
-                                  progress_, stop_, &parts);
+    auto light = bakeSurfaceLight(*open_.rays, *open_.drawn, local_->wanted, local_->viewer,
+                                  open_.project.bake, runner_, progress_, stop_, &parts);
     if (!lightResumed_) lightResumed_ = parts.resumed;  // later ones find what this bake has left
     return light;
   }

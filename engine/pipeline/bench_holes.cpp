@@ -159,7 +159,7 @@ class Bench {
   }
 
   Status lightLocal() {
-    local_ = std::make_shared<const LocalGeometry>(clipToPolygon(*open_.scene, bare_->regions.front().grown));
+    local_ = std::make_shared<const LocalGeometry>(clipToPolygon(*open_.drawn, bare_->regions.front().grown));
     std::error_code error;
     if (const auto folder = captureFolderFor(open_.file); std::filesystem::is_directory(folder, error)) {
       const auto store = CaptureStore::open(folder);
@@ -170,9 +170,9 @@ class Bench {
           return {};
         }
     }
-    const LocalTriangles near = localTrianglesOf(*open_.rays, *bare_, runner_, stop_);
-    auto light = bakeSurfaceLight(*open_.rays, near.wanted, near.viewer, open_.project.bake, runner_,
-                                  progress_, stop_);
+    const LocalTriangles near = localTrianglesOf(*open_.rays, *open_.drawn, *bare_, runner_, stop_);
+    auto light = bakeSurfaceLight(*open_.rays, *open_.drawn, near.wanted, near.viewer, open_.project.bake,
+                                  runner_, progress_, stop_);
     if (!light) return tl::unexpected(light.error());
     light_ = std::make_shared<const SurfaceLight>(std::move(*light));
     return {};
@@ -180,7 +180,7 @@ class Bench {
 
   WalkScene sceneOf(const BakeSettings& settings, Cameras cameras) const {
     WalkScene walk;
-    walk.scene = open_.scene;
+    walk.scene = open_.drawn->sharedScene();
     walk.layout = cameras == Cameras::ring ? bare_ : withPanorama_;
     walk.plan = open_.plan;
     walk.mirrors = open_.mirrors;

@@ -25,7 +25,7 @@ Result<std::optional<CaptureStore>> storeOf(const OpenProject& open) {
 /// One region's simplified geometry: readable to the end, made for this region, fit for the scene, and as
 /// many triangles as it says.
 std::optional<Error> problemOf(const SimplifiedLocal& simplified, const OpenProject& open) {
-  if (Status fits = simplified.check(*open.scene); !fits) return fits.error();
+  if (Status fits = simplified.check(open.drawn->scene()); !fits) return fits.error();
   if (simplified.report.after != simplified.triangles.size())
     return Error{ErrorKind::malformed,
                  "says that it has " + std::to_string(simplified.report.after) + " triangles, and has " +

@@ -375,10 +375,10 @@ class ProjectProber final : public BakeProber {
   Status layOutLight() {
     if (!layout_.resolution.empty()) return {};
     const Stopwatch finding;
-    local_ = localTrianglesOf(*open_.rays, *open_.layout, runner_, stop_);
+    local_ = localTrianglesOf(*open_.rays, *open_.drawn, *open_.layout, runner_, stop_);
     if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
     findingSeconds_ = finding.seconds();
-    auto layout = layOutSurfaceLight(*open_.rays, local_.wanted, open_.project.bake);
+    auto layout = layOutSurfaceLight(*open_.rays, *open_.drawn, local_.wanted, open_.project.bake);
     if (!layout) return tl::unexpected(layout.error());
     layout_ = std::move(*layout);
     return {};
@@ -399,8 +399,8 @@ class ProjectProber final : public BakeProber {
     std::vector<LightSides> wanted(local_.wanted.size(), LightSides::none);
     for (const std::size_t t : triangles) wanted[t] = local_.wanted[t];
     const auto bakeOnce = [&] {
-      return bakeSurfaceLight(*open_.rays, wanted, local_.viewer, lightProbingSettings(open_.project.bake),
-                              runner_, {}, stop_);
+      return bakeSurfaceLight(*open_.rays, *open_.drawn, wanted, local_.viewer,
+                              lightProbingSettings(open_.project.bake), runner_, {}, stop_);
     };
     Stopwatch watch;
     auto light = bakeOnce();

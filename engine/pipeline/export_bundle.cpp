@@ -90,7 +90,7 @@ Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const st
 
   const Project& project = open.project;
   input.generator = options.generator, input.name = nameOf(open.file);
-  input.scene = open.scene, input.plan = open.plan, input.mirrors = open.mirrors;
+  input.scene = open.drawn->sharedScene(), input.plan = open.plan, input.mirrors = open.mirrors;
   input.exposure = project.exposure;
   input.fov = radians(project.fovDegrees);
   input.view = project.view;

@@ -67,8 +67,9 @@ class Readers {
     return chanceOf(samples);
   }
   bool lightReads(const Spot& spot) const {
-    return light_ != nullptr && light_->resolution[spot.sceneTriangle] > 0 &&
-           (!spot.back || light_->hasBack[spot.sceneTriangle] != 0);
+    if (light_ == nullptr) return false;
+    const auto drawn = open_.drawn->numberOf(spot.mesh, spot.triangle);
+    return drawn && light_->resolution[*drawn] > 0 && (!spot.back || light_->hasBack[*drawn] != 0);
   }
 
  private:
@@ -188,7 +189,7 @@ class Forecaster {
   Chances ofPlace(const Spot& spot) const {
     if (!gathered_.lights(open_.scene->meshOf(spot.mesh).material)) return {};
     const double captures = readers_.chance(spot);
-    return {captures, !open_.scene->isInstance(spot.mesh) && readers_.lightReads(spot) ? 1 : captures};
+    return {captures, readers_.lightReads(spot) ? 1 : captures};
   }
 
   /// Gathers runs of places that begin with those given; rays for a place itself.

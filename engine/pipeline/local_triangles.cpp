@@ -12,24 +12,23 @@ namespace {
 
 using Corners = std::array<glm::vec3, 3>;
 
-bool hasArea(const std::vector<PolygonClipper::Corner>& part) {
-  for (std::size_t i = 2; i < part.size(); ++i)
-    if (PolygonClipper::hasArea(part, i)) return true;
-  return false;
-}
-
 /// Calls `found` with the number of each triangle that the region draws, its mesh and its corners.
 template <class Found>
-void eachLocal(const Scene& scene, const Region& region, const std::stop_token& stop, const Found& found) {
+void eachLocal(const DrawnScene& drawn, const Region& region, const std::stop_token& stop,
+               const Found& found) {
   PolygonClipper clipper(region.grown);
-  std::size_t number = 0;
-  for (const Mesh& mesh : scene.meshes) {
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < drawn.scene().meshes.size(); ++m) {
     if (stop.stop_requested()) return;
-    for (const glm::uvec3& triangle : mesh.triangles) {
-      const std::size_t t = number++;
+    const Mesh& mesh = drawn.scene().meshes[m];
+    const std::size_t first = next;
+    next += mesh.triangles.size();
+    if (clipper.misses(drawn.boxes()[m])) continue;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const glm::uvec3& triangle = mesh.triangles[t];
       const Corners corners{mesh.positions[triangle.x], mesh.positions[triangle.y],
                             mesh.positions[triangle.z]};
-      if (hasArea(clipper.clip(corners))) found(t, mesh, corners);
+      if (clipper.leavesArea(corners)) found(first + t, mesh, corners);
     }
   }
 }
@@ -68,23 +67,23 @@ class BackViews {
 
 }  // namespace
 
-std::vector<std::uint8_t> localTrianglesOf(const Scene& scene, const Region& region,
+std::vector<std::uint8_t> localTrianglesOf(const DrawnScene& drawn, const Region& region,
                                            const std::stop_token& stop) {
-  std::vector<std::uint8_t> local(scene.triangleCount(), 0);
-  eachLocal(scene, region, stop, [&](std::size_t t, const Mesh&, const Corners&) { local[t] = 1; });
+  std::vector<std::uint8_t> local(drawn.scene().triangleCount(), 0);
+  eachLocal(drawn, region, stop, [&](std::size_t t, const Mesh&, const Corners&) { local[t] = 1; });
   return local;
 }
 
-LocalTriangles localTrianglesOf(const RayScene& rays, const Layout& layout, TaskRunner& runner,
-                                const std::stop_token& stop) {
+LocalTriangles localTrianglesOf(const RayScene& rays, const DrawnScene& drawn, const Layout& layout,
+                                TaskRunner& runner, const std::stop_token& stop) {
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  const std::size_t count = rays.scene().triangleCount();
+  const std::size_t count = drawn.scene().triangleCount();
   std::vector<std::uint32_t> firstRegion(count, kNone);
   std::vector<std::uint8_t> backSeen(count, 0);
   runner.parallelFor(layout.regions.size(), [&](std::size_t r) {
     const Region& region = layout.regions[r];
     const BackViews views(rays, region.polygon, layout.eyeZ());
-    eachLocal(rays.scene(), region, stop, [&](std::size_t t, const Mesh& mesh, const Corners& corners) {
+    eachLocal(drawn, region, stop, [&](std::size_t t, const Mesh& mesh, const Corners& corners) {
       const std::atomic_ref first(firstRegion[t]);
       std::uint32_t was = first;
       while (r < was && !first.compare_exchange_weak(was, std::uint32_t(r))) continue;

@@ -43,7 +43,7 @@ Result<SurfaceLight> lightOf(const Workplace& at) {
   const OpenProject& open = at.open;
   const std::size_t triangles = open.scene->firstTriangles().back();
   const glm::vec3 eye(glm::dvec3(open.project.spawn().position, open.layout->eyeZ()));
-  return bakeSurfaceLight(*open.rays, std::vector<LightSides>(triangles, LightSides::front),
+  return bakeSurfaceLight(*open.rays, *open.drawn, std::vector<LightSides>(triangles, LightSides::front),
                           std::vector<glm::vec3>(triangles, eye), open.project.bake, at.runner, at.progress,
                           at.stop);
 }

@@ -6,50 +6,61 @@
 #include "engine/pipeline/start_view.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/local_geometry.h"
-#include "engine/scene/material_rules.h"
 
 namespace acentric {
 namespace {
 
-/// With the key of the model: captures show the same. Not where a plane mirror or a lamp is among them: those
-/// are such as meshes alone, and then are seen by all.
-Scene placedNear(const Scene& imported, const NearInstances& near) {
-  Scene scene = withPlaced(imported, near.instances);
-  const auto rules = materialRules(imported, planEffects(imported));
-  const bool changes = std::ranges::any_of(near.instances, [&](std::uint32_t i) {
-    const auto m = std::size_t(imported.prototypes[imported.instances[i].prototype].material);
-    return rules[m].mirror || (!rules[m].unlit && imported.materials[m].emissive != glm::vec3(0));
-  });
-  if (!changes) return scene;
+/// With a key of its own: as meshes mirrors and lamps are such, and then are seen by all.
+ScenePtr withWhole(const Scene& imported, const NearInstances& near) {
+  auto scene = std::make_shared<Scene>(withPlaced(imported, near.whole));
+  const ContentKey which =
+      Hasher().text("near instances").array(std::span<const std::uint32_t>(near.whole)).finish();
   Hasher geometry;
-  for (const ContentKey& key : {scene.parts.geometry, near.key()}) geometry.value(key.high).value(key.low);
-  scene.parts.geometry = geometry.finish();
-  scene.key = keyOf(scene.parts);
+  for (const ContentKey& key : {scene->parts.geometry, which}) geometry.value(key.high).value(key.low);
+  scene->parts.geometry = geometry.finish();
+  scene->key = keyOf(scene->parts);
   return scene;
 }
 
-/// Instances near any storey as meshes, so that all storeys share one scene.
+/// Of the scene without those that were placed whole.
+std::shared_ptr<const InstanceExcerpts> renumbered(const NearInstances& near) {
+  if (near.whole.empty()) return near.excerpts;
+  InstanceExcerpts excerpts = *near.excerpts;
+  for (InstanceExcerpt& excerpt : excerpts)
+    excerpt.instance -=
+        std::uint32_t(std::ranges::lower_bound(near.whole, excerpt.instance) - near.whole.begin());
+  return std::make_shared<const InstanceExcerpts>(std::move(excerpts));
+}
+
+/// What is near any storey, so that all storeys share one scene.
 void placeNear(const OpenProject* former, OpenProject& open) {
-  open.scene = open.imported;
-  if (open.imported->instances.empty()) return;
+  const bool sameModel = former && former->imported == open.imported && former->drawn;
   const auto alike = [](const Storey& a, const Storey& b) { return a.layout == b.layout; };
   const auto& storeys = open.project.storeys;
-  const bool sameModel = former && former->imported == open.imported;
-  if (sameModel && std::ranges::equal(former->project.storeys, storeys, alike)) {
-    open.near = former->near, open.scene = former->scene;
+  if (sameModel &&
+      (open.imported->instances.empty() || std::ranges::equal(former->project.storeys, storeys, alike))) {
+    open.near = former->near, open.scene = former->scene, open.drawn = former->drawn;
     return;
   }
-  std::vector<Layout> layouts;
-  for (std::size_t s = 0; s < storeys.size(); ++s)
-    if (int(s) == open.project.storey)
-      layouts.push_back(*open.layout);
-    else if (auto layout = buildLayout(storeys[s].layout))  // else said when that storey is opened
-      layouts.push_back(std::move(*layout));
-  open.near = findNearInstances(*open.imported, layouts);
-  if (sameModel && former->near == open.near)
-    open.scene = former->scene;
-  else if (!open.near.instances.empty() && !open.near.tooMany())
-    open.scene = std::make_shared<const Scene>(placedNear(*open.imported, open.near));
+  open.scene = open.imported;
+  if (!open.imported->instances.empty()) {
+    std::vector<Layout> layouts;
+    for (std::size_t s = 0; s < storeys.size(); ++s)
+      if (int(s) == open.project.storey)
+        layouts.push_back(*open.layout);
+      else if (auto layout = buildLayout(storeys[s].layout))  // else said when that storey is opened
+        layouts.push_back(std::move(*layout));
+    open.near = findNearInstances(*open.imported, layouts);
+  }
+  if (sameModel && former->near == open.near) {
+    open.scene = former->scene, open.drawn = former->drawn;
+    return;
+  }
+  if (!open.near.whole.empty() && !open.near.tooMany())
+    open.scene = sameModel && former->near.whole == open.near.whole ? former->scene
+                                                                    : withWhole(*open.imported, open.near);
+  open.drawn = open.near.excerpts ? std::make_shared<const DrawnScene>(open.scene, renumbered(open.near))
+                                  : std::make_shared<const DrawnScene>(open.scene);
 }
 
 /// `given`: instead of what the model file has.
@@ -154,8 +165,8 @@ KeyParts surfaceLightKeyParts(const OpenProject& open) {
   parts.push_back({"settings", settings.finish()});
   parts.push_back({"place", Hasher().value(open.layout->eyeZ()).finish()});
   parts.push_back({"regions", regions.finish()});
-  // Light is numbered through the meshes, of which there is one more for each of these.
-  if (!open.near.instances.empty()) parts.push_back({"instances", open.near.key()});
+  // Light is numbered through what is drawn, of which there is more for each of these.
+  if (open.near.any()) parts.push_back({"instances", open.near.key});
   return parts;
 }
 

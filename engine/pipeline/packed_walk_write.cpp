@@ -34,7 +34,7 @@ std::uint64_t bytesIn(const std::filesystem::path& folder) {
 Status writeSurroundings(const OpenProject& open, const CaptureStore& store, const CameraPath& path,
                          const std::filesystem::path& folder) {
   if (Status s = saveProject(open.project, packed_walk::projectFile(folder)); !s) return s;
-  if (Status s = writeSceneFile(*open.scene, packed_walk::sceneFile(folder)); !s) return s;
+  if (Status s = writeSceneFile(open.drawn->scene(), packed_walk::sceneFile(folder)); !s) return s;
   if (store.hasSurfaceLight(open.surfaceLightKey)) {
     const auto light = store.getSurfaceLight(open.surfaceLightKey);
     if (!light) return tl::unexpected(light.error());

@@ -55,9 +55,11 @@ struct OpenProject {
   std::filesystem::path file;
   Project project;
   ScenePtr imported;   ///< as the model is
-  NearInstances near;  ///< of `imported`: those that reach into a region of some storey
-  /// The same with these as meshes; with too many of them (checkNear) as imported, for rays alone.
-  ScenePtr scene;
+  NearInstances near;  ///< of `imported`: what reaches into a region of some storey
+  ScenePtr scene;      ///< that rays meet: `imported` with near mirrors and lamps as meshes
+  /// What regions draw of it: also the rest of what is near. With too much of that (checkNear) its meshes
+  /// alone.
+  DrawnScenePtr drawn;
   EffectPlan plan;
   RayScenePtr rays;
   std::shared_ptr<const FlatMirrors> mirrors;  ///< null: none

@@ -106,8 +106,8 @@ Result<RepresentationBake> bakeOfRings(const Workplace& at, const std::string& n
   RepresentationBake bake{std::move(*own)};
   const OpenProject& open = bake.open;
   bake.cameras = allCamerasOf(*open.layout), bake.light = true;
-  bake.bytesThere =
-      localMeshBytes(*open.scene, localTrianglesOf(*open.rays, *open.layout, at.runner, at.stop));
+  bake.bytesThere = localMeshBytes(
+      open.drawn->scene(), localTrianglesOf(*open.rays, *open.drawn, *open.layout, at.runner, at.stop));
   if (target.bytes) bake.packedBytes = *target.bytes - double(bake.bytesThere);
   std::error_code error;
   const auto folder = captureFolderFor(open.file);
@@ -143,7 +143,8 @@ Result<Representation> makeRings(const Workplace& at, const std::string& name, c
   if (!lightSeconds) return tl::unexpected(lightSeconds.error());
   const std::uint64_t lightBytes = store->bytesOf(own->surfaceLightKey),
                       polygonBytes = localMeshBytes(
-                          *own->scene, localTrianglesOf(*own->rays, *own->layout, at.runner, at.stop));
+                          own->drawn->scene(),
+                          localTrianglesOf(*own->rays, *own->drawn, *own->layout, at.runner, at.stop));
 
   const CaptureBake bake = bakeBeside(own->surfaceLightKey, at, openAt);
   std::optional<double> captureBytes;

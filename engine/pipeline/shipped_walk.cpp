@@ -204,6 +204,7 @@ OpenProject openProject(const ShippedWalk& walk, const Project& project) {
   open.file = walk.file;
   open.project = project;
   open.scene = open.imported = walk.scene;
+  open.drawn = std::make_shared<const DrawnScene>(walk.scene);
   open.plan = walk.rays->plan();
   open.rays = walk.rays;
   open.layout = walk.layouts[std::size_t(project.storey)];

@@ -22,7 +22,7 @@ SimplifyOptions optionsOf(const OpenProject& open) {
 
 LocalGeometry drawable(const SimplifiedLocal& simplified, const OpenProject& open, const Region& region,
                        const std::shared_ptr<const SurfaceLight>& light) {
-  return localGeometryOf(simplified, *open.scene, region.grown, light.get());
+  return localGeometryOf(simplified, open.drawn->scene(), region.grown, light.get());
 }
 
 /// The middle of the region, and halfway from it to some of its corners.
@@ -46,8 +46,8 @@ ContentKey simplifiedKey(const OpenProject& open, const Region& region) {
       .value(open.project.budget.trianglesPerRegion)
       .value(open.project.budget.maxErrorMetres)
       .value(open.project.bake.surfaceTexel);
-  if (!open.near.instances.empty())  // its triangles are numbered as the scene's are
-    hasher.value(open.near.key().high).value(open.near.key().low);
+  if (open.near.any())  // its triangles are numbered as those that are drawn
+    hasher.value(open.near.key.high).value(open.near.key.low);
   return hasher.finish();
 }
 
@@ -68,7 +68,7 @@ Result<SimplifiedRegion> simplifiedRegion(const OpenProject& open, int region,
   if (store.hasSimplified(key)) {
     auto kept = store.getSimplified(key);
     if (kept)
-      if (Status fits = kept->check(*open.scene); !fits) kept = tl::unexpected(fits.error());
+      if (Status fits = kept->check(open.drawn->scene()); !fits) kept = tl::unexpected(fits.error());
     if (kept) {
       out.geometry = std::make_shared<const LocalGeometry>(drawable(*kept, open, place, light));
       out.report = kept->report;
@@ -78,8 +78,8 @@ Result<SimplifiedRegion> simplifiedRegion(const OpenProject& open, int region,
     out.notKept = kept.error();
   }
   const auto whole =
-      full ? full : std::make_shared<const LocalGeometry>(clipToPolygon(*open.scene, place.grown));
-  auto made = simplify(*open.scene, *whole, optionsOf(open), stop);
+      full ? full : std::make_shared<const LocalGeometry>(clipToPolygon(*open.drawn, place.grown));
+  auto made = simplify(open.drawn->scene(), *whole, optionsOf(open), stop);
   if (!made) return tl::unexpected(made.error());
   out.geometry = std::make_shared<const LocalGeometry>(drawable(*made, open, place, light));
   measureCost(open, region, whole, out.geometry, light, made->report);
@@ -92,7 +92,7 @@ void measureCost(const OpenProject& open, int region, const std::shared_ptr<cons
                  const std::shared_ptr<const LocalGeometry>& simplified,
                  const std::shared_ptr<const SurfaceLight>& light, SimplifyReport& report) {
   WalkScene walk;
-  walk.scene = open.scene;
+  walk.scene = open.drawn->sharedScene();
   walk.layout = open.layout;
   walk.plan = open.plan;
   walk.exposure = open.project.exposure;

@@ -37,7 +37,7 @@ class StoreSource final : public WalkSource {
     const TriangleBudget& budget = open_.project.budget;
     const bool simplifies = budget.simplifies() && store_;
     const auto clip = [&] {
-      part.geometry = std::make_shared<const LocalGeometry>(clipToPolygon(*open_.scene, shape.grown));
+      part.geometry = std::make_shared<const LocalGeometry>(clipToPolygon(*open_.drawn, shape.grown));
     };
     if (!simplifies || !store_->hasSimplified(simplifiedKey(open_, shape))) clip();
     if (!simplifies ||
@@ -99,7 +99,7 @@ void takeFormer(const OpenProject& open, const LoadedWalk& former, LoadedWalk& w
   for (std::size_t i = 0; i < walk.keys.size(); ++i)
     if (const auto found = known.find(walk.keys[i]); found != known.end())
       walk.walk.captures[i] = found->second;
-  if (former.walk.scene != open.scene || !former.walk.layout) return;
+  if (former.walk.scene != open.drawn->sharedScene() || !former.walk.layout) return;
   for (std::size_t r = 0; r < open.layout->regions.size(); ++r)
     walk.walk.local[r] = formerLocal(open, former, open.layout->regions[r], walk);
 }
@@ -114,7 +114,7 @@ Result<WalkStart> startWalk(const OpenProject& open, const LoadedWalk* former) {
   loaded.surfaceLightKey = open.surfaceLightKey;
   loaded.budget = open.project.budget;
   WalkScene& walk = loaded.walk;
-  walk.scene = open.scene;
+  walk.scene = open.drawn->sharedScene();
   walk.layout = open.layout;
   walk.plan = open.plan;
   walk.mirrors = open.mirrors;

@@ -18,16 +18,58 @@ bool isPlacement(const glm::mat4x3& m) {
   return lengths > 1e-30 && std::abs(glm::dot(x, glm::cross(y, z))) > kFlattest * lengths;
 }
 
-Mesh placedAsMesh(const Scene& scene, const Instance& instance) {
-  const Mesh& from = scene.prototypes[instance.prototype];
-  const PlacedMesh placed(from, &instance.worldFromPrototype);
-  Mesh out = from;
-  for (std::uint32_t v = 0; v < out.positions.size(); ++v) out.positions[v] = placed.position(v);
-  for (std::uint32_t v = 0; v < out.normals.size(); ++v) out.normals[v] = placed.normal(v);
-  for (std::uint32_t v = 0; v < out.tangents.size(); ++v) out.tangents[v] = placed.tangent(v);
-  if (placed.mirrored())
-    for (glm::uvec3& triangle : out.triangles) std::swap(triangle.y, triangle.z);
+namespace {
+
+/// Some of its triangles, with the vertices that they use.
+Mesh excerptOf(const Mesh& from, std::span<const std::uint32_t> triangles) {
+  constexpr std::uint32_t kUnused = 0xffffffff;
+  std::vector<std::uint32_t> number(from.positions.size(), kUnused), used;
+  Mesh out;
+  out.name = from.name;
+  out.material = from.material;
+  out.triangles.reserve(triangles.size());
+  for (const std::uint32_t t : triangles) {
+    glm::uvec3 corners = from.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& own = number[corners[k]];
+      if (own == kUnused) own = std::uint32_t(used.size()), used.push_back(corners[k]);
+      corners[k] = own;
+    }
+    out.triangles.push_back(corners);
+  }
+  const auto take = [&](const auto& all, auto& some) {
+    if (all.empty()) return;
+    some.reserve(used.size());
+    for (const std::uint32_t v : used) some.push_back(all[v]);
+  };
+  take(from.positions, out.positions);
+  take(from.normals, out.normals);
+  take(from.tangents, out.tangents);
+  take(from.uv[0], out.uv[0]);
+  take(from.uv[1], out.uv[1]);
+  take(from.colours, out.colours);
   return out;
+}
+
+/// From a prototype's frame into the world.
+Mesh moved(Mesh mesh, const glm::mat4x3& worldFromMesh) {
+  const PlacedMesh placed(mesh, &worldFromMesh);
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) mesh.positions[v] = placed.position(v);
+  for (std::uint32_t v = 0; v < mesh.normals.size(); ++v) mesh.normals[v] = placed.normal(v);
+  for (std::uint32_t v = 0; v < mesh.tangents.size(); ++v) mesh.tangents[v] = placed.tangent(v);
+  if (placed.mirrored())
+    for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+  return mesh;
+}
+
+}  // namespace
+
+Mesh placedAsMesh(const Scene& scene, const Instance& instance) {
+  return moved(scene.prototypes[instance.prototype], instance.worldFromPrototype);
+}
+
+Mesh placedAsMesh(const Scene& scene, const Instance& instance, std::span<const std::uint32_t> triangles) {
+  return moved(excerptOf(scene.prototypes[instance.prototype], triangles), instance.worldFromPrototype);
 }
 
 Scene withPlaced(const Scene& scene, std::span<const std::uint32_t> instances) {
@@ -58,11 +100,11 @@ Scene flattened(const Scene& scene) {
   return withPlaced(scene, all);
 }
 
-std::vector<Bounds> boundsOf(const std::vector<Mesh>& prototypes) {
-  std::vector<Bounds> all(prototypes.size());
-  for (std::size_t p = 0; p < prototypes.size(); ++p)
-    for (const glm::uvec3& t : prototypes[p].triangles)
-      for (int corner = 0; corner < 3; ++corner) all[p].add(prototypes[p].positions[t[corner]]);
+std::vector<Bounds> boundsOf(const std::vector<Mesh>& meshes) {
+  std::vector<Bounds> all(meshes.size());
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    for (const glm::uvec3& t : meshes[m].triangles)
+      for (int corner = 0; corner < 3; ++corner) all[m].add(meshes[m].positions[t[corner]]);
   return all;
 }
 

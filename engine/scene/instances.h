@@ -3,8 +3,8 @@
 ///
 /// All that is asked by rays, and all that is measured of a scene, sees instances as it sees meshes: placed
 /// meshes are numbered through (Scene::placedCount, placed_mesh.h). What has state for each triangle of its
-/// own - surface light, geometry near the walk, mirrors, lamps - knows meshes alone: instances that need such
-/// state are placed as meshes first.
+/// own - surface light, geometry near the walk, mirrors, lamps - knows meshes alone: mirrors and lamps are
+/// placed as meshes first, and of others what regions draw is a mesh as well (drawn_scene.h).
 
 #include <span>
 #include <vector>
@@ -22,6 +22,8 @@ bool isPlacement(const glm::mat4x3& worldFromPrototype);
 
 /// An instance as a mesh of its own.
 Mesh placedAsMesh(const Scene& scene, const Instance& instance);
+/// Some of its triangles, in the order given.
+Mesh placedAsMesh(const Scene& scene, const Instance& instance, std::span<const std::uint32_t> triangles);
 
 /// The same scene with some instances, ascending numbers of Scene::instances, as meshes behind its own. The
 /// keys stay: it looks the same.
@@ -52,8 +54,8 @@ void eachTriangle(const Scene& scene, std::uint64_t most, const Visit& visit) {
   }
 }
 
-/// Around each prototype's triangles, in its own frame.
-std::vector<Bounds> boundsOf(const std::vector<Mesh>& prototypes);
+/// Around each mesh's triangles, in its own frame.
+std::vector<Bounds> boundsOf(const std::vector<Mesh>& meshes);
 /// Around an instance; `own`: of its prototype. May be wider than its triangles.
 Bounds boundsOf(const Instance& instance, const Bounds& own);
 /// Widens bounds to hold all triangles of the instances, exactly.

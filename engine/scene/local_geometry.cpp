@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine/base/contract.h"
+#include "engine/scene/drawn_scene.h"
 #include "engine/scene/polygon_clipper.h"
 
 namespace acentric {
@@ -29,16 +30,22 @@ void addClipped(const Scene& scene, std::uint32_t mesh, std::uint32_t triangle, 
 
 }  // namespace
 
-LocalGeometry clipToPolygon(const Scene& scene, const ConvexPolygon& polygon) {
+LocalGeometry clipToPolygon(const Scene& scene, const ConvexPolygon& polygon, std::span<const Bounds> boxes) {
   LocalGeometry out;
   out.polygon = polygon;
   PolygonClipper clipper(polygon);
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    if (!boxes.empty() && clipper.misses(boxes[m])) continue;
     for (std::size_t t = 0; t < scene.meshes[m].triangles.size(); ++t)
       addClipped(scene, std::uint32_t(m), std::uint32_t(t), clipper, out);
+  }
   require(out.vertices.size() <= std::numeric_limits<std::uint32_t>::max(),
           "local geometry has less than 2^32 vertices");
   return out;
+}
+
+LocalGeometry clipToPolygon(const DrawnScene& drawn, const ConvexPolygon& polygon) {
+  return clipToPolygon(drawn.scene(), polygon, drawn.boxes());
 }
 
 }  // namespace acentric

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/geometry/convex_polygon.h"
@@ -12,6 +13,8 @@
 #include "engine/scene/surface_light.h"
 
 namespace acentric {
+
+class DrawnScene;
 
 /// One corner of a clipped triangle. Attributes of the source triangle follow from the barycentric weights.
 struct LocalVertex {
@@ -45,6 +48,10 @@ struct LocalGeometry {
   }
 };
 
-LocalGeometry clipToPolygon(const Scene& scene, const ConvexPolygon& polygon);
+/// `boxes`: around each of the scene's meshes, so that those beside the polygon are not looked at; empty: all
+/// are.
+LocalGeometry clipToPolygon(const Scene& scene, const ConvexPolygon& polygon,
+                            std::span<const Bounds> boxes = {});
+LocalGeometry clipToPolygon(const DrawnScene& drawn, const ConvexPolygon& polygon);
 
 }  // namespace acentric

@@ -49,6 +49,10 @@ bool PolygonClipper::missesBox(const std::array<glm::vec3, 3>& c) const {
   return false;
 }
 
+bool PolygonClipper::misses(const Bounds& box) const {
+  return box.max.x < min_.x || box.max.y < min_.y || box.min.x > max_.x || box.min.y > max_.y;
+}
+
 void PolygonClipper::clipToEdge(const glm::dvec2& a, const glm::dvec2& b) {
   sides_.clear();
   bool outside = true;
@@ -83,6 +87,13 @@ const std::vector<PolygonClipper::Corner>& PolygonClipper::clip(const std::array
   for (std::size_t e = 0; e < polygon_.size() && !current_.empty(); ++e)
     clipToEdge(polygon_.corners[e], polygon_.corners[(e + 1) % polygon_.size()]);
   return current_;
+}
+
+bool PolygonClipper::leavesArea(const std::array<glm::vec3, 3>& triangle) {
+  const std::vector<Corner>& left = clip(triangle);
+  for (std::size_t i = 2; i < left.size(); ++i)
+    if (hasArea(left, i)) return true;
+  return false;
 }
 
 bool PolygonClipper::hasArea(const std::vector<Corner>& corners, std::size_t i) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/geometry/convex_polygon.h"
+#include "engine/scene/scene.h"
 
 namespace acentric {
 
@@ -23,6 +24,10 @@ class PolygonClipper {
   /// The part of the triangle over the polygon, in the triangle's winding; fewer than three corners: nothing.
   /// Valid until the next call.
   const std::vector<Corner>& clip(const std::array<glm::vec3, 3>& triangle);
+  /// Is there anything of the triangle over the polygon?
+  bool leavesArea(const std::array<glm::vec3, 3>& triangle);
+  /// Is all that lies in this box (an empty one too) beside the polygon, as its box tells?
+  bool misses(const Bounds& box) const;
   /// Does the fan's triangle (corner 0, i - 1, i) have area?
   static bool hasArea(const std::vector<Corner>& corners, std::size_t i);
 

@@ -346,6 +346,46 @@ TEST(ValuesOnDemand, AreMadeOnceAndKept) {
   EXPECT_EQ(rays.gathered, 3u);
 }
 
+TEST(ScatteredValuesOnDemand, AreWhatTheyAreReadForHoweverManyThereAre) {
+  using Key = ScatteredValuesOnDemand::Key;
+  const ScatteredValuesOnDemand values;
+  const auto valueOf = [](const Key& key) {
+    return HalfColour(1 + key.place % 7, 1 + key.triangle % 1000, 1 + key.triangle / 1000 % 1000,
+                      1 + key.placed);
+  };
+  std::size_t made = 0;
+  const auto read = [&](const Key& key, RayCounts& rays) {
+    return values.at(key, rays, [&](RayCounts& own) {
+      ++made;
+      own.bounce += 3;
+      return valueOf(key);
+    });
+  };
+  RayCounts rays;
+  constexpr std::uint32_t kMany = 9'000'000;  // more than are kept
+  std::size_t wrong = 0;
+  for (std::uint32_t n = 0; n < kMany; ++n) {
+    const Key key{n % 5, n / 5, n % 3};
+    if (read(key, rays) != valueOf(key)) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(made, kMany);
+  EXPECT_EQ(rays.gathered, 3 * std::uint64_t(kMany));
+  // What was read last is there still, and costs nothing; what is long ago may be made again, and is the
+  // same.
+  made = 0;
+  for (std::uint32_t n = kMany - 100'000; n < kMany; ++n) {
+    const Key key{n % 5, n / 5, n % 3};
+    if (read(key, rays) != valueOf(key)) ++wrong;
+  }
+  EXPECT_LT(made, 5000u);
+  for (std::uint32_t n = 0; n < 100'000; ++n) {
+    const Key key{n % 5, n / 5, n % 3};
+    if (read(key, rays) != valueOf(key)) ++wrong;
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(ValuesOnDemand, AreMadeAgainIfTheyCouldNotBeMade) {
   const ValuesOnDemand values(1);
   RayCounts rays;

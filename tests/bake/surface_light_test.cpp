@@ -16,8 +16,9 @@ Result<SurfaceLight> bakeAll(const RayScene& scene, const BakeSettings& settings
                              glm::vec3 viewer = {0, 0, 1.6f}, std::stop_token stop = {}) {
   const std::size_t n = scene.scene().triangleCount();
   TaskRunner runner(workers);
-  return bakeSurfaceLight(scene, std::vector<LightSides>(n, LightSides::front),
-                          std::vector<glm::vec3>(n, viewer), settings, runner, {}, stop);
+  return bakeSurfaceLight(scene, DrawnScene(scene.sharedScene()),
+                          std::vector<LightSides>(n, LightSides::front), std::vector<glm::vec3>(n, viewer),
+                          settings, runner, {}, stop);
 }
 
 BakeSettings texel(double metres) {
@@ -80,7 +81,8 @@ TEST(SurfaceLight, BakesOnlyWhatIsWantedAndOnlyTheSidesThatShow) {
   TaskRunner runner;
   using enum LightSides;
   const std::vector<LightSides> wanted{front, none, front, none, front, none};
-  const auto light = bakeSurfaceLight(*scene, wanted, std::vector<glm::vec3>(6), texel(0.5), runner);
+  const auto light = bakeSurfaceLight(*scene, DrawnScene(scene->sharedScene()), wanted,
+                                      std::vector<glm::vec3>(6), texel(0.5), runner);
   ASSERT_TRUE(light.has_value());
   EXPECT_EQ(light->hasBack, (std::vector<std::uint8_t>{0, 0, 1, 0, 1, 0}));
   ASSERT_EQ(light->firstSample.size(), 7u);
@@ -106,8 +108,10 @@ TEST(SurfaceLight, ABackThatIsSeenIsLitByWhatLiesBehind) {
   SceneBuilder builder;
   builder.floor(builder.material(matte()), 1).sun({0, 0, -1}, 100).sky(glm::vec3(1e-3f));
   TaskRunner runner(0);
-  const auto light = bakeSurfaceLight(*builder.rays(), {LightSides::both, LightSides::front},
-                                      std::vector<glm::vec3>(2, glm::vec3(0, 0, 1.6f)), texel(0.5), runner);
+  const auto scene = builder.rays();
+  const auto light =
+      bakeSurfaceLight(*scene, DrawnScene(scene->sharedScene()), {LightSides::both, LightSides::front},
+                       std::vector<glm::vec3>(2, glm::vec3(0, 0, 1.6f)), texel(0.5), runner);
   ASSERT_TRUE(light.has_value());
   EXPECT_EQ(light->hasBack, (std::vector<std::uint8_t>{1, 0}));
   EXPECT_NEAR(light->at(0, {0.3f, 0.3f}, false).x, 100 / 3.14159f, 0.25f);
@@ -149,9 +153,9 @@ Result<SurfaceLight> bakeInParts(const RayScene& scene, double metres, SurfaceLi
                                  int workers) {
   const std::size_t n = scene.scene().triangleCount();
   TaskRunner runner(workers);
-  return bakeSurfaceLight(scene, std::vector<LightSides>(n, LightSides::front),
-                          std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(metres), runner, {}, {},
-                          &parts);
+  return bakeSurfaceLight(
+      scene, DrawnScene(scene.sharedScene()), std::vector<LightSides>(n, LightSides::front),
+      std::vector<glm::vec3>(n, glm::vec3(0, 0, 1.6f)), texel(metres), runner, {}, {}, &parts);
 }
 
 TEST(SurfaceLight, GoesOnFromThePartsOfABakeThatEndedToTheSameBytes) {
@@ -281,9 +285,9 @@ TEST(SurfaceLight, GivesTheSameBytesForAnyNumberOfThreadsAndReportsProgress) {
   EXPECT_EQ(one->light, three->light);
   TaskRunner runner(1);
   std::vector<ProgressState> seen;
-  ASSERT_TRUE(bakeSurfaceLight(*scene, std::vector<LightSides>(12, LightSides::front),
-                               std::vector<glm::vec3>(12), texel(0.05), runner,
-                               [&](const ProgressState& p) { seen.push_back(p); })
+  ASSERT_TRUE(bakeSurfaceLight(*scene, DrawnScene(scene->sharedScene()),
+                               std::vector<LightSides>(12, LightSides::front), std::vector<glm::vec3>(12),
+                               texel(0.05), runner, [&](const ProgressState& p) { seen.push_back(p); })
                   .has_value());
   ASSERT_GT(seen.size(), 3u);
   EXPECT_EQ(seen.back().done, seen.back().total);

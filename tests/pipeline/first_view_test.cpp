@@ -118,7 +118,7 @@ TEST_F(FirstView, HasTheLightThatIsWholeLaterAndTheMeanElsewhere) {
   const SurfaceLight light = lightOf(open, first);
   ASSERT_EQ(light.resolution.size(), expected.resolution.size());
   const Region& home = open.layout->regions[std::size_t(*open.layout->regionAt({0, 0}))];
-  const std::vector<std::uint8_t> near = localTrianglesOf(*open.scene, home);
+  const std::vector<std::uint8_t> near = localTrianglesOf(*open.drawn, home);
   std::size_t others = 0, alike = 0;
   for (std::size_t t = 0; t < near.size(); ++t) {
     EXPECT_LE(light.resolution[t], expected.resolution[t]) << "the whole is finer at the edges of shadows";

@@ -103,8 +103,8 @@ TEST(GatherForecast, OfThePartsTellsTheWholeAsNoPartCan) {
 TEST(GatherForecast, TellsWhatTheSurfacesOwnLightGathersBeyondTheCaptures) {
   const OpenProject open = test::openWith(litRoom(kNoBounces), project());
   TaskRunner runner(1);
-  const LocalTriangles local = localTrianglesOf(*open.rays, *open.layout, runner);
-  const auto layout = layOutSurfaceLight(*open.rays, local.wanted, open.project.bake);
+  const LocalTriangles local = localTrianglesOf(*open.rays, *open.drawn, *open.layout, runner);
+  const auto layout = layOutSurfaceLight(*open.rays, *open.drawn, local.wanted, open.project.bake);
   ASSERT_TRUE(layout);
   for (const std::vector<int>& cameras : {std::vector<int>{}, std::vector{0}}) {
     // The light reads every place of the surfaces it is baked for; those not read before are gathered.

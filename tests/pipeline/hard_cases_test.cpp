@@ -126,8 +126,9 @@ Walk walkThrough(const ScenePtr& room, const Place& place, const glm::dvec3& mov
   for (const ContentKey& key : captureKeys(*room, plan, settings, *layout))
     walk.scene.captures.push_back(
         std::make_shared<const DisplayCapture>(prepareForDisplay(*sink.find(key), 1)));
-  const LocalTriangles local = localTrianglesOf(**rays, *layout, runner);
-  auto light = bakeSurfaceLight(**rays, local.wanted, local.viewer, settings, runner);
+  const DrawnScene drawn(room);
+  const LocalTriangles local = localTrianglesOf(**rays, drawn, *layout, runner);
+  auto light = bakeSurfaceLight(**rays, drawn, local.wanted, local.viewer, settings, runner);
   EXPECT_TRUE(light) << (light ? "" : light.error().describe());
   if (light) walk.scene.surfaceLight = std::make_shared<const SurfaceLight>(std::move(*light));
   for (const Region& region : layout->regions)

@@ -10,7 +10,7 @@ namespace {
 /// Of the triangles of each mesh of the scene; all of a mesh are alike.
 std::vector<LightSides> sidesOf(const OpenProject& open, int workers) {
   TaskRunner runner(workers);
-  const LocalTriangles local = localTrianglesOf(*open.rays, *open.layout, runner);
+  const LocalTriangles local = localTrianglesOf(*open.rays, *open.drawn, *open.layout, runner);
   std::vector<LightSides> sides;
   const auto first = open.scene->firstTriangles();
   for (std::size_t m = 0; m < open.scene->meshes.size(); ++m) {
@@ -54,7 +54,7 @@ TEST(LocalTriangles, AreViewedFromTheFirstRegionThatDrawsThem) {
   builder.floor(builder.material(test::matte()), 4);
   const OpenProject open = test::openWith(builder.rays(), test::smallProject(1.2, 2));
   TaskRunner runner(2);
-  const LocalTriangles local = localTrianglesOf(*open.rays, *open.layout, runner);
+  const LocalTriangles local = localTrianglesOf(*open.rays, *open.drawn, *open.layout, runner);
   ASSERT_GT(open.layout->regions.size(), 1u);
   const glm::dvec2 first = open.layout->regions.front().polygon.centroid();
   for (const glm::vec3& viewer : local.viewer)

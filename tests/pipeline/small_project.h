@@ -30,6 +30,7 @@ inline OpenProject openWith(RayScenePtr rays, const Project& project,
   open.project = project;
   open.rays = std::move(rays);
   open.scene = open.rays->sharedScene();
+  open.drawn = std::make_shared<const DrawnScene>(open.scene);
   open.plan = open.rays->plan();
   open.mirrors = flatMirrorsOf(*open.scene, open.plan);
   open.layout = std::make_shared<const Layout>(buildLayout(project.layout()).value());
