@@ -38,6 +38,7 @@ struct NewProjectOptions {
   std::string outline = "auto";  ///< "auto" or parseOutline text
   StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
   bool everyStorey = false;      ///< with "auto": a layout on each storey; the walk begins on the largest
+  bool stairs = false;           ///< with everyStorey: cells on the stairs and ramps between the storeys too
   bool ignoreSides = false;      ///< see inspect/walkable_outline.h
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
   /// Of all storeys together, with "auto"; where there would be more, only a part of the ground is laid out
@@ -106,7 +107,9 @@ std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye
 /// as in the project's current storey, the lattice shifted to where its cameras stand freest.
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
                           bool ignoredSides, std::stop_token stop = {});
-/// Has the project a storey on this plane: at its height, with an outline that holds most of its corners?
+/// Is the storey at this plane's height, with an outline that holds most of its corners?
+bool liesOn(const Storey& storey, const WalkPlane& plane);
+/// Has the project such a storey?
 bool hasStoreyOn(const Project& project, const WalkPlane& plane);
 /// With the bookmarks and paths on it; if it was the current one, the one before it is now. The last one
 /// stays.
