@@ -211,7 +211,11 @@ Result<Project> makeProject(const fs::path& sceneFile, const fs::path& projectFi
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
                           bool ignoredSides, std::stop_token stop) {
   LayoutSpec pattern;
-  const LayoutSpec& like = open.project.layout();
+  // Cells of stairs are as large as suits these.
+  const auto& storeys = open.project.storeys;
+  const auto level = std::ranges::find_if_not(storeys, isStairs);
+  const bool onStairs = isStairs(open.project.current()) && level != storeys.end();
+  const LayoutSpec& like = onStairs ? level->layout : open.project.layout();
   pattern.configuration = like.configuration;
   pattern.cellSize = like.cellSize;
   pattern.eyeHeight = like.eyeHeight;

@@ -24,6 +24,8 @@
 
 namespace acentric {
 
+class StoreyGround;
+
 /// That a new project has at most, if nothing else is said, and that can be said.
 inline constexpr std::size_t kUsualMostCameras = 2000;
 inline constexpr int kMostFirstCameras = 10'000'000;
@@ -69,7 +71,9 @@ struct OpenProject {
   RayScenePtr rays;
   std::shared_ptr<const FlatMirrors> mirrors;  ///< null: none
   std::shared_ptr<const Layout> layout;
-  std::vector<ContentKey> keys;  ///< of Layout::cameras
+  std::vector<std::shared_ptr<const Layout>> layouts;  ///< of all storeys; null where one cannot be laid out
+  std::shared_ptr<const StoreyGround> ground;          ///< of these
+  std::vector<ContentKey> keys;                        ///< of Layout::cameras
   ContentKey surfaceLightKey;
 };
 

@@ -7,6 +7,7 @@
 
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/project_walks.h"
 #include "engine/pipeline/scene_probe.h"
 
 namespace acentric {
@@ -97,7 +98,7 @@ std::optional<CameraPath> pathOver(std::span<const Storey> pieces) {
     if (!path.poses.empty()) {
       PathPose& before = path.poses.back();
       const glm::dvec2 way = glm::dvec2(eye) - glm::dvec2(before.eye);
-      before.yawRadians = pose.yawRadians = std::atan2(way.y, way.x);
+      before.yawRadians = pose.yawRadians = radians(tidyDegrees(std::atan2(way.y, way.x)));
       pose.seconds = before.seconds + std::max(0.01, glm::length(way) / kMetresPerSecond);
       pose.seconds = roundTo(pose.seconds, 0.01);
     }
@@ -204,7 +205,7 @@ LayoutSpec layoutOf(const StairPiece& piece, const LayoutSpec& like) {
   glm::dvec2 middle = 0.5 * (box.low + box.high);
   if (!one && std::fmod(rows, 2) == 0) middle.y -= 0.5 * std::sqrt(3.0) * spec.cellSize;
   spec.latticeOrigin = glm::round(box.world(middle) * 1e4) / 1e4;
-  spec.rotationRadians = radians(roundTo(degrees(box.azimuth), 0.01));
+  spec.rotationRadians = radians(tidyDegrees(box.azimuth));
   return spec;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/geometry/conventions.h"
+#include "engine/layout/storey_choice.h"
 #include "engine/pipeline/camera_path.h"
 
 namespace acentric {
@@ -66,7 +67,7 @@ double borderDistance(const Outline& outline, const glm::dvec2& point) {
 
 constexpr double kStepApart = 0.35;   // metres: from ground to ground
 constexpr double kSameGround = 0.05;  // metres: layouts of one floor are not walked between
-constexpr double kGoesOver = 0.3;     // metres within its outline a storey's ground counts in full
+constexpr double kGoesOver = 0.3;     // metres within which one's ground goes over to another's
 constexpr double kAsGood = 0.03;      // metres that another's cameras must fit better
 
 }  // namespace
@@ -135,11 +136,53 @@ StoreyGround::StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys) {
   for (auto& layout : storeys) {
     Ground ground{std::move(layout), glm::dvec2(std::numeric_limits<double>::infinity()),
                   glm::dvec2(-std::numeric_limits<double>::infinity())};
+    if (!ground.layout) ground.layout = std::make_shared<const Layout>();
     for (const Region& region : ground.layout->regions)
       for (const glm::dvec2& corner : region.polygon.corners)
         ground.low = glm::min(ground.low, corner), ground.high = glm::max(ground.high, corner);
+    const LayoutSpec& spec = ground.layout->spec;
+    constexpr double kLeastRise = 0.01;  // metres per metre: a landing has no ends
+    if (spec.slope && glm::length(spec.slope->rise) >= kLeastRise && !spec.outline.empty()) {
+      ground.along = glm::normalize(spec.slope->rise);
+      ground.lower = std::numeric_limits<double>::infinity(), ground.upper = -ground.lower;
+      for (const auto& loop : spec.outline.loops)
+        for (const glm::dvec2& corner : loop) {
+          ground.lower = std::min(ground.lower, glm::dot(corner, ground.along));
+          ground.upper = std::max(ground.upper, glm::dot(corner, ground.along));
+        }
+    }
     storeys_.push_back(std::move(ground));
   }
+}
+
+/// Metres from where the storey ends, kGoesOver at most, and never quite 0: for stairs their ends, not their
+/// sides.
+double StoreyGround::Ground::within(const glm::dvec2& place) const {
+  const Outline& outline = layout->spec.outline;
+  double away = kGoesOver;
+  if (along != glm::dvec2(0)) {
+    const double at = glm::dot(place, along);
+    away = std::min(at - lower, upper - at);
+  } else if (!outline.empty()) {
+    away = borderDistance(outline, place);
+  }
+  return std::clamp(away, 1e-9, kGoesOver);
+}
+
+bool StoreyGround::rises() const {
+  return std::ranges::any_of(storeys_,
+                             [](const Ground& ground) { return ground.layout->spec.slope.has_value(); });
+}
+
+int StoreyGround::storeyAt(const glm::dvec3& eye) const {
+  const auto misfit = [&](const Ground& ground) { return misfitOf(*ground.layout, eye); };
+  return int(std::ranges::min_element(storeys_, {}, misfit) - storeys_.begin());
+}
+
+bool StoreyGround::holds(int storey, const glm::dvec3& eye) const {
+  const glm::dvec2 place(eye);
+  return storeys_[std::size_t(storey)].holds(place) ||
+         (rises() && storeys_[std::size_t(storeyAt(eye))].holds(place));
 }
 
 bool StoreyGround::Ground::holds(const glm::dvec2& place) const {
@@ -159,19 +202,23 @@ std::optional<Footing> StoreyGround::on(int storey, const glm::dvec2& place) con
 }
 
 std::optional<Footing> StoreyGround::beside(const Footing& from, const glm::dvec2& place) const {
-  double sum = 0, ground = 0;
   std::vector<int> holding;
+  double stairs = 0;  // what pieces count, up to all of it
   for (std::size_t s = 0; s < storeys_.size(); ++s) {
     const LayoutSpec& spec = storeys_[s].layout->spec;
-    const double here = spec.groundAt(place);
-    if (std::abs(here - from.ground) > kStepApart || !storeys_[s].holds(place)) continue;
+    if (std::abs(spec.groundAt(place) - from.ground) > kStepApart || !storeys_[s].holds(place)) continue;
     if (int(s) != from.storey && !joined(from.storey, int(s))) continue;
-    const double within = spec.outline.empty() ? kGoesOver : borderDistance(spec.outline, place);
-    const double weight = std::clamp(within, 1e-9, kGoesOver);
-    sum += weight, ground += weight * here;
     holding.push_back(int(s));
+    if (spec.slope) stairs = std::min(stairs + storeys_[s].within(place) / kGoesOver, 1.0);
   }
   if (holding.empty()) return std::nullopt;
+  double sum = 0, ground = 0;
+  for (const int storey : holding) {
+    const LayoutSpec& spec = layout(storey).spec;
+    const double left = spec.slope ? 1 : 1 + 1e-9 - stairs;
+    const double weight = left * storeys_[std::size_t(storey)].within(place);
+    sum += weight, ground += weight * spec.groundAt(place);
+  }
   ground /= sum;
   const auto misfit = [&](int storey) {
     return std::abs(ground - layout(storey).spec.floorHeight) - (storey == from.storey ? kAsGood : 0);

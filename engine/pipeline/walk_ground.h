@@ -39,7 +39,11 @@ struct Footing {
 /// how far within its outline one is.
 class StoreyGround {
  public:
+  /// Null: a storey without ground.
   explicit StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys);
+
+  /// Are there stairs? Else a walk stays on its storey, but for steps from floor to floor.
+  bool rises() const;
 
   /// Standing on a storey; nothing where one may not.
   std::optional<Footing> on(int storey, const glm::dvec2& place) const;
@@ -49,12 +53,20 @@ class StoreyGround {
   /// As walkTo, over all storeys; from where one may stand.
   Footing walk(const Footing& from, const glm::dvec2& to) const;
 
+  /// That suits an eye best (layout/storey_choice.h).
+  int storeyAt(const glm::dvec3& eye) const;
+  /// May an eye be there, on the storey or, where there are stairs, on the one that suits it best?
+  bool holds(int storey, const glm::dvec3& eye) const;
+
   const Layout& layout(int storey) const { return *storeys_[std::size_t(storey)].layout; }
 
  private:
   struct Ground {
     std::shared_ptr<const Layout> layout;
-    glm::dvec2 low, high;  ///< box of its regions
+    glm::dvec2 low, high;         ///< box of its regions
+    glm::dvec2 along{0};          ///< upwards, unit; 0: level
+    double lower = 0, upper = 0;  ///< of the outline, along that
+    double within(const glm::dvec2& place) const;
     bool holds(const glm::dvec2& place) const;
   };
   bool joined(int from, int to) const;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <thread>
+
+#include "editor/actions/path_walk.h"
 #include "tests/end_to_end/sample_project.h"
 #include "tests/support/stair_hall.h"
 
@@ -11,7 +14,7 @@ namespace acentric::test {
 namespace {
 using testing::HasSubstr;
 
-Json jsonOf(std::vector<std::string> arguments) {
+Json reportOf(std::vector<std::string> arguments) {
   arguments.push_back("--json");
   const auto result = acentric(arguments);
   EXPECT_EQ(result.exitCode, 0) << result.errors;
@@ -39,7 +42,7 @@ class StairsTest : public testing::Test {
                                           "--no-estimate",
                                           "--force"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return jsonOf(arguments);
+    return reportOf(arguments);
   }
   Json read() const { return Json::parse(std::ifstream(file), nullptr, false); }
   std::string refusal(std::vector<std::string> arguments) const {
@@ -67,13 +70,13 @@ TEST_F(StairsTest, AreLaidOutBakedAndDrawnAlongThePathThatLeadsUpThem) {
   std::ofstream(file) << project.dump(2);
   for (const Json& path : project["paths"]) {
     const Json& poses = path["poses"];
-    EXPECT_LT(poses.front()[3].get<double>(), 1.6 + 0.25);
+    EXPECT_LT(poses.front()[3].get<double>(), 1.6 + 0.32);
     EXPECT_GT(poses.back()[3].get<double>(), 1.6 + 0.6);
     const std::string stairs = path["name"];
     for (const Json& storey : project["storeys"])
       if (storey["name"].get<std::string>().starts_with(stairs + "."))
-        jsonOf({"bake", file, "--storey", storey["name"].get<std::string>()});
-    const Json measured = jsonOf(
+        reportOf({"bake", file, "--storey", storey["name"].get<std::string>()});
+    const Json measured = reportOf(
         {"measure", file, "--path", stairs, "--size", "320x180", "--frames", "6", "--truth-samples", "4"});
     EXPECT_EQ(measured["warnings"].size(), 0u) << measured["warnings"];
     for (const Json& frame : measured["frames"]) {
@@ -85,20 +88,86 @@ TEST_F(StairsTest, AreLaidOutBakedAndDrawnAlongThePathThatLeadsUpThem) {
   }
 }
 
+TEST_F(StairsTest, AreWalkedUpAndDownByKeysInTheEditorAndRecorded) {
+  make();
+  editor::SessionOptions options;
+  options.importHost.importer = ACENTRIC_IMPORTER;
+  options.importHost.cacheFolder = folder.path() / "cache";
+  editor::Session session(options);
+  double now = 0;
+  constexpr double kFrame = 1.0 / 60;
+  session.open(file);
+  for (int i = 0; i < 12000 && !(session.built() && !session.opening().running()); ++i) {
+    session.poll(now += 0.01);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(session.built());
+  const int lower = session.project().storey;
+  EXPECT_NEAR(session.project().layout().floorHeight, 0, 1e-3);
+  editor::EditorState state;
+  editor::ActionContext c{session, state};
+  const auto eye = [&] { return state.walker.pose().eye; };
+  const auto walk = [&](double seconds, const editor::WalkKeys& keys) {
+    double most = 0;
+    for (int i = 0; i < int(seconds / kFrame); ++i) {
+      const double z = eye().z;
+      session.poll(now += kFrame);
+      editor::walkByKeys(c, kFrame, keys);
+      editor::recordEye(c, now);
+      // As the panel does in each frame: what is baked bounds the eye.
+      const editor::WalkPose stands = editor::standing(*session.built(), state.walker.pose());
+      EXPECT_LT(glm::distance(stands.eye, eye()), 0.02) << eye().x << ", storey " << session.project().storey;
+      state.walker.setPose(stands);
+      most = std::max(most, std::abs(eye().z - z));
+    }
+    EXPECT_LT(most, 0.05) << "a jump";
+  };
+  state.walker.standAt(editor::standing(*session.built(), {{2, StairHall::kFlightY, 1.6}, 0, 0}));
+  editor::startOrStopRecording(c);
+  walk(6.5, {.forward = true});
+  EXPECT_GT(eye().x, StairHall::kFlightEnd + 1);
+  EXPECT_NEAR(eye().z, StairHall::kUpper + 1.6, 1e-2);
+  EXPECT_NEAR(session.project().layout().floorHeight, StairHall::kUpper, 1e-3);
+  EXPECT_EQ(session.built()->project.storey, session.project().storey);
+  EXPECT_FALSE(session.dirty()) << "walking is no edit";
+  EXPECT_FALSE(session.history().canUndo());
+  walk(0.5, {});
+  walk(6.5, {.back = true});
+  EXPECT_EQ(session.project().storey, lower);
+  EXPECT_NEAR(eye().z, 1.6, 1e-2);
+  walk(0.5, {});
+  editor::startOrStopRecording(c);
+
+  ASSERT_EQ(session.project().paths.size(), 3U) << "two that lead up the stairs, and this one";
+  const WalkPath& recorded = session.project().paths.back();
+  EXPECT_EQ(recorded.storey, lower);
+  EXPECT_EQ(editor::posesOutside(recorded, *session.built()), 0);
+  editor::selectWalk(c, {editor::WalkSelection::Kind::path, 2, {}});
+  editor::playOrPause(c);
+  double highest = 0;
+  for (int i = 0; i < 2000 && editor::followPath(c, now += kFrame, false); ++i) {
+    session.poll(now);
+    ++state.picturesShown;
+    highest = std::max(highest, eye().z);
+  }
+  EXPECT_NEAR(highest, StairHall::kUpper + 1.6, 0.02);
+  EXPECT_NEAR(eye().z, 1.6, 0.02);
+}
+
 TEST_F(StairsTest, AreAddedToAProjectAndTakenOutAgain) {
   make({});
   const Json before = read();
   ASSERT_EQ(before["storeys"].size(), 3u);
-  const Json added = jsonOf({"storeys", file, "--add-stairs", "0:2"});
+  const Json added = reportOf({"storeys", file, "--add-stairs", "0:2"});
   EXPECT_EQ(added["stairs"]["ways"], 1);
   EXPECT_GE(added["stairs"]["pieces"], 8);
   EXPECT_TRUE(added["storeys"].back()["stairs"].get<bool>());
-  const Json all = jsonOf({"storeys", file, "--add-stairs", "all"});
+  const Json all = reportOf({"storeys", file, "--add-stairs", "all"});
   EXPECT_EQ(all["stairs"]["ways"], 1) << "the ramp; the flight has cells";
   ASSERT_EQ(all["stairs"]["leftOut"].size(), 1u);
   EXPECT_THAT(all["stairs"]["leftOut"][0].get<std::string>(), HasSubstr("has cells"));
-  for (const Json& storey : jsonOf({"check", file, "--storey", "stairs 1.3", "--all"})) (void)storey;
-  jsonOf({"storeys", file, "--remove-stairs"});
+  for (const Json& storey : reportOf({"check", file, "--storey", "stairs 1.3", "--all"})) (void)storey;
+  reportOf({"storeys", file, "--remove-stairs"});
   EXPECT_EQ(read(), before) << "without a trace";
 }
 
