@@ -38,6 +38,20 @@ void addStoreyActions(std::vector<Action>& table) {
        [](ActionContext& c) { c.session.findStoreys(); },
        {},
        "that no search runs"});
+  table.push_back(
+      {"storey.stairs",
+       "Plan",
+       "Find stairs and ramps",
+       {},
+       {},
+       "Lays cells on the stairs and ramps between this project's storeys: the walk goes over them",
+       false,
+       [](const ActionContext& c) {
+         return withBuilt(c) && c.session.project().storeys.size() > 1 && !c.session.searching().running();
+       },
+       [](ActionContext& c) { c.session.findStairs(); },
+       {},
+       "two storeys, and that no search runs"});
   table.push_back({"storey.remove",
                    "Plan",
                    "Remove this storey",

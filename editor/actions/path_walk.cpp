@@ -25,12 +25,27 @@ void showStoreyOf(ActionContext& c, const WalkPath& path) {
   c.session.apply(showStorey(project, path.storey));
 }
 
+/// The storey that a pose of a path over stairs is on.
+void enterStoreyOf(ActionContext& c, const PathPose& pose) {
+  const OpenProject& open = *c.session.built();
+  if (!open.ground->rises()) return;
+  const int storey = open.ground->storeyAt(pose.eye);
+  if (storey != c.session.project().storey) c.session.walkInto(storey);
+}
+
 void placeOnPath(ActionContext& c, const WalkPath& path) {
   Walker& walker = c.state.walker;
   const WalkPose before = walker.pose();
+  enterStoreyOf(c, poseAt(path.path, c.state.replay.at()));
   walker.standAt(standing(*c.session.built(), walkPose(poseAt(path.path, c.state.replay.at()))));
   c.state.replayed = walker.pose();
   if (walker.pose() == before) c.state.replay.resting();
+}
+
+/// May the path be followed on the storey that is shown? Over stairs a path is on several.
+bool leadsOver(const ActionContext& c, const WalkPath& path) {
+  const OpenProject& open = *c.session.built();
+  return path.storey == c.session.project().storey || open.ground->rises();
 }
 
 void tellReplay(ActionContext& c, const std::string& name) {
@@ -42,11 +57,39 @@ void tellReplay(ActionContext& c, const std::string& name) {
 
 }  // namespace
 
+Footing footingOf(const OpenProject& open, const glm::dvec2& place) {
+  const int storey = open.project.storey;
+  return open.ground->on(storey, place).value_or(Footing{storey, place, open.layout->spec.groundAt(place)});
+}
+
+EyeHeights eyeHeights(const OpenProject& open, const glm::dvec2& place) {
+  const double z = footingOf(open, place).ground + open.layout->spec.eyeHeight;
+  const double range = open.project.bake.eyeRange;
+  return {z - range, z + range};
+}
+
 WalkPose standing(const OpenProject& open, WalkPose pose) {
-  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
-  pose.eye = glm::dvec3(nearestStanding(*open.layout, glm::dvec2(pose.eye)),
-                        std::clamp(pose.eye.z, z - range, z + range));
+  const glm::dvec2 place = nearestStanding(*open.layout, glm::dvec2(pose.eye));
+  const EyeHeights heights = eyeHeights(open, place);
+  pose.eye = glm::dvec3(place, std::clamp(pose.eye.z, heights.low, heights.high));
   return pose;
+}
+
+void walkByKeys(ActionContext& c, double seconds, const WalkKeys& keys) {
+  const OpenProject& open = *c.session.built();
+  Walker& walker = c.state.walker;
+  const glm::dvec2 place(walker.pose().eye);
+  const Footing from = footingOf(open, place);
+  Footing at = from;
+  walker.setSpeed(c.session.preferences().walkMetresPerSecond);
+  walker.step(seconds, keys, eyeHeights(open, place), [&](const glm::dvec2&, const glm::dvec2& to) {
+    at = open.ground->walk(from, to);
+    return at.place;
+  });
+  WalkPose pose = walker.pose();
+  pose.eye.z += at.ground - from.ground;
+  if (at != from) walker.setPose(pose);
+  if (at.storey != from.storey) c.session.walkInto(at.storey);
 }
 
 bool followPath(ActionContext& c, double now, bool walking) {
@@ -63,7 +106,7 @@ bool followPath(ActionContext& c, double now, bool walking) {
   if (!state.replay.playing()) return false;
   const WalkPath* path = state.walkSelection.path(c.session.project());
   const bool takenOver = walking || (state.replayed && state.walker.pose() != *state.replayed);
-  if (path == nullptr || path->storey != c.session.project().storey || takenOver) {
+  if (path == nullptr || !leadsOver(c, *path) || takenOver) {
     state.replay.pause();
     return false;
   }
@@ -77,7 +120,9 @@ bool followPath(ActionContext& c, double now, bool walking) {
 void recordEye(ActionContext& c, double now) {
   WalkRecorder& recorder = c.state.recorder;
   if (!recorder.recording()) return;
-  if (recorder.full() || recorder.storey() != c.session.project().storey) return startOrStopRecording(c);
+  const bool walked = c.session.built() && c.session.built()->ground->rises();
+  if (recorder.full() || (!walked && recorder.storey() != c.session.project().storey))
+    return startOrStopRecording(c);
   recorder.take(now, c.state.walker.pose());
 }
 
@@ -120,7 +165,7 @@ void scrub(ActionContext& c, double seconds) {
   const WalkPath* path = c.state.walkSelection.path(c.session.project());
   if (path == nullptr) return;
   c.state.replay.seek(std::clamp(seconds, 0.0, path->path.seconds()));
-  if (path->storey == c.session.project().storey && settled(c.session)) return placeOnPath(c, *path);
+  if (settled(c.session) && leadsOver(c, *path)) return placeOnPath(c, *path);
   c.state.goTo = walkPose(poseAt(path->path, c.state.replay.at()));
   showStoreyOf(c, *path);
 }
@@ -155,8 +200,9 @@ void takePathIntent(ActionContext& c, const PathIntent& intent) {
 }
 
 int posesOutside(const WalkPath& path, const OpenProject& open) {
-  return int(std::ranges::count_if(
-      path.path.poses, [&](const PathPose& pose) { return !mayStand(*open.layout, glm::dvec2(pose.eye)); }));
+  return int(std::ranges::count_if(path.path.poses, [&](const PathPose& pose) {
+    return !open.ground->holds(open.project.storey, pose.eye);
+  }));
 }
 
 }  // namespace acentric::editor

@@ -2,11 +2,18 @@
 /// Recording, replay and bookmarks as the walk goes on.
 
 #include "editor/actions/action.h"
+#include "engine/pipeline/walk_ground.h"
 
 namespace acentric::editor {
 
+/// Where the feet are of who is at a place of the storey that is laid out; where one may not stand, as high.
+Footing footingOf(const OpenProject& open, const glm::dvec2& place);
+/// Of an eye there, that captures are baked for.
+EyeHeights eyeHeights(const OpenProject& open, const glm::dvec2& place);
 /// A pose as one may stand there: within the walkable ground and the heights that captures are baked for.
 WalkPose standing(const OpenProject& open, WalkPose pose);
+/// Moves the eye by what the keys say, over stairs up and down too; the storey becomes the one that it is on.
+void walkByKeys(ActionContext& c, double seconds, const WalkKeys& keys);
 
 /// Called in each frame before the eye walks: takes it to where it was asked to go, and along the path that
 /// is replayed. `walking`: keys move it; that takes over. True while it is being moved.

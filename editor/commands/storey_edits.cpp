@@ -1,7 +1,6 @@
 #include "editor/commands/storey_edits.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "engine/pipeline/pipeline.h"
@@ -15,8 +14,9 @@ Edit showStorey(const Project& project, int storey) {
 }
 
 std::optional<int> storeyBeside(const Project& project, int steps) {
-  std::vector<int> byHeight(project.storeys.size());
-  std::iota(byHeight.begin(), byHeight.end(), 0);
+  std::vector<int> byHeight;
+  for (int s = 0; s < int(project.storeys.size()); ++s)
+    if (s == project.storey || !project.storeys[std::size_t(s)].layout.slope) byHeight.push_back(s);
   std::ranges::stable_sort(byHeight, {},
                            [&](int s) { return project.storeys[std::size_t(s)].layout.floorHeight; });
   const auto at = std::ranges::find(byHeight, project.storey) - byHeight.begin() + steps;

@@ -63,6 +63,26 @@ void drawWalkable(ImDrawList& list, const ui::CanvasView& view, const Outline& w
     ui::drawDashed(list, view, loop, true, palette::text.withOpacity(0.2F), 1);
 }
 
+void drawStairs(ImDrawList& list, const ui::CanvasView& view, const Project& project) {
+  constexpr double kLeastRise = 0.01;  // metres per metre: a landing has no arrow
+  const auto colour = palette::accent.withOpacity(0.55F).packed();
+  for (std::size_t s = 0; s < project.storeys.size(); ++s) {
+    const LayoutSpec& spec = project.storeys[s].layout;
+    if (!spec.slope || int(s) == project.storey) continue;
+    for (const auto& loop : spec.outline.loops)
+      ui::drawDashed(list, view, loop, true, palette::accent.withOpacity(0.35F), 1);
+    const double rise = glm::length(spec.slope->rise);
+    const glm::dvec2 at = view.screenFromWorld(spec.slope->at);
+    if (rise < kLeastRise || !view.contains(at)) continue;
+    const glm::dvec2 ahead(spec.slope->rise.x / rise,
+                           -spec.slope->rise.y / rise);  // the screen's y goes down
+    const glm::dvec2 aside(-ahead.y, ahead.x);
+    const double length = double(scaled(6));
+    for (const double side : {1.0, -1.0})
+      list.AddLine(imVec(at + length * ahead), imVec(at + length * side * aside), colour, scaled(1.6F));
+  }
+}
+
 void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
                         const glm::dvec2* pointer) {
   for (const auto& loop : outline.loops) {

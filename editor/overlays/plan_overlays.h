@@ -12,6 +12,7 @@
 #include "editor/tools/plan_tool.h"
 #include "editor/tools/walker.h"
 #include "engine/layout/layout.h"
+#include "engine/pipeline/project.h"
 #include "ui/canvas_view.h"
 #include "ui/colour.h"
 
@@ -38,6 +39,8 @@ const PlacementFinding* drawFindings(ImDrawList& list, const ui::CanvasView& vie
 void drawOutline(ImDrawList& list, const ui::CanvasView& view, const Outline& outline);
 /// Ground that can be walked, of which the layout has a part: fainter.
 void drawWalkable(ImDrawList& list, const ui::CanvasView& view, const Outline& walkable);
+/// Pieces of stairs and ramps that are not worked on: outlines, and arrows upwards.
+void drawStairs(ImDrawList& list, const ui::CanvasView& view, const Project& project);
 /// Corners that can be taken hold of; with a pointer, what a press there would do.
 void drawOutlineHandles(ImDrawList& list, const ui::CanvasView& view, const Outline& outline,
                         const glm::dvec2* pointer);

@@ -76,7 +76,7 @@ void drawHit(ImDrawList& list, const ui::CanvasView& view, const PathSituation& 
 }  // namespace
 
 void drawPaths(ImDrawList& list, const ui::CanvasView& view, const PathSituation& situation,
-               const Layout& layout, const glm::dvec2* pointer) {
+               const OpenProject& open, const glm::dvec2* pointer) {
   const WalkSelection& selection = situation.selection;
   for (std::size_t p = 0; p < situation.paths.size(); ++p) {
     const WalkPath& path = situation.paths[p];
@@ -89,7 +89,7 @@ void drawPaths(ImDrawList& list, const ui::CanvasView& view, const PathSituation
     drawLine(list, view, path.path, kPathColour, 2.4F);
     for (std::size_t i = 0; i < path.path.poses.size(); ++i)
       drawPose(list, view, path.path.poses[i], i == 0, selection.pose == i,
-               !mayStand(layout, glm::dvec2(path.path.poses[i].eye)));
+               !open.ground->holds(path.storey, path.path.poses[i].eye));
   }
   if (pointer != nullptr)
     drawHit(list, view, situation, hitPaths(situation, *pointer, view.pixelsPerMetre()));

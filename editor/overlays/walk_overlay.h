@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include "editor/tools/path_tool.h"
-#include "engine/layout/layout.h"
+#include "engine/pipeline/pipeline.h"
 #include "ui/canvas_view.h"
 
 namespace acentric::editor {
@@ -13,7 +13,7 @@ namespace acentric::editor {
 /// looks, red where one cannot walk. With a pointer (the path tool is at work), what a press there would
 /// take.
 void drawPaths(ImDrawList& list, const ui::CanvasView& view, const PathSituation& situation,
-               const Layout& layout, const glm::dvec2* pointer);
+               const OpenProject& open, const glm::dvec2* pointer);
 void drawBookmarks(ImDrawList& list, const ui::CanvasView& view, const Project& project,
                    const Bookmark* selected, ImFont* font);
 

@@ -134,6 +134,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   drawLayout(context, list, hovered);
   drawWalkable(list, view_, session.project().current().walkable);
   drawOutline(list, view_, session.project().layout().outline);
+  drawStairs(list, view_, session.project());
   coverage_.drawAbove(list, view_);
   const bool covered = state.overlay == PlanOverlay::coverage && state.coverageKind == CoverageKind::surfaces;
   const bool tried = state.trial || state.planTool.latticeTool().dragging();
@@ -158,7 +159,7 @@ void PlanPanel::drawWalks(PanelContext& context, ImDrawList& list) const {
   const bool pointing = state.planTool.mode() == PlanMode::path && view_.contains(pointer_) &&
                         !context.inputBlocked && !state.planTool.capturing();
   const glm::dvec2 pointer = view_.worldFromScreen(pointer_);
-  drawPaths(list, view_, pathSituation(context.actions), *context.session().built()->layout,
+  drawPaths(list, view_, pathSituation(context.actions), *context.session().built(),
             pointing ? &pointer : nullptr);
   drawBookmarks(list, view_, project, state.walkSelection.bookmark(project), context.window.fonts().small);
 }

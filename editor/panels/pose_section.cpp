@@ -51,7 +51,7 @@ void drawPoseSection(PanelContext& context, float labelWidth) {
       {"At", "%.2f s", 0.02, 0, kMostPathSeconds, "Between the times of its neighbours; the first is at 0."},
       labelWidth, pose.seconds, [](PathPose& p, double v) { p.seconds = v; });
   const auto& built = context.session().built();
-  if (built && built->project.storey == walk.storey && !mayStand(*built->layout, glm::dvec2(pose.eye)))
+  if (built && built->project.storey == walk.storey && !built->ground->holds(walk.storey, pose.eye))
     ui::wrappedText(ui::palette::warning, "One cannot walk here: a replay goes as near as it can.");
 }
 

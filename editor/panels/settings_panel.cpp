@@ -53,6 +53,8 @@ void drawStoreys(PanelContext& context) {
   ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
   actionButton(context, "storey.find", ButtonLook::plain, {}, "Find more");
   ImGui::SameLine();
+  actionButton(context, "storey.stairs", ButtonLook::plain, {}, "Stairs");
+  ImGui::SameLine();
   actionButton(context, "storey.remove", ButtonLook::plain, {}, "Remove");
 }
 

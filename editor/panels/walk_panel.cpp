@@ -59,8 +59,9 @@ void WalkPanel::followProject(PanelContext& context) {
   const bool fresh = generation_ != session.generation();
   if (fresh || state.restart) {
     const Spawn& spawn = session.project().spawn();
-    state.walker.setPose(
-        {glm::dvec3(nearestStanding(layout, spawn.position), layout.eyeZ()), spawn.yawRadians, 0});
+    const glm::dvec2 place = nearestStanding(layout, spawn.position);
+    const double ground = footingOf(*session.built(), place).ground;
+    state.walker.setPose({glm::dvec3(place, ground + layout.spec.eyeHeight), spawn.yawRadians, 0});
     state.restart = false;
   }
   if (fresh) {
@@ -85,10 +86,7 @@ void WalkPanel::walk(PanelContext& context) {
   const double seconds = lastStep_ < 0 ? 1.0 / 60 : context.now - lastStep_;
   lastStep_ = -1;
   if (keys.any() || walker.moving()) {
-    const OpenProject& open = *context.session().built();
-    walker.setSpeed(context.session().preferences().walkMetresPerSecond);
-    walker.step(seconds, keys, eyeHeights(open),
-                [&](const glm::dvec2& from, const glm::dvec2& to) { return walkTo(*open.layout, from, to); });
+    walkByKeys(context.actions, seconds, keys);
     lastStep_ = context.now;
     context.window.pacer().request(1);
   } else if (context.log.on() && walker.pose() != loggedPose_) {

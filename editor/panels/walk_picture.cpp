@@ -53,6 +53,11 @@ bool WalkPanel::stale(const PanelContext& context, const PerspectiveView& full) 
 void WalkPanel::requestFrame(PanelContext& context) {
   Session& session = context.session();
   if (!session.walk() || area_.x < 16 || area_.y < 16) return;
+  // From storey to storey: the picture stays while the walk is still that of the one before.
+  const Layout& drawn = *session.walk()->walk.layout;
+  if (shown_.valid && session.built()->layout != session.walk()->walk.layout &&
+      !drawn.regionAt(glm::dvec2(context.state().walker.pose().eye)))
+    return;
   if (shown_.valid && shown_.loaded != session.walk() &&
       rendersTheSame(shown_.loaded->walk, session.walk()->walk, shown_.view, shown_.settings))
     shown_.loaded = session.walk();

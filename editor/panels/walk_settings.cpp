@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "editor/actions/path_walk.h"
 #include "editor/commands/setting_edits.h"
 #include "editor/panels/preference_fields.h"
 #include "editor/panels/project_field.h"
@@ -118,9 +119,10 @@ void drawRenderer(PanelContext& context, const std::string& glProblem) {
 /// Of the walk now; captures are baked for the range around the layout's.
 void drawEyeHeight(PanelContext& context) {
   Walker& walker = context.state().walker;
-  const EyeHeights heights = eyeHeights(*context.session().built());
-  const double floor = context.session().project().layout().floorHeight;
   WalkPose pose = walker.pose();
+  const OpenProject& open = *context.session().built();
+  const EyeHeights heights = eyeHeights(open, glm::dvec2(pose.eye));
+  const double floor = footingOf(open, glm::dvec2(pose.eye)).ground;
   double height = pose.eye.z - floor;
   const std::string help =
       heights.high > heights.low
@@ -180,11 +182,6 @@ void drawPainting(PanelContext& context) {
 }
 
 }  // namespace
-
-EyeHeights eyeHeights(const OpenProject& open) {
-  const double z = open.layout->eyeZ(), range = open.project.bake.eyeRange;
-  return {z - range, z + range};
-}
 
 void drawWalkSettingsButton(PanelContext& context, const std::string& glProblem) {
   if (ui::button("Settings…")) ImGui::OpenPopup(kPopup);

@@ -9,7 +9,4 @@ namespace acentric::editor {
 /// `glProblem`: why OpenGL renderers cannot be chosen; empty if they can.
 void drawWalkSettingsButton(PanelContext& context, const std::string& glProblem);
 
-/// Those that captures are baked for.
-EyeHeights eyeHeights(const OpenProject& open);
-
 }  // namespace acentric::editor

@@ -54,6 +54,13 @@ void History::push(Project project, std::string label) {
   forgetOldest();
 }
 
+void History::walkInto(int storey) {
+  if (previewing_) return;
+  if (everSaved_ && !dirty_) saved_.storey = storey;
+  entries_[cursor_].project.storey = storey;
+  compareWithSaved();
+}
+
 void History::preview(Project project, std::string label) {
   if (previewing_) {
     entries_[cursor_] = makeEntry(std::move(project), std::move(label));

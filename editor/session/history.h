@@ -35,6 +35,9 @@ class History {
   const std::string& redoLabel() const;
   void undo();
   void redo();
+  /// Where the eye walks is no edit: the current entry is on this storey now, and what is on disk if it is
+  /// the same. Not while previewing.
+  void walkInto(int storey);
   /// To any entry: as many steps back or forth as lie between.
   void goTo(std::size_t entry);
   /// The entry nearest to the current one that holds this project.

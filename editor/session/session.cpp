@@ -135,6 +135,19 @@ void Session::goTo(std::size_t entry) {
   projectChanged();
 }
 
+void Session::walkInto(int storey) {
+  if (!hasProject() || !built_ || history_->previewing() || storey == project().storey) return;
+  history_->walkInto(storey);
+  constexpr double kMostSeconds = 1;  // that the walk of the storey before stays
+  keepWalkUntil_ = now_ + kMostSeconds;
+  if (shipped_ || rebuilding_.running()) return rebuild();
+  auto open = reopenProject(*built_, project(), options_.importHost);
+  if (!open) return messages_.addFailure("Walking to " + project().current().name, open.error());
+  show(std::move(*open));
+  loadCaptures();
+  drawBackdropIfStale();
+}
+
 void Session::historyMemoryChanged() {
   if (hasProject()) history_->setMostBytes(historyBytes());
 }
@@ -247,14 +260,14 @@ void Session::tellCaptures(const std::shared_ptr<const OpenProject>& open, const
 
 void Session::loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from) {
   stream_ = std::move(stream);
-  walk_ = stream_->walk();
-  for (const std::string& warning : walk_->warnings) messages_.add(MessageLevel::warning, warning);
   stream_->go(where_);
+  if (!keepsWalk()) walk_ = stream_->walk();
+  for (const std::string& warning : stream_->walk()->warnings) messages_.add(MessageLevel::warning, warning);
   if (built_->layout != from.layout || built_->keys != from.keys) loadWanted_ = true;
 }
 
 void Session::followStream() {
-  if (!stream_) return;
+  if (!stream_ || keepsWalk()) return;
   walk_ = stream_->walk();
   if (const auto warnings = stream_->takeWarnings(); !warnings.empty()) {
     constexpr std::size_t kEach = 3;  // of a whole damaged folder, the first ones say enough

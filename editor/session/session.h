@@ -133,6 +133,9 @@ class Session {
   void cancelLive();
   void undo();
   void redo();
+  /// The eye has walked onto another storey: no edit. Until the captures there are read, for a moment, the
+  /// walk is that of the storey before.
+  void walkInto(int storey);
   /// To an entry of the history.
   void goTo(std::size_t entry);
   /// The preference for the history's memory was changed.
@@ -206,6 +209,8 @@ class Session {
 
   /// Adds a storey for each walk plane found in the scene that has none.
   void findStoreys();
+  /// Adds storeys for the stairs and ramps between those of the project that have none.
+  void findStairs();
   /// The walkable area about the current floor, as `acentric new` finds it.
   void outlineFromScene();
   /// The largest cells whose regions all keep to the project's triangle budget.
@@ -263,6 +268,7 @@ class Session {
   void loadCaptures();
   void loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from);
   void followStream();
+  bool keepsWalk() const { return walk_ && now_ < keepWalkUntil_ && stream_->busy(); }
   /// Asks the disk again which captures are there.
   void countCaptures();
   /// The same, in a job of that.
@@ -338,6 +344,7 @@ class Session {
   std::shared_ptr<const LoadedWalk> walk_;
   std::shared_ptr<WalkStream> stream_;  // makes walk_
   Whereabouts where_;
+  double keepWalkUntil_ = 0;  // seconds: that of the storey before is shown
   std::string simplifiedTold_;
   std::shared_ptr<const CaptureStatus> captures_;
   std::shared_ptr<const Backdrop> backdrop_;

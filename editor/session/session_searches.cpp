@@ -5,6 +5,7 @@
 #include "editor/session/session.h"
 #include "engine/inspect/fit.h"
 #include "engine/inspect/refine.h"
+#include "engine/pipeline/stair_storeys.h"
 
 namespace acentric::editor {
 
@@ -30,6 +31,44 @@ void Session::findStoreys() {
       if (apply(std::move(edit)))
         messages_.add(MessageLevel::good,
                       "Found " + std::to_string(*added) + (*added == 1 ? " more storey" : " more storeys"));
+    });
+  });
+}
+
+void Session::findStairs() {
+  if (!built_ || searching_.running() || walkRefuses("Looking for stairs")) return;
+  searching_.restart("Looking for stairs", [this, open = built_](const Job::Context& context) {
+    context.progress()({0, 0, "finding the stairs"});
+    Project project = open->project;
+    const std::size_t storeys = project.storeys.size(), paths = project.paths.size();
+    StoreyOptions searching;
+    searching.walkable.eyeHeight = project.layout().eyeHeight;
+    Result<AddedStairs> added = AddedStairs{};
+    if (const auto found = findSceneStoreys(*open->rays, searching))
+      added = addStairs(project, *open->rays, *found, {searching.walkable, {}}, context.progress(),
+                        context.stop());
+    else
+      added = tl::unexpected(found.error());
+    context.post([this, added, storeys, paths, found = std::move(project)] {
+      if (!added) return messages_.addFailure("Looking for stairs", added.error());
+      for (const std::string& left : added->leftOut)
+        messages_.add(MessageLevel::info, "No cells on the stairs " + left);
+      if (added->pieces == 0)
+        return messages_.add(MessageLevel::info,
+                             "No stairs or ramps join storeys of the project that have no cells yet");
+      if (this->project().storeys.size() != storeys)
+        return messages_.add(MessageLevel::warning,
+                             "Looking for stairs: the storeys were changed meanwhile; try again");
+      // What was edited meanwhile stays.
+      Edit edit{this->project(), added->ways == 1 ? "Add stairs" : fmt::format("Add {} stairs", added->ways)};
+      edit.project.storeys.insert(edit.project.storeys.end(), found.storeys.begin() + std::ptrdiff_t(storeys),
+                                  found.storeys.end());
+      if (edit.project.paths.size() == paths)
+        edit.project.paths.insert(edit.project.paths.end(), found.paths.begin() + std::ptrdiff_t(paths),
+                                  found.paths.end());
+      if (apply(std::move(edit)))
+        messages_.add(MessageLevel::good,
+                      fmt::format("Found {} stairs and ramps, in {} pieces", added->ways, added->pieces));
     });
   });
 }

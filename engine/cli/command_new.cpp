@@ -161,6 +161,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     return storeysReport(*found);
   }
   choices.everyStorey = options.storey == "all";
+  choices.stairs = options.stairs;
   if (!options.storey.empty() && !choices.everyStorey) {
     const auto storey = parseStoreyChoice(options.storey);
     if (!storey) return tl::unexpected(storey.error());

@@ -4,6 +4,7 @@
 
 #include "engine/cli/commands.h"
 #include "engine/pipeline/scene_storeys.h"
+#include "engine/pipeline/stair_storeys.h"
 
 namespace acentric::cli {
 
@@ -72,6 +73,46 @@ Status renameStorey(Project& project, const std::string& text) {
   return {};
 }
 
+Result<AddedStairs> addStairs(Project& project, const OpenProject& open, const Storeys& found,
+                              const std::string& choice, const WalkableOptions& walkable,
+                              const Common& common) {
+  StairRequest request;
+  request.walkable = walkable;
+  if (choice != "all") {
+    const auto colon = choice.find(':');
+    if (colon == std::string::npos)
+      return fail(ErrorKind::invalidArgument,
+                  fmt::format("'{}': give all, or two storeys as LOWER:UPPER", choice), "--add-stairs");
+    const auto lower = storeyOf(project, choice.substr(0, colon));
+    if (!lower) return tl::unexpected(lower.error());
+    const auto upper = storeyOf(project, choice.substr(colon + 1));
+    if (!upper) return tl::unexpected(upper.error());
+    request.between = StairEnds{*lower, *upper};
+  }
+  return acentric::addStairs(project, *open.rays, found, request, common.progress, common.stop);
+}
+
+/// What is found in the scene becomes storeys: planes first, so that stairs may join them.
+Result<AddedStairs> addFound(Project& project, const OpenProject& open, const StoreysOptions& options,
+                             const StoreyOptions& searching, const Common& common) {
+  AddedStairs all;
+  if (options.add.empty() && options.addStairs.empty()) return all;
+  if (common.progress) common.progress({0, 0, "finding the storeys"});
+  const auto found = findSceneStoreys(*open.rays, searching);
+  if (!found) return tl::unexpected(found.error());
+  for (const std::string& choice : options.add)
+    if (Status done = addPlanes(project, open, *found, choice, common); !done)
+      return tl::unexpected(done.error());
+  for (const std::string& choice : options.addStairs) {
+    const auto added = addStairs(project, open, *found, choice, searching.walkable, common);
+    if (!added) return tl::unexpected(added.error());
+    all.ways += added->ways;
+    all.pieces += added->pieces;
+    all.leftOut.insert(all.leftOut.end(), added->leftOut.begin(), added->leftOut.end());
+  }
+  return all;
+}
+
 Result<Report> editStoreys(const StoreysOptions& options, const StoreyOptions& searching,
                            const Common& common) {
   const auto open = openChosen(options.file, common);
@@ -81,14 +122,9 @@ Result<Report> editStoreys(const StoreysOptions& options, const StoreyOptions& s
     if (Status done = renameStorey(project, text); !done) return tl::unexpected(done.error());
   for (const std::string& choice : options.remove)
     if (Status done = removeStorey(project, choice); !done) return tl::unexpected(done.error());
-  if (!options.add.empty()) {
-    if (common.progress) common.progress({0, 0, "finding the storeys"});
-    const auto found = findSceneStoreys(*open->rays, searching);
-    if (!found) return tl::unexpected(found.error());
-    for (const std::string& choice : options.add)
-      if (Status done = addPlanes(project, *open, *found, choice, common); !done)
-        return tl::unexpected(done.error());
-  }
+  if (options.removeStairs) acentric::removeStairs(project);
+  const auto stairs = addFound(project, *open, options, searching, common);
+  if (!stairs) return tl::unexpected(stairs.error());
   if (!options.begin.empty()) {
     const auto storey = storeyOf(project, options.begin);
     if (!storey) return tl::unexpected(storey.error());
@@ -101,13 +137,20 @@ Result<Report> editStoreys(const StoreysOptions& options, const StoreyOptions& s
   for (const Storey& storey : project.storeys) {
     report.json["storeys"].push_back({{"name", storey.name},
                                       {"floorHeight", storey.layout.floorHeight},
-                                      {"squareMetres", storey.layout.outline.area()}});
+                                      {"squareMetres", storey.layout.outline.area()},
+                                      {"stairs", isStairs(storey)}});
     const std::string rest = storey.walkable.empty() ? std::string()
                                                      : fmt::format(" laid out, of {:.1f} that can be walked",
                                                                    storey.walkable.area());
     if (!rest.empty()) report.json["storeys"].back()["walkableSquareMetres"] = storey.walkable.area();
     report.text += fmt::format("{} {}: {:.2f} m, {:.1f} m2{}\n", storey == project.current() ? '>' : ' ',
                                storey.name, storey.layout.floorHeight, storey.layout.outline.area(), rest);
+  }
+  if (!options.addStairs.empty()) {
+    report.json["stairs"] = {
+        {"ways", stairs->ways}, {"pieces", stairs->pieces}, {"leftOut", stairs->leftOut}};
+    report.text += fmt::format("{} stairs and ramps, in {} pieces\n", stairs->ways, stairs->pieces);
+    for (const std::string& left : stairs->leftOut) report.text += "  left out: " + left + "\n";
   }
   report.text += fmt::format("wrote {}\n", options.file.string());
   return report;

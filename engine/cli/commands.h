@@ -19,7 +19,8 @@ struct NewOptions {
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
   std::size_t mostCameras = kUsualMostCameras;  ///< 0 = no limit
   std::string around;                           ///< "x,y"; empty = where most floor is enclosed
-  std::string storey;  ///< empty = the one with most floor; number, height such as 3.2m, or "list"
+  std::string storey;   ///< empty = the one with most floor; number, height such as 3.2m, or "list"
+  bool stairs = false;  ///< with "all"
   bool ignoreSides = false, force = false;
   bool estimate = true;  ///< what the bake will take
   bool link = false;     ///< to a model outside the project's folder, instead of bringing it there
@@ -36,9 +37,14 @@ struct StoreysOptions {
   bool ignoreSides = false;
   /// Of a project: what is found there becomes storeys of its own, by number, height or "all".
   std::vector<std::string> add, remove;
-  std::vector<std::string> rename;  ///< "storey 1=attic"
-  std::string begin;                ///< where the walk begins
-  bool edits() const { return !add.empty() || !remove.empty() || !rename.empty() || !begin.empty(); }
+  std::vector<std::string> rename;     ///< "storey 1=attic"
+  std::string begin;                   ///< where the walk begins
+  std::vector<std::string> addStairs;  ///< "all", or two storeys as LOWER:UPPER
+  bool removeStairs = false;
+  bool edits() const {
+    return !add.empty() || !remove.empty() || !rename.empty() || !begin.empty() || !addStairs.empty() ||
+           removeStairs;
+  }
 };
 Result<Report> runStoreys(const StoreysOptions& options, const Common& common);
 

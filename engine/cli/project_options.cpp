@@ -53,6 +53,7 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--storey", o.storey,
                 "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
                 "(default: the one with most floor)");
+  c->add_flag("--stairs", o.stairs, "With --storey all: cells on the stairs and ramps between them too");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
   c->add_flag("!--no-estimate", o.estimate, "Do not estimate what the bake will take, which takes seconds");
@@ -118,8 +119,8 @@ void addStoreys(CLI::App& app, Chosen& chosen) {
       app, chosen, "storeys",
       "List the walk planes found in a scene, and the stairs and ramps between them; add them to a project",
       "  acentric storeys house.glb\n"
-      "  acentric new house.glb -o house.acentric.json --storey all\n"
-      "  acentric storeys house.acentric.json --add 3.2m --rename \"storey 1=attic\"",
+      "  acentric new house.glb -o house.acentric.json --storey all --stairs\n"
+      "  acentric storeys house.acentric.json --add 3.2m --rename \"storey 1=attic\" --add-stairs all",
       runStoreys);
   c->add_option("file", o.file, "Project file or model file")->required();
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
@@ -139,6 +140,10 @@ void addStoreys(CLI::App& app, Chosen& chosen) {
   addLight(*c, o.light)->capture_default_str();
   c->add_option("--add", o.add,
                 "Lay cells on a plane found: its number here, its height (3.2m), or all that have none yet");
+  c->add_option("--add-stairs", o.addStairs,
+                "Lay cells on the stairs and ramps between storeys of the project: all, or of two as "
+                "LOWER:UPPER");
+  c->add_flag("--remove-stairs", o.removeStairs, "Take all stairs and ramps out of the project");
   c->add_option("--remove", o.remove, "Take a storey out of the project");
   c->add_option("--rename", o.rename, "Give a storey another name: OLD=NEW");
   c->add_option("--begin", o.begin, "The storey where the walk begins");

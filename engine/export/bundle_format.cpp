@@ -103,15 +103,18 @@ Json toJson(const BundleStorey& storey) {
                        {"covers", toJson(region.covers, layout)},
                        {"panoramas", toJson(layout.panoramas[r], layout)}});
   }
-  return {{"name", storey.name},
-          {"floorHeight", layout.spec.floorHeight},
-          {"eyeHeight", layout.spec.eyeHeight},
-          {"eyeZ", layout.eyeZ()},
-          {"nearBand", layout.spec.nearBand},
-          {"start", {{"position", toJson(storey.start)}, {"yaw", storey.startYaw}}},
-          {"outline", std::move(outline)},
-          {"cameras", std::move(cameras)},
-          {"regions", std::move(regions)}};
+  Json out{{"name", storey.name},
+           {"floorHeight", layout.spec.floorHeight},
+           {"eyeHeight", layout.spec.eyeHeight},
+           {"eyeZ", layout.eyeZ()},
+           {"nearBand", layout.spec.nearBand},
+           {"start", {{"position", toJson(storey.start)}, {"yaw", storey.startYaw}}},
+           {"outline", std::move(outline)},
+           {"cameras", std::move(cameras)},
+           {"regions", std::move(regions)}};
+  if (const auto& slope = layout.spec.slope)
+    out["slope"] = {{"at", toJson(slope->at)}, {"rise", toJson(slope->rise)}};
+  return out;
 }
 
 Json toJson(const TextureUse& use) {

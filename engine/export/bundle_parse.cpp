@@ -167,6 +167,12 @@ BundleStorey storeyOf(const Node& node) {
   spec.floorHeight = node["floorHeight"].number(-kFarthest, kFarthest);
   spec.eyeHeight = node["eyeHeight"].number(-kFarthest, kFarthest);
   spec.nearBand = node["nearBand"].number(0, kFarthest);
+  if (node.has("slope")) {
+    const Node slope = node["slope"];
+    spec.slope = GroundSlope{vectorOf<2>(slope["at"]), vectorOf<2>(slope["rise"])};
+    if (!(glm::length(spec.slope->rise) <= kSteepestGround))
+      slope["rise"].refuse(fmt::format("is steeper than {:g} m per metre", kSteepestGround));
+  }
   storey.start = vectorOf<2>(node["start"]["position"]);
   storey.startYaw = node["start"]["yaw"].number(-kFarthest, kFarthest);
   const Node outline = node["outline"];

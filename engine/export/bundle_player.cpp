@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/layout/storey_choice.h"
 #include "engine/view/view_cameras.h"
 
 namespace acentric {
@@ -53,11 +54,8 @@ std::size_t BundlePlayer::storeyAt(const glm::dvec3& eye) const {
   std::size_t best = 0;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; storeys_.size() > 1 && s < storeys_.size(); ++s) {
-    const Layout& layout = bundle_.storeys[s].layout;
-    const Layout::Nearest region = layout.nearestRegion(glm::dvec2(eye));
-    if (region.region < 0) continue;
-    const double away = glm::distance(eye, glm::dvec3(region.point, layout.eyeZ()));
-    if (away < nearest) nearest = away, best = s;
+    const double misfit = misfitOf(bundle_.storeys[s].layout, eye);
+    if (misfit < nearest) nearest = misfit, best = s;
   }
   return best;
 }

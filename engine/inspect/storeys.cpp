@@ -100,10 +100,53 @@ void dropFurniture(std::vector<WalkPlane>& planes, const Standing& standing, dou
   });
 }
 
+/// Much of a floor is at one height; of a slice of a ramp or of broad steps, as high as the tolerance lets it
+/// be, little is.
+bool isLevel(const WalkPlane& plane, const Standing& standing) {
+  constexpr float kOneHeight = 0.1F;    // metres
+  constexpr double kLeastLevel = 0.36;  // share of its spots; of three steps each has a third
+  std::vector<float> heights;
+  for (const int spot : plane.spots) heights.push_back(standing.spots[std::size_t(spot)].height);
+  std::ranges::sort(heights);
+  std::size_t most = 0;
+  for (std::size_t k = 0, end = 0; k < heights.size(); ++k) {
+    while (end < heights.size() && heights[end] <= heights[k] + kOneHeight) ++end;
+    most = std::max(most, end - k);
+  }
+  return double(most) >= kLeastLevel * double(heights.size());
+}
+
+/// Slices of slopes that lead from a level plane to another at a different height: they are the way.
+void dropSlopes(std::vector<WalkPlane>& planes, const Standing& standing, double tolerance) {
+  std::vector<std::uint8_t> sloped(standing.spots.size(), 0);
+  std::vector<int> levelOf(standing.spots.size(), -1);
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const bool level = isLevel(planes[p], standing);
+    for (const int spot : planes[p].spots)
+      level ? levelOf[std::size_t(spot)] = int(p) : sloped[std::size_t(spot)] = 1;
+  }
+  // What is of no plane joins slices, and slices and planes.
+  for (std::size_t s = 0; s < sloped.size(); ++s) sloped[s] |= levelOf[s] < 0 ? 1 : 0;
+  const std::vector<int> part = numberParts(standing, sloped);
+  std::map<int, std::pair<double, double>> reach;  // per part: lowest and highest level plane that it touches
+  for (std::size_t s = 0; s < part.size(); ++s)
+    for (const int next : standing.spots[s].next)
+      if (part[s] >= 0 && next >= 0 && levelOf[std::size_t(next)] >= 0) {
+        const double height = planes[std::size_t(levelOf[std::size_t(next)])].height;
+        auto& [low, high] = reach.emplace(part[s], std::pair{height, height}).first->second;
+        low = std::min(low, height), high = std::max(high, height);
+      }
+  std::erase_if(planes, [&](const WalkPlane& plane) {
+    const auto found = reach.find(part[std::size_t(plane.spots.front())]);
+    return found != reach.end() && found->second.second - found->second.first > tolerance &&
+           plane.height > found->second.first && plane.height < found->second.second;
+  });
+}
+
 class LinkFinder {
  public:
   LinkFinder(const std::vector<WalkPlane>& planes, const Standing& standing)
-      : standing_(standing), planeOf_(standing.spots.size(), -1) {
+      : planes_(planes), standing_(standing), planeOf_(standing.spots.size(), -1) {
     for (std::size_t p = 0; p < planes.size(); ++p)
       for (const int spot : planes[p].spots) planeOf_[std::size_t(spot)] = static_cast<int>(p);
   }
@@ -124,14 +167,30 @@ class LinkFinder {
     return links;
   }
 
+  std::vector<StoreyWay> ways() const {
+    std::vector<StoreyWay> ways;
+    const glm::dvec2 half(0.5 * standing_.grid.step);
+    std::vector<std::uint8_t> seen(planeOf_.size(), 0);
+    for (Stair& stair : stairs()) {
+      if (stair.planes.size() < 2) continue;
+      growIntoPlanes(stair, seen);
+      ways.push_back({std::move(stair.planes), stair.way.low - half, stair.way.high + half});
+    }
+    return ways;
+  }
+
  private:
   struct Way {
-    glm::dvec2 sum{0};
+    glm::dvec2 sum{0}, low{std::numeric_limits<double>::infinity()}, high{-low};
     std::size_t spots = 0;
-    void add(const glm::dvec2& at) { sum += at, ++spots; }
+    void add(const glm::dvec2& at) {
+      sum += at, ++spots;
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
   };
   struct Stair {
     Way way;
+    std::vector<int> spots;
     std::vector<int> planes;  ///< in order
   };
 
@@ -162,6 +221,7 @@ class LinkFinder {
       if (std::size_t(part[s]) >= found.size()) found.resize(std::size_t(part[s]) + 1);
       Stair& stair = found[std::size_t(part[s])];
       stair.way.add(placeOf(s));
+      stair.spots.push_back(static_cast<int>(s));
       for (const int next : standing_.spots[s].next)
         if (next >= 0 && planeOf_[std::size_t(next)] >= 0)
           stair.planes.push_back(planeOf_[std::size_t(next)]);
@@ -174,6 +234,24 @@ class LinkFinder {
     return found;
   }
 
+  /// What of the planes is not level yet or no longer belongs to the way, however far that leads.
+  void growIntoPlanes(Stair& stair, std::vector<std::uint8_t>& seen) const {
+    constexpr double kLevelHeight = 0.04;  // metres
+    while (!stair.spots.empty()) {
+      const int spot = stair.spots.back();
+      stair.spots.pop_back();
+      for (const int next : standing_.spots[std::size_t(spot)].next) {
+        if (next < 0 || seen[std::size_t(next)] != 0 || planeOf_[std::size_t(next)] < 0) continue;
+        const double plane = planes_[std::size_t(planeOf_[std::size_t(next)])].height;
+        if (std::abs(double(standing_.spots[std::size_t(next)].height) - plane) <= kLevelHeight) continue;
+        seen[std::size_t(next)] = 1;
+        stair.spots.push_back(next);
+        stair.way.add(placeOf(std::size_t(next)));
+      }
+    }
+  }
+
+  const std::vector<WalkPlane>& planes_;
   const Standing& standing_;
   std::vector<int> planeOf_;  ///< per spot; -1 = none
 };
@@ -184,9 +262,12 @@ Storeys storeysOf(const FloorChoice& floor, const StoreyOptions& options) {
   storeys.planes = collectPlanes(standing, options);
   sortByHeight(storeys.planes);
   dropFurniture(storeys.planes, standing, options.walkable.headRoom());
+  dropSlopes(storeys.planes, standing, options.walkable.floorTolerance);
   addChosen(storeys.planes, floor, options.leastArea);
   sortByHeight(storeys.planes);
-  storeys.links = LinkFinder(storeys.planes, standing).find();
+  const LinkFinder finder(storeys.planes, standing);
+  storeys.links = finder.find();
+  storeys.ways = finder.ways();
   storeys.ignoredSides = floor.area.ignoredSides;
   return storeys;
 }

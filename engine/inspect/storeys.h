@@ -24,12 +24,19 @@ struct StoreyLink {
   glm::dvec2 place{0};       ///< middle of the way in plan, metres
 };
 
+/// Ground of no plane that is walked from one plane to another: flights of steps, ramps, landings between.
+struct StoreyWay {
+  std::vector<int> planes;     ///< into Storeys::planes, ascending: two or more
+  glm::dvec2 low{0}, high{0};  ///< corners of its box in plan, metres
+};
+
 struct Storeys {
   /// By height, lowest first; at one height, the larger first. A height has one for each part of the floor
   /// that is walked about without leaving it. What is within a head's height above a larger plane and cannot
-  /// be stepped on from one (a table, a podium) is left out.
+  /// be stepped on from one (a table, a podium) is left out; so are slices of a slope between level planes.
   std::vector<WalkPlane> planes;
   std::vector<StoreyLink> links;  ///< by lower, then upper
+  std::vector<StoreyWay> ways;    ///< in no particular order
   bool ignoredSides = false;      ///< see walkable_outline.h
 };
 

@@ -68,6 +68,18 @@ Status checkCells(const char* what, const std::set<CellId>& cells, const LayoutS
   return {};
 }
 
+Status checkSlope(const std::optional<GroundSlope>& slope) {
+  if (!slope) return {};
+  for (const Status& status :
+       {checkRange("the x in metres where the slope has the floor's height", slope->at.x, -kMaxCoordinate,
+                   kMaxCoordinate),
+        checkRange("the y in metres where the slope has the floor's height", slope->at.y, -kMaxCoordinate,
+                   kMaxCoordinate),
+        checkRange("the slope's rise in metres per metre", glm::length(slope->rise), 0, kSteepestGround)})
+    if (!status) return status;
+  return {};
+}
+
 Status checkFreeApvs(const LayoutSpec& spec) {
   if (spec.freeApvs.size() > std::size_t(kMaxFreeApvs))
     return refuse(fmt::format("{} free APVs, at most {} can be", spec.freeApvs.size(), kMaxFreeApvs));
@@ -139,7 +151,7 @@ Status LayoutSpec::check() const {
         checkRange("the rotation in radians", rotationRadians, -1000, 1000),
         checkRange("the floor height in metres", floorHeight, -kMaxCoordinate, kMaxCoordinate),
         checkRange("the eye height in metres", eyeHeight, 1e-5, 1e5),
-        checkRange("the near band in metres", nearBand, 0, 1e5), checkOutline(outline)})
+        checkRange("the near band in metres", nearBand, 0, 1e5), checkOutline(outline), checkSlope(slope)})
     if (!status) return status;
   const std::optional<Lattice> lattice = Lattice::of(*this);
   require(lattice.has_value(), "a named configuration has a lattice");
@@ -186,6 +198,7 @@ void LayoutSpec::addTo(Hasher& hasher) const {
     hasher.value(number).value(apv.centre.x).value(apv.centre.y).value(apv.offset.x).value(apv.offset.y);
     hasher.value(apv.fovDegrees).value(apv.hand);
   }
+  if (slope) hasher.value(slope->at.x).value(slope->at.y).value(slope->rise.x).value(slope->rise.y);
 }
 
 }  // namespace acentric

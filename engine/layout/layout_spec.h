@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -38,14 +39,25 @@ inline constexpr int kMaxFreeApvs = 1000;
 /// Metres; a project may be drawn in any unit.
 inline constexpr double kLeastCellSize = 1e-4, kLargestCellSize = 1e5;
 
+/// Ground that rises evenly, as an eye is carried over stairs or a ramp: at a place of the plan its z is the
+/// floor's height and dot(rise, place - at).
+struct GroundSlope {
+  glm::dvec2 at{0};    ///< where it has the floor's height, metres
+  glm::dvec2 rise{0};  ///< metres up per metre, 0..kSteepestGround
+  bool operator==(const GroundSlope&) const = default;
+};
+inline constexpr double kSteepestGround = 2;
+
 struct LayoutSpec {
   Configuration configuration = Configuration::b;
   double cellSize = 2.0;        ///< metres, edge length of the regular polygon, within the limits above
   glm::dvec2 latticeOrigin{0};  ///< a ring polygon's centre, metres
   double rotationRadians = 0;
-  double floorHeight = 0;    ///< z of the walk plane, metres
-  double eyeHeight = 1.6;    ///< metres above the floor: height of every centre of projection
-  double nearBand = 1.0;     ///< metres, local geometry beyond the region's border
+  double floorHeight = 0;  ///< z of the walk plane, metres
+  double eyeHeight = 1.6;  ///< metres above the floor: height of every centre of projection
+  double nearBand = 1.0;   ///< metres, local geometry beyond the region's border
+  /// Of a piece of stairs or of a ramp; its cameras stand at one height nevertheless. None: level ground.
+  std::optional<GroundSlope> slope;
   Outline outline;           ///< every region that overlaps it is placed ...
   std::set<CellId> added;    ///< ... and these ...
   std::set<CellId> removed;  ///< ... but not these
@@ -53,6 +65,9 @@ struct LayoutSpec {
   std::map<int, Apv>
       freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
 
+  double groundAt(const glm::dvec2& place) const {  ///< z, metres
+    return floorHeight + (slope ? glm::dot(slope->rise, place - slope->at) : 0);
+  }
   Status check() const;  ///< finite, within the limits above, no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;
   bool operator==(const LayoutSpec&) const = default;

@@ -12,6 +12,7 @@
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/scene_scale.h"
+#include "engine/pipeline/stair_storeys.h"
 #include "engine/pipeline/start_view.h"
 
 namespace acentric {
@@ -40,7 +41,7 @@ Result<Storeys> chosenPlanes(const RayScene& rays, const NewProjectOptions& opti
   if (!found || options.everyStorey) return found;
   auto chosen = chooseStorey(*found, options.storey);
   if (!chosen) return tl::unexpected(chosen.error());
-  return Storeys{{std::move(*chosen)}, {}, found->ignoredSides};
+  return Storeys{{std::move(*chosen)}, {}, {}, found->ignoredSides};
 }
 
 Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays, const NewProjectOptions& options,
@@ -60,18 +61,23 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays, cons
   return WalkableArea{area ? area->floorHeight : double(scene.bounds.min.z), *outline};
 }
 
-/// Walk planes to lay cells on, at least one. Of a single one without a choice only height and outline count.
-Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewProjectOptions& options) {
+WalkableOptions walkableFor(const NewProjectOptions& options) {
   WalkableOptions walkable;
   walkable.eyeHeight = options.eyeHeight;
   walkable.ignoreSides = options.ignoreSides;
+  return walkable;
+}
+
+/// Walk planes to lay cells on, at least one. Of a single one without a choice only height and outline count.
+Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewProjectOptions& options) {
+  const WalkableOptions walkable = walkableFor(options);
   if (options.storey.given() || options.everyStorey) return chosenPlanes(rays, options, walkable);
   auto area = walkableArea(scene, rays, options, walkable);
   if (!area) return tl::unexpected(area.error());
   WalkPlane plane;
   plane.height = area->floorHeight;
   plane.outline = std::move(area->outline);
-  return Storeys{{std::move(plane)}, {}, area->ignoredSides};
+  return Storeys{{std::move(plane)}, {}, {}, area->ignoredSides};
 }
 
 std::vector<glm::dvec3> sampleEyes(const Layout& layout, std::size_t most) {
@@ -138,6 +144,10 @@ Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& proje
   if (options.outline != "auto" && options.around)
     return fail(ErrorKind::invalidArgument, "give either an outline or a place to lay out around, not both",
                 options.outline);
+  if (options.stairs && !options.everyStorey)
+    return fail(ErrorKind::invalidArgument,
+                "stairs join storeys: lay cells on all of them with --storey all, or add stairs to a project "
+                "with acentric storeys PROJECT --add-stairs all");
   std::error_code error;
   if (!fs::exists(sceneFile, error))
     return fail(ErrorKind::notFound, "no such model file", sceneFile.string());
@@ -187,6 +197,13 @@ Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& proje
     project.storeys.push_back(std::move(*storey));
   }
 
+  if (options.stairs) {
+    StairRequest request;
+    request.walkable = walkableFor(options);
+    auto added = addStairs(project, **rays, *planes, request, progress, stop);
+    if (!added) return tl::unexpected(added.error());
+  }
+
   if (progress) progress({0, 0, "estimating the exposure"});
   const auto layout = buildLayout(project.layout());
   if (!layout) return tl::unexpected(layout.error());
@@ -198,7 +215,11 @@ Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& proje
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
                           bool ignoredSides, std::stop_token stop) {
   LayoutSpec pattern;
-  const LayoutSpec& like = open.project.layout();
+  // Cells of stairs are as large as suits these.
+  const auto& storeys = open.project.storeys;
+  const auto level = std::ranges::find_if_not(storeys, isStairs);
+  const bool onStairs = isStairs(open.project.current()) && level != storeys.end();
+  const LayoutSpec& like = onStairs ? level->layout : open.project.layout();
   pattern.configuration = like.configuration;
   pattern.cellSize = like.cellSize;
   pattern.eyeHeight = like.eyeHeight;

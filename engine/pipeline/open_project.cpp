@@ -4,6 +4,7 @@
 
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/start_view.h"
+#include "engine/pipeline/walk_ground.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/local_geometry.h"
 
@@ -32,6 +33,38 @@ std::shared_ptr<const InstanceExcerpts> renumbered(const NearInstances& near) {
   return std::make_shared<const InstanceExcerpts>(std::move(excerpts));
 }
 
+/// Of the storey laid out alike, of the same number at best; null: none is.
+std::shared_ptr<const Layout> layoutIn(const OpenProject* former, const LayoutSpec& spec,
+                                       std::size_t number) {
+  if (!former) return nullptr;
+  const auto alike = [&](std::size_t s) {
+    return s < former->layouts.size() && former->layouts[s] && former->project.storeys[s].layout == spec;
+  };
+  if (alike(number)) return former->layouts[number];
+  for (std::size_t s = 0; s < former->layouts.size(); ++s)
+    if (alike(s)) return former->layouts[s];
+  return nullptr;
+}
+
+/// All storeys; fails where the current one cannot be. Others say so when they are opened.
+Status layOut(const OpenProject* former, OpenProject& open) {
+  const std::vector<Storey>& storeys = open.project.storeys;
+  for (std::size_t s = 0; s < storeys.size(); ++s) {
+    open.layouts.push_back(layoutIn(former, storeys[s].layout, s));
+    if (open.layouts.back()) continue;
+    auto layout = buildLayout(storeys[s].layout);
+    if (layout)
+      open.layouts.back() = std::make_shared<const Layout>(std::move(*layout));
+    else if (int(s) == open.project.storey)
+      return tl::unexpected(layout.error());
+  }
+  open.layout = open.layouts[std::size_t(open.project.storey)];
+  open.ground = former && former->layouts == open.layouts
+                    ? former->ground
+                    : std::make_shared<const StoreyGround>(open.layouts);
+  return {};
+}
+
 /// What is near any storey, so that all storeys share one scene.
 void placeNear(const OpenProject* former, OpenProject& open) {
   const bool sameModel = former && former->imported == open.imported && former->drawn;
@@ -45,11 +78,8 @@ void placeNear(const OpenProject* former, OpenProject& open) {
   open.scene = open.imported;
   if (!open.imported->instances.empty()) {
     std::vector<Layout> layouts;
-    for (std::size_t s = 0; s < storeys.size(); ++s)
-      if (int(s) == open.project.storey)
-        layouts.push_back(*open.layout);
-      else if (auto layout = buildLayout(storeys[s].layout))  // else said when that storey is opened
-        layouts.push_back(std::move(*layout));
+    for (const auto& layout : open.layouts)
+      if (layout) layouts.push_back(*layout);  // else said when that storey is opened
     open.near = findNearInstances(*open.imported, layouts);
   }
   if (sameModel && former->near == open.near) {
@@ -81,13 +111,7 @@ Result<OpenProject> openWith(const OpenProject* former, const std::filesystem::p
     if (!scene) return tl::unexpected(scene.error());
     open.imported = *scene;
   }
-  if (former && former->project.layout() == project.layout()) {
-    open.layout = former->layout;
-  } else {
-    auto layout = buildLayout(project.layout());
-    if (!layout) return tl::unexpected(layout.error());
-    open.layout = std::make_shared<const Layout>(std::move(*layout));
-  }
+  if (Status laid = layOut(former, open); !laid) return tl::unexpected(laid.error());
   placeNear(former, open);
   const bool sameRays = former && former->scene == open.scene && former->project.effects == project.effects;
   open.plan = sameRays ? former->plan : planEffects(*open.scene, project.effects);
@@ -112,12 +136,9 @@ Result<OpenProject> withStarts(Result<OpenProject> open) {
   for (std::size_t s = 0; s < open->project.storeys.size(); ++s) {
     Storey& storey = open->project.storeys[s];
     if (storey.spawn.stored) continue;
-    const bool current = int(s) == open->project.storey;
-    const auto other = current ? Result<Layout>(Layout{}) : buildLayout(storey.layout);
-    if (!other) continue;  // said when that storey is opened
-    const Layout& layout = current ? *open->layout : *other;
-    if (layout.regions.empty()) continue;
-    storey.spawn = chooseStart(layout, *open->rays);
+    const auto& layout = open->layouts[s];
+    if (!layout || layout->regions.empty()) continue;
+    storey.spawn = chooseStart(*layout, *open->rays);
     storey.spawn.stored = false;
   }
   return open;

@@ -24,6 +24,8 @@
 
 namespace acentric {
 
+class StoreyGround;
+
 /// That a new project has at most, if nothing else is said, and that can be said.
 inline constexpr std::size_t kUsualMostCameras = 2000;
 inline constexpr int kMostFirstCameras = 10'000'000;
@@ -38,6 +40,7 @@ struct NewProjectOptions {
   std::string outline = "auto";  ///< "auto" or parseOutline text
   StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
   bool everyStorey = false;      ///< with "auto": a layout on each storey; the walk begins on the largest
+  bool stairs = false;           ///< with everyStorey: cells on the stairs and ramps between the storeys too
   bool ignoreSides = false;      ///< see inspect/walkable_outline.h
   double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
   /// Of all storeys together, with "auto"; where there would be more, only a part of the ground is laid out
@@ -64,7 +67,9 @@ struct OpenProject {
   RayScenePtr rays;
   std::shared_ptr<const FlatMirrors> mirrors;  ///< null: none
   std::shared_ptr<const Layout> layout;
-  std::vector<ContentKey> keys;  ///< of Layout::cameras
+  std::vector<std::shared_ptr<const Layout>> layouts;  ///< of all storeys; null where one cannot be laid out
+  std::shared_ptr<const StoreyGround> ground;          ///< of these
+  std::vector<ContentKey> keys;                        ///< of Layout::cameras
   ContentKey surfaceLightKey;
 };
 
@@ -109,7 +114,9 @@ std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye
 /// as in the project's current storey, the lattice shifted to where its cameras stand freest.
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
                           bool ignoredSides, std::stop_token stop = {});
-/// Has the project a storey on this plane: at its height, with an outline that holds most of its corners?
+/// Is the storey at this plane's height, with an outline that holds most of its corners?
+bool liesOn(const Storey& storey, const WalkPlane& plane);
+/// Has the project such a storey?
 bool hasStoreyOn(const Project& project, const WalkPlane& plane);
 /// With the bookmarks and paths on it; if it was the current one, the one before it is now. The last one
 /// stays.

@@ -104,18 +104,20 @@ Json toJson(const Outline& outline) {
 }
 
 Json toJson(const LayoutSpec& spec) {
-  return {{"configuration", nameOf(spec.configuration)},
-          {"cellSize", spec.cellSize},
-          {"latticeOrigin", toJson(spec.latticeOrigin)},
-          {"rotationDegrees", tidyDegrees(spec.rotationRadians)},
-          {"floorHeight", spec.floorHeight},
-          {"eyeHeight", spec.eyeHeight},
-          {"nearBand", spec.nearBand},
-          {"outline", toJson(spec.outline)},
-          {"added", toJson(spec.added)},
-          {"removed", toJson(spec.removed)},
-          {"split", toJson(spec.split)},
-          {"freeApvs", toJson(spec.freeApvs)}};
+  Json json{{"configuration", nameOf(spec.configuration)},
+            {"cellSize", spec.cellSize},
+            {"latticeOrigin", toJson(spec.latticeOrigin)},
+            {"rotationDegrees", tidyDegrees(spec.rotationRadians)},
+            {"floorHeight", spec.floorHeight},
+            {"eyeHeight", spec.eyeHeight},
+            {"nearBand", spec.nearBand},
+            {"outline", toJson(spec.outline)},
+            {"added", toJson(spec.added)},
+            {"removed", toJson(spec.removed)},
+            {"split", toJson(spec.split)},
+            {"freeApvs", toJson(spec.freeApvs)}};
+  if (spec.slope) json["slope"] = {{"at", toJson(spec.slope->at)}, {"rise", toJson(spec.slope->rise)}};
+  return json;
 }
 
 template <class T>
@@ -143,6 +145,8 @@ LayoutSpec layoutFrom(const Json& json) {
   read(json, "floorHeight", spec.floorHeight);
   read(json, "eyeHeight", spec.eyeHeight);
   read(json, "nearBand", spec.nearBand);
+  if (const auto slope = json.find("slope"); slope != json.end())
+    spec.slope = GroundSlope{pointFrom(slope->at("at")), pointFrom(slope->at("rise"))};
   if (json.contains("outline")) spec.outline = outlineFrom(json["outline"]);
   if (json.contains("added")) spec.added = cellsFrom(json["added"]);
   if (json.contains("removed")) spec.removed = cellsFrom(json["removed"]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/layout/storey_choice.h"
 #include "engine/pipeline/pipeline.h"
 
 namespace acentric {
@@ -40,25 +41,23 @@ Result<std::vector<OpenProject>> openStoreys(const OpenProject& open, const Impo
 
 std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye) {
   if (storeys.size() == 1) return 0;  // asked for each frame
-  const auto away = [&](const OpenProject& open) {
-    const Layout::Nearest nearest = open.layout->nearestRegion(glm::dvec2(eye));
-    if (nearest.region < 0) return std::numeric_limits<double>::infinity();
-    return glm::distance(eye, glm::dvec3(nearest.point, open.layout->eyeZ()));
-  };
-  return std::size_t(std::ranges::min_element(storeys, {}, away) - storeys.begin());
+  const auto misfit = [&](const OpenProject& open) { return misfitOf(*open.layout, eye); };
+  return std::size_t(std::ranges::min_element(storeys, {}, misfit) - storeys.begin());
+}
+
+bool liesOn(const Storey& storey, const WalkPlane& plane) {
+  if (std::abs(storey.layout.floorHeight - plane.height) > kSameFloor) return false;
+  std::size_t corners = 0, held = 0;
+  for (const auto& loop : plane.outline.loops)
+    for (const glm::dvec2& corner : loop) {
+      ++corners;
+      if (glm::distance(storey.layout.outline.nearestPoint(corner), corner) <= kSamePlace) ++held;
+    }
+  return 2 * held > corners;
 }
 
 bool hasStoreyOn(const Project& project, const WalkPlane& plane) {
-  return std::ranges::any_of(project.storeys, [&](const Storey& storey) {
-    if (std::abs(storey.layout.floorHeight - plane.height) > kSameFloor) return false;
-    std::size_t corners = 0, held = 0;
-    for (const auto& loop : plane.outline.loops)
-      for (const glm::dvec2& corner : loop) {
-        ++corners;
-        if (glm::distance(storey.layout.outline.nearestPoint(corner), corner) <= kSamePlace) ++held;
-      }
-    return 2 * held > corners;
-  });
+  return std::ranges::any_of(project.storeys, [&](const Storey& storey) { return liesOn(storey, plane); });
 }
 
 Result<int> addStoreys(Project& project, const OpenProject& open, std::span<const WalkPlane> planes,

@@ -97,11 +97,13 @@ void rescale(Outline& outline, const Rescaling& to) {
 
 void rescale(LayoutSpec& spec, const Rescaling& to) {
   // Cells that were chosen one by one stay where they are; others are as large as suits people.
-  if (!(spec.added.empty() && spec.removed.empty() && spec.split.empty()))
+  // Those of stairs are as large as these.
+  if (spec.slope || !(spec.added.empty() && spec.removed.empty() && spec.split.empty()))
     spec.cellSize = std::clamp(to.length(spec.cellSize), kLeastCellSize, kLargestCellSize);
   spec.latticeOrigin = to.plan(spec.latticeOrigin);
   spec.floorHeight = to.height(spec.floorHeight);
   rescale(spec.outline, to);
+  if (spec.slope) spec.slope->at = to.plan(spec.slope->at);
   for (auto& [number, apv] : spec.freeApvs) {
     apv.centre = to.plan(apv.centre);
     apv.offset *= to.length(1);

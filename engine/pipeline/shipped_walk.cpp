@@ -9,6 +9,7 @@
 
 #include "engine/export/walk_read.h"
 #include "engine/geometry/conventions.h"
+#include "engine/pipeline/walk_ground.h"
 
 namespace acentric {
 namespace {
@@ -208,6 +209,8 @@ OpenProject openProject(const ShippedWalk& walk, const Project& project) {
   open.plan = walk.rays->plan();
   open.rays = walk.rays;
   open.layout = walk.layouts[std::size_t(project.storey)];
+  open.layouts = walk.layouts;
+  open.ground = std::make_shared<const StoreyGround>(walk.layouts);
   for (const BundleCamera& camera : walk.bundle.storeys[std::size_t(project.storey)].cameras)
     open.keys.push_back(keyOf(camera));
   return open;

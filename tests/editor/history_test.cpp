@@ -31,6 +31,25 @@ TEST(History, UndoAndRedoStepThroughEdits) {
   EXPECT_FALSE(history.canRedo());
 }
 
+TEST(History, WalkingIntoAnotherStoreyIsNoEdit) {
+  Project project = projectWithCell(1);
+  project.storeys.push_back({"above", {}, {}, {}});
+  History history(project, true);
+  history.walkInto(1);
+  EXPECT_EQ(history.current().storey, 1);
+  EXPECT_FALSE(history.dirty());
+  EXPECT_FALSE(history.canUndo());
+  Project edited = history.current();
+  edited.layout().cellSize = 3;
+  history.push(edited, "Two");
+  history.walkInto(0);
+  EXPECT_EQ(history.current().storey, 0);
+  EXPECT_TRUE(history.dirty());
+  history.undo();
+  EXPECT_EQ(history.current().storey, 1) << "where the edit was made";
+  EXPECT_FALSE(history.dirty());
+}
+
 TEST(History, AnEditThatChangesNothingIsNoEntry) {
   History history(projectWithCell(1), true);
   history.push(projectWithCell(1), "Nothing");

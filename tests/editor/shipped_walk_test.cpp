@@ -262,7 +262,7 @@ TEST_F(ShippedWalkTest, ActionsThatNeedAProjectSaySo) {
   const auto action = [&](const char* id) -> const Action& { return *findAction(table, std::string(id)); };
   for (const char* id :
        {"bake.start", "tool.cells", "view.coverage", "view.split", "view.scene3d", "walk.record",
-        "file.saveAs", "path.export", "sweep.start", "storey.find", "outline.clear"})
+        "file.saveAs", "path.export", "sweep.start", "storey.find", "storey.stairs", "outline.clear"})
     EXPECT_EQ(whyDisabled(action(id), context), kIsWalk) << id;
   for (const char* id : {"file.open", "file.close", "walk.restart", "walk.screenshot", "tool.eye",
                          "overlay.bytes", "view.sources", "tab.paths", "window.larger", "help.about"})

@@ -24,6 +24,17 @@ TEST(StoreyEdits, StepsGoByHeightAndEndAtTheEnds) {
   EXPECT_EQ(storeyBeside(project, -1), std::nullopt);
 }
 
+TEST(StoreyEdits, StepsGoPastPiecesOfStairs) {
+  Project project = house();
+  project.storeys.push_back({"stairs 1.1", {}, {}, {}});
+  project.storeys[3].layout.floorHeight = 0.3;
+  project.storeys[3].layout.slope = GroundSlope{};
+  EXPECT_EQ(storeyBeside(project, 1), 2);
+  project.storey = 3;
+  EXPECT_EQ(storeyBeside(project, 1), 2);
+  EXPECT_EQ(storeyBeside(project, -1), 0);
+}
+
 TEST(StoreyEdits, ShowingOneChangesNothingElse) {
   const Edit edit = showStorey(house(), 2);
   EXPECT_EQ(edit.project.layout().floorHeight, 2.8);

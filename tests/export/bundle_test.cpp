@@ -201,6 +201,23 @@ TEST_F(BundleTest, SaysWhatItsProjectUses) {
   EXPECT_EQ(formatBundle(*bundle), *readText(room / "bundle" / kBundleIndex)) << "read and written again";
 }
 
+TEST_F(BundleTest, TellsHowTheGroundOfStairsRises) {
+  auto bundle = readBundle(room / "bundle");
+  ASSERT_TRUE(bundle);
+  LayoutSpec& spec = bundle->storeys.front().layout.spec;
+  EXPECT_FALSE(spec.slope) << "level ground";
+  spec.slope = {{0.1, -0.2}, {0.5, 0.25}};
+  const std::string text = formatBundle(*bundle);
+  const auto read = parseBundle(text, "bundle.json");
+  ASSERT_TRUE(read) << read.error().describe();
+  EXPECT_EQ(read->storeys.front().layout.spec.slope, spec.slope);
+  spec.slope->rise = {3, 0};
+  const auto steep = parseBundle(formatBundle(*bundle), "bundle.json");
+  ASSERT_FALSE(steep);
+  EXPECT_NE(steep.error().describe().find("/storeys/0/slope/rise"), std::string::npos)
+      << steep.error().describe();
+}
+
 TEST_F(BundleTest, HoldsTheStoresCapturesAndCoarseOnesOfThem) {
   const auto store = openCaptures(plain->file);
   ASSERT_TRUE(store);

@@ -14,6 +14,8 @@ import { camerasInOrder, type Viewer } from './stream/wanted';
 
 /** While captures of the first picture come, it is drawn no more often than this, milliseconds; nor in more than a quarter of the time. */
 const kWhileLoading = 400, kShareWhileLoading = 4;
+/** Walking from storey to storey, the last picture stays until there is one of the next, at most so long, milliseconds. */
+const kEntering = 1000;
 
 const placeOf = (view: { eye: readonly [number, number, number] }): Vec2 => [view.eye[0], view.eye[1]];
 
@@ -29,6 +31,7 @@ export class LoadedWalk {
   private readonly indices = new Map<number, RegionIndex>();
   private lastRegion = -1; // drawn
   private page: WalkPage | undefined; // of a walk's index, that is open
+  private shownSince = -Infinity; // the storey, milliseconds
   private refused: number | undefined; // the region whose page could not be had
   private turning = 0; // to other pages
   private turns: Promise<void> = Promise.resolve();
@@ -118,6 +121,7 @@ export class LoadedWalk {
     this.stream.close();
     this.stream = this.openStream();
     this.lastRegion = -1;
+    this.shownSince = performance.now();
   }
 
   private isOwn = (region: number): boolean => region >= 0 && (this.page?.own[region] ?? true);
@@ -174,6 +178,8 @@ export class LoadedWalk {
   draw(view: View, loudHoles: boolean): boolean {
     const region = this.drawnRegion(view);
     if (region < 0) return false;
+    const awaited = (camera: number) => !this.stream.capture(camera) && this.stream.mayCome(camera);
+    if (performance.now() - this.shownSince < kEntering && camerasInOrder(this.current, region, placeOf(view), view.yaw).some(awaited)) return false;
     const scene = {
       number: this.storey, storey: this.current, region, captureOf: (camera: number) => this.stream.capture(camera),
       mayCome: (camera: number) => this.stream.mayCome(camera), local: this.stream.local(region),

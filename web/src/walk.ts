@@ -2,6 +2,7 @@
 
 import type { Bundle, Path, Storey } from './bundle/types';
 import { durationOf, poseAt } from './geometry/path';
+import { StoreyGround, type Footing } from './geometry/ground';
 import type { RegionIndex } from './geometry/regions';
 import { kMostPixels, viewAt, type Pose, type View } from './geometry/view';
 import { LoadedWalk } from './loaded_walk';
@@ -35,6 +36,9 @@ export class Walk {
   private velocity: [number, number] = [0, 0];
   private movingScale = 1;
   private lost = false;
+  private groundOf: { bundle: Bundle; ground: StoreyGround } | undefined;
+  private footing: Footing | undefined; // the last, on walks with stairs
+  private entering: number | undefined; // the storey that is asked for
   private playing: { path: Path; began: number | undefined } | undefined;
 
   constructor(
@@ -95,6 +99,34 @@ export class Walk {
     return { eye: [x, y, eyeZ], yaw: start.yaw, pitch: 0 };
   }
 
+  /** Of all storeys; undefined where none of them has stairs. */
+  private get ground(): StoreyGround | undefined {
+    if (this.groundOf?.bundle !== this.bundle)
+      this.groundOf = { bundle: this.bundle, ground: new StoreyGround(this.bundle.storeys, (storey) => this.loaded.regionsOf(storey)) };
+    return this.groundOf.ground.rises ? this.groundOf.ground : undefined;
+  }
+
+  /** The eye there: over stairs it is carried up and down, and the storey is another one soon. */
+  private eyeOn(footing: Footing | undefined, [x, y]: readonly [number, number]): [number, number, number] {
+    this.footing = footing;
+    if (!footing) return [x, y, this.current.eyeZ];
+    if (footing.storey !== this.storey && footing.storey !== this.entering) {
+      this.entering = footing.storey;
+      void this.loaded.enter(footing.storey, footing.place).finally(() => {
+        if (this.entering === footing.storey) this.entering = undefined;
+        this.redraw();
+      });
+    }
+    const { eyeZ, floorHeight } = this.bundle.storeys[footing.storey];
+    return [footing.place[0], footing.place[1], footing.ground + eyeZ - floorHeight];
+  }
+
+  /** Where the feet are, on walks with stairs. */
+  private feet(): Footing | undefined {
+    const [x, y] = this.pose.eye, { footing } = this;
+    return footing && footing.place[0] === x && footing.place[1] === y ? footing : this.ground?.on(this.storey, [x, y]);
+  }
+
   /** To a place, or the nearest one where one may stand. */
   go(pose: Pose, storey = this.storey): void {
     this.stop();
@@ -102,8 +134,8 @@ export class Walk {
   }
 
   private stand(pose: Pose): void {
-    const [x, y] = this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
-    this.pose = { eye: [x, y, this.current.eyeZ], yaw: pose.yaw, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, pose.pitch)) };
+    const place = this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
+    this.pose = { eye: this.eyeOn(this.ground?.on(this.storey, place), place), yaw: pose.yaw, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, pose.pitch)) };
     this.redraw();
   }
 
@@ -123,8 +155,9 @@ export class Walk {
     if (!playing) return;
     playing.began ??= now;
     const seconds = (now - playing.began) / 1000, pose = poseAt(playing.path, seconds);
-    const [x, y] = this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
-    this.pose = { ...pose, eye: [x, y, this.current.eyeZ] };
+    const feet = this.feet(), on = feet && this.ground?.beside(feet, [pose.eye[0], pose.eye[1]]);
+    const place = on?.place ?? this.regions.nearestStanding([pose.eye[0], pose.eye[1]]);
+    this.pose = { ...pose, eye: this.eyeOn(on ?? this.ground?.on(this.storey, place), place) };
     this.dirty = true;
     if (seconds < durationOf(playing.path)) return;
     this.playing = undefined;
@@ -206,10 +239,18 @@ export class Walk {
     const along = Math.hypot(movement.forward, movement.right) || 1;
     const [f, r] = [(movement.forward / along) * step, (movement.right / along) * step];
     const from: [number, number] = [eye[0], eye[1]];
-    const to = f === 0 && r === 0 ? from : this.regions.walk(from, [from[0] + f * c + r * s, from[1] + f * s - r * c]);
+    const to = this.step(from, f === 0 && r === 0 ? from : [from[0] + f * c + r * s, from[1] + f * s - r * c]);
     this.velocity = [(to[0] - from[0]) / seconds, (to[1] - from[1]) / seconds];
-    this.pose = { eye: [to[0], to[1], eye[2]], yaw: turned, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, tilted)) };
+    this.pose = { eye: to, yaw: turned, pitch: Math.max(-kMostPitch, Math.min(kMostPitch, tilted)) };
     this.dirty = true;
+  }
+
+  /** The eye after a walk to a place, as far as that leads. */
+  private step(from: [number, number], to: [number, number]): [number, number, number] {
+    const feet = this.feet();
+    if (feet) return this.eyeOn(this.ground!.walk(feet, to), to);
+    const [x, y] = from === to ? from : this.regions.walk(from, to);
+    return [x, y, this.pose.eye[2]];
   }
 
   /** At the resolution that frames have when the eye stands still. */

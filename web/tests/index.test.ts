@@ -26,7 +26,7 @@ function sound() {
     mirrors: [], bookmarks: [{ name: 'door', storey: 0, eye: [0, 0, 1.6], yaw: 0, pitch: 0, fov: 1 }],
     storeys: [
       {
-        name: 'floor', eyeZ: 1.6, nearBand: 1, start: { position: [0.2, 0.2], yaw: 0 }, outline: [],
+        name: 'floor', floorHeight: 0, slope: undefined, eyeZ: 1.6, nearBand: 1, start: { position: [0.2, 0.2], yaw: 0 }, outline: [],
         cameras: [
           {
             position: [0, 0], lowAzimuth: 0, fov: 1, topElevation: 1, bottomElevation: -1,

@@ -24,7 +24,7 @@ function row(count: number, outline: Storey['outline'] = []): Storey {
     };
   });
   return {
-    name: 'floor', eyeZ: 1.6, nearBand: 1, start: { position: [1, 1], yaw: 0 }, outline, cameras, regions,
+    name: 'floor', floorHeight: 0, slope: undefined, eyeZ: 1.6, nearBand: 1, start: { position: [1, 1], yaw: 0 }, outline, cameras, regions,
     topElevation: 1, bottomElevation: -1, regionCount: count,
   };
 }

@@ -129,6 +129,8 @@ function storey(at: At): Storey {
     cameras.map((camera) => camera.get(name).number(-limit, limit)).reduce((a, b) => of(a, b), 0);
   return {
     name: at.get('name').text(),
+    floorHeight: at.get('floorHeight').number(),
+    slope: at.get('slope').optional((slope) => ({ at: slope.get('at').vec2(), rise: slope.get('rise').vec2() })),
     eyeZ: at.get('eyeZ').number(),
     nearBand: at.get('nearBand').number(0),
     start: { position: at.get('start').get('position').vec2(), yaw: at.get('start').get('yaw').number() },

@@ -51,9 +51,17 @@ export interface Start {
   yaw: number;
 }
 
+/** Ground that rises evenly: at a place it has the floor's height and dot(rise, place - at) more. */
+export interface Slope {
+  at: Vec2;
+  rise: Vec2;
+}
+
 export interface Storey {
   name: string;
-  eyeZ: number;
+  floorHeight: number;
+  slope: Slope | undefined; // of a piece of stairs or of a ramp
+  eyeZ: number; // of its cameras; over level ground of the eye too
   nearBand: number;
   start: Start;
   outline: Polygon[]; // rings, the border and its holes; empty: the regions alone bound the walk

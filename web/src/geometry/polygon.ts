@@ -74,3 +74,12 @@ export function insideRings(rings: readonly Polygon[], point: Vec2): boolean {
     }
   return inside;
 }
+
+/** To a place within closed rings; 0 there, and where there are no rings. */
+export function distanceToRings(rings: readonly Polygon[], point: Vec2): number {
+  return rings.length === 0 || insideRings(rings, point) ? 0 : borderDistance(rings, point);
+}
+
+/** To the nearest ring. */
+export const borderDistance = (rings: readonly Polygon[], point: Vec2): number =>
+  Math.min(...rings.map((ring) => distance2(nearestOnBorder(ring, point), point)));

@@ -67,26 +67,32 @@ export class RegionIndex {
 
   /** Where a walk from `from`, where one may stand, towards `to` ends: along walls, never through them. */
   walk(from: Vec2, to: Vec2): Vec2 {
-    const length = distance2(from, to);
-    const steps = Math.max(1, Math.ceil(length / (0.01 * this.size)));
-    const step: Vec2 = [(to[0] - from[0]) / steps, (to[1] - from[1]) / steps];
     let at = from;
-    for (let i = 0; i < steps; ++i) {
-      const next = this.slide(at, step);
-      if (!next) break;
-      at = next;
-    }
+    walkInSteps(from, to, 0.01 * this.size, (next) => {
+      const stands = this.mayStand(next);
+      if (stands) at = next;
+      return stands;
+    });
     return at;
   }
+}
 
-  /** One short step, turned aside as little as it takes. */
-  private slide(at: Vec2, step: Vec2): Vec2 | undefined {
-    for (const turn of [0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2, 1.45, -1.45]) {
+const kTurns = [0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2, 1.45, -1.45];
+
+/** In short steps, each turned aside as little as it takes; `standAt` says whether it can be made, and makes it. */
+export function walkInSteps(from: Vec2, to: Vec2, grain: number, standAt: (next: Vec2) => boolean): void {
+  const steps = Math.max(1, Math.ceil(distance2(from, to) / grain));
+  const step: Vec2 = [(to[0] - from[0]) / steps, (to[1] - from[1]) / steps];
+  let at = from;
+  for (let i = 0; i < steps; ++i) {
+    const taken = kTurns.some((turn) => {
       const c = Math.cos(turn), s = Math.sin(turn);
       const next: Vec2 = [at[0] + c * (c * step[0] - s * step[1]), at[1] + c * (s * step[0] + c * step[1])];
-      if (this.mayStand(next)) return next;
-    }
-    return undefined;
+      const stands = standAt(next);
+      if (stands) at = next;
+      return stands;
+    });
+    if (!taken) return;
   }
 }
 

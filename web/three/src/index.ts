@@ -2,6 +2,7 @@
 
 import { Matrix4, Object3D, Vector3, Vector4, type Camera, type Object3DEventMap, type WebGLRenderer } from 'three';
 import { memoryOfDevice, threadsOfDevice } from '../../src/device';
+import { distanceToRings } from '../../src/geometry/polygon';
 import { directionOf, subtract2, type Vec2, type Vec3 } from '../../src/geometry/vector';
 import type { View } from '../../src/geometry/view';
 import { LoadedWalk } from '../../src/loaded_walk';
@@ -185,12 +186,12 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
    * file: to the nearest in what its index has told so far.
    */
   clampToWalk(position: Vector3): Vector3 {
-    const [x, y, z] = this.toWalk(position), storey = this.storeyAt(z);
+    const [x, y, z] = this.toWalk(position), storey = this.storeyAt([x, y, z]);
     return this.stand(position, storey, this.loaded.regionsOf(storey)?.nearestStanding([x, y]));
   }
   /** Moves `to` to where a walk from `from` towards it ends: along walls, never through them. */
   moveWithin(from: Vector3, to: Vector3): Vector3 {
-    const [x, y, z] = this.toWalk(from), [toX, toY] = this.toWalk(to), storey = this.storeyAt(z), regions = this.loaded.regionsOf(storey);
+    const [x, y, z] = this.toWalk(from), [toX, toY] = this.toWalk(to), storey = this.storeyAt([x, y, z]), regions = this.loaded.regionsOf(storey);
     return this.stand(to, storey, regions?.walk(regions.nearestStanding([x, y]), [toX, toY]));
   }
 
@@ -200,9 +201,9 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   private toWalk = (position: Vector3): Vec3 => walkFromObject(this.worldToLocal(position.clone()).toArray());
   private toWorld = (position: Vec3): Vector3 => this.localToWorld(new Vector3(...objectFromWalk(position)));
 
-  /** Whose eye height is nearest. */
-  private storeyAt(z: number): number {
-    const away = this.eyeHeights.map((height) => Math.abs(height - z));
+  /** Whose eye height is nearest; of pieces of stairs and floors whose outlines are beside the place, none of these. */
+  private storeyAt([x, y, z]: Vec3): number {
+    const away = this.opened.bundle.storeys.map(({ outline, eyeZ }) => Math.hypot(10 * distanceToRings(outline, [x, y]), eyeZ - z));
     return away.indexOf(Math.min(...away));
   }
 
@@ -232,7 +233,7 @@ export class AcentricWalk extends Object3D<AcentricWalkEventMap> {
   }
 
   private follow(seen: CameraView): void {
-    const { loaded } = this, { view } = seen, [x, y, z] = view.eye, eye: Vec2 = [x, y], storey = this.storeyAt(z);
+    const { loaded } = this, { view } = seen, [x, y, z] = view.eye, eye: Vec2 = [x, y], storey = this.storeyAt([x, y, z]);
     const now = performance.now(), took = now - this.lastUpdate;
     if (storey !== loaded.storey && storey !== this.closed && !this.entering) {
       this.entering = true;
