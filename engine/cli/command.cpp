@@ -94,9 +94,6 @@ Status FrameMaker::openGl() {
   return {};
 }
 
-/// With instances, of which each is placed.
-constexpr std::uint64_t kMostPolygons = 10'000'000;
-
 /// A walk that shows every triangle, wherever the eye is, and nothing else.
 Result<WalkScene> polygonsOf(const OpenProject& open) {
   if (open.imported->shownTriangleCount() > kMostPolygons && !open.imported->instances.empty())

@@ -33,9 +33,7 @@ class StairStoreysTest : public testing::Test {
     options.cellSize = 3;
     TaskRunner runner(1);
     const fs::path file = folder_ / "hall.acentric.json";
-    const auto project = makeProject(folder_ / "hall.obj", file, options, host, runner);
-    ASSERT_TRUE(project) << project.error().describe();
-    auto open = openUnsaved(file, *project, host);
+    const auto open = makeProject(folder_ / "hall.obj", file, options, host, runner);
     ASSERT_TRUE(open) << open.error().describe();
     auto storeys = openStoreys(*open, host);
     ASSERT_TRUE(storeys) << storeys.error().describe();
