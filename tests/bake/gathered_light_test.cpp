@@ -179,13 +179,21 @@ TEST(GatheredLight, ReadByManyThreadsAtOnceItIsTheSameAndCountsEachRayOnce) {
   EXPECT_EQ(look(0), look(3));
 }
 
-TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
+RayScenePtr hallUnderSky() {
   SceneBuilder builder;
   const int white = builder.material(matte());
   builder.box(white, {-4, -3, 0}, {4, 3, 3}, true)
       .box(white, {0.5f, 0.5f, 0.2f}, {1.5f, 1.2f, 1})
       .sky(glm::vec3(1));
-  const auto scene = builder.rays();
+  return builder.rays();
+}
+/// Some way to look in it, unit.
+glm::vec3 wayNumbered(int i) {
+  return glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
+}
+
+TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
+  const auto scene = hallUnderSky();
   ASSERT_TRUE(scene->plan().on(Effect::ambientOcclusion));
   BakeSettings settings;
   settings.ambientRays = 512;
@@ -195,8 +203,7 @@ TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
   double square = 0, sum = 0;
   int count = 0;
   for (int i = 0; i < 400; ++i) {
-    const glm::vec3 way =
-        glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
+    const glm::vec3 way = wayNumbered(i);
     const Hit hit = scene->trace({{-1, -1, 1.5f}, way});
     ASSERT_TRUE(hit.found());
     const float read = gathered->at(hit, glm::dot(hit.geometricNormal(), way) > 0, rays).radiance.x;
@@ -210,12 +217,7 @@ TEST(GatheredLight, ReadsBetweenPlacesWithinAPercentOfGatheringThere) {
 /// A scene with more triangles than there are places: what is kept of those read lately is what they would
 /// be.
 TEST(GatheredLight, OfMoreTrianglesThanPlacesIsTheSame) {
-  SceneBuilder builder;
-  const int white = builder.material(matte());
-  builder.box(white, {-4, -3, 0}, {4, 3, 3}, true)
-      .box(white, {0.5f, 0.5f, 0.2f}, {1.5f, 1.2f, 1})
-      .sky(glm::vec3(1));
-  const auto scene = builder.rays();
+  const auto scene = hallUnderSky();
   const GatheredLight whole(*scene, {}), few(*scene, {}, 100);
   EXPECT_GT(whole.placeCount(), 100u);
   EXPECT_EQ(few.placeCount(), 0u);
@@ -224,8 +226,7 @@ TEST(GatheredLight, OfMoreTrianglesThanPlacesIsTheSame) {
   RayCounts rays, again;
   for (RayCounts* counts : {&rays, &again})
     for (int i = 0; i < 200; ++i) {
-      const glm::vec3 way =
-          glm::normalize(glm::vec3(std::sin(i * 0.7f), std::cos(i * 0.43f), 0.9f * std::sin(i * 1.3f)));
+      const glm::vec3 way = wayNumbered(i);
       const Hit hit = scene->trace({{-1, -1, 1.5f}, way});
       ASSERT_TRUE(hit.found());
       const bool back = glm::dot(hit.geometricNormal(), way) > 0;
