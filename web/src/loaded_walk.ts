@@ -122,6 +122,12 @@ export class LoadedWalk {
     this.stream = this.openStream();
     this.lastRegion = -1;
     this.shownSince = performance.now();
+    this.forgetDrawn();
+  }
+
+  /** Cameras by numbers of a page or storey that was left. */
+  private forgetDrawn(): void {
+    this.facts = { ...this.facts, captures: [], missing: [] };
   }
 
   private isOwn = (region: number): boolean => region >= 0 && (this.page?.own[region] ?? true);
@@ -141,7 +147,7 @@ export class LoadedWalk {
       const last = this.lastRegion < 0 ? -1 : this.current.regions[this.lastRegion].number;
       this.bundle = bundle;
       this.page = page;
-      this.facts = { ...this.facts, captures: [], missing: [] }; // they name cameras of the page before
+      this.forgetDrawn();
       this.indices.clear();
       if (storey !== this.storey) return; // there is no stream of it yet
       this.index = this.indexOf(storey);
