@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/placed_mesh.h"
 
 namespace acentric {
@@ -24,10 +25,8 @@ namespace {
 Mesh excerptOf(const Mesh& from, std::span<const std::uint32_t> triangles) {
   constexpr std::uint32_t kUnused = 0xffffffff;
   std::vector<std::uint32_t> number(from.positions.size(), kUnused), used;
-  Mesh out;
-  out.name = from.name;
-  out.material = from.material;
-  out.triangles.reserve(triangles.size());
+  std::vector<glm::uvec3> renumbered;
+  renumbered.reserve(triangles.size());
   for (const std::uint32_t t : triangles) {
     glm::uvec3 corners = from.triangles[t];
     for (int k = 0; k < 3; ++k) {
@@ -35,19 +34,10 @@ Mesh excerptOf(const Mesh& from, std::span<const std::uint32_t> triangles) {
       if (own == kUnused) own = std::uint32_t(used.size()), used.push_back(corners[k]);
       corners[k] = own;
     }
-    out.triangles.push_back(corners);
+    renumbered.push_back(corners);
   }
-  const auto take = [&](const auto& all, auto& some) {
-    if (all.empty()) return;
-    some.reserve(used.size());
-    for (const std::uint32_t v : used) some.push_back(all[v]);
-  };
-  take(from.positions, out.positions);
-  take(from.normals, out.normals);
-  take(from.tangents, out.tangents);
-  take(from.uv[0], out.uv[0]);
-  take(from.uv[1], out.uv[1]);
-  take(from.colours, out.colours);
+  Mesh out = withVertices(from, used);
+  out.triangles = std::move(renumbered);
   return out;
 }
 

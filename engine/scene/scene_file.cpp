@@ -1,7 +1,6 @@
 #include "engine/scene/scene_file.h"
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include "engine/scene/byte_stream.h"
 #include "engine/scene/import.h"
 #include "engine/scene/instances.h"
+#include "engine/scene/packed_stream.h"
 
 namespace acentric {
 namespace {
@@ -338,99 +338,6 @@ std::uint64_t sizeOf(const Write& write) {
   write(counter);
   return size;
 }
-
-/// Writes to a file what it is given, hashed and counted.
-class HashedOutput {
- public:
-  explicit HashedOutput(std::FILE* file) : file_(file) {}
-  void write(std::span<const std::byte> bytes) {
-    sound_ = sound_ && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
-    hasher_.bytes(bytes.data(), bytes.size());
-    written_ += bytes.size();
-  }
-  bool sound() const { return sound_; }
-  std::uint64_t written() const { return written_; }
-  Hasher& hasher() { return hasher_; }
-
- private:
-  std::FILE* file_;
-  Hasher hasher_;
-  std::uint64_t written_ = 0;
-  bool sound_ = true;
-};
-
-/// One zstd frame of a known size, in pieces.
-class Packer {
- public:
-  Packer(HashedOutput& out, std::uint64_t unpackedBytes)
-      : out_(out), context_(ZSTD_createCCtx(), &ZSTD_freeCCtx), buffer_(ZSTD_CStreamOutSize()) {
-    if (!context_) throw std::bad_alloc();
-    check(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, 1));
-    check(ZSTD_CCtx_setPledgedSrcSize(context_.get(), unpackedBytes));
-  }
-  void add(std::span<const std::byte> bytes) { pass(bytes, ZSTD_e_continue); }
-  /// What went wrong; null: nothing.
-  const char* close() {
-    pass({}, ZSTD_e_end);
-    return trouble_;
-  }
-
- private:
-  void check(std::size_t result) {
-    if (ZSTD_isError(result) && trouble_ == nullptr) trouble_ = ZSTD_getErrorName(result);
-  }
-  void pass(std::span<const std::byte> bytes, ZSTD_EndDirective until) {
-    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
-    for (std::size_t left = 1; trouble_ == nullptr && (until == ZSTD_e_end ? left > 0 : in.pos < in.size);) {
-      ZSTD_outBuffer packed{buffer_.data(), buffer_.size(), 0};
-      left = ZSTD_compressStream2(context_.get(), &packed, &in, until);
-      check(left);
-      out_.write(std::span(buffer_).first(packed.pos));
-    }
-  }
-  HashedOutput& out_;
-  std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context_;
-  std::vector<std::byte> buffer_;
-  const char* trouble_ = nullptr;
-};
-
-/// The frame that the rest of a file is, in pieces.
-class Unpacker {
- public:
-  explicit Unpacker(std::FILE* file)
-      : file_(file), context_(ZSTD_createDCtx(), &ZSTD_freeDCtx), buffer_(ZSTD_DStreamInSize()) {
-    if (!context_) throw std::bad_alloc();
-  }
-  bool read(std::span<std::byte> bytes) {
-    ZSTD_outBuffer out{bytes.data(), bytes.size(), 0};
-    while (out.pos < out.size) {
-      if (in_.pos == in_.size)
-        in_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_), 0};
-      const std::size_t before = out.pos;
-      ended_ = ZSTD_decompressStream(context_.get(), &out, &in_);
-      if (ZSTD_isError(ended_) || (in_.size == 0 && out.pos == before)) return false;
-    }
-    return true;
-  }
-  /// Nothing follows what was read.
-  bool atEnd() {
-    std::byte more;
-    ZSTD_outBuffer out{&more, 1, 0};
-    if (ended_ != 0) {
-      if (in_.pos == in_.size)
-        in_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_), 0};
-      ended_ = ZSTD_decompressStream(context_.get(), &out, &in_);
-    }
-    return ended_ == 0 && out.pos == 0 && in_.pos == in_.size && std::fgetc(file_) == EOF;
-  }
-
- private:
-  std::FILE* file_;
-  std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context_;
-  std::vector<std::byte> buffer_;
-  ZSTD_inBuffer in_{nullptr, 0, 0};
-  std::size_t ended_ = 1;  ///< 0: the frame has
-};
 
 ByteReader readerOf(std::FILE* file, std::uint64_t bytes) {
   return {

@@ -10,6 +10,7 @@
 #include "engine/base/contract.h"
 #include "engine/base/stopwatch.h"
 #include "engine/scene/decimate.h"
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/surface_distance.h"
 #include "engine/scene/triangle_bvh.h"
 #include "engine/scene/weld.h"
@@ -225,22 +226,8 @@ Result<SimplifiedLocal> simplify(const Scene& scene, const LocalGeometry& full,
 namespace {
 
 Mesh meshOf(const SimplifiedMesh& simplified, const Scene& scene) {
-  const Mesh& source = scene.meshes[simplified.sceneMesh];
-  Mesh mesh;
-  mesh.name = source.name;
-  mesh.material = source.material;
+  Mesh mesh = withVertices(scene.meshes[simplified.sceneMesh], simplified.sceneVertices);
   mesh.triangles = simplified.triangles;
-  const auto take = [&](auto& to, const auto& from) {
-    if (from.empty()) return;
-    to.reserve(simplified.sceneVertices.size());
-    for (const std::uint32_t vertex : simplified.sceneVertices) to.push_back(from[vertex]);
-  };
-  take(mesh.positions, source.positions);
-  take(mesh.normals, source.normals);
-  take(mesh.tangents, source.tangents);
-  take(mesh.uv[0], source.uv[0]);
-  take(mesh.uv[1], source.uv[1]);
-  take(mesh.colours, source.colours);
   return mesh;
 }
 

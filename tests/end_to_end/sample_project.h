@@ -1,6 +1,8 @@
 #pragma once
 /// A small project of the generated gallery, so coarse that it bakes in seconds.
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,14 @@ inline ProcessResult acentric(std::vector<std::string> arguments,
                               std::chrono::milliseconds limit = std::chrono::minutes(5)) {
   arguments.insert(arguments.begin(), ACENTRIC_PROGRAM);
   return runProcess(arguments, limit);
+}
+
+/// What a command that succeeds reports as JSON.
+inline Json jsonOf(std::vector<std::string> arguments) {
+  arguments.push_back("--json");
+  const auto result = acentric(arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.errors;
+  return Json::parse(result.output, nullptr, false);
 }
 
 /// A copy of the gallery and a coarse project of it.

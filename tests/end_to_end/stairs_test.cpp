@@ -14,13 +14,6 @@ namespace acentric::test {
 namespace {
 using testing::HasSubstr;
 
-Json reportOf(std::vector<std::string> arguments) {
-  arguments.push_back("--json");
-  const auto result = acentric(arguments);
-  EXPECT_EQ(result.exitCode, 0) << result.errors;
-  return Json::parse(result.output, nullptr, false);
-}
-
 class StairsTest : public testing::Test {
  protected:
   void SetUp() override { StairHall::write(folder.path() / "hall.obj"); }
@@ -42,7 +35,7 @@ class StairsTest : public testing::Test {
                                           "--no-estimate",
                                           "--force"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return reportOf(arguments);
+    return jsonOf(arguments);
   }
   Json read() const { return Json::parse(std::ifstream(file), nullptr, false); }
   std::string refusal(std::vector<std::string> arguments) const {
@@ -75,8 +68,8 @@ TEST_F(StairsTest, AreLaidOutBakedAndDrawnAlongThePathThatLeadsUpThem) {
     const std::string stairs = path["name"];
     for (const Json& storey : project["storeys"])
       if (storey["name"].get<std::string>().starts_with(stairs + "."))
-        reportOf({"bake", file, "--storey", storey["name"].get<std::string>()});
-    const Json measured = reportOf(
+        jsonOf({"bake", file, "--storey", storey["name"].get<std::string>()});
+    const Json measured = jsonOf(
         {"measure", file, "--path", stairs, "--size", "320x180", "--frames", "6", "--truth-samples", "4"});
     EXPECT_EQ(measured["warnings"].size(), 0u) << measured["warnings"];
     for (const Json& frame : measured["frames"]) {
@@ -158,16 +151,16 @@ TEST_F(StairsTest, AreAddedToAProjectAndTakenOutAgain) {
   make({});
   const Json before = read();
   ASSERT_EQ(before["storeys"].size(), 3u);
-  const Json added = reportOf({"storeys", file, "--add-stairs", "0:2"});
+  const Json added = jsonOf({"storeys", file, "--add-stairs", "0:2"});
   EXPECT_EQ(added["stairs"]["ways"], 1);
   EXPECT_GE(added["stairs"]["pieces"], 8);
   EXPECT_TRUE(added["storeys"].back()["stairs"].get<bool>());
-  const Json all = reportOf({"storeys", file, "--add-stairs", "all"});
+  const Json all = jsonOf({"storeys", file, "--add-stairs", "all"});
   EXPECT_EQ(all["stairs"]["ways"], 1) << "the ramp; the flight has cells";
   ASSERT_EQ(all["stairs"]["leftOut"].size(), 1u);
   EXPECT_THAT(all["stairs"]["leftOut"][0].get<std::string>(), HasSubstr("has cells"));
-  for (const Json& storey : reportOf({"check", file, "--storey", "stairs 1.3", "--all"})) (void)storey;
-  reportOf({"storeys", file, "--remove-stairs"});
+  for (const Json& storey : jsonOf({"check", file, "--storey", "stairs 1.3", "--all"})) (void)storey;
+  jsonOf({"storeys", file, "--remove-stairs"});
   EXPECT_EQ(read(), before) << "without a trace";
 }
 

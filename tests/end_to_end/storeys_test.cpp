@@ -9,13 +9,6 @@ namespace acentric::test {
 namespace {
 using testing::HasSubstr;
 
-Json jsonOf(std::vector<std::string> arguments) {
-  arguments.push_back("--json");
-  const auto result = acentric(arguments);
-  EXPECT_EQ(result.exitCode, 0) << result.errors;
-  return Json::parse(result.output, nullptr, false);
-}
-
 /// The gallery with cells on all its storeys, of which the first two are kept.
 class TwoStoreysTest : public testing::Test {
  protected:
