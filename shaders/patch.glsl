@@ -102,7 +102,14 @@ vec4 colourAt(Patch patch_, Block block) {
              share.x);
 }
 
-void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth) {
+// How densely samples lie on the picture (engine/view/patch_kernel.h: densityOf).
+uint densityAt(vec2 across, vec2 down) {
+  float area = across.x * down.y - down.x * across.y;
+  float squares = (across.x * across.x + across.y * across.y) + (down.x * down.x + down.y * down.y);
+  return uint(min(abs(area) / sqrt(max(squares, 1e-20)), 1.0) * 4095.0);
+}
+
+void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth, vec2 across, vec2 down) {
   vec4 colour = colourAt(patch_, block);
   float number = float(partsIn(parts));
   float weight = sum.w * number;
@@ -125,8 +132,8 @@ void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth)
 #else
   state.x -= parts;
   if (waits) state.y = (mirrorPartsOf(state) | parts) | patch_.mirror << 16;
-  if (number > float(state.z & 0xffu)) {
-    state.z = uint(number) | piece.source << 8;
+  if (number > float(numberOf(state))) {
+    state.z = paintedOf(uint(number), piece.source, densityAt(across, down));
     state.w = floatBitsToUint(inverseDepth);
   }
 #endif
@@ -157,5 +164,5 @@ void paint(Patch patch_, vec2 pixel) {
   uint parts = open;
   if ((cover & piece.roles) == 0u || (cover & (within ? kBlockWhole | kBlockInner : kBlockInner)) == 0u)
     parts = partsOf(patch_, place, across, down) & open;
-  if (parts != 0u) blend(patch_, block, open, parts, at.w);
+  if (parts != 0u) blend(patch_, block, open, parts, at.w, across, down);
 }

@@ -1,6 +1,6 @@
 // The state of a pixel before patches are painted. Before it are included patch_state.glsl and, with BEHIND, cracks.glsl.
 // Defines: LOCAL_MIRRORS (of local geometry, whose pixels wait for what they show), BEHIND (before the second cover: it is
-// painted where the first shows nothing, and in its cracks).
+// painted where the first shows nothing, in its cracks, and where it is thinly sampled).
 #ifdef LOCAL_MIRRORS
 uniform highp usampler2D mirrors;  // 0 = none
 #endif
@@ -21,7 +21,7 @@ void beginPixel(ivec2 at, out vec4 sums, out uvec4 states) {
   if (before.y != 0u) {
     sums = sumsAt(sumsBefore, at);
     states = before;
-  } else if (before.z != 0u && !isCrack(at)) {
+  } else if (before.z != 0u && !isCrack(at) && !isThin(before)) {
     states.x = 0u;
   }
 #endif

@@ -6,7 +6,8 @@ const uint kAllParts = 0xffu;
 // Of the words of a pixel's state:
 // x: parts that nothing covers yet
 // y: parts that show a mirror and wait for what it shows; from bit 16 on its number
-// z: source of the surface that covers most parts, from bit 8 on; below how many it covers. 0: nothing is painted
+// z: of the surface that covers most parts: how many, its source from bit 4 on, how densely it is sampled from bit 20 on.
+// 0: nothing is painted
 // w: inverse depth of that surface, a float
 
 // What they add up to: squared codes of what covers parts, and what comes through what is clear before the next.
@@ -26,3 +27,16 @@ int partsIn(uint parts) {
 }
 
 uint mirrorPartsOf(uvec4 state) { return state.y & kAllParts; }
+
+uint paintedOf(uint number, uint source, uint density) { return number | source << 4 | density << 20; }
+uint numberOf(uvec4 state) { return state.z & 15u; }
+uint sourceOf(uvec4 state) { return state.z >> 4 & 0xffffu; }
+uint densityOf(uvec4 state) { return state.z >> 20; }
+// What is sampled more thinly is painted again from the second cover, and shown so where that is denser by this factor (kDenser).
+const uint kThinDensity = 2048u;
+bool isThin(uvec4 first) { return first.z != 0u && densityOf(first) < kThinDensity; }
+// Does the second show the same surface, and more densely? Neither lies before the other (Cracks::kBefore).
+bool isDenser(uvec4 first, uvec4 second) {
+  float one = uintBitsToFloat(first.w), other = uintBitsToFloat(second.w);
+  return one < 1.03 * other && other < 1.03 * one && float(densityOf(second)) > 1.25 * float(densityOf(first));
+}

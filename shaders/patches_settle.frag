@@ -1,9 +1,11 @@
 // From what was painted to colours, over what the picture holds: of pixels that show mirrors, or of all others. Defines:
-// MIRRORS; IN_CRACKS (of the second cover: in cracks of the first, only what lies before what shows there).
+// MIRRORS; BEHIND (of the second cover, over what the first shows: in its cracks only what lies before that, elsewhere only what
+// shows the same surface more densely).
 #include "capture_depth.glsl"
 #include "patch_state.glsl"
-#ifdef IN_CRACKS
+#ifdef BEHIND
 #include "cracks.glsl"
+uniform highp usampler2D statesBefore;
 #endif
 
 layout(location = 0) out vec4 colour;
@@ -47,14 +49,20 @@ void main() {
   int number = shown + (behind ? open : 0);
   if (!(behind || real) || number <= 0) discard;
   float depth = captureDepth(painted ? uintBitsToFloat(state.w) : 0.0);
-#ifdef IN_CRACKS
-  if (liesBehindCrack(depth)) discard;
+#ifdef BEHIND
+  uvec4 first = texelFetch(statesBefore, at, 0);
+  if (isCrack(at)) {
+    if (liesBehindCrack(depth)) discard;
+  } else if (first.z != 0u) {
+    if (!isDenser(first, state)) discard;
+    depth = max(depth, captureDepth(uintBitsToFloat(first.w)));
+  }
 #endif
   vec3 codes = before.rgb * 255.0;
   vec3 mean = (sum.rgb + codes * codes * (behind ? float(open) * sum.w : 0.0)) / float(number);
   colour = vec4(min(floor(sqrt(mean) + 0.5), 255.0) / 255.0, 1.0);
 #ifndef GL_ES
-  source = painted ? state.z >> 8 : wasHole ? background : sourceBefore;
+  source = painted ? sourceOf(state) : wasHole ? background : sourceBefore;
 #endif
   gl_FragDepth = depth;
 }

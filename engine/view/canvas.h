@@ -27,6 +27,8 @@ constexpr float inverseZDepthOf(CanvasPixel pixel) {
 }
 constexpr std::uint32_t slotOf(CanvasPixel pixel) { return static_cast<std::uint32_t>(pixel) >> 24; }
 
+inline constexpr CanvasPixel kSlotBits = 0xff000000;
+
 inline constexpr CanvasPixel kEmptyPixel = canvasPixel(0, -1.0f);
 
 inline std::uint32_t wordOf(const Rgba8& colour) {

@@ -6,8 +6,6 @@
 namespace acentric {
 namespace {
 
-constexpr CanvasPixel kSlotBits = 0xff000000;
-
 /// The depths of the columns around one, that many at a time, with room above and below.
 class DepthWindow {
  public:

@@ -27,6 +27,17 @@ inline constexpr std::uint32_t kBlockWhole = 1u << 24;
 /// And so are all around these four.
 inline constexpr std::uint32_t kBlockInner = 1u << 25;
 
+/// Of PatchCanvasColumn::source.
+inline constexpr int kSourceSlot = 8, kSourceDensity = 16;
+/// A sample's pixel is about an ellipse in the picture. Where its axes are a and b pixels long,
+/// (a^2 + b^2)^(-1/2), in steps of one to kMostDensity; more than one is told as one.
+constexpr std::uint32_t densityOf(std::uint32_t source) { return source >> kSourceDensity; }
+inline constexpr std::uint32_t kMostDensity = 4095;
+/// What is sampled more thinly is painted again from the second cover, and shown so where that is denser by
+/// this factor.
+inline constexpr std::uint32_t kThinDensity = 2048;
+inline constexpr float kDenser = 1.25f;
+
 /// Of a column of the picture, by row. Arrays have room for kPatchRoom more.
 struct PatchCanvasColumn {
   int rows = 0;
@@ -36,8 +47,9 @@ struct PatchCanvasColumn {
   float* blue = nullptr;
   float* clear = nullptr;          ///< what comes through the clear surfaces before the next
   float* inverseZDepth = nullptr;  ///< of the surface that covers most parts, 1/m
-  std::uint32_t* source =
-      nullptr;  ///< slot of the same surface, from bit 8 on; below how many parts it covers
+  /// Of the same surface: how many parts it covers, its slot from bit kSourceSlot on, and how densely it is
+  /// sampled (densityOf) from kSourceDensity on.
+  std::uint32_t* source = nullptr;
   std::uint32_t* mirror =
       nullptr;  ///< null: none is wanted. Parts that show a mirror, and its number from bit 16
   /// Bit i: something may be open in rows [i << cellShift, (i + 1) << cellShift), or shows a mirror while

@@ -109,7 +109,7 @@ void settle(const PatchCanvasColumn& canvas, bool mirrors, std::uint64_t* pixels
     const I red = code(canvas.red, B::both(colour, codes));
     const I green = code(canvas.green, B::both(B::template shiftRight<8>(colour), codes));
     const I blue = code(canvas.blue, B::both(B::template shiftRight<16>(colour), codes));
-    const I slot = B::select(isPainted, B::template shiftRight<8>(source),
+    const I slot = B::select(isPainted, B::template shiftRight<kSourceSlot>(source),
                              B::maxi(B::template shiftRight<24>(colour), B::seti(1)));
     const I mixed = red + B::template shiftLeft<8>(green) + B::template shiftLeft<16>(blue) +
                     B::template shiftLeft<24>(slot);
@@ -184,6 +184,17 @@ struct Kernel {
     };
     one(c.across, out.columnAcross, out.rowAcross);
     one(c.step, out.columnDown, out.rowDown);
+  }
+
+  /// See densityOf. With the singular values 1 / a and 1 / b of the derivatives' matrix, its determinant by
+  /// the root of the sum of its squares.
+  static I densityAt(const Places<B>& places) {
+    const F area = places.columnAcross * places.rowDown - places.columnDown * places.rowAcross;
+    const F squares =
+        (places.columnAcross * places.columnAcross + places.rowAcross * places.rowAcross) +
+        (places.columnDown * places.columnDown + places.rowDown * places.rowDown);
+    const F density = B::abs(area) / B::sqrt(B::max(squares, B::set(1e-20f)));
+    return B::truncate(B::min(density, B::set(1)) * B::set(float(kMostDensity)));
   }
 
   static F limited(F value) { return B::min(B::max(value, B::set(-1e6f)), B::set(1e6f)); }
@@ -337,7 +348,7 @@ struct Kernel {
     if (B::any(byEdges)) parts = B::select(whole, parts, B::both(partsOf(places, byEdges), open));
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
-    blend(y0, count, y, before, open, parts, painted, block, canvas);
+    blend(y0, count, y, before, open, parts, painted, places, block, canvas);
     return __builtin_popcount(B::bits(painted));
   }
 
@@ -346,8 +357,8 @@ struct Kernel {
     return B::load(words, B::kWidth);
   }
 
-  void blend(int y0, int count, F y, I before, I open, I parts, M painted, const Block<B>& block,
-             const PatchCanvasColumn& canvas) const {
+  void blend(int y0, int count, F y, I before, I open, I parts, M painted, const Places<B>& places,
+             const Block<B>& block, const PatchCanvasColumn& canvas) const {
     F rgba[4];
     colourAt(block, rgba);
     const F number = B::toFloat(countOf<B>(parts));
@@ -385,8 +396,10 @@ struct Kernel {
     const I source = loaded(canvas.source + y0);
     const I mine = countOf<B>(parts);
     const M more = painted & B::greater(mine, B::both(source, B::seti(255)));
-    B::store(canvas.source + y0, B::select(more, mine + B::seti(std::int32_t(c.slot << 8)), source),
-             B::kWidth);
+    if (!B::any(more)) return;
+    const I itsSource = mine + B::seti(std::int32_t(c.slot << kSourceSlot)) +
+                        B::template shiftLeft<kSourceDensity>(densityAt(places));
+    B::store(canvas.source + y0, B::select(more, itsSource, source), B::kWidth);
     const F depth = loaded(canvas.inverseZDepth + y0);
     B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), B::kWidth);
   }

@@ -7,6 +7,42 @@
 namespace acentric {
 namespace {
 
+/// Pixels whose surface the first cover sampled thinly: they are painted from the second, and keep that where
+/// it shows the same surface more densely; its depth is then the nearer of both, as a depth test leaves it.
+class ThinPixels {
+ public:
+  /// Makes holes of them; their depth stays.
+  void open(Canvas& canvas, const PatchCanvas& memory, std::uint32_t frontSlot) {
+    thin_.clear();
+    for (std::size_t i = 0; i < canvas.pixels.size(); ++i)
+      if (memory.source[i] != 0 && densityOf(memory.source[i]) < kThinDensity &&
+          slotOf(canvas.pixels[i]) >= frontSlot) {
+        thin_.push_back({i, densityOf(memory.source[i]), canvas.pixels[i]});
+        canvas.pixels[i] &= ~kSlotBits;
+      }
+  }
+  /// Gives them back what they were, where that is better.
+  void close(Canvas& canvas, const PatchCanvas& memory) {
+    for (const Thin& thin : thin_) {
+      CanvasPixel& pixel = canvas.pixels[thin.at];
+      const float first = inverseZDepthOf(thin.pixel), second = inverseZDepthOf(pixel);
+      const bool isSame = first < Cracks::kBefore * second && second < Cracks::kBefore * first;
+      const bool isDenser = float(densityOf(memory.source[thin.at])) > kDenser * float(thin.density);
+      pixel = slotOf(pixel) == 0 || !isSame || !isDenser
+                  ? thin.pixel
+                  : canvasPixel(static_cast<std::uint32_t>(pixel), std::max(first, second));
+    }
+  }
+
+ private:
+  struct Thin {
+    std::size_t at = 0;
+    std::uint32_t density = 0;
+    CanvasPixel pixel = 0;  ///< as it was
+  };
+  std::vector<Thin> thin_;
+};
+
 class PatchPainter {
  public:
   PatchPainter(const PatchPlan& plan, const PatchKernel& kernel, int x0, int x1, PatchCanvas& memory,
@@ -51,10 +87,13 @@ class PatchPainter {
     if (!plan_.behind.empty()) {
       Cracks cracks;
       cracks.open(canvas_, plan_.frontSlot);
+      ThinPixels thin;
+      thin.open(canvas_, memory_, plan_.frontSlot);
       forColumns([&](int x) { kernel_.reopen(canvasColumn(x), plan_.frontSlot, canvas_.column(x)); });
       paint(plan_.behind);
       settle(false);
       cracks.close(canvas_);
+      thin.close(canvas_, memory_);
     }
     if (mirrors_) {
       paint(plan_.reflections, true);

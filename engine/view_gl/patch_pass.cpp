@@ -177,7 +177,7 @@ Status PatchPass::paintPiece(std::span<const StripDraw> strips, bool mirrors, bo
 Status PatchPass::settle(Show show, bool localMirrors, const FrameTarget& target) {
   Defines defines;
   if (show == Show::mirrors) defines.push_back("MIRRORS");
-  if (show == Show::behind) defines.push_back("IN_CRACKS");
+  if (show == Show::behind) defines.push_back("BEHIND");
   const Result<GlProgram*> found = programs_.get("whole_picture.vert", "patches_settle.frag", defines);
   if (!found) return tl::unexpected(found.error());
   const auto copy = [&](GLuint from, GLuint to) {
@@ -194,7 +194,8 @@ Status PatchPass::settle(Show show, bool localMirrors, const FrameTarget& target
         colours{"coloursBefore", colours_.name()}, sources{"sourcesBefore", sources_.name()};
     if (show == Show::behind)
       drawWholePicture(**found, noAttributes_,
-                       {sums, states, colours, sources, {"leastDepths", cracks_.leastDepths()}});
+                       {sums, states, colours, sources, {"statesBefore", before_.states.name()},
+                        {"leastDepths", cracks_.leastDepths()}});
     else
       drawWholePicture(**found, noAttributes_, {sums, states, colours, sources});
   };

@@ -118,10 +118,27 @@ TEST(PatchKernel, CoversTheSharesOfPixelsThatAnEdgeLeaves) {
     EXPECT_NEAR(covered, share * kPixelParts, 1) << y;
     EXPECT_NEAR(canvas.red[std::size_t(y)], 255.0f * 255 * float(covered), 1) << y;
     if (covered == kPixelParts) {
-      EXPECT_EQ(canvas.source[std::size_t(y)], 7u << 8 | kPixelParts) << y;
+      const std::uint32_t source = canvas.source[std::size_t(y)];
+      EXPECT_EQ(source & 0xffffu, 7u << kSourceSlot | kPixelParts) << y;
+      EXPECT_NEAR(densityOf(source), std::sqrt(0.5) * kMostDensity, 2) << y;  // a pixel is a sample
       EXPECT_EQ(canvas.inverseZDepth[std::size_t(y)], 0.25f) << y;
     }
   }
+}
+
+TEST(PatchKernel, TellsHowDenselyASurfaceIsSampled) {
+  FlatPatch patch(8, 32);
+  patch.setAll(kTexelParts, 0xffffffff);
+  for (const double across : {0.1, 0.25, 0.5, 1.0, 3.0})
+    for (const double down : {0.2, 0.5, 0.8}) {
+      CanvasColumn canvas;
+      PatchColumn column = patch.column(4, down, 0);
+      column.across[1] *= float(across / down);
+      paintPatch(column, 0, kRows, canvas.view());
+      const double expected = std::min(1 / std::hypot(1 / across, 1 / down), 1.0);
+      for (int y = 2; y < 32; ++y)
+        EXPECT_NEAR(densityOf(canvas.source[std::size_t(y)]), expected * kMostDensity, 2) << across << down;
+    }
 }
 
 TEST(PatchKernel, PaintsWhatIsStillOpenAndNothingElse) {

@@ -94,11 +94,14 @@ export class PatchPass {
   private settle(show: Show, localMirrors: boolean): void {
     const { gl, target, programs } = this;
     const before = target.copyColours();
-    const defines = show === 'reflections' ? ['MIRRORS'] : show === 'behind' ? ['IN_CRACKS'] : [];
+    const defines = show === 'reflections' ? ['MIRRORS'] : show === 'behind' ? ['BEHIND'] : [];
     const program = programs.whole('patches_settle.frag', defines);
     this.useCanvas(program, this.now!, 0);
     program.texture('coloursBefore', 2, before);
-    if (show === 'behind') program.texture('leastDepths', 3, target.leastDepths);
+    if (show === 'behind') {
+      program.texture('leastDepths', 3, target.leastDepths);
+      program.texture('statesBefore', 4, this.before!.states);
+    }
     target.bindForDrawing();
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.GEQUAL); // what local geometry hides does not matter

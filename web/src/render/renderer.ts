@@ -79,7 +79,7 @@ export class Renderer {
     for (const defines of [[], ['BEHIND']]) this.programs.start('patch_tile.vert', 'patches.frag', defines);
     for (const file of ['patches_settle.frag', 'cracks_find.frag', 'fill_reduce.frag', 'fill_expand.frag', 'fill_apply.frag', 'copy.frag'] as const)
       this.programs.start('whole_picture.vert', file);
-    this.programs.start('whole_picture.vert', 'patches_settle.frag', ['IN_CRACKS']);
+    this.programs.start('whole_picture.vert', 'patches_settle.frag', ['BEHIND']);
     this.programs.start('whole_picture.vert', 'fill_reduce.frag', ['FROM_FRAME']);
     this.programs.start('whole_picture.vert', 'background.frag', ['CAPTURED']);
   }
