@@ -190,9 +190,8 @@ struct Kernel {
   /// the root of the sum of its squares.
   static I densityAt(const Places<B>& places) {
     const F area = places.columnAcross * places.rowDown - places.columnDown * places.rowAcross;
-    const F squares =
-        (places.columnAcross * places.columnAcross + places.rowAcross * places.rowAcross) +
-        (places.columnDown * places.columnDown + places.rowDown * places.rowDown);
+    const F squares = (places.columnAcross * places.columnAcross + places.rowAcross * places.rowAcross) +
+                      (places.columnDown * places.columnDown + places.rowDown * places.rowDown);
     const F density = B::abs(area) / B::sqrt(B::max(squares, B::set(1e-20f)));
     return B::truncate(B::min(density, B::set(1)) * B::set(float(kMostDensity)));
   }

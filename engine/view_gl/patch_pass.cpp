@@ -194,7 +194,11 @@ Status PatchPass::settle(Show show, bool localMirrors, const FrameTarget& target
         colours{"coloursBefore", colours_.name()}, sources{"sourcesBefore", sources_.name()};
     if (show == Show::behind)
       drawWholePicture(**found, noAttributes_,
-                       {sums, states, colours, sources, {"statesBefore", before_.states.name()},
+                       {sums,
+                        states,
+                        colours,
+                        sources,
+                        {"statesBefore", before_.states.name()},
                         {"leastDepths", cracks_.leastDepths()}});
     else
       drawWholePicture(**found, noAttributes_, {sums, states, colours, sources});
