@@ -40,6 +40,12 @@ void addNew(CLI::App& app, Chosen& chosen) {
                 "all of it)")
       ->check(CLI::Range(0, kMostFirstCameras))
       ->capture_default_str();
+  c->add_option(
+       "--bake-minutes", o.bakeMinutes,
+       "Likewise, as much as this machine is foretold to bake in so many minutes; a room is laid out "
+       "as a whole (0 = whatever it takes)")
+      ->check(CLI::Range(0.0, kMostBakeMinutes))
+      ->capture_default_str();
   c->add_option("--around", o.around,
                 "Where that part begins: x,y in metres (default: where most floor is enclosed)");
   c->add_option("--samples-per-degree", o.samplesPerDegree,
@@ -56,7 +62,8 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_flag("--stairs", o.stairs, "With --storey all: cells on the stairs and ramps between them too");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
-  c->add_flag("!--no-estimate", o.estimate, "Do not estimate what the bake will take, which takes seconds");
+  c->add_flag("!--no-estimate", o.estimate,
+              "Do not estimate what the bake will take, which takes seconds; --max-cameras alone limits it");
   c->add_flag("--force", o.force, "Replace an existing project file");
   c->add_flag(
       "--link", o.link,
