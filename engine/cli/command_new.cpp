@@ -62,12 +62,14 @@ std::string areaText(double squareMetres) {
 std::string leftOutText(const Storey& storey, const NewOptions& options, LimitedBy limit) {
   if (storey.walkable.empty()) return {};
   const double laid = storey.layout.outline.area(), all = storey.walkable.area();
-  const bool byTime = limit == LimitedBy::minutes;
-  const std::string why =
-      byTime ? fmt::format("as much as bakes in about {:g} minutes here; more with --bake-minutes",
-                           options.bakeMinutes)
-             : fmt::format("since {} cameras are the limit; more with --max-cameras",
-                           countText(options.mostCameras));
+  std::string why =
+      fmt::format("since {} cameras are the limit; more with --max-cameras", countText(options.mostCameras));
+  if (limit == LimitedBy::minutes)
+    why = fmt::format("as much as bakes in about {:g} minutes here; more with --bake-minutes",
+                      options.bakeMinutes);
+  if (limit == LimitedBy::unknown)
+    why = fmt::format("since it was not known within {:g} s what baking takes; more with --bake-minutes 0",
+                      kPlanningSeconds);
   return fmt::format(
       "only {} of {} that can be walked, around ({:.0f}, {:.0f}), {}, another part with --around x,y, or one "
       "of your own with --outline",
@@ -83,8 +85,8 @@ std::string cellsText(const Layout& layout) {
   return fmt::format("{:g} to {:g} m", edge(*largest), edge(*finest));
 }
 
-/// What the first bake will take, at a glance. `known`: so much is foretold already.
-Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<BakeForecast>& known,
+/// What the first bake will take, at a glance. `known`: what is foretold already.
+Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<Result<BakeForecast>>& known,
                const std::filesystem::path& project, const Common& common, Report& report) {
   std::size_t cameras = 0;
   double megapixels = 0;
@@ -92,8 +94,8 @@ Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<Bake
     cameras += storey.layout->cameras.size(), megapixels += megapixelsOf(storey);
   report.json["plan"] = {{"cameras", cameras}, {"megapixels", megapixels}};
   const auto runner = common.runner();
-  const auto plan = known ? Result<BakeForecast>(*known)
-                          : glanceAtBake(storeys, kPlanningSeconds, *runner, common.progress, common.stop);
+  const auto plan =
+      known ? *known : glanceAtBake(storeys, kPlanningSeconds, *runner, common.progress, common.stop);
   if (common.stop.stop_requested())
     return fail(ErrorKind::cancelled, "stopped; the project is made", project.string());
   if (plan) report.json["plan"].update(toJson(*plan));
@@ -157,6 +159,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   if (!made) return tl::unexpected(made.error());
   const OpenProject* open = &made->project.open;
   const LimitedBy limitedBy = made->project.limitedBy;
+  const auto& plan = made->project.plan;
   const auto storeys = acentric::openStoreys(*open, common.host, common.progress, common.stop);
   if (!storeys) return tl::unexpected(storeys.error());
   const Report model = collectReport(made->model);
@@ -218,7 +221,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     report.text +=
         fmt::format("  scale in doubt: {} (--metres-per-unit {:g})\n", doubt->text, doubt->metresPerUnit);
   if (options.estimate)
-    if (Status planned = addPlan(*storeys, made->project.plan, options.output, common, report); !planned)
+    if (Status planned = addPlan(*storeys, plan, options.output, common, report); !planned)
       return tl::unexpected(planned.error());
   report.text += fmt::format("next: acentric bake {}\n", options.output.string());
   return report;

@@ -23,6 +23,8 @@ const char* nameOf(LimitedBy limit) {
       return "cameras";
     case LimitedBy::minutes:
       return "minutes";
+    case LimitedBy::unknown:
+      return "unknown";
   }
   return "unknown";
 }
@@ -37,9 +39,11 @@ Result<LimitedBy> layOutWithin(const BakeLimit& limit) {
     tried = most, laid = *result;
     return {};
   };
+  bool known = false;
   const auto limitedBy = [&] {
     if (laid.whole) return LimitedBy::nothing;
-    return tried == limit.mostCameras ? LimitedBy::cameras : LimitedBy::minutes;
+    if (tried == limit.mostCameras) return LimitedBy::cameras;
+    return known ? LimitedBy::minutes : LimitedBy::unknown;
   };
   if (Status done = layOut(timed ? smaller(kTrialCameras, limit.mostCameras) : limit.mostCameras); !done)
     return tl::unexpected(done.error());
@@ -47,6 +51,7 @@ Result<LimitedBy> layOutWithin(const BakeLimit& limit) {
   for (int round = 0; timed && !room && round < kMostRounds; ++round) {
     const auto seconds = limit.foretell();
     if (!seconds || !(*seconds > 0)) break;
+    known = true;
     const double share = *seconds / limit.seconds;
     const bool enough = share >= kPartShare || tried == limit.mostCameras;
     if (laid.whole ? share <= kWholeAllowance : share <= kPartAllowance && enough) break;

@@ -11,8 +11,9 @@
 
 namespace acentric {
 
-enum class LimitedBy : std::uint8_t { nothing, cameras, minutes };
-const char* nameOf(LimitedBy limit);  ///< "nothing", "cameras", "minutes"
+/// `unknown`: the minutes, but what baking takes was not known in time.
+enum class LimitedBy : std::uint8_t { nothing, cameras, minutes, unknown };
+const char* nameOf(LimitedBy limit);  ///< "nothing", "cameras", "minutes", "unknown"
 
 /// What was laid out.
 struct LaidOut {

@@ -187,7 +187,7 @@ class Maker {
     if (!layout) return tl::unexpected(layout.error());
     project_.exposure = tidy(estimateExposure(*bare_.rays, sampleEyes(*layout, 8), project_.bake, runner_));
     if (Status opened = open(); !opened) return tl::unexpected(opened.error());
-    if (plan_ && planned_ != cameras_) plan_ = plan_->ofSoManyCameras(int(cameras_));
+    if (plan_ && *plan_ && planned_ != cameras_) plan_ = (*plan_)->ofSoManyCameras(int(cameras_));
     return NewProject{std::move(*open_), *limitedBy, std::move(plan_)};
   }
 
@@ -214,20 +214,19 @@ class Maker {
     return LaidOut{cameras_, whole};
   }
 
-  /// Of what was laid out last. What is not known in time is not asked again.
+  /// Of what was laid out last. All that is asked has kPlanningSeconds together.
   std::optional<double> foretell() {
     const double left = kPlanningSeconds - foretelling_;
-    if (!(left > 0)) return std::nullopt;
+    if (!(left > 0) || !open()) return std::nullopt;
     const Stopwatch watch;
-    if (open()) {
-      const auto storeys = acentric::openStoreys(*open_, host_, progress_, stop_);
-      auto plan = storeys ? glanceAtBake(*storeys, left, runner_, progress_, stop_)
-                          : Result<BakeForecast>(tl::unexpected(storeys.error()));
-      if (plan) plan_ = std::move(*plan), planned_ = cameras_;
-    }
+    const auto storeys = acentric::openStoreys(*open_, host_, progress_, stop_);
+    if (!storeys) return std::nullopt;
+    auto plan = glanceAtBake(*storeys, left, runner_, progress_, stop_);
     foretelling_ += watch.seconds();
-    if (planned_ != cameras_) return std::nullopt;
-    return plan_->seconds();
+    const bool known = plan.has_value();
+    if (known) planned_ = cameras_;
+    if (known || !plan_) plan_ = std::move(plan);
+    return known ? std::optional((*plan_)->seconds()) : std::nullopt;
   }
 
   /// The project as it is laid out now.
@@ -259,8 +258,8 @@ class Maker {
   LayoutSpec pattern_;
   std::size_t cameras_ = 0;  ///< laid out
   double foretelling_ = 0;   ///< seconds
-  std::optional<BakeForecast> plan_;
-  std::size_t planned_ = 0;  ///< cameras of `plan_`
+  std::optional<Result<BakeForecast>> plan_;
+  std::size_t planned_ = 0;  ///< cameras of `plan_`, if it is known
 };
 
 }  // namespace

@@ -42,8 +42,9 @@ struct NewProjectOptions {
 struct NewProject {
   OpenProject open;
   LimitedBy limitedBy = LimitedBy::nothing;
-  /// What baking it takes, at a glance; none where nothing was foretold or that was not known in time.
-  std::optional<BakeForecast> plan;
+  /// What baking it takes, at a glance; `cancelled` where that was not known in time, none where it was not
+  /// asked.
+  std::optional<Result<BakeForecast>> plan;
 };
 
 /// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a

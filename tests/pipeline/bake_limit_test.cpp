@@ -81,8 +81,10 @@ TEST(BakeLimit, LeavesARegionHoweverLittleTimeThereIs) {
 
 TEST(BakeLimit, KeepsTheTrialWhereNothingIsKnownInTime) {
   Ground town{200'000, 2.0, false};
-  EXPECT_EQ(town.within(1200, 2000).value(), LimitedBy::minutes);
+  EXPECT_EQ(town.within(1200, 2000).value(), LimitedBy::unknown);
   EXPECT_EQ(town.asked, std::vector<std::size_t>{kTrialCameras});
+  Ground small{400, 2.0, false};
+  EXPECT_EQ(small.within(1200, 2000).value(), LimitedBy::nothing);
 }
 
 TEST(BakeLimit, MayBeOfCamerasAloneOrOfNothing) {

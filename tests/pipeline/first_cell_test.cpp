@@ -183,6 +183,56 @@ TEST(FirstCells, HaveTheirCornersAndMiddlesWhereOneMayStand) {
   }
 }
 
+/// A street of 10 m from x = 0 to 120 and one of 5 m that crosses it.
+TEST(FirstCells, AreFittedToStreets) {
+  NearGround ground = narrowingFloor();
+  const auto inStreet = [](const glm::dvec2& place) {
+    return std::abs(place.y - 1.8) < 5 || std::abs(place.x - 62.2) < 2.5;
+  };
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x)
+      ground.floor.cells[ground.grid.index(x, y)] = inStreet(ground.grid.centreOf(x, y)) ? 1 : 0;
+  std::ranges::fill(ground.clearance, 3.0f);
+  LayoutSpec pattern;
+  pattern.configuration = Configuration::e;
+  pattern.cellSize = 19.2;
+  pattern.latticeOrigin = {4.6, -5.4};
+  pattern.outline =
+      parseOutline("1,-4;60,-4;60,-40;66,-40;66,-4;119,-4;119,7;66,7;66,40;60,40;60,7;1,7").value();
+  const CellRules rules{4.8, 2.4};
+  const auto worthAt = [&](const glm::dvec2& origin) {
+    LayoutSpec there = pattern;
+    there.latticeOrigin = origin;
+    const CellChoice cells = chooseCells(there, ground, rules, inStreet);
+    there.split = cells.split, there.removed = cells.removed;
+    const auto layout = buildLayout(there);
+    int floor = 0, served = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const glm::dvec2 place = ground.grid.centreOf(x, y);
+        if (!ground.floor.at(x, y) || !pattern.outline.contains(place)) continue;
+        ++floor;
+        served += layout->regionAt(place) ? 1 : 0;
+      }
+    const double share = double(served) / floor;
+    return layout->cameras.empty() ? 0 : share * share * share / double(layout->cameras.size());
+  };
+  const FittedCells fitted = fitCells(pattern, ground, rules, inStreet, 9.6, 4);
+  double most = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) most = std::max(most, worthAt(glm::dvec2(4.6 + 2.4 * i, -5.4 + 2.4 * j)));
+  EXPECT_NEAR(fitted.worth, most, 1e-12);
+  EXPECT_NEAR(fitted.worth, worthAt(fitted.spec.latticeOrigin), 1e-12);
+  const auto layout = buildLayout(fitted.spec);
+  ASSERT_TRUE(layout);
+  std::set<double> widths;
+  for (const Region& region : layout->regions) {
+    EXPECT_TRUE(std::ranges::all_of(region.polygon.corners, inStreet));
+    widths.insert(std::round(10 * glm::distance(region.polygon.corners[0], region.polygon.corners[1])) / 10);
+  }
+  EXPECT_EQ(widths, (std::set{4.8, 9.6})) << "one row in each street";
+}
+
 /// A street of 12 m between two rows of houses, whose walls show their backs to the street on one side.
 TEST(FirstCells, HaveFreePlacesOutsideOfHousesHoweverWallsAreWound) {
   BoxWorld world;
@@ -254,6 +304,16 @@ TEST(FirstCells, AreLaidWhereSomethingStandsAboutOnGroundThatIsTooLarge) {
     EXPECT_FALSE(inHouse(region.polygon.centroid()));
   }
   for (const LayoutCamera& camera : layout->cameras) EXPECT_FALSE(inHouse(camera.position));
+  int laidOut = 0, served = 0;
+  for (double y = 190; y < 350; y += 0.9)
+    for (double x = 190; x < 350; x += 0.9) {
+      if (!kept->outline.contains({x, y})) continue;
+      ++laidOut;
+      served += layout->regionAt({x, y}) ? 1 : 0;
+    }
+  EXPECT_GT(served, 0.97 * laidOut) << "what no region serves is not laid out";
+  for (const std::set<CellId>& choices : {kept->split, kept->removed})
+    for (const CellId& id : choices) EXPECT_TRUE(kept->outline.overlaps(cellPolygon(*kept, id)));
   limit.chooseConfiguration = false;
   const auto hexagons = keepWithin(spec, limit, world.bounds(), false, world.probe());
   ASSERT_TRUE(hexagons) << hexagons.error().describe();
