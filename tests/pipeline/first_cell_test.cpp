@@ -183,7 +183,7 @@ TEST(FirstCells, HaveTheirCornersAndMiddlesWhereOneMayStand) {
   }
 }
 
-/// A street of 10 m from x = 0 to 120 and one of 5 m that crosses it.
+/// A street 10 m wide and one of 5 m that crosses it.
 TEST(FirstCells, AreFittedToStreets) {
   NearGround ground = narrowingFloor();
   const auto inStreet = [](const glm::dvec2& place) {
@@ -198,7 +198,7 @@ TEST(FirstCells, AreFittedToStreets) {
   pattern.cellSize = 19.2;
   pattern.latticeOrigin = {4.6, -5.4};
   pattern.outline =
-      parseOutline("1,-4;60,-4;60,-40;66,-40;66,-4;119,-4;119,7;66,7;66,40;60,40;60,7;1,7").value();
+      parseOutline("40,-3;60,-3;60,-40;64,-40;64,-3;84,-3;84,6;64,6;64,40;60,40;60,6;40,6").value();
   const CellRules rules{4.8, 2.4};
   const auto worthAt = [&](const glm::dvec2& origin) {
     LayoutSpec there = pattern;
