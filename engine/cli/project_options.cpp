@@ -35,15 +35,16 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
-  c->add_option("--max-cameras", o.mostCameras,
-                "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = "
-                "all of it)")
+  c->add_option(
+       "--max-cameras", o.mostCameras,
+       "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = no "
+       "limit)")
       ->check(CLI::Range(0, kMostFirstCameras))
       ->capture_default_str();
   c->add_option(
        "--bake-minutes", o.bakeMinutes,
        "Likewise, as much as this machine is foretold to bake in so many minutes; a room is laid out "
-       "as a whole (0 = whatever it takes)")
+       "as a whole (0 = no limit)")
       ->check(CLI::Range(0.0, kMostBakeMinutes))
       ->capture_default_str();
   c->add_option("--around", o.around,
