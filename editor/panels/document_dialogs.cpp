@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/new_project.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -56,10 +56,10 @@ void drawFound(const Session& session, const std::string& name) {
   std::string text = fmt::format("{}: {:.1f} m² to walk on were found", name, all);
   if (!storey.walkable.empty())
     text += fmt::format(
-        ", of which {:.1f} m² are laid out: all of it would take more than {} captures. Draw a larger or "
-        "another "
-        "outline to have more",
-        laidOut, ui::formatCount(std::uint64_t(kUsualMostCameras)));
+        ", of which {:.1f} m² are laid out: as much as bakes in about {:g} minutes here, {} captures at "
+        "most. "
+        "Draw a larger or another outline to have more",
+        laidOut, kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
   ui::wrappedText(ui::palette::muted, text + ". All of this can be changed later.");
   std::string plan = fmt::format("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
   if (const BakeEstimate* estimate = session.estimate())

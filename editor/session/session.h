@@ -34,6 +34,7 @@
 #include "engine/pipeline/bake_forecast.h"
 #include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/collect_model.h"
+#include "engine/pipeline/new_project.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/project_lock.h"
 #include "engine/pipeline/shipped_walk.h"

@@ -33,7 +33,7 @@ Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectO
     auto made = makeProject(file, suggestedProjectFile(file), options, options_.importHost, runner,
                             context.progress(), context.stop());
     if (!made) return tl::unexpected(made.error());
-    opened.open = std::move(*made), opened.untitled = true;
+    opened.open = std::move(made->open), opened.untitled = true;
     return opened;
   }
   if (!project) return tl::unexpected(project.error());

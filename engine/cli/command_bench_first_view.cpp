@@ -59,6 +59,7 @@ Result<Model> makeModel(const fs::path& scene, const fs::path& folder, const Ben
   choices.import.metresPerUnit = options.metresPerUnit;
   choices.cellSize = options.cellSize;
   choices.samplesPerDegree = options.samplesPerDegree;
+  choices.bakeMinutes = 0;  // first views of layouts of the same size, however fast the machine is
   const Stopwatch importing;
   const auto collected =
       collectModel(scene, file, choices.import, Collect::link, host, common.progress, common.stop);
@@ -66,7 +67,7 @@ Result<Model> makeModel(const fs::path& scene, const fs::path& folder, const Ben
   const auto project =
       makeProject(folder / collected->scene, file, choices, host, runner, common.progress, common.stop);
   if (!project) return tl::unexpected(project.error());
-  if (Status saved = saveProject(project->project, file); !saved) return tl::unexpected(saved.error());
+  if (Status saved = saveProject(project->open.project, file); !saved) return tl::unexpected(saved.error());
   Model model;
   model.importSeconds = importing.seconds();
   const Stopwatch opening;

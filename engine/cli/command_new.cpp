@@ -1,15 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/pipeline/first_cell.h"
+#include "engine/pipeline/new_project.h"
 #include "engine/pipeline/scene_storeys.h"
 
 namespace acentric::cli {
@@ -25,7 +22,7 @@ void takeBack(const CollectedModel& collected) {
 
 struct MadeProject {
   CollectedModel model;
-  OpenProject open;
+  NewProject project;
 };
 
 Result<MadeProject> makeAndSave(const NewOptions& options, const NewProjectOptions& choices,
@@ -40,7 +37,7 @@ Result<MadeProject> makeAndSave(const NewOptions& options, const NewProjectOptio
   Status made;
   if (!project)
     made = tl::unexpected(project.error());
-  else if (made = saveProject(project->project, options.output); made)
+  else if (made = saveProject(project->open.project, options.output); made)
     made = mustExist(options.output);
   if (made) return MadeProject{std::move(*collected), std::move(*project)};
   takeBack(*collected);
@@ -62,14 +59,21 @@ std::string areaText(double squareMetres) {
 }
 
 /// What of the ground is not laid out, and how to have it; empty where all is.
-std::string leftOutText(const Storey& storey, std::size_t mostCameras) {
+std::string leftOutText(const Storey& storey, const NewOptions& options, LimitedBy limit) {
   if (storey.walkable.empty()) return {};
   const double laid = storey.layout.outline.area(), all = storey.walkable.area();
+  std::string why =
+      fmt::format("since {} cameras are the limit; more with --max-cameras", countText(options.mostCameras));
+  if (limit == LimitedBy::minutes)
+    why = fmt::format("as much as bakes in about {:g} minutes here; more with --bake-minutes",
+                      options.bakeMinutes);
+  if (limit == LimitedBy::unknown)
+    why = fmt::format("since it was not known within {:g} s what baking takes; more with --bake-minutes 0",
+                      kPlanningSeconds);
   return fmt::format(
-      "only {} of {} that can be walked, around ({:.0f}, {:.0f}), since {} cameras are the limit; more with "
-      "--max-cameras, another part with --around x,y, or one of your own with --outline",
-      areaText(laid), areaText(all), storey.spawn.position.x, storey.spawn.position.y,
-      countText(mostCameras));
+      "only {} of {} that can be walked, around ({:.0f}, {:.0f}), {}, another part with --around x,y, or one "
+      "of your own with --outline",
+      areaText(laid), areaText(all), storey.spawn.position.x, storey.spawn.position.y, why);
 }
 
 /// "12 to 6 m" where cells are of several sizes.
@@ -81,34 +85,17 @@ std::string cellsText(const Layout& layout) {
   return fmt::format("{:g} to {:g} m", edge(*largest), edge(*finest));
 }
 
-constexpr std::chrono::seconds kPlanning{10};  ///< that a new project may wait for its plan
-
-/// What the first bake will take, at a glance; cancelled where that is not known in time.
-Result<BakeForecast> planOf(const std::vector<OpenProject>& storeys, const Common& common) {
-  std::vector<BakeShare> shares;
-  for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
-  BakeForecastOptions options;
-  options.glance = true;
-  const auto runner = common.runner();
-  std::stop_source late;
-  const std::stop_callback stopped(common.stop, [&] { late.request_stop(); });
-  const std::jthread clock([&late](const std::stop_token& known) {
-    std::mutex mutex;
-    std::unique_lock lock(mutex);
-    std::condition_variable_any().wait_for(lock, known, kPlanning, [] { return false; });
-    if (!known.stop_requested()) late.request_stop();
-  });
-  return forecastBake(shares, options, *runner, common.progress, late.get_token());
-}
-
-Status addPlan(const std::vector<OpenProject>& storeys, const std::filesystem::path& project,
-               const Common& common, Report& report) {
+/// What the first bake will take, at a glance. `known`: what is foretold already.
+Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<Result<BakeForecast>>& known,
+               const std::filesystem::path& project, const Common& common, Report& report) {
   std::size_t cameras = 0;
   double megapixels = 0;
   for (const OpenProject& storey : storeys)
     cameras += storey.layout->cameras.size(), megapixels += megapixelsOf(storey);
   report.json["plan"] = {{"cameras", cameras}, {"megapixels", megapixels}};
-  const auto plan = planOf(storeys, common);
+  const auto runner = common.runner();
+  const auto plan =
+      known ? *known : glanceAtBake(storeys, kPlanningSeconds, *runner, common.progress, common.stop);
   if (common.stop.stop_requested())
     return fail(ErrorKind::cancelled, "stopped; the project is made", project.string());
   if (plan) report.json["plan"].update(toJson(*plan));
@@ -119,7 +106,7 @@ Status addPlan(const std::vector<OpenProject>& storeys, const std::filesystem::p
     text = fmt::format("{} cameras, {:.0f} Mpixel to bake; acentric estimate {} tells what that takes ({})",
                        countText(cameras), megapixels, project.string(),
                        plan.error().kind == ErrorKind::cancelled
-                           ? fmt::format("it is not known within {} s", kPlanning.count())
+                           ? fmt::format("it is not known within {:g} s", kPlanningSeconds)
                            : plan.error().describe());
   report.text += fmt::format("plan: {}\n", text);
   return {};
@@ -140,6 +127,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     choices.configuration = *configuration;
   }
   choices.mostCameras = options.mostCameras;
+  choices.bakeMinutes = options.estimate ? options.bakeMinutes : 0;
   if (!options.around.empty()) {
     const auto around = parsePoint(options.around);
     if (!around) return tl::unexpected(around.error());
@@ -169,7 +157,9 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
   }
   const auto made = makeAndSave(options, choices, common);
   if (!made) return tl::unexpected(made.error());
-  const OpenProject* open = &made->open;
+  const OpenProject* open = &made->project.open;
+  const LimitedBy limitedBy = made->project.limitedBy;
+  const auto& plan = made->project.plan;
   const auto storeys = acentric::openStoreys(*open, common.host, common.progress, common.stop);
   if (!storeys) return tl::unexpected(storeys.error());
   const Report model = collectReport(made->model);
@@ -195,7 +185,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
         "cameras\n",
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
         cellsText(*storey.layout), storey.layout->regions.size(), storey.layout->cameras.size());
-    const std::string leftOut = leftOutText(storey.project.current(), options.mostCameras);
+    const std::string leftOut = leftOutText(storey.project.current(), options, limitedBy);
     if (!leftOut.empty()) {
       json.back()["leftOut"] = leftOut;
       report.text += fmt::format("  laid out: {}\n", leftOut);
@@ -212,6 +202,8 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
                  {"storey", open->project.current().name},
                  {"storeys", std::move(json)},
                  {"mostCameras", options.mostCameras},
+                 {"bakeMinutes", choices.bakeMinutes},
+                 {"limitedBy", nameOf(limitedBy)},
                  {"guessed", open->scene->report.guessed},
                  {"dropped", open->scene->report.dropped},
                  {"ignored", open->scene->report.ignored},
@@ -229,7 +221,7 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
     report.text +=
         fmt::format("  scale in doubt: {} (--metres-per-unit {:g})\n", doubt->text, doubt->metresPerUnit);
   if (options.estimate)
-    if (Status planned = addPlan(*storeys, options.output, common, report); !planned)
+    if (Status planned = addPlan(*storeys, plan, options.output, common, report); !planned)
       return tl::unexpected(planned.error());
   report.text += fmt::format("next: acentric bake {}\n", options.output.string());
   return report;

@@ -10,6 +10,7 @@
 #include "engine/pipeline/bench_bake.h"
 #include "engine/pipeline/bench_representations.h"
 #include "engine/pipeline/collect_model.h"
+#include "engine/pipeline/new_project.h"
 
 namespace acentric::cli {
 
@@ -18,6 +19,7 @@ struct NewOptions {
   std::string configuration = "auto", outline = "auto", up = "guess", light = "guess";
   double cellSize = 0, eyeHeight = 1.6, samplesPerDegree = 0, metresPerUnit = 0;
   std::size_t mostCameras = kUsualMostCameras;  ///< 0 = no limit
+  double bakeMinutes = kUsualBakeMinutes;       ///< 0 = no limit
   std::string around;                           ///< "x,y"; empty = where most floor is enclosed
   std::string storey;   ///< empty = the one with most floor; number, height such as 3.2m, or "list"
   bool stairs = false;  ///< with "all"

@@ -35,10 +35,17 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
-  c->add_option("--max-cameras", o.mostCameras,
-                "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = "
-                "all of it)")
+  c->add_option(
+       "--max-cameras", o.mostCameras,
+       "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = no "
+       "limit)")
       ->check(CLI::Range(0, kMostFirstCameras))
+      ->capture_default_str();
+  c->add_option(
+       "--bake-minutes", o.bakeMinutes,
+       "Likewise, as much as this machine is foretold to bake in so many minutes; a room is laid out "
+       "as a whole (0 = no limit)")
+      ->check(CLI::Range(0.0, kMostBakeMinutes))
       ->capture_default_str();
   c->add_option("--around", o.around,
                 "Where that part begins: x,y in metres (default: where most floor is enclosed)");
@@ -56,7 +63,8 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_flag("--stairs", o.stairs, "With --storey all: cells on the stairs and ramps between them too");
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Find floor whichever way surfaces face: for rooms and levels whose walls face outwards");
-  c->add_flag("!--no-estimate", o.estimate, "Do not estimate what the bake will take, which takes seconds");
+  c->add_flag("!--no-estimate", o.estimate,
+              "Do not estimate what the bake will take, which takes seconds; --max-cameras alone limits it");
   c->add_flag("--force", o.force, "Replace an existing project file");
   c->add_flag(
       "--link", o.link,

@@ -108,6 +108,18 @@ BakeShare missingOf(const OpenProject& open, const BakeRequest& request, const C
   return shareOf(open, request, there, store.hasSurfaceLight(open.surfaceLightKey), bestKeys(open, store));
 }
 
+BakeForecast BakeForecast::ofSoManyCameras(int others) const {
+  BakeForecast scaled = *this;
+  if (cameras == 0) return scaled;
+  const double share = double(others) / cameras;
+  scaled.cameras = others;
+  for (double BakeForecast::*part :
+       {&BakeForecast::captureSeconds, &BakeForecast::lightSeconds, &BakeForecast::captureBytes,
+        &BakeForecast::lightBytes, &BakeForecast::packedBytes})
+    scaled.*part *= share;
+  return scaled;
+}
+
 BakeForecast& BakeForecast::operator+=(const BakeForecast& next) {
   const double deviation = std::hypot(relativeError * seconds(), next.relativeError * next.seconds());
   cameras += next.cameras, bakes += next.bakes, lights += next.lights;

@@ -63,6 +63,8 @@ struct BakeForecast {
   double seconds() const { return captureSeconds + lightSeconds; }
   double bytes() const { return captureBytes + lightBytes; }
   bool nothing() const { return cameras == 0 && lights == 0; }
+  /// Of as many other cameras like these; light of surfaces in proportion.
+  BakeForecast ofSoManyCameras(int others) const;
   /// What comes after it, with the same threads.
   BakeForecast& operator+=(const BakeForecast& next);
 };

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 
 #include "engine/inspect/lattice_shift.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/inspect/surroundings.h"
+#include "engine/pipeline/new_project.h"
 
 namespace acentric {
 namespace {
@@ -82,19 +86,72 @@ Underfoot underfoot(const ConvexPolygon& polygon, const NearGround& ground) {
   return found;
 }
 
-void addSplits(const LayoutSpec& pattern, const CellId& id, const NearGround& ground, double leastRoom,
-               CellChoice& choice) {
-  const ConvexPolygon polygon = cellPolygon(pattern, id);
-  const double room = roomOf(polygon);
-  const Underfoot here = underfoot(polygon, ground);
-  const bool divisible =
-      canSplit(pattern.configuration) && id.level < kMaxLevel && 0.5 * room >= leastRoom * (1 - 1e-9);
-  if (divisible && here.floor > 0 && kRoomToSplit * room > here.clearance) {
-    choice.split.insert(id);
-    for (const CellId& part : partsOf(pattern, id)) addSplits(pattern, part, ground, leastRoom, choice);
-  } else if (here.places > 0 && here.floor < kLeastFloor * here.places) {
-    choice.removed.insert(id);
+class CellChooser {
+ public:
+  CellChooser(const LayoutSpec& pattern, const NearGround& ground, const CellRules& rules,
+              const FreePlace& isFree, const Outline* within)
+      : pattern_(pattern), ground_(ground), rules_(rules), isFree_(isFree), within_(within) {}
+
+  void choose(const CellId& id, CellChoice& choice) const {
+    const ConvexPolygon polygon = cellPolygon(pattern_, id);
+    if (within_ && !within_->overlaps(polygon)) return;
+    const Underfoot here = underfoot(polygon, ground_);
+    const double room = roomOf(polygon), half = 0.5 * room * (1 + 1e-9);
+    const bool divisible = canSplit(pattern_.configuration) && id.level < kMaxLevel;
+    const bool narrow = here.floor > 0 && kRoomToSplit * room > here.clearance;
+    bool split = divisible && narrow && half >= rules_.usualRoom;
+    bool left = here.floor < kLeastFloor * here.places;
+    // Between the places that were looked at, floor is not known.
+    const bool floor = here.floor > 0 || here.places == 0;
+    if (!split && floor && !standsFree(polygon)) {
+      split = divisible && half >= rules_.leastRoom;
+      left = true;
+    }
+    if (split) {
+      choice.split.insert(id);
+      for (const CellId& part : partsOf(pattern_, id)) choose(part, choice);
+    } else if (left) {
+      choice.removed.insert(id);
+    }
   }
+
+ private:
+  bool standsFree(const ConvexPolygon& polygon) const {
+    const auto blocked = std::ranges::count_if(polygon.corners, std::not_fn(isFree_));
+    const auto most = canSplit(pattern_.configuration) ? 0 : std::ptrdiff_t(polygon.size() / 2);
+    return blocked <= most && isFree_(polygon.centroid());
+  }
+
+  const LayoutSpec& pattern_;
+  const NearGround& ground_;
+  const CellRules& rules_;
+  const FreePlace& isFree_;
+  const Outline* within_;
+};
+
+/// Sizes from the usual one to kWidest, and places of the lattice each way over a cell of that size.
+constexpr int kSizesTried = 4, kPlacesTried = 6;
+/// Half as many cameras are worth it if so few of the floor is lost that its share to this power is more than
+/// half.
+constexpr double kCoverWorth = 3;
+/// Of the floor within reach of a place, so many are looked at from it, the nearest first.
+constexpr std::size_t kPlacesLookedAt = 8;
+
+std::vector<glm::dvec2> floorNear(const NearGround& ground, const glm::dvec2& place, double reach) {
+  const ProbeGrid& grid = ground.grid;
+  const glm::dvec2 first = glm::floor((place - reach - grid.corner) / grid.step),
+                   last = glm::floor((place + reach - grid.corner) / grid.step);
+  std::vector<std::pair<double, glm::dvec2>> near;
+  for (int y = std::max(0, int(first.y)); y <= std::min(grid.rows - 1, int(last.y)); ++y)
+    for (int x = std::max(0, int(first.x)); x <= std::min(grid.columns - 1, int(last.x)); ++x) {
+      const double distance = glm::distance(grid.centreOf(x, y), place);
+      if (ground.floor.at(x, y) && distance <= reach) near.emplace_back(distance, grid.centreOf(x, y));
+    }
+  std::ranges::sort(near, {}, [](const auto& floor) { return floor.first; });
+  near.resize(std::min(near.size(), kPlacesLookedAt));
+  std::vector<glm::dvec2> places;
+  for (const auto& [distance, floor] : near) places.push_back(floor);
+  return places;
 }
 
 /// Only those that regions of this layout come from.
@@ -108,24 +165,21 @@ std::set<CellId> splitsOf(const Layout& layout) {
   return splits;
 }
 
-/// The same without splits and removals that change nothing of the layout. Where leaving them out would
-/// change it (a cell that was split into parts outside becomes a region), they stay.
+/// The same layout with fewer splits and removals: none beyond the outline, and one removal for a region all
+/// of whose parts are left out.
 Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
   const auto layout = buildLayout(spec);
   if (!layout) return tl::unexpected(layout.error());
   LayoutSpec fewer = spec;
   fewer.split = splitsOf(*layout);
-  std::erase_if(fewer.removed, [&](const CellId& id) {
-    const bool lies = id.level == 0 || fewer.split.contains(wholeOf(fewer, id));
-    return !lies || !fewer.outline.overlaps(cellPolygon(fewer, id));
-  });
-  const auto same = buildLayout(fewer);
-  const auto ids = [](const Layout& of) {
-    std::vector<CellId> all;
-    for (const Region& region : of.regions) all.push_back(region.id);
-    return all;
+  const auto lies = [&](const CellId& id) {
+    return (id.level == 0 || fewer.split.contains(wholeOf(fewer, id))) &&
+           fewer.outline.overlaps(cellPolygon(fewer, id));
   };
-  return same && ids(*same) == ids(*layout) ? fewer : spec;
+  for (const CellId& id : spec.split)
+    if (!fewer.split.contains(id)) fewer.removed.insert(id);  // no region comes from it
+  std::erase_if(fewer.removed, [&](const CellId& id) { return !lies(id); });
+  return fewer;
 }
 
 tl::unexpected<Error> tooFew(std::size_t cameras) {
@@ -192,16 +246,95 @@ bool exceeds(const LayoutSpec& spec, const FirstLayoutLimit& limit) {
   return cameras && *cameras > limit.cameras;
 }
 
-CellChoice chooseCells(const LayoutSpec& pattern, const NearGround& ground, double leastRoom) {
+FreePlace freePlaces(const NearGround& ground, double eyeZ, double reach, const SurfaceProbe& probe) {
+  const auto look = [&ground, eyeZ, reach, &probe](const glm::dvec2& place) {
+    const glm::dvec3 eye(place, eyeZ);
+    const auto sees = [&](const glm::dvec2& floor) {
+      const glm::dvec2 way = floor - place;
+      const double distance = glm::length(way);
+      return !(distance > 0) || !(probe(eye, glm::dvec3(way / distance, 0)).distance < distance);
+    };
+    return std::ranges::any_of(floorNear(ground, place, reach), sees) && hasRoom(eye, kCameraRoom, probe);
+  };
+  using Known = std::map<std::pair<long long, long long>, bool>;
+  return [look, known = std::make_shared<Known>()](const glm::dvec2& place) {
+    const auto key = std::pair(std::llround(place.x * 1e4), std::llround(place.y * 1e4));
+    const auto found = known->find(key);
+    return found != known->end() ? found->second : known->emplace(key, look(place)).first->second;
+  };
+}
+
+CellChoice chooseCells(const LayoutSpec& pattern, const NearGround& ground, const CellRules& rules,
+                       const FreePlace& isFree, const Outline* within) {
   CellChoice choice;
   LayoutSpec whole = pattern;
   whole.split.clear();
+  const CellChooser chooser(whole, ground, rules, isFree, within);
   const ProbeGrid& grid = ground.grid;
-  const glm::dvec2 size = grid.step * glm::dvec2(grid.columns, grid.rows);
-  for (const LatticeCell& cell : cellsIn(whole, grid.corner, grid.corner + size, kMaxRegions))
-    addSplits(whole, cell.id, ground, leastRoom, choice);
+  auto [low, high] = std::pair(grid.corner, grid.corner + grid.step * glm::dvec2(grid.columns, grid.rows));
+  if (within) {
+    const auto [first, last] = extentOf(*within);
+    low = glm::max(low, first), high = glm::min(high, last);
+  }
+  for (const LatticeCell& cell : cellsIn(whole, low, high, kMaxRegions)) chooser.choose(cell.id, choice);
   return choice;
 }
+
+FittedCells fitCells(const LayoutSpec& pattern, const NearGround& ground, const CellRules& rules,
+                     const FreePlace& isFree, double size, int steps) {
+  const ProbeGrid& grid = ground.grid;
+  std::vector<glm::dvec2> floor;
+  for (int y = 0; y < grid.rows; ++y)
+    for (int x = 0; x < grid.columns; ++x) {
+      const glm::dvec2 place = grid.centreOf(x, y);
+      if (ground.floor.at(x, y) && pattern.outline.contains(place)) floor.push_back(place);
+    }
+  FittedCells best{pattern, 0};
+  for (int i = 0; i < steps; ++i)
+    for (int j = 0; j < steps; ++j) {
+      LayoutSpec there = pattern;
+      const glm::dvec2 to = pattern.latticeOrigin + size / steps * glm::dvec2(i, j);
+      there.latticeOrigin = glm::round(to * 100.0) / 100.0;
+      CellChoice cells = chooseCells(there, ground, rules, isFree, &pattern.outline);
+      there.split = std::move(cells.split), there.removed = std::move(cells.removed);
+      const auto layout = buildLayout(there);
+      if (!layout || layout->cameras.empty()) continue;
+      const auto served = std::ranges::count_if(
+          floor, [&](const glm::dvec2& place) { return layout->regionAt(place).has_value(); });
+      const double share = floor.empty() ? 0 : double(served) / double(floor.size());
+      const double worth = std::pow(share, kCoverWorth) / double(layout->cameras.size());
+      if (worth > best.worth * (1 + 1e-9)) best = {std::move(there), worth};
+    }
+  return best;
+}
+
+namespace {
+
+struct ServedPart {
+  Outline outline;
+  std::size_t cameras = 0;
+};
+
+/// Of the ground within so long a way, what regions of the pattern's layout serve.
+std::optional<ServedPart> servedPart(const LayoutSpec& pattern, const NearGround& ground, double way) {
+  CellMask part = partWithin(ground, way);
+  LayoutSpec spec = pattern;
+  spec.outline = tidied(outlineAround(part, ground.grid));
+  auto layout = buildLayout(spec);
+  if (!layout) return std::nullopt;
+  if (pattern.removed.empty()) return ServedPart{std::move(spec.outline), layout->cameras.size()};
+  for (int y = 0; y < part.rows; ++y)
+    for (int x = 0; x < part.columns; ++x)
+      if (part.at(x, y) && !layout->regionAt(ground.grid.centreOf(x, y))) part.cells[part.index(x, y)] = 0;
+  part = largestClearPart(part, ground.links);
+  if (part.count() == 0) return ServedPart{};
+  spec.outline = tidied(outlineAround(part, ground.grid));
+  layout = buildLayout(spec);
+  if (!layout) return std::nullopt;
+  return ServedPart{std::move(spec.outline), layout->cameras.size()};
+}
+
+}  // namespace
 
 std::optional<Outline> largestOutline(const LayoutSpec& pattern, const NearGround& ground,
                                       std::size_t mostCameras) {
@@ -215,13 +348,11 @@ std::optional<Outline> largestOutline(const LayoutSpec& pattern, const NearGroun
   if (double(ways.size()) > most) ways.resize(std::size_t(most));
   std::optional<Outline> best;
   std::size_t low = 0, high = ways.size();  // as many cells as low fit, more than high do not
-  LayoutSpec spec = pattern;
   while (low < high) {
     const std::size_t count = low + (high - low + 1) / 2;
-    spec.outline = tidied(outlineAround(partWithin(ground, double(ways[count - 1])), ground.grid));
-    const auto cameras = camerasOf(spec);
-    if (cameras && *cameras <= mostCameras)
-      best = spec.outline, low = count;
+    const auto part = servedPart(pattern, ground, double(ways[count - 1]));
+    if (part && part->cameras <= mostCameras)
+      best = part->outline, low = count;
     else
       high = count - 1;
   }
@@ -250,17 +381,31 @@ Result<LayoutSpec> keepWithin(const LayoutSpec& spec, const FirstLayoutLimit& li
   auto outline = largestOutline(kept, *ground, limit.cameras);
   if (!outline) return tooFew(limit.cameras);
   kept.outline = std::move(*outline);
-  ShiftOptions shift;
-  shift.crowding.trustSides = !ignoredSides;
-  kept.latticeOrigin = findFreestOrigin(kept, shift, probe, stop).origin;
-  if (limit.chooseCell) {
-    if (canSplit(kept.configuration))
-      kept.cellSize = roundTo(cellWithRoom(kept.configuration, 2 * room), 0.05);
-    CellChoice cells = chooseCells(kept, *ground, room);
-    kept.split = std::move(cells.split), kept.removed = std::move(cells.removed);
+  const double eyeZ = kept.floorHeight + kept.eyeHeight;
+  const double reach = 2 * cellWithRoom(kept.configuration, kMostRoom);
+  const FreePlace isFree = freePlaces(*ground, eyeZ, reach, probe);
+  CellRules rules{kept.cellSize, kept.cellSize};  // none is split
+  if (limit.chooseCell && canSplit(kept.configuration)) {
+    const LayoutSpec usual = kept;
+    double most = 0;
+    for (int size = 0; size < kSizesTried; ++size) {
+      const double times = std::lerp(1.0, kWidest, double(size) / (kSizesTried - 1));
+      LayoutSpec pattern = usual;
+      pattern.cellSize = roundTo(cellWithRoom(usual.configuration, kLargestOverUsual * times * room), 0.05);
+      const CellRules these{times * room, kLeastOverUsual * times * room};
+      const FittedCells fitted =
+          fitCells(pattern, *ground, these, isFree, times * usual.cellSize, kPlacesTried);
+      if (fitted.worth > most) most = fitted.worth, kept = fitted.spec, rules = these;
+    }
+  } else {
+    ShiftOptions shift;
+    shift.crowding.trustSides = !ignoredSides;
+    kept.latticeOrigin = findFreestOrigin(kept, shift, probe, stop).origin;
   }
+  CellChoice cells = chooseCells(kept, *ground, rules, isFree);
+  kept.split = std::move(cells.split), kept.removed = std::move(cells.removed);
   outline = largestOutline(kept, *ground, limit.cameras);  // as the cells are now, others fit it
-  if (!outline) return tooFew(limit.cameras);
+  if (!outline || outline->empty()) return tooFew(limit.cameras);
   kept.outline = std::move(*outline);
   return withoutIdleChoices(kept);
 }

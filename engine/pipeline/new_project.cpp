@@ -1,15 +1,21 @@
+#include "engine/pipeline/new_project.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <limits>
+#include <mutex>
+#include <thread>
 
+#include "engine/base/stopwatch.h"
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/first_cell.h"
-#include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/scene_scale.h"
 #include "engine/pipeline/stair_storeys.h"
@@ -122,25 +128,149 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
 }
 
 /// Its share of all the cameras.
-FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const NewProjectOptions& options) {
+FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const NewProjectOptions& options,
+                          const LayoutSpec& pattern, std::size_t mostCameras) {
   double all = 0;
   for (const WalkPlane& each : planes.planes) all += each.outline.area();
   FirstLayoutLimit limit;
   if (options.outline != "auto") return limit;
-  limit.cameras = std::size_t(std::ceil(double(options.mostCameras) * plane.outline.area() / all));
+  limit.cameras = std::size_t(std::ceil(double(mostCameras) * plane.outline.area() / all));
   limit.around = options.around;
-  limit.chooseCell = options.cellSize <= 0;
+  // Cells that are small since there is little ground suit it.
+  limit.chooseCell = options.cellSize <= 0 && pattern.cellSize >= kLargestUsualCell;
   limit.chooseConfiguration = !options.configuration;
   return limit;
 }
 
+/// Lays out the storeys of a new project, once or more.
+class Maker {
+ public:
+  /// `bare`: the model, opened, without a layout.
+  Maker(OpenProject bare, Storeys planes, const NewProjectOptions& options, const ImportHost& host,
+        TaskRunner& runner, const Progress& progress, std::stop_token stop)
+      : bare_(std::move(bare)),
+        project_(bare_.project),
+        planes_(std::move(planes)),
+        options_(options),
+        host_(host),
+        runner_(runner),
+        progress_(progress),
+        stop_(std::move(stop)) {
+    largest_ = std::size_t(
+        std::ranges::max_element(planes_.planes, {}, [](const WalkPlane& p) { return p.outline.area(); }) -
+        planes_.planes.begin());
+    pattern_.configuration = options.configuration.value_or(Configuration::b);
+    pattern_.eyeHeight = options.eyeHeight;
+    pattern_.cellSize = options.cellSize > 0
+                            ? options.cellSize
+                            : firstCellSize(planes_.planes[largest_].outline.area(), pattern_.configuration);
+    if (options.samplesPerDegree > 0) project_.bake.samplesPerDegree = options.samplesPerDegree;
+  }
+
+  Result<NewProject> make() {
+    BakeLimit limit;
+    limit.seconds = options_.outline == "auto" ? 60 * options_.bakeMinutes : 0;
+    limit.mostCameras = options_.mostCameras;
+    limit.layOut = [this](std::size_t mostCameras) { return layOut(mostCameras); };
+    limit.foretell = [this]() { return foretell(); };
+    const auto limitedBy = layOutWithin(limit);
+    if (!limitedBy) return tl::unexpected(limitedBy.error());
+    if (options_.stairs) {
+      StairRequest request;
+      request.walkable = walkableFor(options_);
+      auto added = addStairs(project_, *bare_.rays, planes_, request, progress_, stop_);
+      if (!added) return tl::unexpected(added.error());
+      plan_.reset();
+    }
+    if (progress_) progress_({0, 0, "estimating the exposure"});
+    const auto layout = buildLayout(project_.layout());
+    if (!layout) return tl::unexpected(layout.error());
+    project_.exposure = tidy(estimateExposure(*bare_.rays, sampleEyes(*layout, 8), project_.bake, runner_));
+    if (Status opened = open(); !opened) return tl::unexpected(opened.error());
+    if (plan_ && *plan_ && planned_ != cameras_) plan_ = (*plan_)->ofSoManyCameras(int(cameras_));
+    return NewProject{std::move(*open_), *limitedBy, std::move(plan_)};
+  }
+
+ private:
+  Result<LaidOut> layOut(std::size_t mostCameras) {
+    project_.storeys.clear();
+    cameras_ = 0;
+    bool whole = true;
+    for (std::size_t s = 0; s < planes_.planes.size(); ++s) {
+      const WalkPlane& plane = planes_.planes[s];
+      if (progress_) progress_({double(s), double(planes_.planes.size()), "placing the cells"});
+      auto storey =
+          storeyFor(pattern_, plane, planes_.planes.size() == 1 ? "floor" : fmt::format("storey {}", s),
+                    planes_.ignoredSides, limitFor(plane, planes_, options_, pattern_, mostCameras),
+                    *bare_.rays, stop_);
+      if (!storey) return tl::unexpected(scaleMayBe(storey.error()));
+      if (s == largest_) project_.storey = int(s);
+      const auto layout = buildLayout(storey->layout);
+      if (!layout) return tl::unexpected(layout.error());
+      cameras_ += layout->cameras.size();
+      whole = whole && storey->walkable.empty();
+      project_.storeys.push_back(std::move(*storey));
+    }
+    return LaidOut{cameras_, whole};
+  }
+
+  /// Of what was laid out last. All that is asked has kPlanningSeconds together.
+  std::optional<double> foretell() {
+    const double left = kPlanningSeconds - foretelling_;
+    if (!(left > 0) || !open()) return std::nullopt;
+    const Stopwatch watch;
+    const auto storeys = acentric::openStoreys(*open_, host_, progress_, stop_);
+    if (!storeys) return std::nullopt;
+    auto plan = glanceAtBake(*storeys, left, runner_, progress_, stop_);
+    foretelling_ += watch.seconds();
+    const bool known = plan.has_value();
+    if (known) planned_ = cameras_;
+    if (known || !plan_) plan_ = std::move(plan);
+    return known ? std::optional((*plan_)->seconds()) : std::nullopt;
+  }
+
+  /// The project as it is laid out now.
+  Status open() {
+    auto opened = reopenProject(open_ ? *open_ : bare_, project_, host_, progress_, stop_);
+    if (!opened) return tl::unexpected(opened.error());
+    open_ = std::move(*opened);
+    return {};
+  }
+
+  /// What cannot be laid out may be of another scale than it seems.
+  Error scaleMayBe(Error failure) const {
+    failure.where = sceneFileOf(bare_.file, bare_.project).string();
+    if (const auto doubt = doubtScale(*bare_.rays, options_.import))
+      failure.message += fmt::format(". {} (--metres-per-unit {:g})", doubt->text, doubt->metresPerUnit);
+    return failure;
+  }
+
+  const OpenProject bare_;
+  Project project_;
+  std::optional<OpenProject> open_;
+  Storeys planes_;
+  const NewProjectOptions& options_;
+  const ImportHost& host_;
+  TaskRunner& runner_;
+  const Progress& progress_;
+  std::stop_token stop_;
+  std::size_t largest_ = 0;  ///< of the planes
+  LayoutSpec pattern_;
+  std::size_t cameras_ = 0;  ///< laid out
+  double foretelling_ = 0;   ///< seconds
+  std::optional<Result<BakeForecast>> plan_;
+  std::size_t planned_ = 0;  ///< cameras of `plan_`, if it is known
+};
+
 }  // namespace
 
-Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
-                                const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
-                                const Progress& progress, std::stop_token stop) {
+Result<NewProject> makeProject(const fs::path& sceneFile, const fs::path& projectFile,
+                               const NewProjectOptions& options, const ImportHost& host, TaskRunner& runner,
+                               const Progress& progress, std::stop_token stop) {
   if (!(options.eyeHeight > 0 && options.eyeHeight <= 1000))
     return fail(ErrorKind::invalidArgument, "eye height must lie in (0, 1000] metres");
+  if (!(options.bakeMinutes >= 0 && options.bakeMinutes <= kMostBakeMinutes))
+    return fail(ErrorKind::invalidArgument, "minutes of baking must lie in [0, 1e6]; 0 is no limit");
   if (options.outline != "auto" && options.around)
     return fail(ErrorKind::invalidArgument, "give either an outline or a place to lay out around, not both",
                 options.outline);
@@ -152,64 +282,43 @@ Result<OpenProject> makeProject(const fs::path& sceneFile, const fs::path& proje
   if (!fs::exists(sceneFile, error))
     return fail(ErrorKind::notFound, "no such model file", sceneFile.string());
 
-  Project project;
-  project.import = options.import;
+  OpenProject bare;  // without a layout
+  bare.file = projectFile;
+  bare.project.import = options.import;
   const auto stated = scenePathFor(sceneFile, projectFile);
   if (!stated) return tl::unexpected(stated.error());
-  project.scene = *stated;
+  bare.project.scene = *stated;
 
   const auto scene = importScene(sceneFile, options.import, host, progress, stop);
   if (!scene) return tl::unexpected(scene.error());
-  OpenProject bare;  // without a layout
-  bare.file = projectFile, bare.project = project;
   bare.imported = bare.scene = *scene;
   bare.plan = planEffects(**scene);
   const auto rays = RayScene::build(*scene, bare.plan);
   if (!rays) return tl::unexpected(rays.error());
+  bare.rays = *rays, bare.mirrors = flatMirrorsOf(**scene, bare.plan);
 
   if (progress) progress({0, 0, "finding the walkable area"});
-  const auto planes = planesFor(**scene, **rays, options);
+  auto planes = planesFor(**scene, **rays, options);
   if (!planes) return tl::unexpected(planes.error());
-  const auto largest =
-      std::ranges::max_element(planes->planes, {}, [](const WalkPlane& p) { return p.outline.area(); });
+  return Maker(std::move(bare), std::move(*planes), options, host, runner, progress, stop).make();
+}
 
-  LayoutSpec pattern;
-  pattern.configuration = options.configuration.value_or(Configuration::b);
-  pattern.eyeHeight = options.eyeHeight;
-  pattern.cellSize =
-      options.cellSize > 0 ? options.cellSize : firstCellSize(largest->outline.area(), pattern.configuration);
-  if (options.samplesPerDegree > 0) project.bake.samplesPerDegree = options.samplesPerDegree;
-  project.storeys.clear();
-  std::vector<glm::dvec3> eyes;
-  for (std::size_t s = 0; s < planes->planes.size(); ++s) {
-    if (progress) progress({double(s), double(planes->planes.size()), "placing the cells"});
-    auto storey = storeyFor(
-        pattern, planes->planes[s], planes->planes.size() == 1 ? "floor" : fmt::format("storey {}", s),
-        planes->ignoredSides, limitFor(planes->planes[s], *planes, options), **rays, stop);
-    if (!storey) {
-      Error failure = storey.error();
-      failure.where = sceneFile.string();
-      if (const auto doubt = doubtScale(**rays, options.import))
-        failure.message += fmt::format(". {} (--metres-per-unit {:g})", doubt->text, doubt->metresPerUnit);
-      return tl::unexpected(std::move(failure));
-    }
-    if (&planes->planes[s] == &*largest) project.storey = int(s);
-    project.storeys.push_back(std::move(*storey));
-  }
-
-  if (options.stairs) {
-    StairRequest request;
-    request.walkable = walkableFor(options);
-    auto added = addStairs(project, **rays, *planes, request, progress, stop);
-    if (!added) return tl::unexpected(added.error());
-  }
-
-  if (progress) progress({0, 0, "estimating the exposure"});
-  const auto layout = buildLayout(project.layout());
-  if (!layout) return tl::unexpected(layout.error());
-  project.exposure = tidy(estimateExposure(**rays, sampleEyes(*layout, 8), project.bake, runner));
-  bare.rays = *rays, bare.mirrors = flatMirrorsOf(**scene, bare.plan);
-  return reopenProject(bare, project, host, progress, stop);
+Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double seconds, TaskRunner& runner,
+                                  const Progress& progress, std::stop_token stop) {
+  std::vector<BakeShare> shares;
+  for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
+  BakeForecastOptions options;
+  options.glance = true;
+  std::stop_source late;
+  const std::stop_callback stopped(stop, [&] { late.request_stop(); });
+  const std::jthread clock([&late, seconds](const std::stop_token& known) {
+    std::mutex mutex;
+    std::unique_lock lock(mutex);
+    std::condition_variable_any().wait_for(lock, known, std::chrono::duration<double>(seconds),
+                                           [] { return false; });
+    if (!known.stop_requested()) late.request_stop();
+  });
+  return forecastBake(shares, options, runner, progress, late.get_token());
 }
 
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,

@@ -26,32 +26,6 @@ namespace acentric {
 
 class StoreyGround;
 
-/// That a new project has at most, if nothing else is said, and that can be said.
-inline constexpr std::size_t kUsualMostCameras = 2000;
-inline constexpr int kMostFirstCameras = 10'000'000;
-
-struct NewProjectOptions {
-  ImportOptions import;
-  /// None: b, or e, whose cells are as large as suits each place, where only a part of the ground is laid
-  /// out.
-  std::optional<Configuration> configuration;
-  double cellSize = 0;           ///< metres; 0 = from the walkable area (about 12 rings, 0.8..6 m)
-  double eyeHeight = 1.6;        ///< metres
-  std::string outline = "auto";  ///< "auto" or parseOutline text
-  StoreyChoice storey;           ///< with "auto": nothing chosen = the one with most floor
-  bool everyStorey = false;      ///< with "auto": a layout on each storey; the walk begins on the largest
-  bool stairs = false;           ///< with everyStorey: cells on the stairs and ramps between the storeys too
-  bool ignoreSides = false;      ///< see inspect/walkable_outline.h
-  double samplesPerDegree = 0;   ///< 0 = BakeSettings' default
-  /// Of all storeys together, with "auto"; where there would be more, only a part of the ground is laid out
-  /// (first_cell.h), and the storeys' `walkable` has all of it. 0 = no limit.
-  std::size_t mostCameras = kUsualMostCameras;
-  std::optional<glm::dvec2> around;  ///< plan, metres: where such a part begins; none: where most is enclosed
-};
-
-/// The cell size that a new project has if none is chosen, metres.
-double firstCellSize(double walkableSquareMetres, Configuration configuration);
-
 /// A project opened: scene imported and traceable, plan and layout made. Immutable; edits make a new one,
 /// sharing what did not change.
 struct OpenProject {
@@ -79,13 +53,6 @@ KeyParts captureKeyParts(const OpenProject& open, int camera);
 /// geometry, and from where mirrors are seen.
 KeyParts surfaceLightKeyParts(const OpenProject& open);
 
-/// Imports the scene, finds floor and walkable area, lays the tessellation, estimates the exposure, chooses a
-/// spawn, and opens that. The scene lies in the folder of `projectFile` (collect_model.h). Does not write.
-Result<OpenProject> makeProject(const std::filesystem::path& sceneFile,
-                                const std::filesystem::path& projectFile, const NewProjectOptions& options,
-                                const ImportHost& host, TaskRunner& runner, const Progress& progress = {},
-                                std::stop_token stop = {});
-
 Result<OpenProject> openProject(const std::filesystem::path& file, const ImportHost& host,
                                 const Progress& progress = {}, std::stop_token stop = {});
 /// The same for a project that is not (or not as it is) in the file.
@@ -110,10 +77,6 @@ Result<std::vector<OpenProject>> openStoreys(const OpenProject& open, const Impo
 /// The storey whose regions are nearest to an eye.
 std::size_t storeyAt(std::span<const OpenProject> storeys, const glm::dvec3& eye);
 
-/// A storey for a walk plane found in the project's scene: configuration, cell size, eye height and near band
-/// as in the project's current storey, the lattice shifted to where its cameras stand freest.
-Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,
-                          bool ignoredSides, std::stop_token stop = {});
 /// Is the storey at this plane's height, with an outline that holds most of its corners?
 bool liesOn(const Storey& storey, const WalkPlane& plane);
 /// Has the project such a storey?

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/layout/storey_choice.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/new_project.h"
 
 namespace acentric {
 namespace {

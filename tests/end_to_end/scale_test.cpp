@@ -18,8 +18,8 @@ TEST(Scale, OfALandTooLargeForItsCellsIsAskedAboutWhereNoProjectCanBeMade) {
   const std::string project = (folder.path() / "land.acentric.json").string();
   ASSERT_TRUE(writeTextAtomically(
       model, "# File units = meters\nv 0 0 0\nv 90000 0 0\nv 90000 9 -90000\nv 0 9 -90000\nf 1 2 3 4\n"));
-  const ProcessResult refused = runProcess(
-      {ACENTRIC_PROGRAM, "new", model, "--up", "y", "--cell", "6", "--max-cameras", "0", "-o", project});
+  const ProcessResult refused = runProcess({ACENTRIC_PROGRAM, "new", model, "--up", "y", "--cell", "6",
+                                            "--max-cameras", "0", "--bake-minutes", "0", "-o", project});
   EXPECT_EQ(refused.exitCode, 1);
   EXPECT_THAT(refused.errors, HasSubstr("it is 127 km across; at 0.01 metres per unit"));
   EXPECT_THAT(refused.errors, HasSubstr("--metres-per-unit 0.01"));

@@ -32,10 +32,10 @@ class Town {
 
 TEST(Town, HasAFirstLayoutThatCanBeBaked) {
   const Town town;
-  const ProcessResult made = town.make({});
+  const ProcessResult made = town.make({"--bake-minutes", "0"});
   ASSERT_EQ(made.exitCode, 0) << made.errors;
   EXPECT_THAT(made.output,
-              AllOf(HasSubstr("configuration e with cells of 12 to 6 m"), HasSubstr("laid out: only "),
+              AllOf(HasSubstr("configuration e with cells of "), HasSubstr("laid out: only "),
                     HasSubstr("km2 that can be walked"), HasSubstr("2,000 cameras are the limit"),
                     HasSubstr("--max-cameras"), HasSubstr("--around x,y"), HasSubstr("plan: ")));
   const auto project = loadProject(town.file());
@@ -45,6 +45,7 @@ TEST(Town, HasAFirstLayoutThatCanBeBaked) {
   ASSERT_TRUE(layout);
   EXPECT_LE(layout->cameras.size(), 2000u);
   EXPECT_GT(layout->cameras.size(), 1500u);
+  EXPECT_GT(storey.layout.outline.area(), 6000);
   EXPECT_GT(storey.walkable.area(), 3.5e6);
   EXPECT_TRUE(storey.layout.outline.contains(storey.spawn.position) ||
               layout->regionAt(storey.spawn.position));
@@ -54,11 +55,48 @@ TEST(Town, HasAFirstLayoutThatCanBeBaked) {
       EXPECT_LT(std::abs(corner.x), 450);
       EXPECT_LT(std::abs(corner.y), 450);
     }
+  EXPECT_LT(std::filesystem::file_size(town.file()), 200'000u)
+      << "cells are told apart only where it matters";
+}
+
+TEST(Town, HasNoCamerasInItsHousesAndNoRegionsWhereNobodyCanStand) {
+  const Town town;
+  ASSERT_EQ(town.make({"--bake-minutes", "0", "--no-estimate"}).exitCode, 0);
+  const ProcessResult checked = acentric({"check", town.file(), "--all", "--json"});
+  const Json report = Json::parse(checked.output);
+  for (const Json& finding : report["findings"]) {
+    EXPECT_NE(finding["flaw"], "insideSolid") << finding;
+    EXPECT_NE(finding["flaw"], "noStandingRoom") << finding;
+    EXPECT_NE(finding["severity"], "error") << finding;
+  }
+}
+
+TEST(Town, IsLaidOutAsFarAsItIsBakedInTime) {
+  const Town town;
+  const ProcessResult made = town.make({"--bake-minutes", "0.05", "--json"});
+  ASSERT_EQ(made.exitCode, 0) << made.errors;
+  const Json report = Json::parse(made.output);
+  EXPECT_EQ(report["bakeMinutes"], 0.05);
+  EXPECT_EQ(report["limitedBy"], "minutes");
+  const Json& storey = report["storeys"][0];
+  EXPECT_LT(storey["cameras"].get<int>(), 1000);
+  EXPECT_THAT(storey["leftOut"].get<std::string>(),
+              AllOf(HasSubstr("as much as bakes in about 0.05 minutes here"), HasSubstr("--bake-minutes")));
+  EXPECT_EQ(report["plan"]["cameras"], storey["cameras"]);
+  const auto project = loadProject(town.file());
+  ASSERT_TRUE(project);
+  EXPECT_GT(project->current().walkable.area(), 3.5e6) << "what is left out is kept";
+
+  // Without a forecast there is nothing to go by but the cameras.
+  const ProcessResult blind = town.make({"--bake-minutes", "0.05", "--no-estimate", "--json"});
+  ASSERT_EQ(blind.exitCode, 0) << blind.errors;
+  EXPECT_EQ(Json::parse(blind.output)["limitedBy"], "cameras");
 }
 
 TEST(Town, IsLaidOutAsMuchAndWhereItIsAsked) {
   const Town town;
-  const ProcessResult made = town.make({"--max-cameras", "300", "--around", "-702,398", "--json"});
+  const ProcessResult made =
+      town.make({"--max-cameras", "300", "--bake-minutes", "0", "--around", "-702,398", "--json"});
   ASSERT_EQ(made.exitCode, 0) << made.errors;
   const Json report = Json::parse(made.output);
   EXPECT_EQ(report["mostCameras"], 300);
@@ -98,6 +136,9 @@ TEST(Town, RefusesLimitsAndPlacesThatMakeNoSense) {
   for (const std::vector<std::string>& given : {std::vector<std::string>{"--max-cameras", "-1"},
                                                 {"--max-cameras", "1e99"},
                                                 {"--max-cameras", "many"},
+                                                {"--bake-minutes", "-1"},
+                                                {"--bake-minutes", "nan"},
+                                                {"--bake-minutes", "soon"},
                                                 {"--around", "nan,0"},
                                                 {"--around", "1"},
                                                 {"--around", "90000,0"},

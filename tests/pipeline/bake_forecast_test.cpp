@@ -33,6 +33,19 @@ class BakeForecastTest : public FolderTest {
   }
 };
 
+TEST_F(BakeForecastTest, IsScaledToOtherNumbersOfCameras) {
+  BakeForecast forecast;
+  forecast.cameras = 200, forecast.lights = 1;
+  forecast.captureSeconds = 300, forecast.lightSeconds = 20;
+  forecast.captureBytes = 4e6, forecast.lightBytes = 1e6;
+  const BakeForecast half = forecast.ofSoManyCameras(100);
+  EXPECT_EQ(half.cameras, 100);
+  EXPECT_EQ(half.lights, 1);
+  EXPECT_DOUBLE_EQ(half.seconds(), 160);
+  EXPECT_DOUBLE_EQ(half.bytes(), 2.5e6);
+  EXPECT_TRUE(BakeForecast{}.ofSoManyCameras(100).nothing());
+}
+
 TEST_F(BakeForecastTest, LeavesOutWhatIsThere) {
   const OpenProject open = openRoom(1);
   const int cameras = int(open.keys.size());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/layout/layout.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/new_project.h"
 #include "tests/inspect/box_world.h"
 
 namespace acentric {
@@ -41,6 +41,8 @@ NearGround narrowingFloor() {
   ground.wayTo = waysFrom(ground.start, ground.grid, ground.floor, ground.links, ground.clearance);
   return ground;
 }
+
+bool anywhere(const glm::dvec2&) { return true; }
 
 std::size_t camerasOf(LayoutSpec spec, Outline outline) {
   spec.outline = std::move(outline);
@@ -81,7 +83,7 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
     LayoutSpec spec;
     spec.configuration = configuration;
     spec.cellSize = configuration == Configuration::e ? 12 : 20;
-    spec.split = chooseCells(spec, ground, kLeast).split;
+    spec.split = chooseCells(spec, ground, {kLeast, kLeast}, anywhere).split;
     spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
     const auto layout = buildLayout(spec);
     ASSERT_TRUE(layout) << layout.error().describe();
@@ -108,7 +110,8 @@ TEST(FirstCells, AreSplitExactlyWhereTheyHaveTooLittleRoom) {
     for (const CellId& id : spec.split) EXPECT_TRUE(tooLarge(id));
     EXPECT_GE(levels.size(), 2u) << "small where it is narrow, large in the open";
   }
-  EXPECT_TRUE(chooseCells(LayoutSpec{}, ground, kLeast).split.empty()) << "b has no parts";
+  EXPECT_TRUE(chooseCells(LayoutSpec{}, ground, {kLeast, kLeast}, anywhere).split.empty())
+      << "b has no parts";
 }
 
 TEST(FirstCells, AreLeftOutExactlyWhereThereIsHardlyAnyFloor) {
@@ -121,7 +124,7 @@ TEST(FirstCells, AreLeftOutExactlyWhereThereIsHardlyAnyFloor) {
     LayoutSpec spec;
     spec.configuration = configuration;
     spec.cellSize = 8;
-    const CellChoice choice = chooseCells(spec, ground, 1.5);
+    const CellChoice choice = chooseCells(spec, ground, {1.5, 1.5}, anywhere);
     spec.split = choice.split;
     spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
     const auto layout = buildLayout(spec);
@@ -139,6 +142,119 @@ TEST(FirstCells, AreLeftOutExactlyWhereThereIsHardlyAnyFloor) {
     }
     EXPECT_GT(left, 4u);
   }
+}
+
+TEST(FirstCells, HaveTheirCornersAndMiddlesWhereOneMayStand) {
+  NearGround ground = narrowingFloor();
+  std::ranges::fill(ground.clearance, 50.0f);
+  const auto outside = [](const glm::dvec2& place) {  // of a house
+    return !(place.x > 40 && place.x < 75 && place.y > -21 && place.y < 13);
+  };
+  for (const Configuration configuration : {Configuration::b, Configuration::e, Configuration::g}) {
+    LayoutSpec spec;
+    spec.configuration = configuration;
+    spec.cellSize = 8;
+    const CellChoice choice = chooseCells(spec, ground, {2, 1}, outside);
+    spec.outline = parseOutline("0,-60;120,-60;120,60;0,60").value();
+    const auto all = buildLayout(spec);
+    spec.split = choice.split, spec.removed = choice.removed;
+    const auto layout = buildLayout(spec);
+    ASSERT_TRUE(all && layout) << nameOf(configuration);
+    for (const Region& region : layout->regions) {
+      const auto free = std::ranges::count_if(region.polygon.corners, outside);
+      EXPECT_TRUE(outside(region.polygon.centroid())) << nameOf(configuration);
+      EXPECT_GE(2 * free, std::ptrdiff_t(region.polygon.size())) << nameOf(configuration);
+      if (canSplit(configuration)) {
+        EXPECT_EQ(free, std::ptrdiff_t(region.polygon.size()));
+      }
+    }
+    // Nothing else is left out, and nothing that stands free is split.
+    for (const CellId& id : choice.split) {
+      const ConvexPolygon polygon = cellPolygon(spec, id);
+      EXPECT_FALSE(std::ranges::all_of(polygon.corners, outside) && outside(polygon.centroid()));
+    }
+    for (int y = -55; y < 55; ++y)
+      for (int x = 5; x < 115; ++x) {
+        if (x > 40 - 20 && x < 75 + 20 && y > -21 - 20 && y < 13 + 20) continue;
+        EXPECT_EQ(layout->regionAt({x, y}).has_value(), all->regionAt({x, y}).has_value()) << x << ' ' << y;
+      }
+    EXPECT_EQ(choice.split.empty(), configuration == Configuration::b);
+    EXPECT_FALSE(choice.removed.empty());
+  }
+}
+
+/// A street 10 m wide and one of 5 m that crosses it.
+TEST(FirstCells, AreFittedToStreets) {
+  NearGround ground = narrowingFloor();
+  const auto inStreet = [](const glm::dvec2& place) {
+    return std::abs(place.y - 1.8) < 5 || std::abs(place.x - 62.2) < 2.5;
+  };
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x)
+      ground.floor.cells[ground.grid.index(x, y)] = inStreet(ground.grid.centreOf(x, y)) ? 1 : 0;
+  std::ranges::fill(ground.clearance, 3.0f);
+  LayoutSpec pattern;
+  pattern.configuration = Configuration::e;
+  pattern.cellSize = 19.2;
+  pattern.latticeOrigin = {4.6, -5.4};
+  pattern.outline =
+      parseOutline("40,-3;60,-3;60,-40;64,-40;64,-3;84,-3;84,6;64,6;64,40;60,40;60,6;40,6").value();
+  const CellRules rules{4.8, 2.4};
+  const auto worthAt = [&](const glm::dvec2& origin) {
+    LayoutSpec there = pattern;
+    there.latticeOrigin = origin;
+    const CellChoice cells = chooseCells(there, ground, rules, inStreet);
+    there.split = cells.split, there.removed = cells.removed;
+    const auto layout = buildLayout(there);
+    int floor = 0, served = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const glm::dvec2 place = ground.grid.centreOf(x, y);
+        if (!ground.floor.at(x, y) || !pattern.outline.contains(place)) continue;
+        ++floor;
+        served += layout->regionAt(place) ? 1 : 0;
+      }
+    const double share = double(served) / floor;
+    return layout->cameras.empty() ? 0 : share * share * share / double(layout->cameras.size());
+  };
+  const FittedCells fitted = fitCells(pattern, ground, rules, inStreet, 9.6, 4);
+  double most = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) most = std::max(most, worthAt(glm::dvec2(4.6 + 2.4 * i, -5.4 + 2.4 * j)));
+  EXPECT_NEAR(fitted.worth, most, 1e-12);
+  EXPECT_NEAR(fitted.worth, worthAt(fitted.spec.latticeOrigin), 1e-12);
+  const auto layout = buildLayout(fitted.spec);
+  ASSERT_TRUE(layout);
+  std::set<double> widths;
+  for (const Region& region : layout->regions) {
+    EXPECT_TRUE(std::ranges::all_of(region.polygon.corners, inStreet));
+    widths.insert(std::round(10 * glm::distance(region.polygon.corners[0], region.polygon.corners[1])) / 10);
+  }
+  EXPECT_EQ(widths, (std::set{4.8, 9.6})) << "one row in each street";
+}
+
+/// A street of 12 m between two rows of houses, whose walls show their backs to the street on one side.
+TEST(FirstCells, HaveFreePlacesOutsideOfHousesHoweverWallsAreWound) {
+  BoxWorld world;
+  world.boxes.push_back({{-60, -60, -1}, {60, 60, 0}});
+  world.boxes.push_back({{-50, 6, 0}, {50, 20, 8}});
+  const auto wall = [&](double x0, double y0, double x1, double y1) {  // fronts inwards
+    world.addQuad({x0, y0, 0}, {x1, y1, 0}, {x1, y1, 8}, {x0, y0, 8});
+  };
+  wall(-50, -6, -50, -20), wall(-50, -20, 50, -20), wall(50, -20, 50, -6), wall(50, -6, -50, -6);
+  const SurfaceProbe probe = world.probe();
+  NearGround ground = narrowingFloor();
+  ground.grid = {{-60, -60}, 2, 60, 60};
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x)
+      ground.floor.cells[ground.grid.index(x, y)] = std::abs(ground.grid.centreOf(x, y).y) < 6 ? 1 : 0;
+  const FreePlace isFree = freePlaces(ground, 1.6, 12, probe);
+  for (int x = -49; x < 50; x += 7) {
+    for (const double y : {-5.8, -3.0, 0.0, 4.2, 5.8}) EXPECT_TRUE(isFree({x, y})) << x << ' ' << y;
+    for (const double y : {-13.0, -7.0, -6.1, 6.1, 7.0, 13.0}) EXPECT_FALSE(isFree({x, y})) << x << ' ' << y;
+    for (const double y : {-5.95, 5.95}) EXPECT_FALSE(isFree({x, y})) << "too near a wall: " << x << ' ' << y;
+  }
+  EXPECT_FALSE(isFree({0, 40})) << "behind the houses, farther than it looks";
 }
 
 /// Ground of 1 x 1 km with a square court of houses in a corner of it.
@@ -176,10 +292,28 @@ TEST(FirstCells, AreLaidWhereSomethingStandsAboutOnGroundThatIsTooLarge) {
   const auto layout = buildLayout(*kept);
   ASSERT_TRUE(layout);
   EXPECT_GT(layout->cameras.size(), 300u);
+  const auto inHouse = [&](const glm::dvec2& place) {
+    return std::ranges::any_of(world.boxes, [&](const test::Box& box) {
+      return box.max.z > 1 && place.x > box.min.x && place.x < box.max.x && place.y > box.min.y &&
+             place.y < box.max.y;
+    });
+  };
   for (const Region& region : layout->regions) {
     EXPECT_GT(region.polygon.centroid().x, 190);
     EXPECT_LT(region.polygon.centroid().x, 350);
+    EXPECT_FALSE(inHouse(region.polygon.centroid()));
   }
+  for (const LayoutCamera& camera : layout->cameras) EXPECT_FALSE(inHouse(camera.position));
+  int laidOut = 0, served = 0;
+  for (double y = 190; y < 350; y += 0.9)
+    for (double x = 190; x < 350; x += 0.9) {
+      if (!kept->outline.contains({x, y})) continue;
+      ++laidOut;
+      served += layout->regionAt({x, y}) ? 1 : 0;
+    }
+  EXPECT_GT(served, 0.97 * laidOut) << "what no region serves is not laid out";
+  for (const std::set<CellId>& choices : {kept->split, kept->removed})
+    for (const CellId& id : choices) EXPECT_TRUE(kept->outline.overlaps(cellPolygon(*kept, id)));
   limit.chooseConfiguration = false;
   const auto hexagons = keepWithin(spec, limit, world.bounds(), false, world.probe());
   ASSERT_TRUE(hexagons) << hexagons.error().describe();

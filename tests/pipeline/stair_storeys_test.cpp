@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/layout/storey_choice.h"
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/new_project.h"
 #include "engine/pipeline/scene_scale.h"
 #include "engine/pipeline/walk_ground.h"
 #include "tests/support/stair_hall.h"
@@ -35,7 +35,7 @@ class StairStoreysTest : public testing::Test {
     const fs::path file = folder_ / "hall.acentric.json";
     const auto open = makeProject(folder_ / "hall.obj", file, options, host, runner);
     ASSERT_TRUE(open) << open.error().describe();
-    auto storeys = openStoreys(*open, host);
+    auto storeys = openStoreys(open->open, host);
     ASSERT_TRUE(storeys) << storeys.error().describe();
     storeys_ = new std::vector<OpenProject>(std::move(*storeys));
   }
