@@ -47,17 +47,18 @@ Box boxOf(const Json& entry) {
   return {{side(0), side(1)}, {side(2), side(3)}};
 }
 
-/// A page as it is kept: of an inner one what is below it.
+/// A page as it is kept: of an inner one what is below it, of a leaf where its regions are. All of a leaf
+/// takes a hundred times the room.
 struct Page {
   std::uint64_t at = 0;
-  Json json;
+  Json entry, json;  ///< of a leaf `json` goes when it was looked at
   struct Own {
     std::uint64_t number = 0;
     ConvexPolygon polygon;
   };
   std::vector<Own> own;  ///< of a leaf
 };
-using PagePtr = std::shared_ptr<const Page>;
+using PagePtr = std::shared_ptr<Page>;
 
 }  // namespace
 
@@ -89,7 +90,7 @@ struct WalkPages::Index {
     if (!json) return tl::unexpected(json.error());
     ++read;
     auto made = std::make_shared<Page>();
-    made->at = at, made->json = std::move(*json);
+    made->at = at, made->entry = entry, made->json = std::move(*json);
     if (entry.at("leaf").get<bool>()) {
       for (const Json& region : made->json.at("regions")) {
         if (!region.at("own").get<bool>()) continue;
@@ -137,11 +138,18 @@ struct WalkPages::Index {
     return {};
   }
 
-  Result<WalkPlacePtr> placeOf(const Page& leaf, std::size_t storey, const std::string& name) {
+  Result<WalkPlacePtr> placeOf(Page& leaf, std::size_t storey, const std::string& name) {
+    if (leaf.json.is_null()) {
+      auto again = index->page(leaf.entry);
+      if (!again) return tl::unexpected(again.error());
+      leaf.json = std::move(*again), ++read;
+    }
     auto place = std::make_shared<WalkPlace>();
     place->page = leaf.at, place->storey = storey;
     FilePlaces files = textures;
-    Json json = root, cameras = leaf.json.at("cameras"), regions = leaf.json.at("regions");
+    Json json = root, cameras = std::move(leaf.json.at("cameras")),
+         regions = std::move(leaf.json.at("regions"));
+    leaf.json = nullptr;
     for (Json& camera : cameras) {
       place->cameras.push_back(WalkIndex::number(camera.at("number")));
       index->take(camera["full"], files), index->take(camera["coarse"], files);
@@ -227,9 +235,12 @@ Result<WalkPlacePtr> WalkPages::find(std::size_t storey, const glm::dvec2& point
     return tl::unexpected(visited.error());
   if (!best.leaf) return index_->index->malformed("its index has pages without regions");
   const auto same = [&](const WalkPlacePtr& p) { return p->page == best.leaf->at && p->storey == storey; };
-  if (auto known = Index::kept(index_->places, same)) return known;
-  auto place = index_->placeOf(*best.leaf, storey, name_);
-  if (!place) return place;
+  Result<WalkPlacePtr> place = Index::kept(index_->places, same);
+  const bool known = *place != nullptr;
+  if (!known) place = index_->placeOf(*best.leaf, storey, name_);
+  for (const PagePtr& page : index_->pages)
+    if (!page->own.empty()) page->json = nullptr;
+  if (known || !place) return place;
   index_->places.push_front(*place);
   if (index_->places.size() > kKeptPlaces) index_->places.pop_back();
   return place;

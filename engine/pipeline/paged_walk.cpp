@@ -174,14 +174,15 @@ void PagedWalk::replace(Place next) {
     const std::lock_guard lock(mutex_);
     std::swap(at_, next);
     at_.stream->go(where_);
-    add(before_, next.stream->stats());
     ++changes_;
   }
   if (options_.wake) options_.wake();
+  const WalkStreamStats counts = next.stream->stats();
   auto late = next.stream->takeWarnings();
   while (next.stream.use_count() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   next = {};
   const std::lock_guard lock(mutex_);
+  add(before_, counts);
   std::ranges::move(late, std::back_inserter(warnings_));
 }
 

@@ -132,6 +132,13 @@ Result<std::vector<std::byte>> RepeatedWalk::localOf(const CellId& region) const
   return bytes;
 }
 
+Result<RepeatedWalk::LocalFacts> RepeatedWalk::factsOf(const CellId& region) const {
+  if (!facts_.empty()) return facts_[numberOf(region)];
+  const auto bytes = localOf(region);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return LocalFacts{Hasher().bytes(bytes->data(), bytes->size()).finish(), std::uint32_t(bytes->size())};
+}
+
 /// How long the parts of the data are.
 void RepeatedWalk::layOut() {
   for (const auto& kind : cell_->cameras_) {
@@ -218,9 +225,10 @@ Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double
     leaf.part.layout.panoramas.push_back(renumbered(std::move(panoramas)));
     leaf.part.local.emplace_back();
     if (const auto& local = cell_->locals_[std::size_t(id.slot)]) {
-      const auto bytes = localOf(id);
-      if (!bytes) return tl::unexpected(bytes.error());
-      leaf.part.local.back() = BundleLocal{fileOf("near", its, *bytes), local->triangles.size()};
+      const auto facts = factsOf(id);
+      if (!facts) return tl::unexpected(facts.error());
+      leaf.part.local.back() =
+          BundleLocal{{fmt::format("near/{}", its), facts->bytes, facts->hash}, local->triangles.size()};
     }
     leaf.part.neighbours.emplace_back();
     for (const int n : neighbours[region])
@@ -244,30 +252,53 @@ Result<std::vector<std::byte>> RepeatedWalk::leafBytes(std::size_t leaf) const {
 }
 
 Status RepeatedWalk::makePages(TaskRunner& runner, const Progress& progress, const std::stop_token& stop) {
-  leaves_.resize(std::size_t(blocks_.x) * std::size_t(blocks_.y));
   std::mutex mutex;
   std::optional<Error> failed;
-  std::size_t done = 0;
-  runner.parallelFor(leaves_.size(), [&](std::size_t n) {
-    {
+  const auto forAll = [&](std::size_t count, const char* stage, const auto& body) -> Status {
+    std::size_t done = 0;
+    runner.parallelFor(count, [&](std::size_t n) {
+      {
+        const std::lock_guard lock(mutex);
+        if (failed || stop.stop_requested()) return;
+      }
+      const Status made = body(n);
       const std::lock_guard lock(mutex);
-      if (failed || stop.stop_requested()) return;
-    }
+      if (!made) failed = made.error();
+      if (progress) progress({double(++done), double(count), stage});
+    });
+    if (failed) return tl::unexpected(*failed);
+    if (stop.stop_requested())
+      return fail(ErrorKind::cancelled, "making the index was stopped", "repeated walk");
+    return {};
+  };
+  std::vector<LocalFacts> facts(regions());
+  constexpr std::size_t kTogether = 256;
+  Status made =
+      forAll((facts.size() + kTogether - 1) / kTogether, "near geometry", [&](std::size_t n) -> Status {
+        for (std::size_t r = n * kTogether; r < std::min(facts.size(), (n + 1) * kTogether); ++r) {
+          const CellId region = regionOf(r);
+          if (!cell_->locals_[std::size_t(region.slot)]) continue;
+          const auto its = factsOf(region);
+          if (!its) return tl::unexpected(its.error());
+          facts[r] = *its;
+        }
+        return {};
+      });
+  if (!made) return made;
+  facts_ = std::move(facts);
+  leaves_.resize(std::size_t(blocks_.x) * std::size_t(blocks_.y));
+  made = forAll(leaves_.size(), "making the index", [&](std::size_t n) -> Status {
     Page page;
     const auto text = leafText(n, page.box);
-    if (text) {
-      const std::vector<std::byte> bytes = packedText(*text, kTextLevel);
-      page.bytes = std::uint32_t(bytes.size()), page.raw = std::uint32_t(text->size());
-      page.hash = Hasher().bytes(bytes.data(), bytes.size()).finish();
-      leaves_[n] = page;
-    }
-    const std::lock_guard lock(mutex);
-    if (!text) failed = text.error();
-    if (progress) progress({double(++done), double(leaves_.size()), "making the index"});
+    if (!text) return tl::unexpected(text.error());
+    const std::vector<std::byte> bytes = packedText(*text, kTextLevel);
+    page.bytes = std::uint32_t(bytes.size()), page.raw = std::uint32_t(text->size());
+    page.hash = Hasher().bytes(bytes.data(), bytes.size()).finish();
+    leaves_[n] = page;
+    return {};
   });
-  if (failed) return tl::unexpected(*failed);
-  if (stop.stop_requested())
-    return fail(ErrorKind::cancelled, "making the index was stopped", "repeated walk");
+  if (!made) return made;
+  facts_ = {};
 
   struct Node {
     Json entry;

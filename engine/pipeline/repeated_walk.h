@@ -103,6 +103,12 @@ class RepeatedWalk final : public ByteRanges {
   void layOut();
   void numberCameras();
   Status makePages(TaskRunner& runner, const Progress& progress, const std::stop_token& stop);
+  /// Of the near geometry of a region.
+  struct LocalFacts {
+    ContentKey hash;
+    std::uint32_t bytes = 0;
+  };
+  Result<LocalFacts> factsOf(const CellId& region) const;
   Result<std::string> leafText(std::size_t leaf, std::array<double, 4>& box) const;
   Result<std::vector<std::byte>> leafBytes(std::size_t leaf) const;
 
@@ -124,7 +130,8 @@ class RepeatedWalk final : public ByteRanges {
   std::uint64_t cameraCount_ = 0;
   std::uint64_t fullStride_ = 0, coarseStride_ = 0, localStride_ = 0;  ///< bytes of the data for each
 
-  std::vector<std::byte> head_;  ///< header and root
+  std::vector<LocalFacts> facts_;  ///< by region, while the index is made: each is in several pages
+  std::vector<std::byte> head_;    ///< header and root
   std::vector<Page> leaves_;
   std::vector<std::vector<std::byte>> inner_;  ///< packed, behind the leaves
   std::vector<std::uint64_t> innerAt_;
