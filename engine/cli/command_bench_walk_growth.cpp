@@ -65,15 +65,15 @@ std::vector<PerspectiveView> legsThrough(const RepeatedCell& cell, const glm::iv
     int cells;
   };
   constexpr std::array<Leg, 4> kLegs{Leg{{1, 0}, 6}, Leg{{0, 1}, 2}, Leg{{1, 0}, 4}, Leg{{0, -1}, 2}};
-  constexpr double kBeside = 0.2;
-  const glm::ivec2 last = glm::max(cells - 2, glm::ivec2(0));
-  glm::ivec2 at = last / 2;
+  constexpr glm::dvec2 kBeside(-0.15, 0.2);
+  const glm::ivec2 last = glm::max(cells - 2, glm::ivec2(0));  // the eye stays within the last cells' regions
+  glm::ivec2 at = (last + 1) / 2;
   int forwards = 1;
   std::vector<PerspectiveView> views;
   const auto stand = [&](double yaw) {
     PerspectiveView view = like;
-    const glm::dvec2 place =
-        cell.spec().latticeOrigin + (at.x + kBeside) * cell.step(1, 0) + (at.y + kBeside) * cell.step(0, 1);
+    const glm::dvec2 place = cell.spec().latticeOrigin + (at.x + kBeside.x) * cell.step(1, 0) +
+                             (at.y + kBeside.y) * cell.step(0, 1);
     view.eye = {place, cell.spec().floorHeight + cell.spec().eyeHeight};
     view.yawRadians = yaw;
     views.push_back(view);
@@ -84,7 +84,7 @@ std::vector<PerspectiveView> legsThrough(const RepeatedCell& cell, const glm::iv
     for (int n = 0; n < next.cells && walked < metres; ++n) {
       glm::ivec2 direction = next.direction * forwards;
       const auto inside = [&](const glm::ivec2& place) {
-        return place.x >= 0 && place.y >= 0 && place.x <= last.x && place.y <= last.y;
+        return place.x >= std::min(1, last.x) && place.y >= 0 && place.x <= last.x && place.y <= last.y;
       };
       if (!inside(at + direction)) direction = -direction, forwards = -forwards;
       if (!inside(at + direction)) break;

@@ -240,7 +240,9 @@ void addBenchWalkGrowth(CLI::App& bench, Chosen& chosen) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   addMemory(*c, chosen);
-  c->add_option("--renderer", o.renderer, "Which")->check(CLI::IsMember(renderers(false)))->capture_default_str();
+  c->add_option("--renderer", o.renderer, "Which")
+      ->check(CLI::IsMember(renderers(false)))
+      ->capture_default_str();
   c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
   c->add_option("--frames", o.frames,
                 "Steps of a thirtieth of a second; a frame that takes longer waits for nothing")

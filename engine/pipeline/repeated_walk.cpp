@@ -298,7 +298,7 @@ Status RepeatedWalk::makePages(TaskRunner& runner, const Progress& progress, con
     return {};
   });
   if (!made) return made;
-  facts_ = {};
+  std::vector<LocalFacts>().swap(facts_);
 
   struct Node {
     Json entry;
