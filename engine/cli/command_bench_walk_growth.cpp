@@ -41,6 +41,13 @@ double threadSeconds() {
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
+/// How often this thread waited for something, a lock for example.
+long waits() {
+  rusage usage{};
+  (void)::getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+
 /// Counts what a walk reads, from any thread.
 class CountedRanges final : public ByteRanges {
  public:
@@ -184,6 +191,7 @@ class WalkGrowth {
     std::vector<double> threadMs;
     const double processorBefore = processorSeconds();
     std::set<int> walked;
+    int waited = 0;  // frames that waited to take their captures
     for (int step = 0; step < options_.frames; ++step) {
       if (common_.stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
       if (common_.progress) common_.progress({double(step), double(options_.frames), "walking"});
@@ -191,8 +199,10 @@ class WalkGrowth {
       const double threadBefore = threadSeconds();
       const double now = step * kStepSeconds;
       const auto [view, velocity] = path.at(now);
+      const long before = waits();
       walk.go({glm::dvec2(view.eye), view.yawRadians, velocity});
       const auto snapshot = walk.walk();
+      waited += waits() > before ? 1 : 0;
       tally.takeMs.push_back(frameTime.seconds() * 1e3);
       const auto drawn = drawing->draw(snapshot->walk, view);
       if (!drawn) return tl::unexpected(drawn.error());
@@ -228,6 +238,7 @@ class WalkGrowth {
                 {"threadMsMedian", thread.median},
                 {"threadMsP99", thread.p99},
                 {"snapshotMsMax", takes.max},
+                {"waitingFrames", waited},
                 {"processorMs", processorMs},
                 {"incompleteFrames", tally.incomplete},
                 {"coarseFrames", tally.coarse},
@@ -294,9 +305,8 @@ std::string lineOf(const Json& walk) {
       "  {:.0f} frames through {:.0f} regions and {:.0f} changes of page ({:.0f} ms at most): {:.0f} with "
       "coarse "
       "captures, {:.0f} with captures missing\n"
-      "  frame {:.2f} ms median, {:.2f} ms p99, {:.2f} ms max; {:.2f} ms of processor time a frame; taking "
-      "the "
-      "captures {:.3f} ms max\n"
+      "  frame {:.2f} ms median, {:.2f} ms p99, {:.2f} ms max; {:.2f} ms of processor time a frame; {:.0f} "
+      "waited for their captures\n"
       "  captures {} of {} at most; {:.0f} loads, {:.0f} coarse, {:.0f} evictions; {} resident at most ({} "
       "before)\n",
       number("regions"), number("cameras"), number("pages"), number("makingSeconds"),
@@ -304,7 +314,7 @@ std::string lineOf(const Json& walk) {
       bytes("firstFrameBytes"), number("firstFullSeconds"), number("frames"), number("regionsWalked"),
       number("pageChanges"), 1e3 * number("pageChangeSecondsMax"), number("coarseFrames"),
       number("incompleteFrames"), number("frameMsMedian"), number("frameMsP99"), number("frameMsMax"),
-      number("processorMs"), number("snapshotMsMax"), bytes("peakBytes"), bytes("limitBytes"),
+      number("processorMs"), number("waitingFrames"), bytes("peakBytes"), bytes("limitBytes"),
       number("loads"), number("coarseLoads"), number("evictions"), bytes("residentBytesPeak"),
       bytes("residentBytesBefore"));
 }

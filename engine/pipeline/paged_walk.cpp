@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <utility>
 
 #include "engine/base/stopwatch.h"
 
 namespace acentric {
 namespace {
 
-/// Of a cell: so far the eye goes before its region is looked up.
-constexpr double kLookAgain = 0.02;
+/// Of a cell: so far the eye goes before its region is looked up. A page knows what is two regions farther.
+constexpr double kLookAgain = 0.1;
 
 template <class Thing>
 std::map<int, std::size_t> byNumber(const std::vector<Thing>& things) {
@@ -19,12 +20,9 @@ std::map<int, std::size_t> byNumber(const std::vector<Thing>& things) {
   return places;
 }
 
-/// What the page before has in memory and this one has too.
-struct TakenOver {
-  int dropped = 0;  ///< captures of the page before that this one has not
-};
-TakenOver takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& start) {
-  TakenOver taken;
+/// What the page before has in memory and this one has too. How many captures this one has not.
+int takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& start) {
+  int dropped = 0;
   LoadedWalk& to = start.walk;
   to.captureMemory = from.captureMemory;
   start.coarse.resize(to.walk.captures.size());
@@ -32,7 +30,7 @@ TakenOver takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& sta
   for (std::size_t c = 0; c < held.full.size(); ++c) {
     const auto found = cameras.find(from.walk.layout->cameras[c].id.i);
     if (found == cameras.end()) {
-      taken.dropped += (held.full[c] ? 1 : 0) + (held.coarse[c] ? 1 : 0);
+      dropped += (held.full[c] ? 1 : 0) + (held.coarse[c] ? 1 : 0);
       continue;
     }
     to.walk.captures[found->second] = std::move(held.full[c]);
@@ -41,7 +39,7 @@ TakenOver takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& sta
   for (std::size_t r = 0; r < held.local.size(); ++r)
     if (const auto found = regions.find(from.walk.layout->regions[r].id.i); found != regions.end())
       to.walk.local[found->second] = std::move(held.local[r]);
-  return taken;
+  return dropped;
 }
 
 void add(WalkStreamStats& sum, const WalkStreamStats& counts) {
@@ -68,10 +66,13 @@ Result<std::unique_ptr<PagedWalk>> PagedWalk::open(std::unique_ptr<WalkPages> pa
   if (!place) return tl::unexpected(place.error());
   auto shipped = shippedPlace(**place, file, nullptr, runner);
   if (!shipped) return tl::unexpected(shipped.error());
-  walk->warnings_ = (*shipped)->warnings;
+  walk->warn((*shipped)->warnings);
+  walk->lookAgain_ = kLookAgain * (*shipped)->layouts[storey]->spec.cellSize;
   WalkStreamOptions streaming = walk->options_;
-  auto stream = std::make_shared<WalkStream>(startWalk(*shipped, int(storey), nullptr), std::move(streaming));
-  walk->at_ = {*place, std::move(*shipped), std::move(stream)};
+  walk->stream_ =
+      std::make_shared<WalkStream>(startWalk(*shipped, int(storey), nullptr), std::move(streaming));
+  walk->counts_.regions = (*place)->regions.size(), walk->counts_.cameras = (*place)->cameras.size();
+  walk->at_ = {*place, std::move(*shipped), walk->stream_};
   PagedWalk& self = *walk;
   walk->follower_ = std::jthread([&self](const std::stop_token& stop) { self.follow(stop); });
   return walk;
@@ -83,30 +84,38 @@ PagedWalk::~PagedWalk() {
 }
 
 std::shared_ptr<WalkStream> PagedWalk::stream() const {
-  const std::lock_guard lock(mutex_);
-  return at_.stream;
+  const std::lock_guard lock(published_);
+  return stream_;
 }
 
 void PagedWalk::go(const Whereabouts& where) {
-  bool look = false;
   {
-    const std::lock_guard lock(mutex_);
-    at_.stream->go(where);
-    where_ = where;
-    look = glm::distance(where.eye, told_) > kLookAgain * at_.walk->layouts[storey_]->spec.cellSize;
-    if (look) told_ = where.eye, ++calls_;
+    const std::lock_guard lock(published_);
+    stream_->go(where);
   }
-  if (look) moved_.notify_all();
+  {
+    const std::lock_guard lock(wake_);
+    where_ = where;
+    if (glm::distance(where.eye, told_) <= lookAgain_) return;
+    told_ = where.eye;
+    ++calls_;
+  }
+  moved_.notify_all();
 }
 
 std::shared_ptr<const LoadedWalk> PagedWalk::walk() const {
-  const std::lock_guard lock(mutex_);
-  return at_.stream->walk();
+  const std::lock_guard lock(published_);
+  return stream_->walk();
+}
+
+void PagedWalk::warn(std::vector<std::string> warnings) {
+  const std::lock_guard lock(tally_);
+  std::ranges::move(warnings, std::back_inserter(warnings_));
 }
 
 std::vector<std::string> PagedWalk::takeWarnings() {
   auto fresh = stream()->takeWarnings();
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(tally_);
   std::ranges::move(fresh, std::back_inserter(warnings_));
   std::vector<std::string> told;
   for (std::string& warning : warnings_)  // what is damaged is damaged in each page that has it
@@ -116,28 +125,22 @@ std::vector<std::string> PagedWalk::takeWarnings() {
 }
 
 bool PagedWalk::busy() const {
-  std::shared_ptr<WalkStream> stream;
   {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(wake_);
     if (seen_ != calls_) return true;
-    stream = at_.stream;
   }
-  return stream->busy();
+  return stream()->busy();
 }
 
 PagedWalkStats PagedWalk::stats() const {
+  const WalkStreamStats now = stream()->stats();
   PagedWalkStats stats;
-  std::shared_ptr<WalkStream> stream;
   {
-    const std::lock_guard lock(mutex_);
-    stream = at_.stream;
-    stats.captures = before_;
-    stats.changes = changes_, stats.longestChange = longestChange_;
-    stats.regions = at_.place->regions.size(), stats.cameras = at_.place->cameras.size();
+    const std::lock_guard lock(tally_);
+    stats = counts_;
   }
-  WalkStreamStats now = stream->stats();
-  add(now, stats.captures);
-  stats.captures = now;
+  const WalkStreamStats before = std::exchange(stats.captures, now);
+  add(stats.captures, before);
   stats.index = pages_->stats();
   return stats;
 }
@@ -145,78 +148,73 @@ PagedWalkStats PagedWalk::stats() const {
 // The thread that follows the eye
 // ------------------------------------------------------------------------------------------------------------
 
-bool PagedWalk::isOwn(const Place& at, const glm::dvec2& eye) const {
-  const Layout& layout = *at.walk->layouts[storey_];
-  const auto region = layout.regionAt(eye);
-  return region && at.place->own[std::size_t(*region)] != 0;
+bool PagedWalk::isOwn(const glm::dvec2& eye) const {
+  const auto region = at_.walk->layouts[storey_]->regionAt(eye);
+  return region && at_.place->own[std::size_t(*region)] != 0;
 }
 
-Result<PagedWalk::Place> PagedWalk::enter(const WalkPlacePtr& place, const Place* from,
-                                          const Whereabouts& where, const std::stop_token& stop) {
+Result<PagedWalk::Place> PagedWalk::enter(const WalkPlacePtr& place, const Whereabouts& where,
+                                          const std::stop_token& stop) {
   TaskRunner alone(0);
-  auto walk = shippedPlace(*place, file_, from->walk.get(), alone, stop);
+  auto walk = shippedPlace(*place, file_, at_.walk.get(), alone, stop);
   if (!walk) return tl::unexpected(walk.error());
   WalkStart start = startWalk(*walk, int(storey_), nullptr);
-  const TakenOver taken = takeOver(*from->stream->walk(), from->stream->held(), start);
+  const int dropped = takeOver(*at_.stream->walk(), at_.stream->held(), start);
   WalkStreamOptions streaming = options_;
   streaming.where = where;
   auto stream = std::make_shared<WalkStream>(std::move(start), std::move(streaming));
-  {
-    const std::lock_guard lock(mutex_);
-    before_.evictions += taken.dropped;
-  }
+  const std::lock_guard lock(tally_);
+  counts_.captures.evictions += dropped;
   return Place{place, std::move(*walk), std::move(stream)};
 }
 
 /// The stream of the page before ends here, in this thread: it has perhaps a capture to read to its end.
-void PagedWalk::replace(Place next) {
+void PagedWalk::replace(Place next, const Whereabouts& where) {
+  std::swap(at_, next);
   {
-    const std::lock_guard lock(mutex_);
-    std::swap(at_, next);
-    at_.stream->go(where_);
-    ++changes_;
+    const std::lock_guard lock(published_);
+    stream_ = at_.stream;
   }
+  at_.stream->go(where);
   if (options_.wake) options_.wake();
-  const WalkStreamStats counts = next.stream->stats();
-  auto late = next.stream->takeWarnings();
+  {
+    const std::lock_guard lock(tally_);
+    ++counts_.changes;
+    counts_.regions = at_.place->regions.size(), counts_.cameras = at_.place->cameras.size();
+    add(counts_.captures, next.stream->stats());
+  }
+  warn(next.stream->takeWarnings());
   while (next.stream.use_count() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  next = {};
-  const std::lock_guard lock(mutex_);
-  add(before_, counts);
-  std::ranges::move(late, std::back_inserter(warnings_));
+}
+
+void PagedWalk::look(const Whereabouts& where, const std::stop_token& stop) {
+  if (isOwn(where.eye)) return;
+  const Stopwatch clock;
+  const auto place = pages_->placeAt(storey_, where.eye);
+  if (!place) return warn({place.error().describe()});
+  if ((*place)->page == at_.place->page) return;  // beside all regions
+  auto next = enter(*place, where, stop);
+  if (!next) {
+    if (next.error().kind != ErrorKind::cancelled) warn({next.error().describe()});
+    return;
+  }
+  replace(std::move(*next), where);
+  const std::lock_guard lock(tally_);
+  counts_.longestChange = std::max(counts_.longestChange, clock.seconds());
 }
 
 void PagedWalk::follow(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     Whereabouts where;
-    Place at;
     std::uint64_t calls = 0;
     {
-      std::unique_lock lock(mutex_);
+      std::unique_lock lock(wake_);
       (void)moved_.wait(lock, stop, [&] { return calls_ != seen_; });
-      if (stop.stop_requested()) return;
-      where = where_, at = at_, calls = calls_;
+      where = where_, calls = calls_;
     }
-    if (!isOwn(at, where.eye)) {
-      const Stopwatch clock;
-      auto place = pages_->placeAt(storey_, where.eye);
-      if (place && (*place)->page != at.place->page) {
-        auto next = enter(*place, &at, where, stop);
-        if (next) {
-          at = {};
-          replace(std::move(*next));
-          const std::lock_guard lock(mutex_);
-          longestChange_ = std::max(longestChange_, clock.seconds());
-        } else {
-          place = tl::unexpected(next.error());
-        }
-      }
-      if (!place && place.error().kind != ErrorKind::cancelled) {
-        const std::lock_guard lock(mutex_);
-        warnings_.push_back(place.error().describe());
-      }
-    }
-    const std::lock_guard lock(mutex_);
+    if (stop.stop_requested()) return;
+    look(where, stop);
+    const std::lock_guard lock(wake_);
     seen_ = calls;
   }
 }

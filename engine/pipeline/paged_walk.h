@@ -53,26 +53,32 @@ class PagedWalk {
     std::shared_ptr<WalkStream> stream;
   };
   void follow(const std::stop_token& stop);
-  bool isOwn(const Place& at, const glm::dvec2& eye) const;
-  Result<Place> enter(const WalkPlacePtr& place, const Place* from, const Whereabouts& where,
-                      const std::stop_token& stop);
-  void replace(Place next);
+  void look(const Whereabouts& where, const std::stop_token& stop);
+  bool isOwn(const glm::dvec2& eye) const;
+  Result<Place> enter(const WalkPlacePtr& place, const Whereabouts& where, const std::stop_token& stop);
+  void replace(Place next, const Whereabouts& where);
+  void warn(std::vector<std::string> warnings);
   std::shared_ptr<WalkStream> stream() const;
 
   const std::unique_ptr<WalkPages> pages_;
   const std::size_t storey_;
   const std::filesystem::path file_;
   const WalkStreamOptions options_;
+  double lookAgain_ = 0;  ///< metres that the eye goes before its region is looked up
 
-  Place at_;                  ///< of the thread that follows the eye; `stream` under the lock
-  mutable std::mutex mutex_;  ///< held for as long as it takes to copy a pointer
+  Place at_;  ///< of the thread that follows the eye
+
+  mutable std::mutex published_;  // held for as long as it takes to copy a pointer
+  std::shared_ptr<WalkStream> stream_;
+
+  mutable std::mutex wake_;  // the same
   std::condition_variable_any moved_;
   Whereabouts where_;
   glm::dvec2 told_{0};  ///< where the eye was when its thread was told last
   std::uint64_t calls_ = 1, seen_ = 0;
-  WalkStreamStats before_;  ///< counts of the pages before
-  int changes_ = 0;
-  double longestChange_ = 0;
+
+  mutable std::mutex tally_;  // no frame takes it
+  PagedWalkStats counts_;     ///< of the pages before
   std::vector<std::string> warnings_;
   std::set<std::string> known_;  ///< warnings that were given
 
