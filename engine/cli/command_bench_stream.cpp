@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "engine/base/physical_memory.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
@@ -19,6 +20,7 @@ constexpr double kFrameSeconds = 1.0 / 60;
 }  // namespace
 
 Result<Report> runBenchStream(const BenchOptions& options, const Common& common) {
+  giveBackLargeMemory();
   const auto walk =
       openAlong(options.project, options.path, options.size, 0, options.frames, common, Along::oneStorey);
   if (!walk) return tl::unexpected(walk.error());

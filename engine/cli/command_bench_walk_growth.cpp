@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "engine/base/physical_memory.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
@@ -332,6 +333,7 @@ Result<Report> runBenchWalkGrowth(const BenchWalkGrowthOptions& options, const C
   if (!configuration) return tl::unexpected(configuration.error());
   ViewSettings settings;
   settings.renderer = *renderer;
+  giveBackLargeMemory();
   const auto runner = common.runner();
   const auto folder = TrialFolder::make(std::filesystem::temp_directory_path());
   if (!folder) return tl::unexpected(folder.error());
