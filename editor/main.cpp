@@ -5,8 +5,10 @@
 
 #include "editor/app.h"
 #include "engine/base/interrupt.h"
+#include "engine/base/physical_memory.h"
 
 int main(int argc, char** argv) {
+  acentric::giveBackLargeMemory();
   CLI::App command("Lay, bake and walk acentric panorama views in a window.", "acentric-editor");
   acentric::editor::AppOptions options;
   std::string size;

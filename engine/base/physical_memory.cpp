@@ -1,5 +1,7 @@
 #include "engine/base/physical_memory.h"
 
+#include <malloc.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +16,12 @@ std::size_t physicalMemory() {
   std::size_t most = 0;  // stays 0 where the group's file says "max" or is not there
   if (std::ifstream group("/sys/fs/cgroup/memory.max"); group >> most) bytes = std::min(bytes, most);
   return bytes;
+}
+
+void giveBackLargeMemory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, 256 << 10);
+#endif
 }
 
 }  // namespace acentric

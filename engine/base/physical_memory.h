@@ -9,4 +9,9 @@ namespace acentric {
 /// fewer.
 std::size_t physicalMemory();
 
+/// From now on memory of a quarter MiB and more goes back to the system as soon as it is freed. What walks
+/// load and evict leaves holes in the heap else, which one stream after another does not fill. For programs,
+/// at their beginning.
+void giveBackLargeMemory();
+
 }  // namespace acentric

@@ -6,8 +6,9 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/cli/frame_pictures.h"
-#include "engine/export/walk_read.h"
+#include "engine/export/walk_pages.h"
 #include "engine/geometry/conventions.h"
+#include "engine/layout/storey_choice.h"
 
 namespace acentric::cli {
 
@@ -43,6 +44,52 @@ Result<Frame> bundleFrame(BundlePlayer& player, const PerspectiveView& view, con
   return player.render(view, settings);
 }
 
+namespace {
+
+/// Of a walk that is one file, the place where the eye is: the other pages of its index are not read.
+Result<std::unique_ptr<BundlePlayer>> playerAt(WalkPages& pages, const glm::dvec3& eye, int threads) {
+  WalkPlacePtr best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < pages.root().storeys.size(); ++s) {
+    if (pages.regionCount(s) == 0) continue;
+    auto place = pages.placeAt(s, glm::dvec2(eye));
+    if (!place) return tl::unexpected(place.error());
+    const double misfit = misfitOf((*place)->here().layout, eye);
+    if (!best || misfit < nearest) best = std::move(*place), nearest = misfit;
+  }
+  auto player = std::make_unique<BundlePlayer>();
+  if (best)
+    player->open(best->files, best->bundle);
+  else
+    player->open(nullptr, pages.root());
+  player->setThreads(threads);
+  return player;
+}
+
+/// `bundle`: names bookmarks and where the walk begins.
+Result<PerspectiveView> viewOf(const RenderOptions& options, const Bundle& bundle) {
+  PerspectiveView view = startOf(bundle);
+  view.fovRadians = radians(options.fovDegrees);
+  if (!options.bookmark.empty()) {
+    const auto found = std::ranges::find(bundle.bookmarks, options.bookmark, &BundleBookmark::name);
+    if (found == bundle.bookmarks.end())
+      return fail(ErrorKind::notFound, fmt::format("has no bookmark '{}'", options.bookmark),
+                  options.project.string());
+    view = {found->pose.eye, found->pose.yaw, found->pose.pitch, found->fov};
+    return view;
+  }
+  if (!options.eye.empty()) {
+    const auto eye = parseEye(options.eye, view.eye.z);
+    if (!eye) return tl::unexpected(eye.error());
+    view.eye = *eye, view.yawRadians = 0;
+  }
+  if (options.yawDegrees) view.yawRadians = radians(*options.yawDegrees);
+  view.pitchRadians = radians(options.pitchDegrees);
+  return view;
+}
+
+}  // namespace
+
 Result<Report> renderBundle(const RenderOptions& options, const Common& common) {
   const auto size = parseSize(options.size);
   if (!size) return tl::unexpected(size.error());
@@ -53,28 +100,25 @@ Result<Report> renderBundle(const RenderOptions& options, const Common& common) 
   };
   if (options.mode != "picture") return needsProject("--mode");
   if (options.renderer == "truth") return needsProject("--renderer truth");
-  auto files = bundleAt(options.project);
-  if (!files) return tl::unexpected(files.error());
-  const auto player = playerFor(std::move(*files), common.runner()->threads());
-  if (!player) return tl::unexpected(player.error());
-  const Bundle& bundle = (*player)->bundle();
-  PerspectiveView view = startOf(bundle);
-  view.fovRadians = radians(options.fovDegrees);
-  if (!options.bookmark.empty()) {
-    const auto found = std::ranges::find(bundle.bookmarks, options.bookmark, &BundleBookmark::name);
-    if (found == bundle.bookmarks.end())
-      return fail(ErrorKind::notFound, fmt::format("has no bookmark '{}'", options.bookmark),
-                  options.project.string());
-    view = {found->pose.eye, found->pose.yaw, found->pose.pitch, found->fov};
+  const int threads = common.runner()->threads();
+  Result<std::unique_ptr<BundlePlayer>> player;
+  Result<PerspectiveView> wanted;
+  std::error_code error;
+  if (std::filesystem::is_directory(options.project, error)) {
+    player = playerFor(bundleFolder(options.project), threads);
+    if (player) wanted = viewOf(options, (*player)->bundle());
   } else {
-    if (!options.eye.empty()) {
-      const auto eye = parseEye(options.eye, view.eye.z);
-      if (!eye) return tl::unexpected(eye.error());
-      view.eye = *eye, view.yawRadians = 0;
-    }
-    if (options.yawDegrees) view.yawRadians = radians(*options.yawDegrees);
-    view.pitchRadians = radians(options.pitchDegrees);
+    auto ranges = fileRanges(options.project);
+    if (!ranges) return tl::unexpected(ranges.error());
+    const auto pages = WalkPages::open(std::move(*ranges), options.project.string());
+    if (!pages) return tl::unexpected(pages.error());
+    wanted = viewOf(options, (*pages)->root());
+    if (wanted) player = playerAt(**pages, wanted->eye, threads);
   }
+  if (!player) return tl::unexpected(player.error());
+  if (!wanted) return tl::unexpected(wanted.error());
+  const Bundle& bundle = (*player)->bundle();
+  PerspectiveView view = *wanted;
   view.width = size->width, view.height = size->height;
   ViewSettings settings = bundle.view;
   if (!options.renderer.empty()) {

@@ -1,128 +1,26 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "engine/base/physical_memory.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
+#include "engine/cli/stream_frames.h"
 #include "engine/measure/statistics.h"
 #include "engine/pipeline/walk_stream.h"
-#include "engine/view/view_cameras.h"
-#include "engine/view_gl/gl_renderer.h"
 
 namespace acentric::cli {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 60;
-constexpr double kTurnRadiansPerSecond = 1.6;
-
-/// Views along a path by the time at which a walker reaches them.
-class TimedPath {
- public:
-  TimedPath(const std::vector<PerspectiveView>& views, double metresPerSecond) : views_(views) {
-    at_.push_back(0);
-    for (std::size_t i = 1; i < views.size(); ++i) {
-      const double metres = glm::distance(views[i - 1].eye, views[i].eye);
-      const double turned = std::abs(std::remainder(views[i].yawRadians - views[i - 1].yawRadians, kTwoPi));
-      at_.push_back(at_.back() + std::max(metres / metresPerSecond, turned / kTurnRadiansPerSecond));
-    }
-  }
-  double seconds() const { return at_.back(); }
-
-  struct Pose {
-    PerspectiveView view;
-    glm::dvec2 velocity{0};
-  };
-  Pose at(double seconds) const {
-    const auto after = std::upper_bound(at_.begin(), at_.end(), seconds);
-    const auto i =
-        std::size_t(std::clamp<std::ptrdiff_t>(after - at_.begin(), 1, std::ptrdiff_t(at_.size()) - 1));
-    if (views_.size() < 2) return {views_.front()};
-    const PerspectiveView &from = views_[i - 1], &to = views_[i];
-    const double length = at_[i] - at_[i - 1];
-    const double share = length > 0 ? std::clamp((seconds - at_[i - 1]) / length, 0.0, 1.0) : 1;
-    Pose pose{between(from, to, share)};
-    if (length > 0) pose.velocity = glm::dvec2(to.eye - from.eye) / length;
-    return pose;
-  }
-
- private:
-  const std::vector<PerspectiveView>& views_;
-  std::vector<double> at_;
-};
-
-/// Draws with a renderer of either kind; no picture is read back.
-class StreamRenderer {
- public:
-  static Result<StreamRenderer> open(const ViewSettings& settings, bool waitForCaptures, TaskRunner& runner) {
-    StreamRenderer made(settings, runner);
-    if (!onOpenGl(settings.renderer)) return made;
-    auto context = HeadlessContext::create();
-    if (!context) return tl::unexpected(context.error());
-    auto gl = GlRenderer::create({.waitForCaptures = waitForCaptures, .runner = &runner});
-    if (!gl) return tl::unexpected(gl.error());
-    made.context_ = std::move(*context), made.gl_ = std::move(*gl);
-    return made;
-  }
-  Result<FrameStats> draw(const WalkScene& walk, const PerspectiveView& view) {
-    if (gl_) return gl_->draw(walk, view, settings_);
-    auto frame = renderFrame(walk, view, settings_, *runner_, memory_);
-    if (!frame) return tl::unexpected(frame.error());
-    memory_.frame = std::move(*frame);
-    return memory_.frame.stats;
-  }
-
- private:
-  StreamRenderer(const ViewSettings& settings, TaskRunner& runner) : settings_(settings), runner_(&runner) {}
-
-  ViewSettings settings_;
-  TaskRunner* runner_;
-  FrameMemory memory_;
-  std::unique_ptr<HeadlessContext> context_;
-  std::unique_ptr<GlRenderer> gl_;  // destroyed before its context
-};
-
-/// What the frames of a walk were like.
-struct WalkTally {
-  std::vector<double> frameMs, takeMs, sendMs;
-  int incomplete = 0;          ///< frames with a camera of which nothing was there
-  int coarse = 0;              ///< frames with a coarse stand-in
-  int awaiting = 0;            ///< frames with captures in memory that were not on the graphics card
-  int unsent = 0;              ///< of these: with nothing in their place
-  std::uint64_t mostSent = 0;  ///< bytes, by a frame
-  double firstFullSeconds = -1;
-
-  void count(const FrameStats& stats) {
-    sendMs.push_back(stats.sendSeconds * 1e3);
-    awaiting += stats.capturesAwaited > 0;
-    unsent += stats.capturesAwaited > stats.standIns;
-    mostSent = std::max(mostSent, stats.bytesSent);
-  }
-  void count(const LoadedWalk& walk, const ViewCameras& needed, double seconds) {
-    bool missing = false, standIn = false;
-    for (const int camera : needed.cameras) {
-      missing = missing || !walk.walk.captures[std::size_t(camera)];
-      standIn = standIn || walk.standsIn[std::size_t(camera)];
-    }
-    incomplete += missing;
-    coarse += standIn && !missing;
-    if (!missing && !standIn && firstFullSeconds < 0) firstFullSeconds = seconds;
-  }
-};
-
-std::uint64_t peakResidentBytes() {
-  rusage usage{};
-  (void)::getrusage(RUSAGE_SELF, &usage);
-  return std::uint64_t(usage.ru_maxrss) * 1024;
-}
-
 }  // namespace
 
 Result<Report> runBenchStream(const BenchOptions& options, const Common& common) {
+  giveBackLargeMemory();
   const auto walk =
       openAlong(options.project, options.path, options.size, 0, options.frames, common, Along::oneStorey);
   if (!walk) return tl::unexpected(walk.error());

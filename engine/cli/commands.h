@@ -278,6 +278,16 @@ struct BenchGrowthOptions {
 };
 Result<Report> runBenchGrowth(const BenchGrowthOptions& options, const Common& common);
 
+/// Walks through layouts of ever more regions, whose captures are made as they are read.
+struct BenchWalkGrowthOptions {
+  std::vector<std::uint64_t> regions{100, 1000, 10'000, 100'000, 1'000'000};
+  std::string configuration = "b", size = "640x360", renderer = "list";
+  double cellSize = 2, samplesPerDegree = 4, metresPerSecond = 1.4;
+  int regionsPerPage = 64, frames = 1800;
+  std::filesystem::path chart;
+};
+Result<Report> runBenchWalkGrowth(const BenchWalkGrowthOptions& options, const Common& common);
+
 struct BenchBakeOptions {
   std::filesystem::path project;
   BakeBenchOptions bench;

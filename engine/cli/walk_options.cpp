@@ -218,6 +218,42 @@ void addBenchGrowth(CLI::App& bench, Chosen& chosen) {
       "on the clock");
 }
 
+void addBenchWalkGrowth(CLI::App& bench, Chosen& chosen) {
+  auto [c, o] = add(bench, chosen, "walk-growth",
+                    "Walk through layouts of ever more regions while captures come and go, and tell how time "
+                    "and memory grow",
+                    "  acentric bench walk-growth --chart walk-growth.svg\n"
+                    "  acentric bench walk-growth --regions 1000,1000000 --frames 600 --json",
+                    runBenchWalkGrowth);
+  c->add_option("--regions", o.regions, "How many, separated by commas; of each at least so many")
+      ->delimiter(',')
+      ->check(CLI::Range(20, 4'000'000))
+      ->capture_default_str();
+  c->add_option("--config", o.configuration, "Configuration of the lattice, a to g")->capture_default_str();
+  c->add_option("--cell", o.cellSize, "Metres, edge of a cell")
+      ->check(CLI::Range(0.5, 50.0))
+      ->capture_default_str();
+  c->add_option("--samples-per-degree", o.samplesPerDegree, "Of the captures")
+      ->check(CLI::Range(0.5, 64.0))
+      ->capture_default_str();
+  c->add_option("--regions-per-page", o.regionsPerPage, "Of the index")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  addMemory(*c, chosen);
+  c->add_option("--renderer", o.renderer, "Which")
+      ->check(CLI::IsMember(renderers(false)))
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--frames", o.frames,
+                "Steps of a thirtieth of a second; a frame that takes longer waits for nothing")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  c->add_option("--speed", o.metresPerSecond, "Metres per second")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  c->add_option("--chart", o.chart, "Chart to draw: .svg or .png");
+}
+
 void addBenchBake(CLI::App& bench, Chosen& chosen) {
   auto [c, o] = add(bench, chosen, "bake", "Time what a bake does, against the ray tracer alone",
                     "  acentric bench bake kitchen.acentric.json --json", runBenchBake);
@@ -262,6 +298,7 @@ void addBench(CLI::App& app, Chosen& chosen) {
   addBenchView(*bench, chosen);
   addBenchBake(*bench, chosen);
   addBenchGrowth(*bench, chosen);
+  addBenchWalkGrowth(*bench, chosen);
   addBenchHoles(*bench, chosen);
 }
 

@@ -89,20 +89,8 @@ Json cameraJson(const LayoutCamera& camera, const BundleCamera& renditions) {
 
 Json toJson(const BundleStorey& storey) {
   const Layout& layout = storey.layout;
-  Json outline = Json::array(), cameras = Json::array(), regions = Json::array();
+  Json outline = Json::array(), places = placesJson(storey);
   for (const auto& loop : layout.spec.outline.loops) outline.push_back(listOf(loop));
-  for (std::size_t c = 0; c < layout.cameras.size(); ++c)
-    cameras.push_back(cameraJson(layout.cameras[c], storey.cameras[c]));
-  for (std::size_t r = 0; r < layout.regions.size(); ++r) {
-    const Region& region = layout.regions[r];
-    regions.push_back({{"kind", kKinds[std::size_t(region.kind)]},
-                       {"polygon", listOf(region.polygon.corners)},
-                       {"grown", listOf(region.grown.corners)},
-                       {"neighbours", storey.neighbours[r]},
-                       {"local", toJson(storey.local[r])},
-                       {"covers", toJson(region.covers, layout)},
-                       {"panoramas", toJson(layout.panoramas[r], layout)}});
-  }
   Json out{{"name", storey.name},
            {"floorHeight", layout.spec.floorHeight},
            {"eyeHeight", layout.spec.eyeHeight},
@@ -110,8 +98,8 @@ Json toJson(const BundleStorey& storey) {
            {"nearBand", layout.spec.nearBand},
            {"start", {{"position", toJson(storey.start)}, {"yaw", storey.startYaw}}},
            {"outline", std::move(outline)},
-           {"cameras", std::move(cameras)},
-           {"regions", std::move(regions)}};
+           {"cameras", std::move(places["cameras"])},
+           {"regions", std::move(places["regions"])}};
   if (const auto& slope = layout.spec.slope)
     out["slope"] = {{"at", toJson(slope->at)}, {"rise", toJson(slope->rise)}};
   return out;
@@ -196,6 +184,24 @@ Json toJson(const BundleFeatures& f) {
 }
 
 }  // namespace
+
+Json placesJson(const BundleStorey& storey) {
+  const Layout& layout = storey.layout;
+  Json cameras = Json::array(), regions = Json::array();
+  for (std::size_t c = 0; c < layout.cameras.size(); ++c)
+    cameras.push_back(cameraJson(layout.cameras[c], storey.cameras[c]));
+  for (std::size_t r = 0; r < layout.regions.size(); ++r) {
+    const Region& region = layout.regions[r];
+    regions.push_back({{"kind", kKinds[std::size_t(region.kind)]},
+                       {"polygon", listOf(region.polygon.corners)},
+                       {"grown", listOf(region.grown.corners)},
+                       {"neighbours", storey.neighbours[r]},
+                       {"local", toJson(storey.local[r])},
+                       {"covers", toJson(region.covers, layout)},
+                       {"panoramas", toJson(layout.panoramas[r], layout)}});
+  }
+  return {{"cameras", std::move(cameras)}, {"regions", std::move(regions)}};
+}
 
 std::string formatBundle(const Bundle& bundle) {
   return layOut(

@@ -7,10 +7,14 @@
 namespace acentric {
 
 using BundleJson = nlohmann::ordered_json;
+struct BundleStorey;
 
 /// Indented by two spaces; objects and arrays that are short take one line. The text depends on the value
 /// alone.
 std::string layOut(const BundleJson& json);
+
+/// {"cameras": [...], "regions": [...]}, as a storey of the index has them.
+BundleJson placesJson(const BundleStorey& storey);
 
 namespace bundle_words {
 inline constexpr const char* kKinds[] = {"ring", "gapTriangle", "gapSquare", "gapHexagon"};

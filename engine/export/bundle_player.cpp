@@ -32,10 +32,15 @@ std::uint64_t bytesOf(const ColourImage& image) { return bytesIn(image.pixels); 
 }  // namespace
 
 Status BundlePlayer::open(std::unique_ptr<BundleFiles> files) {
-  files_ = std::move(files);
-  auto bundle = readBundle(*files_);
+  auto bundle = readBundle(*files);
   if (!bundle) return tl::unexpected(bundle.error());
-  bundle_ = std::move(*bundle);
+  open(std::move(files), std::move(*bundle));
+  return {};
+}
+
+void BundlePlayer::open(std::shared_ptr<const BundleFiles> files, Bundle bundle) {
+  files_ = std::move(files);
+  bundle_ = std::move(bundle);
   images_.resize(bundle_.textures.size());
   const ScenePtr scene = sceneOf(bundle_, images_);
   for (const BundleStorey& storey : bundle_.storeys) {
@@ -45,7 +50,6 @@ Status BundlePlayer::open(std::unique_ptr<BundleFiles> files) {
     state.walk = walkSceneOf(bundle_, storey, scene);
     storeys_.push_back(std::move(state));
   }
-  return {};
 }
 
 void BundlePlayer::setThreads(int threads) { runner_ = std::make_unique<TaskRunner>(threads - 1); }

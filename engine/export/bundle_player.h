@@ -21,6 +21,8 @@ class BundlePlayer {
  public:
   /// Reads the index. Nothing else may be called where this failed.
   Status open(std::unique_ptr<BundleFiles> files);
+  /// With an index that was read already.
+  void open(std::shared_ptr<const BundleFiles> files, Bundle bundle);
 
   const Bundle& bundle() const { return bundle_; }
   void setThreads(int threads);
@@ -86,7 +88,7 @@ class BundlePlayer {
   Status keepTexture(std::size_t texture, std::shared_ptr<const ColourImage> image);
   void showTextures();
 
-  std::unique_ptr<BundleFiles> files_;
+  std::shared_ptr<const BundleFiles> files_;
   Bundle bundle_;
   std::vector<StoreyState> storeys_;
   Images images_;  ///< by texture

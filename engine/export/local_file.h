@@ -3,6 +3,7 @@
 /// "Kind 4"). Nothing of the scene but its materials is needed to read it.
 
 #include <filesystem>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/scene/effect_plan.h"
@@ -18,6 +19,7 @@ LocalGeometry selfContained(const LocalGeometry& local, const Scene& scene, cons
                             const SurfaceLight* light, const FlatMirrors* mirrors);
 
 /// `local` is self-contained.
+Result<std::vector<std::byte>> localFileBytes(const LocalGeometry& local);
 Status writeLocalFile(const LocalGeometry& local, const std::filesystem::path& path);
 
 }  // namespace acentric

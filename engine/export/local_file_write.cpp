@@ -51,7 +51,7 @@ class UsedVertices {
   std::vector<std::uint32_t> number_;
 };
 
-Status write(const LocalGeometry& local, const std::filesystem::path& path) {
+Status fill(BlockFileWriter& file, const LocalGeometry& local) {
   require(local.surfaces != nullptr, "what a bundle holds is self-contained");
   const LocalSurfaces& surfaces = *local.surfaces;
   local_file::Arrays arrays;
@@ -72,7 +72,6 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
   for (const auto& planes : surfaces.mirrorPlanes)
     arrays.plane.insert(arrays.plane.end(), planes.begin(), planes.end());
 
-  BlockFileWriter file(BlockFileKind::localGeometry, {});
   for (const std::size_t count : {used.vertices.size(), arrays.triangle.size(), arrays.place.size(),
                                   arrays.source.size(), surfaces.light.light.size(), surfaces.meshes.size()})
     file.describe(static_cast<std::uint32_t>(count));
@@ -96,14 +95,23 @@ Status write(const LocalGeometry& local, const std::filesystem::path& path) {
                              if (added) added = file.addRecords(lanes, count);
                            });
   if (added && !light.empty()) added = file.addStream(light);
-  if (!added) return added;
-  return file.write(path);
+  return added;
 }
 
 }  // namespace
 
+Result<std::vector<std::byte>> localFileBytes(const LocalGeometry& local) {
+  BlockFileWriter file(BlockFileKind::localGeometry, {});
+  if (Status filled = fill(file, local); !filled) return tl::unexpected(filled.error());
+  return file.bytes();
+}
+
 Status writeLocalFile(const LocalGeometry& local, const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return write(local, path); });
+  return withinMemory(path, [&]() -> Status {
+    BlockFileWriter file(BlockFileKind::localGeometry, {});
+    if (Status filled = fill(file, local); !filled) return filled;
+    return file.write(path);
+  });
 }
 
 }  // namespace acentric

@@ -13,6 +13,7 @@
 #include "engine/export/bundle_json.h"
 #include "engine/export/bundle_read.h"
 #include "engine/export/walk_format.h"
+#include "engine/export/walk_page_write.h"
 #include "engine/store/packed_text.h"
 
 namespace acentric {
@@ -21,24 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = BundleJson;
 using namespace walk_format;
-
-/// Of one page that has others below it.
-constexpr std::size_t kMostChildren = 32;
-/// Regions so many steps from those of a page are in it too: an eye that crosses its border has seen nothing
-/// of the next page yet.
-constexpr int kStepsBeyond = 2;
-
-struct Box {
-  glm::dvec2 low{std::numeric_limits<double>::max()}, high{-std::numeric_limits<double>::max()};
-  void add(const glm::dvec2& point) { low = glm::min(low, point), high = glm::max(high, point); }
-  void add(const Box& other) { add(other.low), add(other.high); }
-};
-
-/// One storey of the index and of the bundle.
-struct Source {
-  const Json& json;
-  const BundleStorey& storey;
-};
 
 class WalkWriter {
  public:
@@ -145,85 +128,80 @@ class WalkWriter {
     for (const BundleTexture& texture : bundle_.textures) place(texture.file);
   }
 
-  /// A file of the index with its place.
-  Json placed(Json file) const {
-    if (file.is_object()) file["at"] = places_.at(file["file"].get<std::string>());
-    return file;
-  }
+  std::uint64_t placeOf(const BundleFile& file) const { return places_.at(file.path); }
 
-  Json addPage(const Json& page, const Box& box, bool leaf) {
+  Json addPage(const Json& page, const WalkBox& box, bool leaf) {
     const std::string text = jsonText(page);
     const std::vector<std::byte> bytes = packedText(text);
     const std::uint64_t at = pages_.size();
     pages_.insert(pages_.end(), bytes.begin(), bytes.end());
-    return {{"at", at},
-            {"bytes", bytes.size()},
-            {"raw", text.size()},
-            {"hash", hashText(bytes)},
-            {"box", {box.low.x, box.low.y, box.high.x, box.high.y}},
-            {"leaf", leaf}};
+    return pageEntry(at, bytes, text.size(), box, leaf);
   }
 
-  static Box boxOf(const BundleStorey& storey, std::span<const int> regions) {
-    Box box;
+  static WalkBox boxOf(const BundleStorey& storey, std::span<const int> regions) {
+    WalkBox box;
     for (const int region : regions)
       for (const glm::dvec2& corner : storey.layout.regions[std::size_t(region)].polygon.corners)
         box.add(corner);
     return box;
   }
 
-  /// The regions themselves, those around them, and the cameras of all of these, by numbers within the page.
-  Json leafOf(const Source& source, std::span<const int> regions) {
-    const BundleStorey& storey = source.storey;
-    const std::set<int> own(regions.begin(), regions.end());
+  /// The regions themselves and those around them.
+  static std::set<int> withBeyond(const BundleStorey& storey, const std::set<int>& own) {
     std::set<int> all = own, last = own;
-    for (int step = 0; step < kStepsBeyond; ++step) {
+    for (int step = 0; step < kWalkStepsBeyond; ++step) {
       std::set<int> next;
       for (const int region : last)
         for (const int neighbour : storey.neighbours[std::size_t(region)])
           if (all.insert(neighbour).second) next.insert(neighbour);
       last = std::move(next);
     }
+    return all;
+  }
+
+  /// The regions, those around them, and the cameras of all of these, by numbers within the page.
+  Json leafOf(const BundleStorey& storey, std::span<const int> regions) {
+    const std::set<int> own(regions.begin(), regions.end()), all = withBeyond(storey, own);
     std::map<int, int> number;  // in the order of the storey: an eye is in the first that holds it
     for (const int region : all) number.emplace(region, int(number.size()));
+    WalkLeaf leaf;
     std::map<int, int> cameraNumber;
-    Json cameras = Json::array(), listed = Json::array();
     const auto addCamera = [&](int camera) {
       const auto [found, isNew] = cameraNumber.emplace(camera, int(cameraNumber.size()));
       if (isNew) {
-        Json json = source.json["cameras"][std::size_t(camera)];
-        json["number"] = camera;
-        json["full"] = placed(json["full"]), json["coarse"] = placed(json["coarse"]);
-        cameras.push_back(std::move(json));
+        leaf.part.layout.cameras.push_back(storey.layout.cameras[std::size_t(camera)]);
+        leaf.part.cameras.push_back(storey.cameras[std::size_t(camera)]);
+        leaf.cameras.push_back(std::uint64_t(camera));
       }
       return found->second;
     };
-    const auto renumber = [&](Json covers) {
-      for (Json& cover : covers)
-        for (Json& piece : cover["pieces"]) piece["camera"] = addCamera(piece["camera"].get<int>());
+    const auto renumber = [&](std::vector<Cover> covers) {
+      for (Cover& cover : covers)
+        for (Piece& piece : cover.pieces) piece.camera = addCamera(piece.camera);
       return covers;
     };
-    for (const int region : all) {
-      Json json = source.json["regions"][std::size_t(region)];
-      json["number"] = region, json["own"] = own.contains(region);
-      json["local"] = placed(json["local"]);
-      json["covers"] = renumber(json["covers"]), json["panoramas"] = renumber(json["panoramas"]);
-      Json neighbours = Json::array();
-      for (const int neighbour : storey.neighbours[std::size_t(region)])
+    for (const int r : all) {
+      const auto region = std::size_t(r);
+      leaf.regions.push_back(region), leaf.own.push_back(own.contains(r) ? 1 : 0);
+      leaf.part.layout.regions.push_back(storey.layout.regions[region]);
+      std::vector<Cover>& covers = leaf.part.layout.regions.back().covers;
+      covers = renumber(std::move(covers));
+      leaf.part.layout.panoramas.push_back(renumber(storey.layout.panoramas[region]));
+      leaf.part.local.push_back(storey.local[region]);
+      leaf.part.neighbours.emplace_back();
+      for (const int neighbour : storey.neighbours[region])
         if (const auto found = number.find(neighbour); found != number.end())
-          neighbours.push_back(found->second);
-      json["neighbours"] = std::move(neighbours);
-      listed.push_back(std::move(json));
+          leaf.part.neighbours.back().push_back(found->second);
     }
     // Cameras that nothing shows go with the first page.
     for (const int camera : unused_) addCamera(camera);
-    return {{"cameras", std::move(cameras)}, {"regions", std::move(listed)}};
+    return leafPage(leaf, [this](const BundleFile& file) { return placeOf(file); });
   }
 
   /// Halves along the longer side.
   static std::pair<std::vector<int>, std::vector<int>> halves(const BundleStorey& storey,
                                                               std::vector<int> regions) {
-    Box middles;
+    WalkBox middles;
     const auto middleOf = [&](int region) {
       return storey.layout.regions[std::size_t(region)].polygon.centroid();
     };
@@ -235,11 +213,11 @@ class WalkWriter {
   }
 
   /// The entry of the page that holds these regions, or of the one above those that do.
-  Json pageOf(const Source& source, std::vector<int> regions) {
-    const Box box = boxOf(source.storey, regions);
+  Json pageOf(const BundleStorey& storey, std::vector<int> regions) {
+    const WalkBox box = boxOf(storey, regions);
     auto most = std::size_t(options_.regionsPerPage);
     if (regions.size() <= most) {
-      const Json leaf = leafOf(source, regions);
+      const Json leaf = leafOf(storey, regions);
       if (regions.size() == 1 || jsonText(leaf).size() <= kMostPageBytes) {
         unused_.clear();
         return addPage(leaf, box, true);
@@ -247,16 +225,16 @@ class WalkWriter {
       most = (regions.size() + 1) / 2;  // no reader takes it as it is
     }
     std::vector<std::vector<int>> parts{std::move(regions)};
-    while (parts.size() < kMostChildren) {
+    while (parts.size() < kMostWalkChildren) {
       const auto largest = std::ranges::max_element(parts, {}, &std::vector<int>::size);
       if (largest->size() <= most) break;
-      auto [low, high] = halves(source.storey, std::move(*largest));
+      auto [low, high] = halves(storey, std::move(*largest));
       *largest = std::move(low);
       parts.push_back(std::move(high));
     }
-    Json children = Json::array();
-    for (std::vector<int>& part : parts) children.push_back(pageOf(source, std::move(part)));
-    return addPage({{"pages", std::move(children)}}, box, false);
+    std::vector<Json> children;
+    for (std::vector<int>& part : parts) children.push_back(pageOf(storey, std::move(part)));
+    return addPage(innerPage(std::move(children)), box, false);
   }
 
   static std::set<int> camerasUnusedIn(const BundleStorey& storey) {
@@ -269,22 +247,20 @@ class WalkWriter {
 
   Json rootJson() {
     Json root = index_;
-    for (Json& texture : root["textures"]) texture = placed(texture);
+    for (std::size_t t = 0; t < bundle_.textures.size(); ++t)
+      root["textures"][t] = placedFile(root["textures"][t], placeOf(bundle_.textures[t].file));
     for (std::size_t s = 0; s < bundle_.storeys.size(); ++s) {
       const BundleStorey& storey = bundle_.storeys[s];
-      const Source source{index_["storeys"][s], storey};
       std::vector<int> all(storey.layout.regions.size());
       for (std::size_t r = 0; r < all.size(); ++r) all[r] = int(r);
       unused_ = camerasUnusedIn(storey);
-      Json& json = root["storeys"][s];
-      json.erase("cameras"), json.erase("regions");
-      double top = -HUGE_VAL, bottom = HUGE_VAL;
-      for (const BundleCamera& camera : storey.cameras)
-        top = std::max(top, camera.topElevation), bottom = std::min(bottom, camera.bottomElevation);
-      json["topElevation"] = storey.cameras.empty() ? 0 : top;
-      json["bottomElevation"] = storey.cameras.empty() ? 0 : bottom;
-      json["cameraCount"] = storey.cameras.size(), json["regionCount"] = all.size();
-      json["page"] = all.empty() ? Json() : pageOf(source, std::move(all));
+      WalkStoreyCounts counts{storey.cameras.size(), all.size(), -HUGE_VAL, HUGE_VAL};
+      for (const BundleCamera& camera : storey.cameras) {
+        counts.topElevation = std::max(counts.topElevation, camera.topElevation);
+        counts.bottomElevation = std::min(counts.bottomElevation, camera.bottomElevation);
+      }
+      if (storey.cameras.empty()) counts.topElevation = counts.bottomElevation = 0;
+      putPage(root["storeys"][s], counts, all.empty() ? Json() : pageOf(storey, std::move(all)));
     }
     return root;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "engine/export/walk_read.h"
 #include "engine/geometry/conventions.h"
@@ -43,10 +44,14 @@ std::uint64_t bytesOf(const Bundle& bundle) {
 }
 
 /// Bundles keep no lattice. Numbers tell regions and cameras apart, and cells are as large as a region's
-/// edges are long.
-std::shared_ptr<const Layout> numbered(Layout layout) {
-  for (std::size_t r = 0; r < layout.regions.size(); ++r) layout.regions[r].id = {int(r), 0, 0};
-  for (std::size_t c = 0; c < layout.cameras.size(); ++c) layout.cameras[c].id = {int(c), 0, 0};
+/// edges are long. `regions` and `cameras`: the numbers; empty: in order.
+std::shared_ptr<const Layout> numbered(Layout layout, std::span<const std::uint64_t> regions = {},
+                                       std::span<const std::uint64_t> cameras = {}) {
+  const auto number = [](std::span<const std::uint64_t> numbers, std::size_t i) {
+    return int(numbers.empty() ? i : numbers[i]);
+  };
+  for (std::size_t r = 0; r < layout.regions.size(); ++r) layout.regions[r].id = {number(regions, r), 0, 0};
+  for (std::size_t c = 0; c < layout.cameras.size(); ++c) layout.cameras[c].id = {number(cameras, c), 0, 0};
   if (!layout.regions.empty()) {
     const auto& corners = layout.regions.front().polygon.corners;
     double around = 0;
@@ -165,6 +170,25 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
   if (const Status sound = projectOf(*walk).check(); !sound)
     return fail(sound.error().kind, sound.error().describe(), file.string());
   if (Status read = readAll(*walk, runner, progress, stop); !read) return tl::unexpected(read.error());
+  return walk;
+}
+
+Result<ShippedWalkPtr> shippedPlace(const WalkPlace& place, const std::filesystem::path& file,
+                                    const ShippedWalk* former, TaskRunner& runner,
+                                    const std::stop_token& stop) {
+  auto walk = std::make_shared<ShippedWalk>();
+  walk->file = file;
+  walk->files = place.files;
+  walk->bundle = place.bundle;
+  walk->bytes = bytesOf(walk->bundle);
+  for (std::size_t s = 0; s < walk->bundle.storeys.size(); ++s)
+    walk->layouts.push_back(s == place.storey ? numbered(place.here().layout, place.regions, place.cameras)
+                                              : numbered(walk->bundle.storeys[s].layout));
+  if (former != nullptr) {
+    walk->scene = former->scene, walk->rays = former->rays;
+  } else if (Status read = readAll(*walk, runner, {}, stop); !read) {
+    return tl::unexpected(read.error());
+  }
   return walk;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/export/bundle_read.h"
+#include "engine/export/walk_pages.h"
 #include "engine/pipeline/bake_plan.h"
 #include "engine/pipeline/walk_source.h"
 
@@ -16,7 +16,7 @@ namespace acentric {
 
 struct ShippedWalk {
   std::filesystem::path file;  ///< the walk's, or the bundle's folder
-  std::unique_ptr<const BundleFiles> files;
+  std::shared_ptr<const BundleFiles> files;
   Bundle bundle;
   std::uint64_t bytes = 0;  ///< of the walk's file, or of those that the bundle names
   ScenePtr scene;           ///< materials, textures and sky; no triangle
@@ -29,6 +29,12 @@ using ShippedWalkPtr = std::shared_ptr<const ShippedWalk>;
 /// Reads the index and the textures.
 Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRunner& runner,
                                        const Progress& progress = {}, const std::stop_token& stop = {});
+
+/// One place of a walk that is read page by page: regions and cameras of one storey are those of the page,
+/// their ids number them in the storey. `former`: of another place of the same walk, whose textures it has.
+Result<ShippedWalkPtr> shippedPlace(const WalkPlace& place, const std::filesystem::path& file,
+                                    const ShippedWalk* former, TaskRunner& runner,
+                                    const std::stop_token& stop = {});
 
 /// What a project would say of it: storeys, how it is shown, bookmarks and paths.
 Project projectOf(const ShippedWalk& walk);

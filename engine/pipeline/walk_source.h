@@ -32,7 +32,8 @@ class WalkSource {
 
 /// A walk before its first capture is there.
 struct WalkStart {
-  LoadedWalk walk;
+  LoadedWalk walk;                                            ///< the captures in it are full ones
+  std::vector<std::shared_ptr<const DisplayCapture>> coarse;  ///< by camera, that are there; empty: none
   std::shared_ptr<const WalkSource> source;
 };
 

@@ -55,6 +55,11 @@ WalkStream::WalkStream(WalkStart start, WalkStreamOptions options)
   guessBytes();
   for (std::size_t c = 0; c < cameras; ++c)
     if (now_.walk.captures[c]) insert(Detail::full, int(c), now_.walk.captures[c], false);
+  guessBytes();
+  for (std::size_t c = 0; c < start.coarse.size(); ++c)
+    if (start.coarse[c] && !(allFit_ && now_.walk.captures[c]))
+      insert(Detail::coarse, int(c), std::move(start.coarse[c]),
+             source_->storedBytes(int(c), Detail::coarse) == 0);
   locals_.assign(now_.walk.local.size(), Residence::absent);
   for (std::size_t r = 0; r < locals_.size(); ++r)
     if (now_.walk.local[r]) locals_[r] = Residence::resident;
@@ -107,6 +112,11 @@ WalkStreamStats WalkStream::stats() const {
   for (std::size_t c = 0; c < now_.walk.captures.size(); ++c)
     if (now_.walk.captures[c]) ++(now_.standsIn[c] ? stats.coarse : stats.full);
   return stats;
+}
+
+WalkStream::Held WalkStream::held() const {
+  const std::lock_guard lock(state_);
+  return {tier(Detail::full).captures, tier(Detail::coarse).captures, now_.walk.local};
 }
 
 // The loaders

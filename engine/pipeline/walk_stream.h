@@ -66,6 +66,13 @@ class WalkStream {
   bool busy() const;
   WalkStreamStats stats() const;
 
+  /// What is in memory now, for a stream that takes its place.
+  struct Held {
+    std::vector<std::shared_ptr<const DisplayCapture>> full, coarse;  ///< by camera
+    std::vector<std::shared_ptr<const LocalGeometry>> local;          ///< by region
+  };
+  Held held() const;
+
   /// Reads what is missing of these in full, on the runner's threads, and returns when the newest snapshot
   /// has it: whoever holds an older one holds what is evicted, too. Only of a stream without threads of its
   /// own. Fails only when stopped.

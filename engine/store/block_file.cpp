@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
 
+#include "engine/base/contract.h"
 #include "engine/base/file.h"
 
 namespace acentric {
@@ -59,8 +61,12 @@ Status BlockFileWriter::addBlock(std::span<const std::byte> raw) {
   if (raw.size() > kMaxBlockBytes) return fail(ErrorKind::tooLarge, "a block exceeds 16 MiB");
   if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "writing was stopped");
   std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
-  const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), kCompressionLevel);
+  // One for all blocks of a thread: small ones take less than the making of another.
+  thread_local const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                                  &ZSTD_freeCCtx);
+  if (!context) return fail(ErrorKind::outOfSpace, "not enough memory to pack a block");
+  const std::size_t size = ZSTD_compressCCtx(context.get(), packed.data(), packed.size(), raw.data(),
+                                             raw.size(), kCompressionLevel);
   if (ZSTD_isError(size))
     return fail(ErrorKind::internal, std::string("compression failed: ") + ZSTD_getErrorName(size));
   stored_.emplace_back(packed.begin(), packed.begin() + std::ptrdiff_t(size));
@@ -88,7 +94,7 @@ Status BlockFileWriter::addRecords(std::span<const ConstLane> lanes, std::size_t
   return {};
 }
 
-Status BlockFileWriter::write(const std::filesystem::path& path) const {
+BlockFileWriter::Frame BlockFileWriter::frame() const {
   const std::uint64_t contentBytes =
       kPreambleBytes + description_.size() + sizes_.size() * kTableEntryBytes + storedBytes_ + kChecksumBytes;
   const std::uint64_t fileBytes =
@@ -109,16 +115,39 @@ Status BlockFileWriter::write(const std::filesystem::path& path) const {
     put(out, size.stored);
   }
   std::vector<std::byte> end(fileBytes - contentBytes);
-  std::vector<std::span<const std::byte>> parts{out};
-  parts.insert(parts.end(), stored_.begin(), stored_.end());
-  parts.push_back(end);
   Hasher hasher;
-  for (const auto& part : parts) hasher.bytes(part.data(), part.size());
-  const ContentKey checksum = hasher.finish();
+  hasher.bytes(out.data(), out.size());
+  for (const auto& block : stored_) hasher.bytes(block.data(), block.size());
+  const ContentKey checksum = hasher.bytes(end.data(), end.size()).finish();
   put(end, checksum.high);
   put(end, checksum.low);
-  parts.back() = end;
+  return {std::move(out), std::move(end)};
+}
+
+Status BlockFileWriter::write(const std::filesystem::path& path) const {
+  const Frame around = frame();
+  std::vector<std::span<const std::byte>> parts{around.before};
+  parts.insert(parts.end(), stored_.begin(), stored_.end());
+  parts.push_back(around.behind);
   return writeFileAtomically(path, parts, stop_);
+}
+
+std::vector<std::byte> BlockFileWriter::bytes() const {
+  auto [all, behind] = frame();
+  for (const auto& block : stored_) all.insert(all.end(), block.begin(), block.end());
+  all.insert(all.end(), behind.begin(), behind.end());
+  return std::move(all);
+}
+
+void describeAnew(std::span<std::byte> file, std::size_t at, std::span<const std::byte> values) {
+  require(file.size() > kPreambleBytes + kChecksumBytes &&
+              at + values.size() <= file.size() - kPreambleBytes - kChecksumBytes,
+          "a description lies within its file");
+  std::memcpy(file.data() + kPreambleBytes + at, values.data(), values.size());
+  const std::size_t checked = file.size() - kChecksumBytes;
+  const ContentKey checksum = Hasher().bytes(file.data(), checked).finish();
+  std::memcpy(file.data() + checked, &checksum.high, 8);
+  std::memcpy(file.data() + checked + 8, &checksum.low, 8);
 }
 
 Result<BlockFileReader> BlockFileReader::open(const std::filesystem::path& path, BlockFileKind kind) {

@@ -59,8 +59,15 @@ class BlockFileWriter {
   /// What a reader will need besides the blocks as they are unpacked: the file is made long enough for it.
   void claim(std::uint64_t bytes) { claimedBytes_ += bytes; }
   Status write(const std::filesystem::path& path) const;
+  /// What `write` writes.
+  std::vector<std::byte> bytes() const;
 
  private:
+  /// All but the blocks: what is before them and behind.
+  struct Frame {
+    std::vector<std::byte> before, behind;
+  };
+  Frame frame() const;
   struct BlockSize {
     std::uint32_t raw = 0;
     std::uint32_t stored = 0;
@@ -76,6 +83,10 @@ class BlockFileWriter {
   std::uint64_t rawBytes_ = 0;
   std::uint64_t claimedBytes_ = 0;
 };
+
+/// Puts other values into the description of a file that is sound, from its byte `at` on, and makes its
+/// checksum anew.
+void describeAnew(std::span<std::byte> file, std::size_t at, std::span<const std::byte> values);
 
 class BlockFileReader {
  public:

@@ -2,6 +2,7 @@
 /// What a file holds together with the content key that it says it was made for.
 
 #include <functional>
+#include <span>
 #include <stop_token>
 
 #include "engine/base/hash.h"
@@ -29,6 +30,8 @@ using AcceptPack = std::function<Status(const PackHead&)>;
 /// Of a pack's bytes; `name` is for messages. What `accept` refuses is not unpacked.
 Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name,
                                       const AcceptPack& accept = {});
+/// Makes a sound pack that of a camera which stands elsewhere on the plan and sees the same.
+void movePack(std::span<std::byte> pack, const glm::dvec2& place);
 Result<Keyed<SurfaceLight>> readKeyedSurfaceLight(const std::filesystem::path& path);
 Status writeSurfaceLightPart(const SurfaceLightPart& part, const ContentKey& key,
                              const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "engine/store/keyed.h"
+
 namespace acentric {
 namespace {
 
@@ -29,6 +31,11 @@ void describeHead(BlockFileWriter& file, const Capture& capture) {
   const Sky& sky = capture.background.sky;
   for (const glm::vec3& radiance : {sky.zenith, sky.horizon, sky.ground})
     for (int i = 0; i < 3; ++i) file.describe(radiance[i]);
+}
+
+void movePack(std::span<std::byte> pack, const glm::dvec2& place) {
+  const double values[] = {place.x, place.y};
+  describeAnew(pack, 0, std::as_bytes(std::span(values)));
 }
 
 PackCounts describedHead(BlockFileReader& file, Capture& capture) {

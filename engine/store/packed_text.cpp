@@ -3,15 +3,10 @@
 #include <zstd.h>
 
 namespace acentric {
-namespace {
 
-constexpr int kCompressionLevel = 15;  // it is written once
-
-}  // namespace
-
-std::vector<std::byte> packedText(const std::string& text) {
+std::vector<std::byte> packedText(const std::string& text, int level) {
   std::vector<std::byte> packed(ZSTD_compressBound(text.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), kCompressionLevel));
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), level));
   return packed;
 }
 

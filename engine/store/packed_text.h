@@ -10,7 +10,10 @@
 
 namespace acentric {
 
-std::vector<std::byte> packedText(const std::string& text);
+/// Of zstd; what is written once and read often is worth a high one.
+inline constexpr int kUsualTextLevel = 15;
+
+std::vector<std::byte> packedText(const std::string& text, int level = kUsualTextLevel);
 /// Nothing where it does not unpack to so many bytes.
 std::optional<std::string> unpackedText(std::span<const std::byte> packed, std::uint64_t bytes);
 

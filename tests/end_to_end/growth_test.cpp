@@ -59,5 +59,32 @@ TEST(BenchGrowth, LeavesOutRenderersWhereTheyCannotHoldTheScene) {
   EXPECT_TRUE(std::filesystem::exists(chart));
 }
 
+TEST(BenchWalkGrowth, WalksThroughEachLayoutAndTellsWhatItTook) {
+  const TemporaryFolder folder("walk-growth");
+  const std::string chart = (folder.path() / "growth.svg").string();
+  const Json json =
+      jsonOf({"bench", "walk-growth", "--regions", "800,60", "--frames", "40", "--samples-per-degree", "1",
+              "--size", "96x54", "--memory", "4", "--speed", "6", "--chart", chart});
+  ASSERT_EQ(json["walks"].size(), 2U);
+  const Json &small = json["walks"][0], &large = json["walks"][1];
+  EXPECT_GE(small["regions"], 60);
+  EXPECT_GE(large["regions"], 800);
+  EXPECT_GT(large["pages"], small["pages"]);
+  for (const Json& walk : json["walks"]) {
+    EXPECT_EQ(walk["frames"], 40);
+    EXPECT_GT(walk["regionsWalked"], 2);
+    EXPECT_GT(walk["loads"], 0);
+    EXPECT_GT(walk["evictions"], 0);
+    EXPECT_GT(walk["frameMsMedian"].get<double>(), 0);
+    EXPECT_GT(walk["processorMs"].get<double>(), 0);
+    EXPECT_GT(walk["residentBytesPeak"].get<double>(), walk["peakBytes"].get<double>());
+    EXPECT_EQ(walk["limitBytes"], 4000000);
+    EXPECT_TRUE(walk["warnings"].empty()) << walk["warnings"];
+  }
+  EXPECT_LT(large["openBytes"].get<double>(), large["indexBytes"].get<double>() / 4);
+  EXPECT_LT(large["pageRegions"], large["regions"]);
+  EXPECT_TRUE(std::filesystem::exists(chart));
+}
+
 }  // namespace
 }  // namespace acentric::test

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "engine/base/file.h"
+#include "engine/export/walk_pages.h"
 #include "engine/export/walk_write.h"
 #include "tests/store/temporary_folder.h"
 
@@ -171,6 +172,96 @@ TEST_F(WalkTest, RefusesWhatIsDamagedOrCutOff) {
     EXPECT_FALSE(opened({sound.begin(), sound.begin() + std::ptrdiff_t(length)})) << length;
 }
 
+/// Page by page against the whole.
+TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
+  std::uniform_real_distribution<double> anywhere(-2, kSide + 2);
+  for (const int regionsPerPage : {1, 5, 64, 4096}) {
+    std::vector<std::pair<std::uint64_t, std::size_t>> reads;
+    auto pages = WalkPages::open(std::make_shared<CountedRanges>(written({regionsPerPage}), reads), "grid");
+    ASSERT_TRUE(pages) << pages.error().describe();
+    EXPECT_EQ((*pages)->regionCount(0), std::uint64_t(kSide * kSide));
+    EXPECT_TRUE((*pages)->root().storeys[0].layout.regions.empty());
+    EXPECT_EQ((*pages)->root().storeys[1].start, bundle_.storeys[1].start);
+    for (int n = 0; n < 30; ++n) {
+      const std::size_t s = n % 2;
+      const BundleStorey& whole = bundle_.storeys[s];
+      const glm::dvec2 point = n % 5 == 0 ? glm::dvec2(n % kSide, n / 5 % kSide)  // a corner of regions
+                                          : glm::dvec2(anywhere(random_), anywhere(random_));
+      const auto found = (*pages)->placeAt(s, point);
+      ASSERT_TRUE(found) << found.error().describe();
+      const WalkPlace& place = **found;
+      const BundleStorey& here = place.here();
+      EXPECT_TRUE(place.bundle.storeys[1 - s].layout.regions.empty());
+      const auto number = whole.layout.regionAt(point), local = here.layout.regionAt(point);
+      ASSERT_EQ(number.has_value(), local.has_value());
+      const int nearest = here.layout.nearestRegion(point).region;
+      const auto r = std::size_t(local.value_or(nearest));
+      EXPECT_EQ(place.own[r], 1);
+      if (number) {
+        EXPECT_EQ(place.regions[r], std::uint64_t(*number));
+      }
+      EXPECT_NEAR(glm::distance(whole.layout.nearestRegion(point).point, point),
+                  glm::distance(here.layout.nearestRegion(point).point, point), 1e-12);
+      for (std::size_t i = 0; i < place.regions.size(); ++i) {
+        const auto of = std::size_t(place.regions[i]);
+        EXPECT_EQ(here.layout.regions[i].polygon.corners, whole.layout.regions[of].polygon.corners);
+        EXPECT_EQ(here.local[i], whole.local[of]);
+        const auto &pieces = here.layout.regions[i].covers[0].pieces,
+                   &all = whole.layout.regions[of].covers[0].pieces;
+        ASSERT_EQ(pieces.size(), all.size());
+        for (std::size_t p = 0; p < pieces.size(); ++p)
+          EXPECT_EQ(place.cameras[std::size_t(pieces[p].camera)], std::uint64_t(all[p].camera));
+        if (place.own[i] == 0) continue;
+        EXPECT_EQ(here.neighbours[i].size(), whole.neighbours[of].size()) << "all are in the page";
+        for (std::size_t k = 0; k < here.neighbours[i].size(); ++k)
+          EXPECT_EQ(place.regions[std::size_t(here.neighbours[i][k])],
+                    std::uint64_t(whole.neighbours[of][k]));
+      }
+      for (std::size_t c = 0; c < place.cameras.size(); ++c) {
+        EXPECT_EQ(here.cameras[c], whole.cameras[std::size_t(place.cameras[c])]);
+        if (!here.cameras[c].full) continue;  // the one that nothing shows
+        const std::string& path = here.cameras[c].full->file.path;
+        EXPECT_EQ(*place.files->read(path, 1 << 20), files_[path]);
+      }
+      EXPECT_EQ(*place.files->read("textures/a.png", 1 << 20), files_["textures/a.png"]);
+      const std::size_t before = reads.size();
+      EXPECT_EQ(*(*pages)->placeAt(s, point), *found) << "it is kept";
+      EXPECT_EQ(reads.size(), before);
+    }
+    EXPECT_FALSE((*pages)->placeAt(2, {0, 0}));
+  }
+}
+
+TEST_F(WalkTest, APlaceThatIsDamagedIsNamedAndTheOthersAreStillThere) {
+  std::vector<std::byte> bytes = written({4});
+  const auto u64 = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  const std::uint64_t pageStart = u64(40), dataStart = u64(48);
+  const glm::dvec2 points[] = {{0.5, 0.5}, {13.5, 0.5}, {7.5, 7.5}, {0.5, 13.5}};
+  std::vector<std::pair<std::uint64_t, std::size_t>> reads;
+  int damaged = 0, sound = 0;
+  for (std::uint64_t at = pageStart; at < dataStart; at += 1 + (dataStart - pageStart) / 60) {
+    std::vector<std::byte> broken = bytes;
+    broken[at] ^= std::byte(0x20);
+    auto pages = WalkPages::open(std::make_shared<CountedRanges>(std::move(broken), reads), "grid");
+    ASSERT_TRUE(pages) << "the root is sound";
+    for (const glm::dvec2& point : points) {
+      const auto place = (*pages)->placeAt(0, point);
+      ++(place ? sound : damaged);
+      if (!place) {
+        EXPECT_NE(place.error().describe().find("grid"), std::string::npos);
+      }
+    }
+  }
+  EXPECT_GT(damaged, 0);
+  EXPECT_GT(sound, damaged);
+  bytes[100] ^= std::byte(1);
+  EXPECT_FALSE(WalkPages::open(std::make_shared<CountedRanges>(bytes, reads), "grid"));
+}
+
 TEST_F(WalkTest, OpensByWhatAnEyeNeedsOfItsIndex) {
   // All pages that lead to one region, the root with them: little, however many regions there are.
   const std::vector<std::byte> bytes = written({4});
@@ -182,6 +273,13 @@ TEST_F(WalkTest, OpensByWhatAnEyeNeedsOfItsIndex) {
   const std::uint64_t root = u64(24), pageStart = u64(40), dataStart = u64(48);
   EXPECT_EQ(pageStart, 88 + root);
   EXPECT_LT(root, (dataStart - pageStart) / 20);
+  std::vector<std::pair<std::uint64_t, std::size_t>> reads;
+  auto pages = WalkPages::open(std::make_shared<CountedRanges>(bytes, reads), "grid");
+  ASSERT_TRUE((*pages)->placeAt(0, {7.5, 3.5}));
+  std::uint64_t read = 0;
+  for (const auto& [at, size] : reads) read += size;
+  EXPECT_EQ(read, (*pages)->stats().bytes);
+  EXPECT_LT(read, dataStart / 5);
 }
 
 }  // namespace

@@ -97,6 +97,18 @@ class Figures(unittest.TestCase):
         self.assertIn("| exact sign | 18.76 ns | 18 to 20.5 | naive: 4.75 ns | 3.95 |", text)
         self.assertNotIn("send", text)
 
+    def test_walks_through_ever_more_regions_have_a_row_each(self):
+        walk = {"regions": 1000000, "openSeconds": 0.125, "openBytes": 150000, "firstFrameSeconds": 0.25, "firstFrameBytes": 180000,
+                "frameMsMedian": 12.34, "frameMsP99": 30, "frameMsMax": 41, "processorMs": 20.04, "residentBytesPeak": 456e6,
+                "peakBytes": 128e6, "loads": 1234, "coarseLoads": 500, "evictions": 800, "coarseFrames": 16, "incompleteFrames": 0}
+        measured = self.root / "walks.json"
+        measured.write_text(json.dumps({"walks": [walk | {"regions": 100}, walk]}))
+        self.assertEqual(self.run_tool("import", "grown", str(measured)), 0)
+        self.document.write_text("<!-- figures walks grown -->\n<!-- /figures -->\n")
+        self.assertEqual(self.run_tool("write"), 0)
+        self.assertIn("| 1,000,000 | 125 ms, 150 kB | 250 ms, 180 kB | 12.3 / 30.0 / 41 ms | 20.0 ms | 456 MB | 128 MB | 1,234 + 500 / 800 | 16 / 0 |",
+                      self.document.read_text())
+
     def test_a_document_that_says_something_else_is_seen(self):
         self.assertEqual(self.run_tool("check"), 1)
         self.run_tool("write")

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/export/walk_format.h"
-#include "engine/export/walk_read.h"
+#include "engine/export/walk_pages.h"
 #include "engine/store/packed_text.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -56,6 +56,16 @@ bool accepts(const std::uint8_t* data, std::size_t size) {
   std::vector<std::byte> bytes;
   append(bytes, walk_format::headerBytes(header)), append(bytes, packed), append(bytes, page);
   bytes.resize(header.fileBytes);
+  if (auto pages = WalkPages::open(std::make_shared<Memory>(bytes), "walk")) {
+    const std::size_t storeys = (*pages)->root().storeys.size();
+    for (std::size_t s = 0; s < storeys; ++s)
+      for (const glm::dvec2 point : {glm::dvec2(0), glm::dvec2(0.5), glm::dvec2(1e6, -3)}) {
+        const auto place = (*pages)->placeAt(s, point);
+        if (!place) continue;
+        for (const BundleCamera& camera : (*place)->here().cameras)
+          if (camera.full) static_cast<void>((*place)->files->read(camera.full->file.path, 1 << 20));
+      }
+  }
   const auto files = walkFiles(std::make_unique<Memory>(std::move(bytes)), "walk");
   if (!files) return false;
   const auto bundle = readBundle(**files);

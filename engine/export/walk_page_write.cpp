@@ -1,0 +1,61 @@
+#include "engine/export/walk_page_write.h"
+
+#include "engine/base/contract.h"
+#include "engine/export/walk_format.h"
+
+namespace acentric {
+
+using Json = BundleJson;
+
+Json placedFile(Json file, std::uint64_t at) {
+  if (file.is_object()) file["at"] = at;
+  return file;
+}
+
+Json leafPage(const WalkLeaf& leaf, const PlaceOfFile& placeOf) {
+  const BundleStorey& part = leaf.part;
+  require(leaf.cameras.size() == part.cameras.size() && leaf.regions.size() == part.layout.regions.size() &&
+              leaf.own.size() == leaf.regions.size(),
+          "each camera and region of a page has a number");
+  Json lists = placesJson(part);
+  const auto put = [&](Json& json, const auto& described) {
+    if (described) json["at"] = placeOf(described->file);
+  };
+  for (std::size_t c = 0; c < leaf.cameras.size(); ++c) {
+    Json& camera = lists["cameras"][c];
+    camera["number"] = leaf.cameras[c];
+    put(camera["full"], part.cameras[c].full), put(camera["coarse"], part.cameras[c].coarse);
+  }
+  for (std::size_t r = 0; r < leaf.regions.size(); ++r) {
+    Json& region = lists["regions"][r];
+    region["number"] = leaf.regions[r], region["own"] = leaf.own[r] != 0;
+    put(region["local"], part.local[r]);
+  }
+  return lists;
+}
+
+Json innerPage(std::vector<Json> entries) {
+  require(entries.size() <= kMostWalkChildren, "a page has so many below it");
+  Json pages = Json::array();
+  for (Json& entry : entries) pages.push_back(std::move(entry));
+  return {{"pages", std::move(pages)}};
+}
+
+Json pageEntry(std::uint64_t at, std::span<const std::byte> bytes, std::uint64_t raw, const WalkBox& box,
+               bool leaf) {
+  return {{"at", at},
+          {"bytes", bytes.size()},
+          {"raw", raw},
+          {"hash", walk_format::hashText(bytes)},
+          {"box", {box.low.x, box.low.y, box.high.x, box.high.y}},
+          {"leaf", leaf}};
+}
+
+void putPage(Json& storey, const WalkStoreyCounts& counts, Json page) {
+  storey.erase("cameras"), storey.erase("regions");
+  storey["topElevation"] = counts.topElevation, storey["bottomElevation"] = counts.bottomElevation;
+  storey["cameraCount"] = counts.cameras, storey["regionCount"] = counts.regions;
+  storey["page"] = std::move(page);
+}
+
+}  // namespace acentric
