@@ -34,9 +34,11 @@ uint sourceOf(uvec4 state) { return state.z >> 4 & 0xffffu; }
 uint densityOf(uvec4 state) { return state.z >> 20; }
 // What is sampled more thinly is painted again from the second cover, and shown so where that is denser by this factor (kDenser).
 const uint kThinDensity = 2048u;
-bool isThin(uvec4 first) { return first.z != 0u && densityOf(first) < kThinDensity; }
+// Not through glass, which the other cover may lack. `sums`: of the same cover.
+bool isThin(uvec4 first, vec4 sums) { return first.z != 0u && sums.w == 1.0 && densityOf(first) < kThinDensity; }
 // Does the second show the same surface, and more densely? Neither lies before the other (Cracks::kBefore).
-bool isDenser(uvec4 first, uvec4 second) {
+bool isDenser(uvec4 first, uvec4 second, vec4 sums) {
+  if (sums.w != 1.0) return false;
   float one = uintBitsToFloat(first.w), other = uintBitsToFloat(second.w);
   return one < 1.03 * other && other < 1.03 * one && float(densityOf(second)) > 1.25 * float(densityOf(first));
 }

@@ -54,7 +54,7 @@ void main() {
   if (isCrack(at)) {
     if (liesBehindCrack(depth)) discard;
   } else if (first.z != 0u) {
-    if (!isDenser(first, state)) discard;
+    if (!isDenser(first, state, sum)) discard;
     depth = max(depth, captureDepth(uintBitsToFloat(first.w)));
   }
 #endif

@@ -85,7 +85,7 @@ std::string cellsText(const Layout& layout) {
   return fmt::format("{:g} to {:g} m", edge(*largest), edge(*finest));
 }
 
-/// What the first bake will take, at a glance. `known`: what is foretold already.
+/// What the first bake will take, at a glance. `known`: what is predicted already.
 Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<Result<BakeForecast>>& known,
                const std::filesystem::path& project, const Common& common, Report& report) {
   std::size_t cameras = 0;

@@ -6,7 +6,7 @@
 namespace acentric {
 namespace {
 
-constexpr int kMostRounds = 3;      // of laying out and foretelling
+constexpr int kMostRounds = 3;      // of laying out and predicting
 constexpr double kMostAsked = 1e9;  // cameras: more than any layout has
 
 std::size_t smaller(std::size_t cameras, std::size_t most) {
@@ -49,7 +49,7 @@ Result<LimitedBy> layOutWithin(const BakeLimit& limit) {
     return tl::unexpected(done.error());
   const bool room = laid.whole && laid.cameras <= kRoomCameras;
   for (int round = 0; timed && !room && round < kMostRounds; ++round) {
-    const auto seconds = limit.foretell();
+    const auto seconds = limit.predict();
     if (!seconds || !(*seconds > 0)) break;
     known = true;
     const double share = *seconds / limit.seconds;

@@ -1,7 +1,7 @@
 #pragma once
 /// How many cameras a new project may have so that its bake takes no longer than asked. A part of the ground
-/// is laid out on trial, what that takes is foretold, and as much is laid out as its rate lets. Laying out
-/// and foretelling are injected: the pipeline wires them, tests have rates of their own.
+/// is laid out on trial, what that takes is predicted, and as much is laid out as its rate lets. Laying out
+/// and predicting are injected: the pipeline wires them, tests have rates of their own.
 
 #include <cstdint>
 #include <functional>
@@ -27,12 +27,13 @@ struct BakeLimit {
   /// Lays out as much as so many cameras serve (0: all). What is laid out last stays.
   std::function<Result<LaidOut>(std::size_t mostCameras)> layOut;
   /// Seconds that baking it takes; nothing where that is not known in time.
-  std::function<std::optional<double>()> foretell;
+  std::function<std::optional<double>()> predict;
 };
 
-/// The trial has no more cameras. Where nothing can be foretold of it, it stays.
+/// The trial has no more cameras. Where nothing can be predicted of it, it stays.
 inline constexpr std::size_t kTrialCameras = 500;
-/// All of the ground in no more cameras than a room has is laid out whatever it takes, and nothing foretold.
+/// All of the ground in no more cameras than a room has is laid out whatever it takes, and nothing is
+/// predicted.
 inline constexpr std::size_t kRoomCameras = 300;
 /// However little time there is, so many cameras may be: a region or two.
 inline constexpr std::size_t kFewestCameras = 64;

@@ -172,7 +172,7 @@ class Maker {
     limit.seconds = options_.outline == "auto" ? 60 * options_.bakeMinutes : 0;
     limit.mostCameras = options_.mostCameras;
     limit.layOut = [this](std::size_t mostCameras) { return layOut(mostCameras); };
-    limit.foretell = [this]() { return foretell(); };
+    limit.predict = [this]() { return predict(); };
     const auto limitedBy = layOutWithin(limit);
     if (!limitedBy) return tl::unexpected(limitedBy.error());
     if (options_.stairs) {
@@ -215,14 +215,14 @@ class Maker {
   }
 
   /// Of what was laid out last. All that is asked has kPlanningSeconds together.
-  std::optional<double> foretell() {
-    const double left = kPlanningSeconds - foretelling_;
+  std::optional<double> predict() {
+    const double left = kPlanningSeconds - predicting_;
     if (!(left > 0) || !open()) return std::nullopt;
     const Stopwatch watch;
     const auto storeys = acentric::openStoreys(*open_, host_, progress_, stop_);
     if (!storeys) return std::nullopt;
     auto plan = glanceAtBake(*storeys, left, runner_, progress_, stop_);
-    foretelling_ += watch.seconds();
+    predicting_ += watch.seconds();
     const bool known = plan.has_value();
     if (known) planned_ = cameras_;
     if (known || !plan_) plan_ = std::move(plan);
@@ -257,7 +257,7 @@ class Maker {
   std::size_t largest_ = 0;  ///< of the planes
   LayoutSpec pattern_;
   std::size_t cameras_ = 0;  ///< laid out
-  double foretelling_ = 0;   ///< seconds
+  double predicting_ = 0;   ///< seconds
   std::optional<Result<BakeForecast>> plan_;
   std::size_t planned_ = 0;  ///< cameras of `plan_`, if it is known
 };

@@ -9,13 +9,14 @@ namespace {
 
 /// Pixels whose surface the first cover sampled thinly: they are painted from the second, and keep that where
 /// it shows the same surface more densely; its depth is then the nearer of both, as a depth test leaves it.
+/// Not through glass, which the other cover may lack.
 class ThinPixels {
  public:
   /// Makes holes of them; their depth stays.
   void open(Canvas& canvas, const PatchCanvas& memory, std::uint32_t frontSlot) {
     thin_.clear();
     for (std::size_t i = 0; i < canvas.pixels.size(); ++i)
-      if (memory.source[i] != 0 && densityOf(memory.source[i]) < kThinDensity &&
+      if (memory.source[i] != 0 && memory.clear[i] == 1 && densityOf(memory.source[i]) < kThinDensity &&
           slotOf(canvas.pixels[i]) >= frontSlot) {
         thin_.push_back({i, densityOf(memory.source[i]), canvas.pixels[i]});
         canvas.pixels[i] &= ~kSlotBits;
@@ -28,7 +29,8 @@ class ThinPixels {
       const float first = inverseZDepthOf(thin.pixel), second = inverseZDepthOf(pixel);
       const bool isSame = first < Cracks::kBefore * second && second < Cracks::kBefore * first;
       const bool isDenser = float(densityOf(memory.source[thin.at])) > kDenser * float(thin.density);
-      pixel = slotOf(pixel) == 0 || !isSame || !isDenser
+      const bool isBare = memory.clear[thin.at] == 1;
+      pixel = slotOf(pixel) == 0 || !isSame || !isDenser || !isBare
                   ? thin.pixel
                   : canvasPixel(static_cast<std::uint32_t>(pixel), std::max(first, second));
     }

@@ -26,7 +26,7 @@ struct Ground {
       laid.cameras = laid.whole ? all : most - most / 40;
       return laid;
     };
-    limit.foretell = [this]() -> std::optional<double> {
+    limit.predict = [this]() -> std::optional<double> {
       ++forecasts;
       return known ? std::optional(rate * double(laid.cameras)) : std::nullopt;
     };
@@ -102,7 +102,7 @@ TEST(BakeLimit, MayBeOfCamerasAloneOrOfNothing) {
 TEST(BakeLimit, PassesFailuresOn) {
   BakeLimit limit;
   limit.layOut = [](std::size_t) -> Result<LaidOut> { return fail(ErrorKind::notFound, "no floor"); };
-  limit.foretell = []() { return std::optional(1.0); };
+  limit.predict = []() { return std::optional(1.0); };
   for (const double seconds : {0.0, 60.0}) {
     limit.seconds = seconds;
     const auto failed = layOutWithin(limit);
