@@ -35,6 +35,11 @@ std::string formatDuration(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::string formatArea(double squareMetres) {
+  if (squareMetres >= 1e5) return fmt::format("{:.3g} km²", 1e-6 * squareMetres);
+  return squareMetres < 100 ? fmt::format("{:.1f} m²", squareMetres) : fmt::format("{:.0f} m²", squareMetres);
+}
+
 std::string formatMetres(double metres) {
   const double size = std::abs(metres);
   if (size == 0) return "0 m";

@@ -102,10 +102,10 @@ void drawDisk(Session& session) {
 void drawPlan(const Session& session) {
   const Storey& storey = session.project().current();
   std::string text =
-      fmt::format("{} captures for {:.0f} m²", ui::formatCount(session.built()->layout->cameras.size()),
-                  storey.layout.outline.area());
+      fmt::format("{} captures for {}", ui::formatCount(session.built()->layout->cameras.size()),
+                  ui::formatArea(storey.layout.outline.area()));
   if (!storey.walkable.empty())
-    text += fmt::format(" of {:.0f} m² that can be walked", storey.walkable.area());
+    text += fmt::format(" of {} that can be walked", ui::formatArea(storey.walkable.area()));
   if (session.estimate() == nullptr) text += "; Estimate tells what baking them takes";
   ui::mutedText("Plan");
   ImGui::SameLine(ui::scaled(kValueX));

@@ -53,13 +53,12 @@ void drawFound(const Session& session, const std::string& name) {
   const Storey& storey = session.project().current();
   const double laidOut = storey.layout.outline.area();
   const double all = storey.walkable.empty() ? laidOut : storey.walkable.area();
-  std::string text = fmt::format("{}: {:.1f} m² to walk on were found", name, all);
+  std::string text = fmt::format("{}: {} to walk on were found", name, ui::formatArea(all));
   if (!storey.walkable.empty())
     text += fmt::format(
-        ", of which {:.1f} m² are laid out: as much as bakes in about {:g} minutes here, {} captures at "
-        "most. "
-        "Draw a larger or another outline to have more",
-        laidOut, kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
+        ", of which {} are laid out: as much as bakes in about {:g} minutes here, {} captures at "
+        "most. Draw a larger or another outline to have more",
+        ui::formatArea(laidOut), kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
   ui::wrappedText(ui::palette::muted, text + ". All of this can be changed later.");
   std::string plan = fmt::format("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
   if (const BakeEstimate* estimate = session.estimate())

@@ -50,7 +50,6 @@ void drawStoreys(PanelContext& context) {
   if (!ui::section("Storey")) return;
   drawStoreyChoice(context);
   drawStoreyName(context);
-  ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
   actionButton(context, "storey.find", ButtonLook::plain, {}, "Find more");
   ImGui::SameLine();
   actionButton(context, "storey.stairs", ButtonLook::plain, {}, "Stairs");

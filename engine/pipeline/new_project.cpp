@@ -257,7 +257,7 @@ class Maker {
   std::size_t largest_ = 0;  ///< of the planes
   LayoutSpec pattern_;
   std::size_t cameras_ = 0;  ///< laid out
-  double predicting_ = 0;   ///< seconds
+  double predicting_ = 0;    ///< seconds
   std::optional<Result<BakeForecast>> plan_;
   std::size_t planned_ = 0;  ///< cameras of `plan_`, if it is known
 };

@@ -16,8 +16,9 @@ struct PatchCanvas {
   std::vector<RowRange> rows;  ///< of a polygon, by column
 };
 
-/// Pieces of the first cover; those of the second where nothing of the first lies, and before it in its
-/// cracks (cracks.h); then what mirrors show. `canvas` holds the background, and columns [x0, x1) are right
+/// Pieces of the first cover; those of the second where nothing of the first lies, before it in its cracks
+/// (cracks.h), and in its place where the second has the same surface more densely (patch_kernel.h: kDenser);
+/// then what mirrors show. `canvas` holds the background, and columns [x0, x1) are right
 /// if it holds pixelsReadBeside more on either side. `cover` and `coverMirrors` as WarpOptions'. Counts
 /// patches read and pixels painted.
 WarpCounts paintPatches(const PatchPlan& plan, const PatchKernel& kernel, const CoverImage* cover,
