@@ -131,7 +131,10 @@ void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth,
   state.y -= parts;
 #else
   state.x -= parts;
-  if (waits) state.y = (mirrorPartsOf(state) | parts) | patch_.mirror << 16;
+  if (waits && state.y == kSecondLook)
+    sum.w = 0.0;
+  else if (waits)
+    state.y = (mirrorPartsOf(state) | parts) | patch_.mirror << 16;
   if (number > float(numberOf(state))) {
     state.z = paintedOf(uint(number), piece.source, densityAt(across, down));
     state.w = floatBitsToUint(inverseDepth);

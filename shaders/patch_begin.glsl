@@ -21,8 +21,11 @@ void beginPixel(ivec2 at, out vec4 sums, out uvec4 states) {
   if (before.y != 0u) {
     sums = sumsAt(sumsBefore, at);
     states = before;
-  } else if (before.z != 0u && !isCrack(at) && !isThin(before, sumsAt(sumsBefore, at))) {
-    states.x = 0u;
+  } else if (before.z != 0u && !isCrack(at)) {
+    if (isThin(before, sumsAt(sumsBefore, at)))
+      states.y = kSecondLook;
+    else
+      states.x = 0u;
   }
 #endif
 }

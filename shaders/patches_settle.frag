@@ -26,9 +26,9 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   uvec4 state = texelFetch(states, at, 0);
 #ifdef MIRRORS
-  if (state.y == 0u || local != (state.x == 0u && state.z == 0u)) discard;
+  if (!isMirror(state) || local != (state.x == 0u && state.z == 0u)) discard;
 #else
-  if (state.y != 0u) discard;
+  if (isMirror(state)) discard;
 #endif
   vec4 sum = sumsAt(sums, at);
   vec4 before = texelFetch(coloursBefore, at, 0);

@@ -9,7 +9,7 @@ namespace {
 
 /// Pixels whose surface the first cover sampled thinly: they are painted from the second, and keep that where
 /// it shows the same surface more densely; its depth is then the nearer of both, as a depth test leaves it.
-/// Not through glass, which the other cover may lack.
+/// Not through glass, which the other cover may lack, nor for what a mirror shows.
 class ThinPixels {
  public:
   /// Makes holes of them; their depth stays.
@@ -23,13 +23,15 @@ class ThinPixels {
       }
   }
   /// Gives them back what they were, where that is better.
-  void close(Canvas& canvas, const PatchCanvas& memory) {
+  void close(Canvas& canvas, PatchCanvas& memory) {
     for (const Thin& thin : thin_) {
       CanvasPixel& pixel = canvas.pixels[thin.at];
       const float first = inverseZDepthOf(thin.pixel), second = inverseZDepthOf(pixel);
       const bool isSame = first < Cracks::kBefore * second && second < Cracks::kBefore * first;
       const bool isDenser = float(densityOf(memory.source[thin.at])) > kDenser * float(thin.density);
-      const bool isBare = memory.clear[thin.at] == 1;
+      const bool showsMirror = !memory.mirror.empty() && memory.mirror[thin.at] != 0;
+      const bool isBare = memory.clear[thin.at] == 1 && !showsMirror;
+      if (showsMirror) memory.mirror[thin.at] = 0;
       pixel = slotOf(pixel) == 0 || !isSame || !isDenser || !isBare
                   ? thin.pixel
                   : canvasPixel(static_cast<std::uint32_t>(pixel), std::max(first, second));
