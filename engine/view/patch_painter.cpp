@@ -62,7 +62,7 @@ class PatchPainter {
     const std::size_t room = canvas.pixels.size() + kPatchRoom;
     memory.open.assign(room, kAllParts);
     memory.source.assign(room, 0);
-    if (mirrors_) memory.mirror.assign(room, 0);
+    memory.mirror.assign(mirrors_ ? room : 0, 0);
     for (auto* sums : {&memory.red, &memory.green, &memory.blue}) sums->assign(room, 0);
     memory.clear.assign(room, 1);
     memory.inverseZDepth.resize(room);
