@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <ctime>
 #include <numeric>
 
 #include "engine/base/stopwatch.h"
@@ -26,9 +25,6 @@ struct Timings {
     localTriangles += double(stats.localTriangles);
   }
 };
-
-/// That all threads took until now.
-double processorSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Bytes that are read of a sample.
 constexpr double kBytesPerSample = sizeof(PackedSample) + sizeof(Rgba8);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <ctime>
 #include <set>
@@ -14,6 +13,7 @@
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/stream_frames.h"
+#include "engine/export/counted_ranges.h"
 #include "engine/measure/statistics.h"
 #include "engine/picture/chart.h"
 #include "engine/picture/drawing.h"
@@ -29,13 +29,6 @@ constexpr double kStepSeconds = 1.0 / 30;
 constexpr double kUsualMegabytes = 128;
 constexpr double kLongestWaitSeconds = 60;
 
-double processorSeconds() {
-  rusage usage{};
-  (void)::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 double threadSeconds() {
   timespec time{};
   (void)::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -48,21 +41,6 @@ long waits() {
   (void)::getrusage(RUSAGE_THREAD, &usage);
   return usage.ru_nvcsw;
 }
-
-/// Counts what a walk reads, from any thread.
-class CountedRanges final : public ByteRanges {
- public:
-  explicit CountedRanges(std::shared_ptr<const ByteRanges> ranges) : ranges_(std::move(ranges)) {}
-  Result<std::uint64_t> size() const override { return ranges_->size(); }
-  Status read(std::uint64_t at, std::span<std::byte> into) const override {
-    ++requests, bytes += into.size();
-    return ranges_->read(at, into);
-  }
-  mutable std::atomic<std::uint64_t> requests = 0, bytes = 0;
-
- private:
-  std::shared_ptr<const ByteRanges> ranges_;
-};
 
 /// Legs of whole cells along the lattice, straight on for most of the way, with turns to either side; where
 /// the layout ends it goes back. Beside the middles of rings, where pillars stand.
@@ -157,7 +135,7 @@ class WalkGrowth {
     auto opened = PagedWalk::open(std::move(*pages), 0, "walk", streaming, runner_);
     if (!opened) return tl::unexpected(opened.error());
     const double openSeconds = opening.seconds();
-    const std::uint64_t bytesToOpen = ranges->bytes, requestsToOpen = ranges->requests;
+    const std::uint64_t bytesToOpen = ranges->bytes(), requestsToOpen = ranges->requests();
     PagedWalk& walk = **opened;
     const auto needed = [&](const LoadedWalk& loaded, const PerspectiveView& view) {
       return camerasOf(*loaded.walk.layout, view, settings_);
@@ -179,7 +157,7 @@ class WalkGrowth {
     const auto firstDrawn = drawing->draw(walk.walk()->walk, start.view);
     if (!firstDrawn) return tl::unexpected(firstDrawn.error());
     const double firstFrameSeconds = opening.seconds();
-    const std::uint64_t bytesToFirstFrame = ranges->bytes;
+    const std::uint64_t bytesToFirstFrame = ranges->bytes();
     if (Status came = waitFor([&](const LoadedWalk& loaded) {
           const auto [missing, standIn] = captures(loaded);
           return !missing && !standIn;
@@ -255,7 +233,7 @@ class WalkGrowth {
                 {"pageChangeSecondsMax", stats.longestChange},
                 {"pageRegions", stats.regions},
                 {"indexBytesRead", stats.index.bytes},
-                {"bytesRead", ranges->bytes.load()},
+                {"bytesRead", ranges->bytes()},
                 {"warnings", walk.takeWarnings()}};
   }
 

@@ -43,7 +43,7 @@ void addNew(CLI::App& app, Chosen& chosen) {
       ->capture_default_str();
   c->add_option(
        "--bake-minutes", o.bakeMinutes,
-       "Likewise, as much as this machine is foretold to bake in so many minutes; a room is laid out "
+       "Likewise, as much as this machine is predicted to bake in so many minutes; a room is laid out "
        "as a whole (0 = no limit)")
       ->check(CLI::Range(0.0, kMostBakeMinutes))
       ->capture_default_str();

@@ -18,6 +18,12 @@ std::uint64_t WalkIndex::number(const BundleJson& json) {
   return json.is_number_unsigned() ? json.get<std::uint64_t>() : ~std::uint64_t(0);
 }
 
+void WalkIndex::putLists(BundleJson& storey, BundleJson cameras, BundleJson regions) {
+  for (const char* key : {"page", "cameraCount", "regionCount", "topElevation", "bottomElevation"})
+    storey.erase(key);
+  storey["cameras"] = std::move(cameras), storey["regions"] = std::move(regions);
+}
+
 Result<WalkIndex> WalkIndex::open(const ByteRanges& ranges, const std::string& name) {
   WalkIndex index(ranges, name);
   const auto size = ranges.size();

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,9 @@ class WalkIndex {
   /// Takes a file's place out of its description, which is then that of a bundle.
   void take(BundleJson& file, FilePlaces& places) const;
 
+  /// Makes a storey of the root one of a bundle: lists in the place of what says where they are.
+  static void putLists(BundleJson& storey, BundleJson cameras, BundleJson regions);
+
   tl::unexpected<Error> malformed(std::string message) const;
   /// A whole number, or the largest there is.
   static std::uint64_t number(const BundleJson& json);
@@ -43,6 +47,19 @@ class WalkIndex {
   const std::string* name_;
   walk_format::Header header_;
 };
+
+/// What JSON throws where something of an index is of another type than it should be becomes an error of the
+/// walk.
+template <class Body>
+auto withinSense(const std::string& name, const Body& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const BundleJson::exception& problem) {
+    return fail(ErrorKind::malformed, std::string("its index makes no sense: ") + problem.what(), name);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorKind::outOfSpace, "not enough memory for its index", name);
+  }
+}
 
 /// Reads files of a walk from where they lie.
 class RangeFiles final : public BundleFiles {

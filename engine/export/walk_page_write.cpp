@@ -1,11 +1,26 @@
 #include "engine/export/walk_page_write.h"
 
 #include "engine/base/contract.h"
-#include "engine/export/walk_format.h"
 
 namespace acentric {
 
 using Json = BundleJson;
+
+namespace {
+constexpr int kStepsBeyond = 2;
+}  // namespace
+
+std::set<int> withBeyond(const std::vector<std::vector<int>>& neighbours, const std::set<int>& own) {
+  std::set<int> all = own, last = own;
+  for (int step = 0; step < kStepsBeyond; ++step) {
+    std::set<int> next;
+    for (const int region : last)
+      for (const int neighbour : neighbours[std::size_t(region)])
+        if (all.insert(neighbour).second) next.insert(neighbour);
+    last = std::move(next);
+  }
+  return all;
+}
 
 Json placedFile(Json file, std::uint64_t at) {
   if (file.is_object()) file["at"] = at;
@@ -41,12 +56,12 @@ Json innerPage(std::vector<Json> entries) {
   return {{"pages", std::move(pages)}};
 }
 
-Json pageEntry(std::uint64_t at, std::span<const std::byte> bytes, std::uint64_t raw, const WalkBox& box,
-               bool leaf) {
+Json pageEntry(std::uint64_t at, std::uint64_t bytes, const std::string& hash, std::uint64_t raw,
+               const WalkBox& box, bool leaf) {
   return {{"at", at},
-          {"bytes", bytes.size()},
+          {"bytes", bytes},
           {"raw", raw},
-          {"hash", walk_format::hashText(bytes)},
+          {"hash", hash},
           {"box", {box.low.x, box.low.y, box.high.x, box.high.y}},
           {"leaf", leaf}};
 }

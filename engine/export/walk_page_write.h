@@ -4,7 +4,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <limits>
-#include <span>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,9 +15,9 @@ namespace acentric {
 
 /// Of one inner page.
 inline constexpr std::size_t kMostWalkChildren = 32;
-/// Regions so many steps from those of a page are in it too: an eye that crosses its border has seen nothing
-/// of the next page yet.
-inline constexpr int kWalkStepsBeyond = 2;
+/// A page's own regions and those two steps from them, which are in it too: an eye that crosses its border
+/// has seen nothing of the next page yet. `neighbours`: of all regions.
+std::set<int> withBeyond(const std::vector<std::vector<int>>& neighbours, const std::set<int>& own);
 
 struct WalkBox {
   glm::dvec2 low{std::numeric_limits<double>::max()}, high{-std::numeric_limits<double>::max()};
@@ -40,8 +40,8 @@ BundleJson innerPage(std::vector<BundleJson> entries);
 /// With where the file of a description begins; null stays null.
 BundleJson placedFile(BundleJson file, std::uint64_t at);
 
-/// A page that lies at `at`, packed as `bytes`.
-BundleJson pageEntry(std::uint64_t at, std::span<const std::byte> bytes, std::uint64_t raw,
+/// A page that lies at `at`; as packed, and unpacked so many bytes long.
+BundleJson pageEntry(std::uint64_t at, std::uint64_t bytes, const std::string& hash, std::uint64_t raw,
                      const WalkBox& box, bool leaf);
 
 /// A storey of the root, without its cameras and regions: with what says where they are.

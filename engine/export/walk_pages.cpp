@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/base/json_text.h"
+#include "engine/export/counted_ranges.h"
 #include "engine/export/walk_index.h"
 
 namespace acentric {
@@ -18,21 +19,6 @@ using Json = BundleJson;
 /// Pages that are kept, those that were used last. A way down the tree has kMostWalkLevels of them at most,
 /// and a step over a border needs another one.
 constexpr std::size_t kKeptPages = 4 * kMostWalkLevels, kKeptPlaces = 4;
-
-/// Counts what is read.
-class CountedRanges final : public ByteRanges {
- public:
-  explicit CountedRanges(std::shared_ptr<const ByteRanges> ranges) : ranges_(std::move(ranges)) {}
-  Result<std::uint64_t> size() const override { return ranges_->size(); }
-  Status read(std::uint64_t at, std::span<std::byte> into) const override {
-    ++requests, bytes += into.size();
-    return ranges_->read(at, into);
-  }
-  mutable std::uint64_t requests = 0, bytes = 0;  // one thread at a time reads the index
-
- private:
-  std::shared_ptr<const ByteRanges> ranges_;
-};
 
 struct Box {
   glm::dvec2 low, high;
@@ -176,22 +162,6 @@ struct WalkPages::Index {
 WalkPages::WalkPages(std::string name) : name_(std::move(name)) {}
 WalkPages::~WalkPages() = default;
 
-namespace {
-
-/// What JSON throws where something is of another type than it should be becomes an error of the walk.
-template <class Body>
-auto withinSense(const std::string& name, const Body& body) -> decltype(body()) {
-  try {
-    return body();
-  } catch (const Json::exception& problem) {
-    return fail(ErrorKind::malformed, std::string("its index makes no sense: ") + problem.what(), name);
-  } catch (const std::bad_alloc&) {
-    return fail(ErrorKind::outOfSpace, "not enough memory for its index", name);
-  }
-}
-
-}  // namespace
-
 Result<std::unique_ptr<WalkPages>> WalkPages::open(std::shared_ptr<const ByteRanges> ranges,
                                                    const std::string& name) {
   std::unique_ptr<WalkPages> pages(new WalkPages(name));
@@ -211,9 +181,7 @@ Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
   for (Json& storey : (*root)["storeys"]) {
     index_->top.push_back(storey.at("page"));
     counts_.push_back(WalkIndex::number(storey.at("regionCount")));
-    for (const char* key : {"page", "cameraCount", "regionCount", "topElevation", "bottomElevation"})
-      storey.erase(key);
-    storey["cameras"] = Json::array(), storey["regions"] = Json::array();
+    WalkIndex::putLists(storey, Json::array(), Json::array());
   }
   auto bundle = parseBundle(jsonText(*root), name_);
   if (!bundle) return tl::unexpected(bundle.error());
@@ -248,7 +216,7 @@ Result<WalkPlacePtr> WalkPages::find(std::size_t storey, const glm::dvec2& point
 
 WalkPagesStats WalkPages::stats() const {
   const std::lock_guard lock(mutex_);
-  return {index_->counted.requests, index_->counted.bytes, index_->read};
+  return {index_->counted.requests(), index_->counted.bytes(), index_->read};
 }
 
 }  // namespace acentric

@@ -76,9 +76,7 @@ class IndexReader {
     const auto isMissing = [](const Json& json) { return json.is_null(); };
     if (std::ranges::any_of(cameras_, isMissing) || std::ranges::any_of(regions_, isMissing))
       return index_.malformed("its pages lack cameras or regions that it counts");
-    for (const char* key : {"page", "cameraCount", "regionCount", "topElevation", "bottomElevation"})
-      storey.erase(key);
-    storey["cameras"] = std::move(cameras_), storey["regions"] = std::move(regions_);
+    WalkIndex::putLists(storey, std::move(cameras_), std::move(regions_));
     return {};
   }
 
@@ -140,18 +138,14 @@ class WalkFiles final : public BundleFiles {
 
   static Result<std::unique_ptr<BundleFiles>> open(std::shared_ptr<const ByteRanges> ranges,
                                                    const std::string& name) {
-    try {
+    return withinSense(name, [&]() -> Result<std::unique_ptr<BundleFiles>> {
       const auto pages = WalkIndex::open(*ranges, name);
       if (!pages) return tl::unexpected(pages.error());
       FilePlaces places;
       const auto index = IndexReader(*pages, places).read();
       if (!index) return tl::unexpected(index.error());
       return std::make_unique<WalkFiles>(jsonText(*index), RangeFiles(std::move(ranges), std::move(places)));
-    } catch (const Json::exception& problem) {
-      return fail(ErrorKind::malformed, std::string("its index makes no sense: ") + problem.what(), name);
-    } catch (const std::bad_alloc&) {
-      return fail(ErrorKind::outOfSpace, "not enough memory for its index", name);
-    }
+    });
   }
 
   Result<std::vector<std::byte>> read(const std::string& path, std::uint64_t mostBytes) const override {

@@ -135,7 +135,7 @@ class WalkWriter {
     const std::vector<std::byte> bytes = packedText(text);
     const std::uint64_t at = pages_.size();
     pages_.insert(pages_.end(), bytes.begin(), bytes.end());
-    return pageEntry(at, bytes, text.size(), box, leaf);
+    return pageEntry(at, bytes.size(), hashText(bytes), text.size(), box, leaf);
   }
 
   static WalkBox boxOf(const BundleStorey& storey, std::span<const int> regions) {
@@ -146,22 +146,9 @@ class WalkWriter {
     return box;
   }
 
-  /// The regions themselves and those around them.
-  static std::set<int> withBeyond(const BundleStorey& storey, const std::set<int>& own) {
-    std::set<int> all = own, last = own;
-    for (int step = 0; step < kWalkStepsBeyond; ++step) {
-      std::set<int> next;
-      for (const int region : last)
-        for (const int neighbour : storey.neighbours[std::size_t(region)])
-          if (all.insert(neighbour).second) next.insert(neighbour);
-      last = std::move(next);
-    }
-    return all;
-  }
-
   /// The regions, those around them, and the cameras of all of these, by numbers within the page.
   Json leafOf(const BundleStorey& storey, std::span<const int> regions) {
-    const std::set<int> own(regions.begin(), regions.end()), all = withBeyond(storey, own);
+    const std::set<int> own(regions.begin(), regions.end()), all = withBeyond(storey.neighbours, own);
     std::map<int, int> number;  // in the order of the storey: an eye is in the first that holds it
     for (const int region : all) number.emplace(region, int(number.size()));
     WalkLeaf leaf;

@@ -14,7 +14,6 @@
 #include "engine/export/local_file.h"
 #include "engine/export/region_order.h"
 #include "engine/export/walk_format.h"
-#include "engine/export/walk_page_write.h"
 #include "engine/store/keyed.h"
 #include "engine/store/packed_text.h"
 
@@ -30,9 +29,6 @@ constexpr int kMargin = 3;
 constexpr int kTextLevel = 3;
 /// Near geometry packs a little better or worse by where it lies.
 constexpr double kLocalRoom = 1.5;
-
-std::array<double, 4> sidesOf(const WalkBox& box) { return {box.low.x, box.low.y, box.high.x, box.high.y}; }
-WalkBox boxOf(const std::array<double, 4>& sides) { return {{sides[0], sides[1]}, {sides[2], sides[3]}}; }
 
 LocalGeometry moved(LocalGeometry local, const glm::dvec2& by) {
   const auto move = [&](glm::vec3& p) { p = glm::vec3(glm::dvec3(p) + glm::dvec3(by, 0)); };
@@ -153,7 +149,7 @@ void RepeatedWalk::layOut() {
   localStride_ = std::uint64_t(kLocalRoom * double(longest)) + 256;
 }
 
-Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double, 4>& sides) const {
+Result<std::string> RepeatedWalk::leafText(std::size_t number, WalkBox& box) const {
   const glm::ivec2 low = glm::ivec2(int(number) % blocks_.x, int(number) / blocks_.x) * block_;
   const glm::ivec2 high = glm::min(low + block_, cells_);
   LayoutSpec spec = cell_->spec();
@@ -168,19 +164,12 @@ Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double
   const auto isOwn = [&](const CellId& id) {
     return id.i >= low.x && id.j >= low.y && id.i < high.x && id.j < high.y;
   };
-  std::map<std::uint64_t, int> inPage, last;  // by number in the storey
+  std::set<int> own;
   for (std::size_t r = 0; r < layout->regions.size(); ++r)
-    if (isOwn(layout->regions[r].id)) inPage.emplace(numberOf(layout->regions[r].id), int(r));
-  last = inPage;
-  for (int step = 0; step < kWalkStepsBeyond; ++step) {
-    std::map<std::uint64_t, int> next;
-    for (const auto& [_, region] : last)
-      for (const int n : neighbours[std::size_t(region)]) {
-        const std::uint64_t its = numberOf(layout->regions[std::size_t(n)].id);
-        if (inPage.emplace(its, n).second) next.emplace(its, n);
-      }
-    last = std::move(next);
-  }
+    if (isOwn(layout->regions[r].id)) own.insert(int(r));
+  std::map<std::uint64_t, int> inPage;  // by number in the storey
+  for (const int region : withBeyond(neighbours, own))
+    inPage.emplace(numberOf(layout->regions[std::size_t(region)].id), region);
 
   WalkLeaf leaf;
   std::vector<int> placeIn(layout->regions.size(), -1);
@@ -211,7 +200,6 @@ Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double
       }
     return covers;
   };
-  WalkBox box;
   for (const auto& [its, r] : inPage) {
     const auto region = std::size_t(r);
     const CellId& id = layout->regions[region].id;
@@ -235,7 +223,6 @@ Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double
       if (placeIn[std::size_t(n)] >= 0) leaf.part.neighbours.back().push_back(placeIn[std::size_t(n)]);
     std::ranges::sort(leaf.part.neighbours.back());
   }
-  sides = sidesOf(box);
   return jsonText(leafPage(leaf, [&](const BundleFile& file) {
     const std::size_t slash = file.path.find('/');
     const std::uint64_t its = std::stoull(file.path.substr(slash + 1));
@@ -245,8 +232,8 @@ Result<std::string> RepeatedWalk::leafText(std::size_t number, std::array<double
 }
 
 Result<std::vector<std::byte>> RepeatedWalk::leafBytes(std::size_t leaf) const {
-  std::array<double, 4> sides{};
-  const auto text = leafText(leaf, sides);
+  WalkBox box;
+  const auto text = leafText(leaf, box);
   if (!text) return tl::unexpected(text.error());
   return packedText(*text, kTextLevel);
 }
@@ -309,10 +296,7 @@ Status RepeatedWalk::makePages(TaskRunner& runner, const Progress& progress, con
   glm::ivec2 size = blocks_;
   for (Page& leaf : leaves_) {
     leaf.at = at, at += leaf.bytes;
-    const WalkBox box = boxOf(leaf.box);
-    Json entry = pageEntry(leaf.at, {}, leaf.raw, box, true);
-    entry["bytes"] = leaf.bytes, entry["hash"] = leaf.hash.toHex();
-    level.push_back({std::move(entry), box});
+    level.push_back({pageEntry(leaf.at, leaf.bytes, leaf.hash.toHex(), leaf.raw, leaf.box, true), leaf.box});
   }
   while (level.size() > 1) {  // so many pages side by side have one above them
     constexpr glm::ivec2 kChildren{8, int(kMostWalkChildren) / 8};
@@ -331,8 +315,10 @@ Status RepeatedWalk::makePages(TaskRunner& runner, const Progress& progress, con
         const std::string text = jsonText(innerPage(std::move(children)));
         inner_.push_back(packedText(text, kTextLevel));
         innerAt_.push_back(at);
-        above.push_back({pageEntry(at, inner_.back(), text.size(), box, false), box});
-        at += inner_.back().size();
+        const std::vector<std::byte>& bytes = inner_.back();
+        above.push_back(
+            {pageEntry(at, bytes.size(), walk_format::hashText(bytes), text.size(), box, false), box});
+        at += bytes.size();
       }
     level = std::move(above), size = fewer;
   }

@@ -6,7 +6,6 @@
 /// Index and files are those that FORMAT.md describes ("Walks"), at their places, with their hashes; nothing
 /// of them is kept but the baked cell and what names the pages of the index.
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/task_runner.h"
+#include "engine/export/walk_page_write.h"
 #include "engine/export/walk_read.h"
 #include "engine/layout/lattice.h"
 
@@ -91,7 +91,7 @@ class RepeatedWalk final : public ByteRanges {
     std::uint64_t at = 0;  ///< from where pages begin
     std::uint32_t bytes = 0, raw = 0;
     ContentKey hash;
-    std::array<double, 4> box{};
+    WalkBox box;
   };
   /// Cameras of one kind in one row of cells are numbered one after another.
   struct Row {
@@ -109,7 +109,7 @@ class RepeatedWalk final : public ByteRanges {
     std::uint32_t bytes = 0;
   };
   Result<LocalFacts> factsOf(const CellId& region) const;
-  Result<std::string> leafText(std::size_t leaf, std::array<double, 4>& box) const;
+  Result<std::string> leafText(std::size_t leaf, WalkBox& box) const;
   Result<std::vector<std::byte>> leafBytes(std::size_t leaf) const;
 
   std::uint64_t numberOf(const CellId& region) const;

@@ -12,10 +12,11 @@ constexpr int kFrameWidth = 12, kFrameHeight = 24;
 constexpr std::uint32_t kSecondSlot = 4, kFirstSlot = 6;
 constexpr std::uint32_t kOfFirst = 0xff0000ff, kOfSecond = 0xff00ff00;
 
-/// Samples per pixel, and the inverse depth.
+/// Samples per pixel, the inverse depth, and the number of the mirror that it is.
 struct Wall {
   double density = 1;
   float inverseDepth = 0.25f;
+  std::uint32_t mirror = 0;
 };
 
 /// One cover of a frame: a wall that fills it.
@@ -27,6 +28,7 @@ class WallCover {
     draw.column = patch_.column(8, wall.density, 16);
     draw.column.slot = slot;
     draw.column.depthStart = wall.inverseDepth;
+    draw.column.mirror = wall.mirror;
     const std::vector<glm::dvec3> corners{
         {0, 0, 1}, {kFrameWidth, 0, 1}, {kFrameWidth, kFrameHeight, 1}, {0, kFrameHeight, 1}};
     EXPECT_TRUE(draw.polygon.set(corners, kFrameWidth, kFrameHeight));
@@ -50,12 +52,14 @@ Shown shownOf(const Wall& first, const Wall& second) {
   PatchPlan plan;
   plan.surfaces = {front.strip()}, plan.behind = {behind.strip()};
   plan.frontSlot = kFirstSlot;
+  if (second.mirror != 0) plan.reflections.emplace_back();
   std::optional<Shown> shown;
   for (const Kernels& kernels : supportedKernels()) {
     Canvas canvas;
     canvas.width = kFrameWidth, canvas.height = kFrameHeight;
     canvas.pixels.assign(std::size_t(kFrameWidth) * kFrameHeight, kEmptyPixel);
     PatchCanvas memory;
+    memory.mirror = {1};  // of a smaller frame before, which had a mirror
     paintPatches(plan, *kernels.patches, nullptr, {}, 0, kFrameWidth, memory, canvas);
     for (const CanvasPixel pixel : canvas.pixels) {
       if (!shown) shown = {slotOf(pixel), inverseZDepthOf(pixel)};
@@ -79,6 +83,7 @@ TEST(PatchPainter, ShowsTheSecondCoverWhereTheFirstIsThinAndTheSecondDenser) {
 TEST(PatchPainter, ShowsTheSecondCoverOfTheSameSurfaceAlone) {
   EXPECT_EQ(shownOf({0.3, 0.25f}, {0.6, 0.27f}).slot, kFirstSlot) << "something before it";
   EXPECT_EQ(shownOf({0.3, 0.25f}, {0.6, 0.23f}).slot, kFirstSlot) << "something behind it";
+  EXPECT_EQ(shownOf({0.3}, {0.6, 0.25f, 1}).slot, kFirstSlot) << "a mirror";
   // The nearer of both, as with a depth test.
   EXPECT_EQ(shownOf({0.3, 0.25f}, {0.6, 0.252f}).inverseDepth, 0.252f);
   EXPECT_EQ(shownOf({0.3, 0.25f}, {0.6, 0.248f}).inverseDepth, 0.25f);

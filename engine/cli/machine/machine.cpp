@@ -1,5 +1,6 @@
 #include "engine/cli/machine/machine.h"
 
+#include <ctime>
 #include <fstream>
 
 #include "engine/cli/machine/commit.h"
@@ -12,6 +13,8 @@ std::string processorName() {
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
 }
+
+double processorSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 nlohmann::ordered_json measuredOn(int threads) {
   return {{"version", ACENTRIC_VERSION},

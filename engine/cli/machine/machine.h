@@ -13,4 +13,7 @@ std::string processorName();
 /// differ from it, "unknown" outside a checkout), "processor", "threads".
 nlohmann::ordered_json measuredOn(int threads);
 
+/// That all threads of this process took until now.
+double processorSeconds();
+
 }  // namespace acentric::cli
