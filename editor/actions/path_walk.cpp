@@ -48,6 +48,14 @@ bool leadsOver(const ActionContext& c, const WalkPath& path) {
   return path.storey == c.session.project().storey || open.ground->rises();
 }
 
+/// Is what is around the place where the eye goes next known? Of a walk that is read page by page.
+bool isAroundNext(const ActionContext& c) {
+  if (c.state.goTo) return c.session.isAround(glm::dvec2(c.state.goTo->eye));
+  const WalkPath* path = c.state.walkSelection.path(c.session.project());
+  if (path == nullptr || !c.state.replay.playing()) return true;
+  return c.session.isAround(glm::dvec2(poseAt(path->path, c.state.replay.at()).eye));
+}
+
 void tellReplay(ActionContext& c, const std::string& name) {
   if (const auto report = c.state.replay.takeReport()) {
     c.state.replayReport = describe(*report);
@@ -94,7 +102,7 @@ void walkByKeys(ActionContext& c, double seconds, const WalkKeys& keys) {
 
 bool followPath(ActionContext& c, double now, bool walking) {
   EditorState& state = c.state;
-  if (!settled(c.session)) {
+  if (!settled(c.session) || !isAroundNext(c)) {
     if (state.replay.playing()) state.replay.play();  // no time passes until there is something to walk on
     return false;
   }
@@ -165,8 +173,10 @@ void scrub(ActionContext& c, double seconds) {
   const WalkPath* path = c.state.walkSelection.path(c.session.project());
   if (path == nullptr) return;
   c.state.replay.seek(std::clamp(seconds, 0.0, path->path.seconds()));
-  if (settled(c.session) && leadsOver(c, *path)) return placeOnPath(c, *path);
-  c.state.goTo = walkPose(poseAt(path->path, c.state.replay.at()));
+  const WalkPose there = walkPose(poseAt(path->path, c.state.replay.at()));
+  if (settled(c.session) && leadsOver(c, *path) && c.session.isAround(glm::dvec2(there.eye)))
+    return placeOnPath(c, *path);
+  c.state.goTo = there;
   showStoreyOf(c, *path);
 }
 

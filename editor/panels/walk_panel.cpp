@@ -57,8 +57,8 @@ void WalkPanel::followProject(PanelContext& context) {
   EditorState& state = context.state();
   const Layout& layout = *session.built()->layout;
   const bool fresh = generation_ != session.generation();
-  if (fresh || state.restart) {
-    const Spawn& spawn = session.project().spawn();
+  const Spawn& spawn = session.project().spawn();
+  if (fresh || (state.restart && session.isAround(spawn.position))) {
     const glm::dvec2 place = nearestStanding(layout, spawn.position);
     const double ground = footingOf(*session.built(), place).ground;
     state.walker.setPose({glm::dvec3(place, ground + layout.spec.eyeHeight), spawn.yawRadians, 0});

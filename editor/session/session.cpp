@@ -77,7 +77,8 @@ bool Session::poll(double now) {
 bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
          streaming() || drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
-         picking_.running() || searching_.running() || estimating_.running() || savingPicture_.running();
+         picking_.running() || searching_.running() || estimating_.running() || savingPicture_.running() ||
+         reading_.running();
 }
 
 bool Session::apply(Edit edit) {
@@ -221,6 +222,9 @@ void Session::loadCaptures() {
     return;
   }
   loadWanted_ = false;
+  FormerPages before;
+  if (shipped_ && shipped_->pages && stream_ && streamedStorey_ == built_->project.storey)
+    before = {stream_->walk(), stream_->held()};
   dropStream();
   WalkStreamOptions streaming;
   if (preferences_.walkMegabytes > 0)
@@ -228,7 +232,7 @@ void Session::loadCaptures() {
   streaming.panoramas = project().view.secondaryCover;
   streaming.where = where_;
   streaming.wake = options_.wake;
-  loading_.restart("Looking for captures", [this, open = built_, former = walk_, shipped = shipped_,
+  loading_.restart("Looking for captures", [this, open = built_, former = walk_, shipped = shipped_, before,
                                             streaming](const Job::Context& context) {
     tellCaptures(open, shipped, context);
     Result<WalkStart> start =
@@ -237,6 +241,7 @@ void Session::loadCaptures() {
       context.post([this, error = start.error()] { messages_.addFailure("Loading the captures", error); });
       return;
     }
+    if (before.walk && before.walk->walk.layout != open->layout) takeOver(*before.walk, before.held, *start);
     const auto stream = std::make_shared<WalkStream>(std::move(*start), streaming);
     context.post([this, open, stream] { loaded(stream, *open); });
   });
@@ -260,6 +265,7 @@ void Session::tellCaptures(const std::shared_ptr<const OpenProject>& open, const
 
 void Session::loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from) {
   stream_ = std::move(stream);
+  streamedStorey_ = from.project.storey;
   stream_->go(where_);
   if (!keepsWalk()) walk_ = stream_->walk();
   for (const std::string& warning : stream_->walk()->warnings) messages_.add(MessageLevel::warning, warning);
@@ -295,6 +301,48 @@ void Session::dropStream() {
 void Session::walkAt(const Whereabouts& where) {
   where_ = where;
   if (stream_) stream_->go(where);
+  followPages();
+}
+
+void Session::followPages() {
+  if (!shipped_ || !shipped_->pages || reading_.running()) return;
+  const int storey = built_->project.storey;
+  const auto region = built_->layout->regionAt(where_.eye);
+  if (!region || shipped_->isOwn(storey, *region)) return;
+  const int number = built_->layout->regions[std::size_t(*region)].id.i;
+  if (!pagesNotRead_.contains({storey, number})) readAround(where_.eye);
+}
+
+bool Session::isAround(const glm::dvec2& place) {
+  if (!shipped_ || !shipped_->pages || lookedFor_ == place) return true;
+  if (reading_.running()) return false;
+  if (built_->layout->regionAt(place)) return true;
+  readAround(place);
+  return false;
+}
+
+void Session::readAround(const glm::dvec2& place) {
+  reading_.restart("Reading the walk", [this, shipped = shipped_, storey = built_->project.storey,
+                                        place](const Job::Context& context) {
+    const auto there = placeAround(shipped, storey, place);
+    context.post([this, shipped, storey, place, there] {
+      if (shipped_ != shipped) return;
+      lookedFor_ = place;
+      if (there) return arrived(*there);
+      messages_.addFailure("Reading the walk", there.error());
+      if (const auto region = shipped->layouts[std::size_t(storey)]->regionAt(place))
+        pagesNotRead_.emplace(storey,
+                              shipped->layouts[std::size_t(storey)]->regions[std::size_t(*region)].id.i);
+    });
+  });
+}
+
+void Session::arrived(const ShippedWalkPtr& place) {
+  if (place == shipped_) return;
+  for (const std::string& warning : place->warnings) messages_.add(MessageLevel::warning, warning);
+  shipped_ = place;
+  show(openProject(*shipped_, project()));
+  loadCaptures();
 }
 
 void Session::walkMemoryChanged() {

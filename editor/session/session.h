@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "editor/commands/edit.h"
 #include "editor/session/backdrop.h"
@@ -92,6 +94,9 @@ class Session {
   void keepWork();
   /// Projects that crashed runs had not saved anywhere yet.
   const std::vector<UnsavedWork>& unsavedWork() const { return unsavedWork_; }
+  /// Is what is around a place of the shown storey here? Of a walk that is read page by page it is read if
+  /// not, in the background: ask again later.
+  bool isAround(const glm::dvec2& place);
   /// Would closing lose work?
   bool worthAsking() const;
 
@@ -266,9 +271,18 @@ class Session {
   /// The project that was to be built cannot be: back to what is shown.
   void giveUpBuilding(const Error& error);
   void show(OpenProject open);
+  /// What pages of a walk that were there before have in memory.
+  struct FormerPages {
+    std::shared_ptr<const LoadedWalk> walk;
+    WalkStream::Held held;
+  };
   void loadCaptures();
   void loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from);
   void followStream();
+  /// Of a walk that is read page by page, reads on where the eye is about to leave what is known.
+  void followPages();
+  void readAround(const glm::dvec2& place);
+  void arrived(const ShippedWalkPtr& place);
   bool keepsWalk() const { return walk_ && now_ < keepWalkUntil_ && stream_->busy(); }
   /// Asks the disk again which captures are there.
   void countCaptures();
@@ -344,6 +358,9 @@ class Session {
   std::shared_ptr<const OpenProject> built_;
   std::shared_ptr<const LoadedWalk> walk_;
   std::shared_ptr<WalkStream> stream_;  // makes walk_
+  int streamedStorey_ = 0;
+  std::optional<glm::dvec2> lookedFor_;         // the place that was read around last
+  std::set<std::pair<int, int>> pagesNotRead_;  // regions, by storey and number, beside damaged pages
   Whereabouts where_;
   double keepWalkUntil_ = 0;  // seconds: that of the storey before is shown
   std::string simplifiedTold_;
@@ -423,6 +440,7 @@ class Session {
   Job rebuilding_{inbox_};
   Job baking_{inbox_};
   Job loading_{inbox_};
+  Job reading_{inbox_};
   Job counting_{inbox_};
   Job dropping_{inbox_};
   Job drawingBackdrop_{inbox_};

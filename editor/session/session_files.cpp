@@ -7,6 +7,7 @@
 
 #include "editor/session/project_files.h"
 #include "editor/session/session.h"
+#include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -50,7 +51,7 @@ Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectO
 
 Result<Session::Opened> Session::openShipped(const fs::path& walk, const Job::Context& context) const {
   TaskRunner runner(processors_ - 1);
-  auto shipped = openShippedWalk(walk, runner, context.progress(), context.stop());
+  auto shipped = openShippedWalk(walk, runner, context.progress(), context.stop(), options_.regionsAtOnce);
   if (!shipped) return tl::unexpected(shipped.error());
   Opened opened;
   opened.open = openProject(**shipped, projectOf(**shipped));
@@ -96,15 +97,17 @@ void Session::opened(Opened opened) {
     lookForAutosave();
   }
   remember(file_);
-  const std::size_t regions = opened.open.layout->regions.size();
   const std::size_t cameras = opened.open.layout->cameras.size();
+  std::string size = fmt::format("{} regions, {} cameras", opened.open.layout->regions.size(), cameras);
+  if (shipped_ && shipped_->pages)
+    size = fmt::format("{} regions, of which those around the eye are shown",
+                       ui::formatCount(shipped_->regionCount(opened.open.project.storey)));
   show(std::move(opened.open));
   const std::string from = !untitled_ ? "Opened " + file_.filename().string()
                            : recovered_.empty()
                                ? "New project from " + built_->project.scene.filename().string()
                                : "Recovered " + file_.filename().string();
-  messages_.add(MessageLevel::good, fmt::format("{}{}: {} regions, {} cameras", from,
-                                                shipped_ ? ", a walk" : "", regions, cameras));
+  messages_.add(MessageLevel::good, fmt::format("{}{}: {}", from, shipped_ ? ", a walk" : "", size));
   if (shipped_)
     for (const std::string& warning : shipped_->warnings) messages_.add(MessageLevel::warning, warning);
   else
@@ -133,6 +136,9 @@ void Session::close() {
   if (hasProject() && !recovery_) forgetAutosave();
   history_.reset();
   shipped_.reset();
+  reading_.abandon();
+  lookedFor_.reset();
+  pagesNotRead_.clear();
   leaveFiles();
   built_.reset();
   dropStream();

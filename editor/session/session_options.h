@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "engine/pipeline/pipeline.h"
+#include "engine/pipeline/shipped_walk.h"
 
 namespace acentric::editor {
 
@@ -19,7 +19,8 @@ struct SessionOptions {
   double watchSeconds = 2;                ///< between looks at files that others may change
   /// Inspects each layout soon after an edit for the list of problems, also while the plan does not show it.
   bool inspectAlways = false;
-  std::function<void()> wake;  ///< ends the main thread's sleep; any thread
+  std::uint64_t regionsAtOnce = kRegionsAtOnce;  ///< walks of more are read page by page
+  std::function<void()> wake;                    ///< ends the main thread's sleep; any thread
 };
 
 }  // namespace acentric::editor

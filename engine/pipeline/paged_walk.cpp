@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <utility>
 
 #include "engine/base/stopwatch.h"
@@ -12,35 +11,6 @@ namespace {
 
 /// Of a cell: so far the eye goes before its region is looked up. A page knows what is two regions farther.
 constexpr double kLookAgain = 0.1;
-
-template <class Thing>
-std::map<int, std::size_t> byNumber(const std::vector<Thing>& things) {
-  std::map<int, std::size_t> places;
-  for (std::size_t i = 0; i < things.size(); ++i) places.emplace(things[i].id.i, i);
-  return places;
-}
-
-/// What the page before has in memory and this one has too. How many captures this one has not.
-int takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& start) {
-  int dropped = 0;
-  LoadedWalk& to = start.walk;
-  to.captureMemory = from.captureMemory;
-  start.coarse.resize(to.walk.captures.size());
-  const auto cameras = byNumber(to.walk.layout->cameras), regions = byNumber(to.walk.layout->regions);
-  for (std::size_t c = 0; c < held.full.size(); ++c) {
-    const auto found = cameras.find(from.walk.layout->cameras[c].id.i);
-    if (found == cameras.end()) {
-      dropped += (held.full[c] ? 1 : 0) + (held.coarse[c] ? 1 : 0);
-      continue;
-    }
-    to.walk.captures[found->second] = std::move(held.full[c]);
-    start.coarse[found->second] = std::move(held.coarse[c]);
-  }
-  for (std::size_t r = 0; r < held.local.size(); ++r)
-    if (const auto found = regions.find(from.walk.layout->regions[r].id.i); found != regions.end())
-      to.walk.local[found->second] = std::move(held.local[r]);
-  return dropped;
-}
 
 void add(WalkStreamStats& sum, const WalkStreamStats& counts) {
   sum.loads += counts.loads, sum.coarseLoads += counts.coarseLoads, sum.evictions += counts.evictions;
@@ -64,7 +34,7 @@ Result<std::unique_ptr<PagedWalk>> PagedWalk::open(std::unique_ptr<WalkPages> pa
   std::unique_ptr<PagedWalk> walk(new PagedWalk(std::move(pages), storey, file, std::move(options)));
   const auto place = walk->pages_->placeAt(storey, walk->where_.eye);
   if (!place) return tl::unexpected(place.error());
-  auto shipped = shippedPlace(**place, file, nullptr, runner);
+  auto shipped = shippedPlaces(walk->placed(*place), file, nullptr, runner);
   if (!shipped) return tl::unexpected(shipped.error());
   walk->warn((*shipped)->warnings);
   walk->lookAgain_ = kLookAgain * (*shipped)->layouts[storey]->spec.cellSize;
@@ -148,15 +118,21 @@ PagedWalkStats PagedWalk::stats() const {
 // The thread that follows the eye
 // ------------------------------------------------------------------------------------------------------------
 
+std::vector<WalkPlacePtr> PagedWalk::placed(const WalkPlacePtr& place) const {
+  std::vector<WalkPlacePtr> places(place->bundle.storeys.size());
+  places[storey_] = place;
+  return places;
+}
+
 bool PagedWalk::isOwn(const glm::dvec2& eye) const {
   const auto region = at_.walk->layouts[storey_]->regionAt(eye);
-  return region && at_.place->own[std::size_t(*region)] != 0;
+  return region && at_.walk->isOwn(int(storey_), *region);
 }
 
 Result<PagedWalk::Place> PagedWalk::enter(const WalkPlacePtr& place, const Whereabouts& where,
                                           const std::stop_token& stop) {
   TaskRunner alone(0);
-  auto walk = shippedPlace(*place, file_, at_.walk.get(), alone, stop);
+  auto walk = shippedPlaces(placed(place), file_, at_.walk.get(), alone, stop);
   if (!walk) return tl::unexpected(walk.error());
   WalkStart start = startWalk(*walk, int(storey_), nullptr);
   const int dropped = takeOver(*at_.stream->walk(), at_.stream->held(), start);

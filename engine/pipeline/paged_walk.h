@@ -54,6 +54,7 @@ class PagedWalk {
   };
   void follow(const std::stop_token& stop);
   void look(const Whereabouts& where, const std::stop_token& stop);
+  std::vector<WalkPlacePtr> placed(const WalkPlacePtr& place) const;  ///< by storey
   bool isOwn(const glm::dvec2& eye) const;
   Result<Place> enter(const WalkPlacePtr& place, const Whereabouts& where, const std::stop_token& stop);
   void replace(Place next, const Whereabouts& where);

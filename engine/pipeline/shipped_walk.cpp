@@ -100,6 +100,13 @@ ContentKey keyOf(const BundleCamera& camera) {
   return best != nullptr ? best->file.hash : ContentKey{};
 }
 
+template <class Thing>
+std::map<int, std::size_t> byNumber(const std::vector<Thing>& things) {
+  std::map<int, std::size_t> places;
+  for (std::size_t i = 0; i < things.size(); ++i) places.emplace(things[i].id.i, i);
+  return places;
+}
+
 class ShippedSource final : public WalkSource {
  public:
   ShippedSource(ShippedWalkPtr walk, int storey)
@@ -146,12 +153,97 @@ Status readAll(ShippedWalk& walk, TaskRunner& runner, const Progress& progress, 
   return {};
 }
 
+Status checkProject(const ShippedWalk& walk) {
+  const Status sound = projectOf(walk).check();
+  if (!sound) return fail(sound.error().kind, sound.error().describe(), walk.file.string());
+  return {};
+}
+
+/// Files of several pages.
+class FilesOfPlaces final : public BundleFiles {
+ public:
+  explicit FilesOfPlaces(const std::vector<WalkPlacePtr>& places) {
+    for (const WalkPlacePtr& place : places)
+      if (place) files_.push_back(place->files);
+  }
+  Result<std::vector<std::byte>> read(const std::string& path, std::uint64_t mostBytes) const override {
+    for (const auto& files : files_)
+      if (auto read = files->read(path, mostBytes); read || read.error().kind != ErrorKind::notFound)
+        return read;
+    return fail(ErrorKind::notFound, "is in no page of its index", path);
+  }
+
+ private:
+  std::vector<std::shared_ptr<const BundleFiles>> files_;
+};
+
+/// The pages around a place of a storey, and beside it on the others; null where a storey has no region. The
+/// others' that cannot be read are left out.
+Result<std::vector<WalkPlacePtr>> placesAt(ShippedWalk& walk, std::size_t storey, const glm::dvec2& point) {
+  std::vector<WalkPlacePtr> places(walk.pages->root().storeys.size());
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    if (walk.pages->regionCount(s) == 0) continue;
+    auto place = walk.pages->placeAt(s, point);
+    if (place)
+      places[s] = std::move(*place);
+    else if (s == storey)
+      return tl::unexpected(inWalk(walk, place.error()));
+    else
+      walk.warnings.push_back(inWalk(walk, place.error(), ". Its storey is left out").describe());
+  }
+  return places;
+}
+
+/// Makes them, at least one, what is there of the walk.
+void putPlaces(ShippedWalk& walk, std::vector<WalkPlacePtr> places) {
+  const auto any = std::ranges::find_if(places, [](const WalkPlacePtr& place) { return place != nullptr; });
+  walk.bundle = (*any)->bundle;
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    BundleStorey& storey = walk.bundle.storeys[s];
+    if (places[s]) storey = places[s]->here();
+    walk.layouts.push_back(places[s] ? numbered(storey.layout, places[s]->regions, places[s]->cameras)
+                                     : numbered(storey.layout));
+  }
+  walk.files = std::make_shared<const FilesOfPlaces>(places);
+  walk.places = std::move(places);
+}
+
+/// Null: all of it is read at once, which also says what is wrong with it.
+std::shared_ptr<WalkPages> pagesOf(const std::filesystem::path& file, std::uint64_t regionsAtOnce) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) return nullptr;
+  auto ranges = fileRanges(file);
+  if (!ranges) return nullptr;
+  auto pages = WalkPages::open(std::move(*ranges), file.string());
+  if (!pages) return nullptr;
+  std::uint64_t regions = 0;
+  for (std::size_t s = 0; s < (*pages)->root().storeys.size(); ++s) regions += (*pages)->regionCount(s);
+  return regions > regionsAtOnce ? std::move(*pages) : nullptr;
+}
+
+Status openAtStart(ShippedWalk& walk, std::shared_ptr<WalkPages> pages) {
+  std::error_code error;
+  walk.bytes = std::filesystem::file_size(walk.file, error);
+  walk.pages = std::move(pages);
+  const std::size_t storey = std::size_t(walk.pages->root().storey);
+  auto places = placesAt(walk, storey, walk.pages->root().storeys[storey].start);
+  if (!places) return tl::unexpected(places.error());
+  putPlaces(walk, std::move(*places));
+  return checkProject(walk);
+}
+
 }  // namespace
 
 Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRunner& runner,
-                                       const Progress& progress, const std::stop_token& stop) {
+                                       const Progress& progress, const std::stop_token& stop,
+                                       std::uint64_t regionsAtOnce) {
   auto walk = std::make_shared<ShippedWalk>();
   walk->file = file;
+  if (auto pages = pagesOf(file, regionsAtOnce)) {
+    if (Status read = openAtStart(*walk, std::move(pages)); !read) return tl::unexpected(read.error());
+    if (Status read = readAll(*walk, runner, progress, stop); !read) return tl::unexpected(read.error());
+    return walk;
+  }
   auto files = bundleAt(file);
   if (!isBundle(file) && (files || files.error().kind == ErrorKind::malformed))
     return fail(ErrorKind::malformed,
@@ -167,29 +259,45 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
   const bool oneFile = !std::filesystem::is_directory(file, error);
   walk->bytes = oneFile ? std::filesystem::file_size(file, error) : bytesOf(walk->bundle);
   for (const BundleStorey& storey : walk->bundle.storeys) walk->layouts.push_back(numbered(storey.layout));
-  if (const Status sound = projectOf(*walk).check(); !sound)
-    return fail(sound.error().kind, sound.error().describe(), file.string());
+  if (Status sound = checkProject(*walk); !sound) return tl::unexpected(sound.error());
   if (Status read = readAll(*walk, runner, progress, stop); !read) return tl::unexpected(read.error());
   return walk;
 }
 
-Result<ShippedWalkPtr> shippedPlace(const WalkPlace& place, const std::filesystem::path& file,
-                                    const ShippedWalk* former, TaskRunner& runner,
-                                    const std::stop_token& stop) {
+Result<ShippedWalkPtr> shippedPlaces(std::vector<WalkPlacePtr> places, const std::filesystem::path& file,
+                                     const ShippedWalk* former, TaskRunner& runner,
+                                     const std::stop_token& stop) {
   auto walk = std::make_shared<ShippedWalk>();
   walk->file = file;
-  walk->files = place.files;
-  walk->bundle = place.bundle;
-  walk->bytes = bytesOf(walk->bundle);
-  for (std::size_t s = 0; s < walk->bundle.storeys.size(); ++s)
-    walk->layouts.push_back(s == place.storey ? numbered(place.here().layout, place.regions, place.cameras)
-                                              : numbered(walk->bundle.storeys[s].layout));
+  putPlaces(*walk, std::move(places));
   if (former != nullptr) {
     walk->scene = former->scene, walk->rays = former->rays;
   } else if (Status read = readAll(*walk, runner, {}, stop); !read) {
     return tl::unexpected(read.error());
   }
   return walk;
+}
+
+Result<ShippedWalkPtr> placeAround(const ShippedWalkPtr& walk, int storey, const glm::dvec2& point) {
+  auto next = std::make_shared<ShippedWalk>();
+  next->file = walk->file, next->pages = walk->pages, next->bytes = walk->bytes;
+  auto places = placesAt(*next, std::size_t(storey), point);
+  if (!places) return tl::unexpected(places.error());
+  const auto same = [](const WalkPlacePtr& a, const WalkPlacePtr& b) {
+    return (a == nullptr) == (b == nullptr) && (a == nullptr || a->page == b->page);
+  };
+  if (std::ranges::equal(*places, walk->places, same)) return walk;
+  putPlaces(*next, std::move(*places));
+  next->scene = walk->scene, next->rays = walk->rays;
+  return next;
+}
+
+std::uint64_t ShippedWalk::regionCount(int storey) const {
+  return pages ? pages->regionCount(std::size_t(storey)) : layouts[std::size_t(storey)]->regions.size();
+}
+
+bool ShippedWalk::isOwn(int storey, int region) const {
+  return places.empty() || places[std::size_t(storey)]->own[std::size_t(region)] != 0;
 }
 
 Project projectOf(const ShippedWalk& walk) {
@@ -234,7 +342,7 @@ OpenProject openProject(const ShippedWalk& walk, const Project& project) {
   open.rays = walk.rays;
   open.layout = walk.layouts[std::size_t(project.storey)];
   open.layouts = walk.layouts;
-  open.ground = std::make_shared<const StoreyGround>(walk.layouts);
+  open.ground = std::make_shared<const StoreyGround>(walk.layouts, walk.pages == nullptr);
   for (const BundleCamera& camera : walk.bundle.storeys[std::size_t(project.storey)].cameras)
     open.keys.push_back(keyOf(camera));
   return open;
@@ -270,6 +378,27 @@ WalkStart startWalk(const ShippedWalkPtr& walk, int storey, const LoadedWalk* fo
   }
   start.source = std::make_shared<const ShippedSource>(walk, storey);
   return start;
+}
+
+int takeOver(const LoadedWalk& from, WalkStream::Held held, WalkStart& start) {
+  int dropped = 0;
+  LoadedWalk& to = start.walk;
+  to.captureMemory = from.captureMemory;
+  start.coarse.resize(to.walk.captures.size());
+  const auto cameras = byNumber(to.walk.layout->cameras), regions = byNumber(to.walk.layout->regions);
+  for (std::size_t c = 0; c < held.full.size(); ++c) {
+    const auto found = cameras.find(from.walk.layout->cameras[c].id.i);
+    if (found == cameras.end()) {
+      dropped += (held.full[c] ? 1 : 0) + (held.coarse[c] ? 1 : 0);
+      continue;
+    }
+    to.walk.captures[found->second] = std::move(held.full[c]);
+    start.coarse[found->second] = std::move(held.coarse[c]);
+  }
+  for (std::size_t r = 0; r < held.local.size(); ++r)
+    if (const auto found = regions.find(from.walk.layout->regions[r].id.i); found != regions.end())
+      to.walk.local[found->second] = std::move(held.local[r]);
+  return dropped;
 }
 
 }  // namespace acentric

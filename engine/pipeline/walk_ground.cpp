@@ -132,7 +132,7 @@ glm::dvec2 walkTo(const Layout& layout, const glm::dvec2& from, const glm::dvec2
   return at;
 }
 
-StoreyGround::StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys) {
+StoreyGround::StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys, bool whole) : whole_(whole) {
   for (auto& layout : storeys) {
     Ground ground{std::move(layout), glm::dvec2(std::numeric_limits<double>::infinity()),
                   glm::dvec2(-std::numeric_limits<double>::infinity())};
@@ -181,6 +181,7 @@ int StoreyGround::storeyAt(const glm::dvec3& eye) const {
 
 bool StoreyGround::holds(int storey, const glm::dvec3& eye) const {
   const glm::dvec2 place(eye);
+  if (!whole_ && !layout(storey).regionAt(place)) return true;
   return storeys_[std::size_t(storey)].holds(place) ||
          (rises() && storeys_[std::size_t(storeyAt(eye))].holds(place));
 }

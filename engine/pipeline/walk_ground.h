@@ -39,8 +39,8 @@ struct Footing {
 /// how far within its outline one is.
 class StoreyGround {
  public:
-  /// Null: a storey without ground.
-  explicit StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys);
+  /// Null: a storey without ground. `whole`: is there no ground but these?
+  explicit StoreyGround(std::vector<std::shared_ptr<const Layout>> storeys, bool whole = true);
 
   /// Are there stairs? Else a walk stays on its storey, but for steps from floor to floor.
   bool rises() const;
@@ -55,7 +55,8 @@ class StoreyGround {
 
   /// That suits an eye best (layout/storey_choice.h).
   int storeyAt(const glm::dvec3& eye) const;
-  /// May an eye be there, on the storey or, where there are stairs, on the one that suits it best?
+  /// May an eye be there, on the storey or, where there are stairs, on the one that suits it best? It may
+  /// where the ground is not known.
   bool holds(int storey, const glm::dvec3& eye) const;
 
   const Layout& layout(int storey) const { return *storeys_[std::size_t(storey)].layout; }
@@ -71,6 +72,7 @@ class StoreyGround {
   };
   bool joined(int from, int to) const;
   std::vector<Ground> storeys_;
+  bool whole_;
 };
 
 }  // namespace acentric

@@ -29,7 +29,9 @@ class DistanceNumbers {
 
   std::int64_t numberOf(float w) const {
     if (!(step_ > 0)) return std::int64_t(std::bit_cast<std::uint32_t>(w) >> 8);
-    const auto steps = std::uint64_t(double(w) * perStep_);
+    const double exact = double(w) * perStep_;
+    // More of them than a capture may have: what a plane of a damaged file leads to.
+    const auto steps = exact < double(kMostDistanceNumbers) ? std::uint64_t(exact) : kMostDistanceNumbers;
     if (steps < 0x10000) return std::int64_t(steps);
     const int octave = int(std::bit_width(steps)) - 16;
     return std::int64_t(steps >> octave) + (std::int64_t(octave) << 15);
