@@ -36,6 +36,13 @@ void PlanPanel::fit(const Session& session) {
   view_.fit(box.low, box.high, 0.08);
 }
 
+void PlanPanel::followEye(const EditorState& state) {
+  const glm::dvec2 eye(state.walker.pose().eye), before = std::exchange(eye_, eye);
+  if (eye == before || !view_.contains(view_.screenFromWorld(before))) return;
+  const glm::dvec2 at = view_.screenFromWorld(eye);
+  if (!view_.contains(at)) view_.panPixels(view_.areaMin() + 0.5 * view_.areaSize() - at);
+}
+
 void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {
   const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
                                        ui::formatCount(layout.cameras.size()));
@@ -336,6 +343,7 @@ void PlanPanel::drawCanvas(PanelContext& context, const ImVec2& at, const ImVec2
       fit(context.session());
       context.state().fitPlan = false;
     }
+    followEye(context.state());
     frame(context);
     if (const auto frame = std::exchange(context.state().framePlan, std::nullopt))
       view_.fit(frame->low, frame->high);

@@ -37,6 +37,8 @@ class PlanPanel {
   void log(PanelContext& context);
   void logCells(PanelContext& context) const;
   void fit(const Session& session);
+  /// An eye that walks out of the plan's view takes it along.
+  void followEye(const EditorState& state);
   void drawLayout(PanelContext& context, ImDrawList& list, const std::optional<CellId>& hovered);
   void drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const;
   std::optional<CellId> hoveredCell(const PanelContext& context) const;
@@ -44,6 +46,7 @@ class PlanPanel {
   void tellHovered(PanelContext& context, ImDrawList& list, const std::optional<CellId>& hovered) const;
 
   ui::CanvasView view_;
+  glm::dvec2 eye_{0};  ///< of the last frame
   ui::Texture backdropTexture_;
   std::shared_ptr<const Backdrop> shownBackdrop_;
   PlanLayers layers_;

@@ -37,10 +37,9 @@ void drawWalkFacts(PanelContext& context) {
   if (!session.built() || !ui::section("Storey")) return;
   drawStoreyChoice(context);
   const Layout& layout = *session.built()->layout;
-  const std::string around = walk.pages ? " around the eye" : "";
-  fact("Regions", ui::formatCount(layout.regions.size()) + around);
-  if (walk.pages) fact("Of", ui::formatCount(walk.regionCount(session.built()->project.storey)));
-  fact("Cameras", ui::formatCount(layout.cameras.size()) + around);
+  const std::string all = ui::formatCount(walk.regionCount(session.built()->project.storey));
+  fact("Regions", walk.pages ? fmt::format("{} of {}", layout.regions.size(), all) : all);
+  fact("Cameras", ui::formatCount(layout.cameras.size()));
   const WalkPose& pose = context.state().walker.pose();
   fact("Eye", fmt::format("({:.2f}, {:.2f}, {:.2f}) m", pose.eye.x, pose.eye.y, pose.eye.z));
   fact("Looks", fmt::format("{:.0f}°, {:.0f}° up", degrees(pose.yawRadians), degrees(pose.pitchRadians)));

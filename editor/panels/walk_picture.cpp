@@ -301,7 +301,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   if (region) {
     const Region& r = layout.regions[std::size_t(*region)];
     const char* kind = r.kind == RegionKind::ring ? "ring" : "gap";
-    where = session.shippedWalk() ? fmt::format("{} {}", kind, *region)
+    where = session.shippedWalk() ? fmt::format("{} {}", kind, r.id.i)
                                   : fmt::format("{} ({}, {})", kind, r.id.i, r.id.j);
   }
   std::string text = where;

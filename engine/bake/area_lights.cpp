@@ -13,10 +13,9 @@ namespace acentric {
 namespace {
 
 /// A part of the hierarchy is opened while taking it as a point may be wrong by more than this share of all
-/// light that arrives (Walter et al., "Lightcuts", SIGGRAPH 2005) ...
+/// light that arrives (Walter et al., "Lightcuts", SIGGRAPH 2005), as long as there are no more than
+/// kMostParts.
 constexpr float kMostError = 0.005f;
-/// ... as long as there are no more parts than this.
-constexpr std::size_t kMostParts = 96;
 /// A single triangle is taken as a point from this many radii on.
 constexpr float kFarRadii = 16;
 /// Groups at least this large get a table of intensities; smaller ones are added up.
@@ -86,8 +85,13 @@ std::uint32_t AreaLights::build(std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t i = first; i < first + count; ++i)
     for (const glm::vec3& corner : emitters_[i].corners)
       node.radius = std::max(node.radius, glm::distance(corner, node.centre));
+  node.power = luminance(node.strength);
   nodes_.push_back(node);
-  if (count == 1) return index;
+  if (count == 1) {
+    const Emitter& e = emitters_[first];
+    facets_.push_back({e.normal, luminance(e.radiance) * e.area, e.twoSided ? -1.0f : 0.0f});
+    return index;
+  }
   const glm::vec3 size = middles.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::uint32_t half = count / 2;
@@ -107,13 +111,12 @@ void AreaLights::fillTable(std::uint32_t index) {
   Node& node = nodes_[index];
   const Node &left = nodes_[index + 1], &right = nodes_[node.second];
   node.table = std::int32_t(tables_.size());
-  const double whole = double(luminance(node.strength));
+  const double whole = double(node.power);
   const auto intensity = [&](const Node& child, std::size_t place, const glm::vec3& direction) {
-    if (child.table >= 0)
-      return double(luminance(child.strength) * tables_[std::size_t(child.table) + place]);
+    if (child.table >= 0) return double(child.power * tables_[std::size_t(child.table) + place]);
     double sum = 0;
     for (std::uint32_t i = child.first; i < child.first + child.count; ++i)
-      sum += double(luminance(emitters_[i].radiance) * emitters_[i].area * shareOf(emitters_[i], direction));
+      sum += double(facets_[i].power * facets_[i].shareOf(direction));
     return sum;
   };
   std::size_t place = 0;
@@ -126,9 +129,9 @@ void AreaLights::fillTable(std::uint32_t index) {
 }
 
 /// Of a facet's intensity along its normal, what it sends in a direction.
-float AreaLights::shareOf(const Emitter& emitter, const glm::vec3& direction) {
-  const float cosine = glm::dot(emitter.normal, direction);
-  return emitter.twoSided ? std::abs(cosine) : std::max(cosine, 0.0f);
+float AreaLights::Facet::shareOf(const glm::vec3& direction) const {
+  const float cosine = glm::dot(normal, direction);
+  return std::max(cosine, back * cosine);
 }
 
 /// `direction` unit, away from the light.
@@ -136,8 +139,8 @@ float AreaLights::shareTowards(const Node& node, const glm::vec3& direction) con
   if (node.table < 0) {
     float sum = 0;
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-      sum += luminance(emitters_[i].radiance) * emitters_[i].area * shareOf(emitters_[i], direction);
-    return sum / luminance(node.strength);
+      sum += facets_[i].power * facets_[i].shareOf(direction);
+    return sum / node.power;
   }
   const glm::vec2 place = (octahedronPlace(direction) + 1.0f) * (0.5f * kTableCells);
   const int x = std::clamp(int(place.x), 0, kTableCells - 1),
@@ -170,44 +173,51 @@ AreaLights::Estimate AreaLights::estimate(std::uint32_t index, const Surface& su
   const glm::vec3 direction = way / std::sqrt(square);
   const glm::vec3 facing = node.strength * (shareTowards(node, -direction) / square);
   const float cosine = std::max(0.0f, glm::dot(direction, surface.normal));
-  const float most = luminance(node.strength) / square;  // were all of it turned this way
+  const float most = node.power / square;  // were all of it turned this way
   return {facing * cosine, single ? 0 : 4 * nearness * most, true};
 }
 
-std::vector<AreaLights::Part> AreaLights::cut(const Surface& surface) const {
-  struct Open {
+AreaLights::Cut AreaLights::cut(const Surface& surface) const {
+  struct Seen {
     Estimate estimate;
     std::uint32_t node;
-    bool operator<(const Open& other) const { return estimate.error < other.estimate.error; }
   };
-  std::vector<Open> parts{{estimate(0, surface), 0}};
-  parts.reserve(32);
-  float total = luminance(parts[0].estimate.irradiance);
-  while (parts.size() < kMostParts) {
-    const Open worst = parts.front();  // of a heap
+  struct Open {
+    float error;
+    std::uint32_t part;
+    bool operator<(const Open& other) const { return error < other.error; }
+  };
+  std::array<Seen, 2 * kMostParts> parts;  // all that there ever were
+  std::array<Open, kMostParts> open;       // a heap of those that make the cut
+  std::uint32_t known = 0;
+  std::size_t count = 0;
+  float total = 0;
+  const auto add = [&](std::uint32_t node) {
+    const Seen& part = parts[known] = {estimate(node, surface), node};
+    total += luminance(part.estimate.irradiance);
+    open[count++] = {part.estimate.error, known++};
+    std::push_heap(open.begin(), open.begin() + count);
+  };
+  add(0);
+  while (count < kMostParts) {
     // A sum that was all taken away again may be left below zero by rounding; a single emitter has no error.
-    if (!(worst.estimate.error > kMostError * std::max(total, 0.0f))) break;
-    std::pop_heap(parts.begin(), parts.end());
-    parts.pop_back();
+    if (!(open.front().error > kMostError * std::max(total, 0.0f))) break;
+    const Seen& worst = parts[open.front().part];
+    std::pop_heap(open.begin(), open.begin() + count--);
     total -= luminance(worst.estimate.irradiance);
-    for (const std::uint32_t child : {worst.node + 1, nodes_[worst.node].second}) {
-      const Estimate part = estimate(child, surface);
-      total += luminance(part.irradiance);
-      parts.push_back({part, child});
-      std::push_heap(parts.begin(), parts.end());
-    }
-    if (parts.empty()) break;
+    for (const std::uint32_t child : {worst.node + 1, nodes_[worst.node].second}) add(child);
   }
   // In the order of the hierarchy, where neighbours are near each other: so samples spread over all of it.
-  std::ranges::sort(parts, {}, &Open::node);
-  std::vector<Part> cut;
-  cut.reserve(parts.size());
+  std::sort(open.begin(), open.begin() + count,
+            [&](const Open& a, const Open& b) { return parts[a.part].node < parts[b.part].node; });
+  Cut cut;
   float weights = 0;
-  for (const Open& part : parts) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Seen& part = parts[open[i].part];
     const float weight = luminance(part.estimate.irradiance);
     if (!(weight > 0)) continue;
     weights += weight;
-    cut.push_back({part.estimate.irradiance, weights, part.node, part.estimate.far});
+    cut.add({part.estimate.irradiance, weights, part.node, part.estimate.far});
   }
   return cut;
 }
@@ -242,7 +252,8 @@ AreaLights::Sample AreaLights::sample(const Part& part, const Surface& surface, 
   const glm::vec3 way = surface.rayOrigin - node.centre;
   const glm::vec3 direction = way / glm::length(way);
   const float share = shareTowards(node, direction);
-  out.weight = share > 0 ? shareOf(e, direction) / share : 0;
+  const Facet& facet = facets_[std::size_t(found - strengthBefore_.begin())];
+  out.weight = share > 0 ? facet.shareOf(direction) / share : 0;
   return out;
 }
 
@@ -254,7 +265,7 @@ glm::vec3 AreaLights::irradiance(const Surface& surface) const {
 
 glm::vec3 AreaLights::irradiance(const RayScene& scene, const Surface& surface,
                                  const PositionSamples& samples, int count, RayCounts& rays) const {
-  const std::vector<Part> parts = cut(surface);
+  const Cut parts = cut(surface);
   if (parts.empty()) return glm::vec3(0);
   const auto points = samples.at(surface.position, 0);
   glm::vec3 arriving(0), sent(0);

@@ -5,6 +5,7 @@
 /// nothing is sampled at all. Shadow rays are dealt out in proportion to what each part sends and tell only
 /// which share arrives: where nothing is in the way the light is free of noise.
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -50,18 +51,41 @@ class AreaLights {
     std::uint32_t second = 0;  ///< second child; the first follows its parent; 0 = a single emitter
     std::int32_t table = -1;   ///< intensities by direction; -1 = none
     glm::vec3 strength{0};     ///< sum of radiance * area
+    float power = 0;           ///< its luminance
+  };
+  /// What of an emitter tells how much it sends in a direction.
+  struct Facet {
+    glm::vec3 normal;
+    float power = 0;  ///< luminance of radiance * area
+    float back = 0;   ///< -1 if both sides glow, else 0
+    float shareOf(const glm::vec3& direction) const;
   };
   struct Estimate {
     glm::vec3 irradiance{0};
     float error = 0;
     bool far = false;  ///< taken as a point
   };
+  /// The hierarchy is cut into no more parts than this.
+  static constexpr std::size_t kMostParts = 96;
   /// A part of the cut, and what it sends here.
   struct Part {
     glm::vec3 irradiance;
     float upTo = 0;  ///< weights of the parts before and of this one
     std::uint32_t node = 0;
     bool far = false;
+  };
+  /// Each surface has its own: not worth a visit to the heap.
+  class Cut {
+   public:
+    void add(const Part& part) { parts_[count_++] = part; }
+    bool empty() const { return count_ == 0; }
+    const Part* begin() const { return parts_.data(); }
+    const Part* end() const { return parts_.data() + count_; }
+    const Part& back() const { return parts_[count_ - 1]; }
+
+   private:
+    std::array<Part, kMostParts> parts_;
+    std::size_t count_ = 0;
   };
   struct Sample {
     glm::vec3 target{0};
@@ -70,14 +94,14 @@ class AreaLights {
 
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   void fillTable(std::uint32_t index);
-  static float shareOf(const Emitter& emitter, const glm::vec3& direction);
   float shareTowards(const Node& node, const glm::vec3& direction) const;
   Estimate estimate(std::uint32_t index, const Surface& surface) const;
-  std::vector<Part> cut(const Surface& surface) const;
+  Cut cut(const Surface& surface) const;
   Sample sample(const Part& part, const Surface& surface, glm::vec2 u) const;
 
   std::vector<std::uint8_t> lighting_;  ///< by mesh
   std::vector<Emitter> emitters_;       ///< in the order of the hierarchy
+  std::vector<Facet> facets_;           ///< of these
   std::vector<double> strengthBefore_;  ///< of emitters [0, i), summed luminance * area
   std::vector<Node> nodes_;
   std::vector<float> tables_;

@@ -13,7 +13,7 @@
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/silhouettes.h"
 #include "engine/bake/surface_planes.h"
-#include "engine/base/stopwatch.h"
+#include "engine/base/work_clock.h"
 #include "engine/image/plane_numbers.h"
 
 namespace acentric {
@@ -117,7 +117,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       if (!testEyes_) testEyes_ = std::make_unique<TestEyes>(scene_, settings_);
       if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
       if (!skies_) skies_ = std::make_unique<RegionSkies>(scene_, settings_, budget_);
-      const Stopwatch watch;
+      const WorkClock watch;
       const int before = views_->traced();
       sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, *testEyes_, *views_, *skies_,
                                 runner, counts.rays, stop);

@@ -24,7 +24,9 @@ constexpr std::size_t kMostPairs = 16'000'000;
 /// Samples of a pixel behind one that it is compared with.
 constexpr std::uint32_t kMostBehind = 64;
 
-int atMost(int samples, double angle, double pitch) { return std::clamp(int(angle / pitch), 1, samples); }
+int atMost(int samples, double angle, double pitch) {
+  return int(std::clamp(angle / pitch, 1.0, double(samples)));
+}
 
 class Strip {
  public:

@@ -17,7 +17,7 @@
 #include "engine/bake/surface_light_bake.h"
 #include "engine/bake/test_eyes.h"
 #include "engine/base/file.h"
-#include "engine/base/stopwatch.h"
+#include "engine/base/work_clock.h"
 #include "engine/pipeline/gather_forecast.h"
 #include "engine/pipeline/local_triangles.h"
 #include "engine/pipeline/trial_folder.h"
@@ -94,7 +94,7 @@ class TrialSink final : public CaptureSink {
   bool has(const ContentKey&) const override { return false; }
   Status put(const ContentKey& key, const Capture& capture, const std::stop_token& stop) override {
     const fs::path pack = folder_ / "trial.pack";
-    const Stopwatch watch;
+    const WorkClock watch;
     if (Status done = writeCodedPack(capture, key, pack, colourQuality_, stop); !done) return done;
     const double seconds = watch.seconds();
     written_.push_back({key.low, double(capture.sampleCount()), seconds, double(fs::file_size(pack))});
@@ -238,7 +238,7 @@ class ProjectProber final : public BakeProber {
       SliceProbe& probe = probes.emplace_back();
       const std::vector<ColumnCamera> slices =
           slicesOf(columnsOf(camera), kSliceColumns, kSlicePixels / fewer_, probes.size());
-      const Stopwatch watch;
+      const WorkClock watch;
       double apart = (double(slices.size()) - 1) * overhead_.traceSeconds;
       for (const ColumnCamera& slice : slices) {
         auto traced = bake(camera, slice);
@@ -250,7 +250,7 @@ class ProjectProber final : public BakeProber {
       }
       probe.seconds = std::max(0.0, watch.seconds() - apart);
     }
-    const Stopwatch watch;
+    const WorkClock watch;
     if (Status done = writer.finish(); !done) return tl::unexpected(done.error());
     probes.back().seconds += watch.seconds();
     return probes;
@@ -273,7 +273,7 @@ class ProjectProber final : public BakeProber {
     const std::size_t step =
         std::max<std::size_t>(1, std::size_t(double(eyes.size()) * fewer_ / kTimedViews));
     RayCounts rays;
-    const Stopwatch watch;
+    const WorkClock watch;
     std::size_t n = 0;
     for (const auto& eye : eyes)
       if (n++ % step == 0 && !views.at({eye[0], eye[1], eye[2]}, runner_, rays, stop_)) return 0;
@@ -314,7 +314,7 @@ class ProjectProber final : public BakeProber {
     const std::size_t step =
         std::max<std::size_t>(1, std::size_t(double(regions.size()) * fewer_ / kTimedRegions));
     RayCounts rays;
-    const Stopwatch watch;
+    const WorkClock watch;
     std::size_t n = 0, asked = 0, found = 0;
     for (const auto& [id, role] : regions) {
       if (n++ % step != 0) continue;
@@ -339,7 +339,7 @@ class ProjectProber final : public BakeProber {
   };
   Result<Traced> bake(int camera, const ColumnCamera& columns) {
     Traced traced;
-    const Stopwatch watch;
+    const WorkClock watch;
     auto capture = baker_.bake(layoutCamera(camera), columns, runner_, traced.counts, stop_);
     if (!capture) return tl::unexpected(capture.error());
     traced.capture = std::move(*capture);
@@ -374,7 +374,7 @@ class ProjectProber final : public BakeProber {
   /// Once.
   Status layOutLight() {
     if (!layout_.resolution.empty()) return {};
-    const Stopwatch finding;
+    const WorkClock finding;
     local_ = localTrianglesOf(*open_.rays, *open_.drawn, *open_.layout, runner_, stop_);
     if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "the estimate was stopped");
     findingSeconds_ = finding.seconds();
@@ -388,7 +388,7 @@ class ProjectProber final : public BakeProber {
     double bytes = 0, seconds = 0;
   };
   Result<LightFile> writeLight(const SurfaceLight& light) const {
-    const Stopwatch watch;
+    const WorkClock watch;
     if (Status done = writeSurfaceLight(light, {}, lightFile_, stop_); !done)
       return tl::unexpected(done.error());
     return LightFile{double(fs::file_size(lightFile_)), watch.seconds()};
@@ -402,7 +402,7 @@ class ProjectProber final : public BakeProber {
       return bakeSurfaceLight(*open_.rays, *open_.drawn, wanted, local_.viewer,
                               lightProbingSettings(open_.project.bake), runner_, {}, stop_);
     };
-    Stopwatch watch;
+    WorkClock watch;
     auto light = bakeOnce();
     if (!light) return tl::unexpected(light.error());
     double seconds = watch.seconds();

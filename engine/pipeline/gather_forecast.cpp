@@ -10,7 +10,7 @@
 #include "engine/bake/gathered_light.h"
 #include "engine/bake/position_samples.h"
 #include "engine/bake/test_eyes.h"
-#include "engine/base/stopwatch.h"
+#include "engine/base/work_clock.h"
 #include "engine/pipeline/coverage.h"
 #include "engine/scene/instances.h"
 
@@ -201,7 +201,7 @@ class Forecaster {
     const std::size_t batch = std::size_t(fewer_ > 1 ? 1 : 4) * std::size_t(runner_.threads());
     RayCounts rays;
     std::size_t places = 0;
-    const Stopwatch watch;
+    const WorkClock watch;
     for (std::size_t first = 0; first < starts.size() && double(rays.gathered) * double(fewer_) < kRateRays;
          first += batch) {
       const std::size_t count = std::min(batch, starts.size() - first);

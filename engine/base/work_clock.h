@@ -1,0 +1,29 @@
+#pragma once
+/// Seconds that work takes while nothing else runs on the machine: wall-clock time, less the share for which
+/// the threads of this process waited for a processor. What other work does to caches and memory stays in it.
+
+#include <map>
+#include <string>
+
+#include "engine/base/stopwatch.h"
+
+namespace acentric {
+
+/// Begins when it is made. Where the system does not tell of waiting threads (Linux does), a Stopwatch.
+class WorkClock {
+ public:
+  WorkClock();
+  double seconds() const;
+
+ private:
+  struct Times {
+    double running = 0, waiting = 0;  ///< seconds
+  };
+  using Threads = std::map<std::string, Times>;  ///< by number
+  static Threads threadsNow();
+
+  Threads atFirst_;
+  Stopwatch wall_;
+};
+
+}  // namespace acentric
