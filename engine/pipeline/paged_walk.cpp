@@ -153,7 +153,7 @@ bool PagedWalk::isOwn(const glm::dvec2& eye) const {
   return region && at_.place->own[std::size_t(*region)] != 0;
 }
 
-Result<PagedWalk::Place> PagedWalk::enter(const WalkPlacePtr& place, const Whereabouts& where,
+Result<PagedWalk::Place> PagedWalk::enter(const BundlePlacePtr& place, const Whereabouts& where,
                                           const std::stop_token& stop) {
   TaskRunner alone(0);
   auto walk = shippedPlace(*place, file_, at_.walk.get(), alone, stop);

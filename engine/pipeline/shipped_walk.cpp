@@ -173,13 +173,13 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
   return walk;
 }
 
-Result<ShippedWalkPtr> shippedPlace(const WalkPlace& place, const std::filesystem::path& file,
+Result<ShippedWalkPtr> shippedPlace(const BundlePlace& place, const std::filesystem::path& file,
                                     const ShippedWalk* former, TaskRunner& runner,
                                     const std::stop_token& stop) {
   auto walk = std::make_shared<ShippedWalk>();
   walk->file = file;
   walk->files = place.files;
-  walk->bundle = place.bundle;
+  walk->bundle = *place.bundle;
   walk->bytes = bytesOf(walk->bundle);
   for (std::size_t s = 0; s < walk->bundle.storeys.size(); ++s)
     walk->layouts.push_back(s == place.storey ? numbered(place.here().layout, place.regions, place.cameras)
@@ -254,8 +254,7 @@ WalkStart startWalk(const ShippedWalkPtr& walk, int storey, const LoadedWalk* fo
   const BundleStorey& from = walk->bundle.storeys[std::size_t(storey)];
   WalkStart start;
   LoadedWalk& loaded = start.walk;
-  loaded.walk = walkSceneOf(walk->bundle, from, walk->scene);
-  loaded.walk.layout = walk->layouts[std::size_t(storey)];
+  loaded.walk = walkSceneOf(walk->bundle, walk->layouts[std::size_t(storey)], walk->scene);
   loaded.standsIn.assign(from.cameras.size(), false);
   for (const BundleCamera& camera : from.cameras) {
     loaded.keys.push_back(keyOf(camera));

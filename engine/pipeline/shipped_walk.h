@@ -32,7 +32,7 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
 
 /// One place of a walk that is read page by page: regions and cameras of one storey are those of the page,
 /// their ids number them in the storey. `former`: of another place of the same walk, whose textures it has.
-Result<ShippedWalkPtr> shippedPlace(const WalkPlace& place, const std::filesystem::path& file,
+Result<ShippedWalkPtr> shippedPlace(const BundlePlace& place, const std::filesystem::path& file,
                                     const ShippedWalk* former, TaskRunner& runner,
                                     const std::stop_token& stop = {});
 

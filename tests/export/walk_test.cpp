@@ -179,7 +179,7 @@ TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
     std::vector<std::pair<std::uint64_t, std::size_t>> reads;
     auto pages = WalkPages::open(std::make_shared<CountedRanges>(written({regionsPerPage}), reads), "grid");
     ASSERT_TRUE(pages) << pages.error().describe();
-    EXPECT_EQ((*pages)->regionCount(0), std::uint64_t(kSide * kSide));
+    EXPECT_EQ((*pages)->counts(0).regions, std::size_t(kSide * kSide));
     EXPECT_TRUE((*pages)->root().storeys[0].layout.regions.empty());
     EXPECT_EQ((*pages)->root().storeys[1].start, bundle_.storeys[1].start);
     for (int n = 0; n < 30; ++n) {
@@ -189,9 +189,9 @@ TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
                                           : glm::dvec2(anywhere(random_), anywhere(random_));
       const auto found = (*pages)->placeAt(s, point);
       ASSERT_TRUE(found) << found.error().describe();
-      const WalkPlace& place = **found;
+      const BundlePlace& place = **found;
       const BundleStorey& here = place.here();
-      EXPECT_TRUE(place.bundle.storeys[1 - s].layout.regions.empty());
+      EXPECT_TRUE(place.bundle->storeys[1 - s].layout.regions.empty());
       const auto number = whole.layout.regionAt(point), local = here.layout.regionAt(point);
       ASSERT_EQ(number.has_value(), local.has_value());
       const int nearest = here.layout.nearestRegion(point).region;
