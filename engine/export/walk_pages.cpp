@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "engine/base/json_text.h"
 #include "engine/export/counted_ranges.h"
@@ -90,6 +91,7 @@ struct WalkPages::Index {
     }
     const std::string what = index->nameOf(leaf.entry);
     auto place = withinSense(what, [&] { return placeFrom(std::exchange(leaf.json, nullptr), leaf, what); });
+    tree->dropTexts();
     if (!place) return place;
     places.push_front(*place);
     if (places.size() > kKeptPlaces) places.pop_back();
@@ -204,7 +206,6 @@ template <class Body>
 auto WalkPages::looking(const Body& body) -> decltype(body()) {
   const std::lock_guard lock(mutex_);
   auto found = body();
-  index_->tree->dropTexts();
   if (!found && found.error().kind == ErrorKind::notFound) found.error().kind = ErrorKind::unreadable;
   return found;
 }
@@ -218,17 +219,22 @@ Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
   std::ranges::sort(atLeast);
   return looking([&]() -> Result<std::size_t> {
     std::pair<double, std::size_t> best{std::numeric_limits<double>::infinity(), 0};
+    WalkPagePtr leaf;
     for (const auto& [least, s] : atLeast) {
       if (least > best.first) break;
       const auto nearest = index_->tree->nearest(s, eye);
       if (!nearest) return tl::unexpected(nearest.error());
-      best = std::min(best, {misfitOf(nearest->distance, root_.storeys[s].layout, eye), s});
+      const std::pair misfit(misfitOf(nearest->distance, root_.storeys[s].layout, eye), s);
+      if (misfit < best) best = misfit, leaf = nearest->leaf;
     }
+    index_->tree->dropTexts(leaf.get());  // it is asked for next
     return best.second;
   });
 }
 
 Result<BundlePlacePtr> WalkPages::placeAt(std::size_t storey, const glm::dvec2& point) {
+  if (storey >= counts_.size() || counts_[storey].regions == 0)
+    return fail(ErrorKind::notFound, "has no region to stand in", name_);
   return looking([&]() -> Result<BundlePlacePtr> {
     const auto nearest = index_->tree->nearest(storey, point);
     if (!nearest) return tl::unexpected(nearest.error());

@@ -29,7 +29,7 @@ class WalkPages final : public BundlePlaces {
   /// Of storeys only pages are read that may have the nearest region.
   Result<std::size_t> storeyAt(const glm::dvec3& eye) override;
   /// The page whose own regions hold a point of the plan, or come nearest to it: of all own regions the eye's
-  /// is the first in the storey's order.
+  /// is the first in the storey's order. notFound where there is no such storey, or no region in it.
   Result<BundlePlacePtr> placeAt(std::size_t storey, const glm::dvec2& point) override;
   /// A page that was read lately where one has it; else one that the index is looked through for.
   Result<BundlePlacePtr> placeOfCamera(std::size_t storey, std::size_t camera) override;

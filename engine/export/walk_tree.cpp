@@ -22,6 +22,12 @@ double leastDistanceTo(const WalkPageEntry& page, const glm::dvec2& p) {
   return (1 - kSlack) * glm::length(glm::max(glm::max(page.low - p, p - page.high), glm::dvec2(0)));
 }
 
+/// From the nearest side of a page's box, which holds the point.
+double depthIn(const WalkPageEntry& page, const glm::dvec2& p) {
+  const glm::dvec2 depth = glm::min(p - page.low, page.high - p);
+  return std::min(depth.x, depth.y);
+}
+
 bool has(const WalkPage& page, WalkThing thing, std::uint64_t number) {
   if (thing == WalkThing::camera) return std::ranges::find(page.cameras, number) != page.cameras.end();
   const auto found = std::ranges::lower_bound(page.regions, number, {}, &WalkPage::SeenRegion::number);
@@ -100,8 +106,9 @@ Result<WalkPagePtr> WalkTree::page(std::size_t storey, const WalkPageEntry& entr
   return made;
 }
 
-void WalkTree::dropTexts() {
-  for (const WalkPagePtr& page : kept_) page->json = nullptr;
+void WalkTree::dropTexts(const WalkPage* but) {
+  for (const WalkPagePtr& page : kept_)
+    if (page.get() != but) page->json = nullptr;
 }
 
 // By place
@@ -117,11 +124,12 @@ Status WalkTree::visit(std::size_t storey, const WalkPageEntry& entry, int level
     if (!query.damage) query.damage = found.error();  // perhaps another page has what is looked for
     return {};
   }
-  std::vector<std::pair<double, const WalkPageEntry*>> nearestFirst;
-  for (const WalkPageEntry& child : (*found)->children)
-    nearestFirst.emplace_back(leastDistanceTo(child, query.point), &child);
-  std::ranges::stable_sort(nearestFirst, {}, [](const auto& child) { return child.first; });
-  for (const auto& [_, child] : nearestFirst)
+  std::vector<const WalkPageEntry*> likeliestFirst;
+  for (const WalkPageEntry& child : (*found)->children) likeliestFirst.push_back(&child);
+  std::ranges::stable_sort(likeliestFirst, {}, [&](const WalkPageEntry* child) {
+    return std::pair(leastDistanceTo(*child, query.point), -depthIn(*child, query.point));
+  });
+  for (const WalkPageEntry* child : likeliestFirst)
     if (Status visited = visit(storey, *child, level + 1, query); !visited) return visited;
   for (const WalkPage::SeenRegion& region : (*found)->regions) {
     if (!region.own || (query.wanted && region.number != *query.wanted)) continue;

@@ -66,8 +66,8 @@ class WalkTree {
   /// Where no page that is kept has it, leaves are looked through until one does, each once.
   Result<WalkPagePtr> leafOf(std::size_t storey, WalkThing thing, std::uint64_t number,
                              const std::optional<glm::dvec2>& inside = std::nullopt);
-  /// Lets go of the texts of leaves.
-  void dropTexts();
+  /// Lets go of the texts of leaves, but for one.
+  void dropTexts(const WalkPage* but = nullptr);
 
  private:
   /// For the nearest region, or for one with a number around a point that it holds.
