@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "engine/capi/handle.h"
 
@@ -54,6 +55,22 @@ std::vector<Unneeded> unneededOf(const BundlePlayer& runtime, const Wanted& want
   return out;
 }
 
+/// Where the eye is in a page's last regions, the pages beside it: whoever draws frames does not wait for
+/// them.
+void readAhead(acentric_bundle& bundle, const BundlePlayer::Needs& needs) {
+  const BundlePlace& place = *needs.place;
+  const std::pair now(place.storey, place.regions[std::size_t(needs.region)]);
+  if (std::exchange(bundle.ahead, now) == now) return;
+  std::vector<glm::dvec2> points;
+  for (const int neighbour : place.here().neighbours[std::size_t(needs.region)])
+    if (place.own[std::size_t(neighbour)] == 0)
+      points.push_back(place.here().layout.regions[std::size_t(neighbour)].polygon.centroid());
+  if (points.empty()) return;
+  bundle.loader->doAside([&places = bundle.runtime.places(), storey = place.storey, points] {
+    for (const glm::dvec2& point : points) places.readAhead(storey, point);
+  });
+}
+
 }  // namespace
 
 namespace acentric::capi {
@@ -84,9 +101,10 @@ acentric_status request(acentric_bundle& bundle, const Wanted& wanted, Loaded de
   }
   if (detail == Loaded::full) addCaptures(Loaded::full);
   if (!bundle.loader)
-    bundle.loader = std::make_unique<BackgroundLoader>(bundle.runtime.bundle().textures.size(),
-                                                       bundle.runtime.threads());
+    bundle.loader =
+        std::make_unique<BackgroundLoader>(bundle.runtime.bundle().textures.size(), bundle.runtime.threads());
   bundle.loader->ask(wanted.needs.place, std::move(jobs));
+  readAhead(bundle, wanted.needs);
   return kOk;
 }
 
@@ -131,7 +149,8 @@ acentric_status acentric_poll(acentric_bundle* bundle, int32_t* arrived) {
 
 acentric_status acentric_cancel(acentric_bundle* bundle) {
   return guarded(bundle, [&](BundlePlayer&) {
-    if (bundle->loader) bundle->loader->ask(nullptr, {});
+    if (bundle->loader) bundle->loader->ask(nullptr, {}), bundle->loader->doAside(nullptr);
+    bundle->ahead.reset();
     bundle->failed.clear();
     return kOk;
   });

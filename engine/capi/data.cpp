@@ -35,8 +35,7 @@ template <class Body>
 acentric_status forLoaded(acentric_bundle* bundle, int32_t storey, int32_t region, const void* out,
                           const Body& body) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (out == nullptr || !hasRegion(runtime, storey, region))
-      return refused(bundle, "no such region");
+    if (out == nullptr || !hasRegion(runtime, storey, region)) return refused(bundle, "no such region");
     const LocalGeometry* local = runtime.region(std::size_t(storey), std::size_t(region));
     if (local == nullptr) return failed(*bundle, ACENTRIC_ERROR_NOT_LOADED, "the region is not loaded");
     return body(*local);

@@ -55,15 +55,9 @@ acentric_status acentric_get_storey(acentric_bundle* bundle, int32_t storey, ace
     const BundlePlaces::Counts counts = runtime.places().counts(std::size_t(storey));
     const BundleStorey& from = runtime.bundle().storeys[std::size_t(storey)];
     const LayoutSpec& spec = from.layout.spec;
-    *out = {from.name.c_str(),
-            spec.floorHeight,
-            spec.eyeHeight,
-            from.layout.eyeZ(),
-            spec.nearBand,
-            {from.start.x, from.start.y},
-            from.startYaw,
-            int32_t(counts.cameras),
-            int32_t(counts.regions)};
+    *out = {from.name.c_str(),  spec.floorHeight,        spec.eyeHeight,
+            from.layout.eyeZ(), spec.nearBand,           {from.start.x, from.start.y},
+            from.startYaw,      int32_t(counts.cameras), int32_t(counts.regions)};
     return kOk;
   });
 }
@@ -158,8 +152,7 @@ acentric_status acentric_region_at(acentric_bundle* bundle, int32_t storey, cons
 
 acentric_status acentric_clamp(acentric_bundle* bundle, int32_t storey, double place[2]) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (place == nullptr || !hasStorey(runtime, storey))
-      return refused(bundle, "no such storey, or NULL");
+    if (place == nullptr || !hasStorey(runtime, storey)) return refused(bundle, "no such storey, or NULL");
     const glm::dvec2 point(place[0], place[1]);
     const auto around = runtime.placeAt(std::size_t(storey), point);
     if (!around) return failed(*bundle, around.error());

@@ -5,8 +5,10 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/capi/acentric_runtime.h"
@@ -20,6 +22,8 @@ struct acentric_bundle {
   std::vector<std::vector<acentric_pose>> poses;  ///< by path
   std::set<acentric::LoadJob> failed;             ///< in the background
   std::set<acentric::LoadJob> handedOut;          ///< models
+  /// Storey and region of the last request: what is beside them was asked for.
+  std::optional<std::pair<std::size_t, std::uint64_t>> ahead;
   std::unique_ptr<acentric::BackgroundLoader> loader;
 };
 

@@ -23,6 +23,12 @@ void BackgroundLoader::ask(BundlePlacePtr place, std::vector<LoadJob> jobs) {
   wake_.notify_all();
 }
 
+void BackgroundLoader::doAside(std::function<void()> work) {
+  const std::lock_guard lock(mutex_);
+  aside_ = std::move(work);
+  wake_.notify_all();
+}
+
 std::optional<Arrival> BackgroundLoader::take(const std::function<bool(const LoadJob&)>& chosen) {
   const std::lock_guard lock(mutex_);
   const auto found =
@@ -43,9 +49,22 @@ void BackgroundLoader::work(const std::stop_token& stop) {
   for (;;) {
     LoadJob job;
     BundlePlacePtr place;
+    std::function<void()> aside;
     {
       std::unique_lock lock(mutex_);
-      if (!wake_.wait(lock, stop, [&] { return !jobs_.empty(); }) || stop.stop_requested()) return;
+      if (!wake_.wait(lock, stop, [&] { return aside_ || !jobs_.empty(); }) || stop.stop_requested()) return;
+      aside = std::exchange(aside_, nullptr);
+    }
+    if (aside) {
+      try {
+        aside();
+      } catch (const std::bad_alloc&) {  // nobody is told of it
+      }
+      continue;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (jobs_.empty()) continue;  // another thread was faster
       job = jobs_.front(), place = place_;
       jobs_.pop_front();
       begun_.insert(job);

@@ -42,6 +42,9 @@ class BackgroundLoader {
   /// These in this order, all of one place, in place of those of the last call that were not begun. What is
   /// being read, or has arrived and was not taken, is not read again.
   void ask(BundlePlacePtr place, std::vector<LoadJob> jobs);
+  /// Done once, before what was asked for and not begun, in place of the last such call's where that was not
+  /// begun. Nobody is told of it.
+  void doAside(std::function<void()> work);
   /// The first that has arrived of those that `chosen` takes.
   std::optional<Arrival> take(const std::function<bool(const LoadJob&)>& chosen);
   /// Jobs that were asked for, and have not been taken.
@@ -57,6 +60,7 @@ class BackgroundLoader {
   std::condition_variable_any wake_;
   BundlePlacePtr place_;  ///< of jobs_
   std::deque<LoadJob> jobs_;
+  std::function<void()> aside_;
   std::set<LoadJob> begun_;  ///< and not taken
   std::deque<Arrival> arrived_;
   std::vector<std::weak_ptr<const ColourImage>> images_;  ///< by texture: those that someone still has

@@ -19,7 +19,8 @@ class WholeBundle final : public BundlePlaces {
       place->bundle = bundle_;
       place->cameras.resize(bundle_->storeys[s].cameras.size());
       place->regions.resize(bundle_->storeys[s].local.size());
-      for (auto* numbers : {&place->cameras, &place->regions}) std::iota(numbers->begin(), numbers->end(), 0U);
+      for (auto* numbers : {&place->cameras, &place->regions})
+        std::iota(numbers->begin(), numbers->end(), 0U);
       place->own.assign(place->regions.size(), 1);
       place->files = files;
       places_.push_back(std::move(place));
@@ -40,6 +41,7 @@ class WholeBundle final : public BundlePlaces {
     return best;
   }
   Result<BundlePlacePtr> placeAt(std::size_t storey, const glm::dvec2&) override { return places_[storey]; }
+  void readAhead(std::size_t, const glm::dvec2&) override {}
   Result<BundlePlacePtr> placeOfCamera(std::size_t storey, std::size_t) override { return places_[storey]; }
   Result<BundlePlacePtr> placeOfRegion(std::size_t storey, std::size_t) override { return places_[storey]; }
   Result<CameraFacts> camera(std::size_t storey, std::size_t camera) override {

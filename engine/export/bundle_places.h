@@ -27,8 +27,7 @@ struct RegionFacts {
   std::uint64_t triangles = 0, bytes = 0;  ///< of near geometry
 };
 
-/// Numbers of storeys, cameras and regions are the bundle's, and have to be there. Errors are of the index:
-/// none of them is notFound.
+/// Numbers of storeys, cameras and regions are the bundle's, and have to be there. Errors are of the index.
 class BundlePlaces {
  public:
   virtual ~BundlePlaces() = default;
@@ -41,9 +40,11 @@ class BundlePlaces {
 
   /// The storey that an eye is drawn from, whose numbers are finite.
   virtual Result<std::size_t> storeyAt(const glm::dvec3& eye) = 0;
-  /// Knows the region that holds a point of the plan, all that overlap it, or else the nearest one. The storey
-  /// has regions, and the point's numbers are finite.
+  /// Knows the region that holds a point of the plan, all that overlap it, or else the nearest one. The
+  /// storey has regions, and the point's numbers are finite.
   virtual Result<BundlePlacePtr> placeAt(std::size_t storey, const glm::dvec2& point) = 0;
+  /// From any thread, in which it reads what placeAt would, and lets others go on meanwhile.
+  virtual void readAhead(std::size_t storey, const glm::dvec2& point) = 0;
   virtual Result<BundlePlacePtr> placeOfCamera(std::size_t storey, std::size_t camera) = 0;
   virtual Result<BundlePlacePtr> placeOfRegion(std::size_t storey, std::size_t region) = 0;
   virtual Result<CameraFacts> camera(std::size_t storey, std::size_t camera) = 0;

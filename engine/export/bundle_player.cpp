@@ -53,11 +53,15 @@ Result<BundlePlayer::Eye> BundlePlayer::stand(const PerspectiveView& view,
                                               const ViewSettings& settings) const {
   for (const Status& sound : {view.check(), settings.check()})
     if (!sound) return tl::unexpected(sound.error());
+  const auto failed = [](Error error) {  // notFound is what the eye may be
+    if (error.kind == ErrorKind::notFound) error.kind = ErrorKind::unreadable;
+    return tl::unexpected(std::move(error));
+  };
   const auto storey = storeyAt(view.eye);
-  if (!storey) return tl::unexpected(storey.error());
+  if (!storey) return failed(storey.error());
   const glm::dvec2 point(view.eye);
   const auto place = placeAt(*storey, point);
-  if (!place) return tl::unexpected(place.error());
+  if (!place) return failed(place.error());
   const auto region = *place ? (*place)->here().layout.regionAt(point) : std::nullopt;
   if (!region)
     return fail(ErrorKind::notFound,

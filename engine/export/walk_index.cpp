@@ -63,8 +63,9 @@ Result<BundleJson> WalkIndex::root() const {
 WalkPageEntry WalkIndex::entryOf(const BundleJson& json) {
   const BundleJson& box = json.at("box");
   const auto side = [&](std::size_t i) { return box.at(i).get<double>(); };
-  return {number(json.at("at")),  number(json.at("bytes")), number(json.at("raw")),
-          json.at("hash").get<std::string>(), {side(0), side(1)}, {side(2), side(3)},
+  return {number(json.at("at")),      number(json.at("bytes")),
+          number(json.at("raw")),     json.at("hash").get<std::string>(),
+          {side(0), side(1)},         {side(2), side(3)},
           json.at("leaf").get<bool>()};
 }
 
@@ -74,7 +75,8 @@ std::string WalkIndex::nameOf(const WalkPageEntry& entry) const {
 
 Result<BundleJson> WalkIndex::page(const WalkPageEntry& entry) const {
   if (entry.at > header_.dataStart) return malformed("a page lies outside the index");
-  return read(header_.pageStart + entry.at, entry.bytes, entry.raw, entry.hash, nameOf(entry), kMostPageBytes);
+  return read(header_.pageStart + entry.at, entry.bytes, entry.raw, entry.hash, nameOf(entry),
+              kMostPageBytes);
 }
 
 void WalkIndex::take(BundleJson& file, FilePlaces& places) const {

@@ -19,7 +19,7 @@ namespace {
 
 using Json = BundleJson;
 
-constexpr std::size_t kKeptPlaces = 4;  // those that were used last
+constexpr std::size_t kKeptPlaces = 8;  // those that were used last: the eye's, and pages beside it
 
 /// A region as it is told of, without its covers.
 struct KnownRegion {
@@ -65,7 +65,7 @@ struct WalkPages::Index {
   FilePlaces textures;
   std::vector<Counts> counts;
   std::optional<WalkTree> tree;
-  std::vector<Known> known;         ///< by storey
+  std::vector<Known> known;          ///< by storey
   std::list<BundlePlacePtr> places;  ///< last used first
 
   Index(std::shared_ptr<const ByteRanges> from, std::string its)
@@ -81,21 +81,31 @@ struct WalkPages::Index {
     return places.front();
   }
 
+  BundlePlacePtr placeKept(const WalkPage& leaf) {
+    return kept(leaf.storey, [&](const BundlePlace& p) { return p.page == leaf.entry.at; });
+  }
+  void keep(const BundlePlacePtr& place) {
+    places.push_front(place);
+    if (places.size() > kKeptPlaces) places.pop_back();
+  }
+
   Result<BundlePlacePtr> placeOf(WalkPage& leaf) {
-    if (auto place = kept(leaf.storey, [&](const BundlePlace& p) { return p.page == leaf.entry.at; }))
-      return place;
-    if (leaf.json.is_null()) {
+    if (auto place = placeKept(leaf)) return place;
+    auto place = made(leaf, std::exchange(leaf.json, nullptr));
+    tree->dropTexts();
+    if (place) keep(*place);
+    return place;
+  }
+
+  /// From any thread. `text`: null where it has to be read again.
+  Result<BundlePlacePtr> made(const WalkPage& leaf, Json text) const {
+    const std::string what = index->nameOf(leaf.entry);
+    return withinSense(what, [&]() -> Result<BundlePlacePtr> {
+      if (!text.is_null()) return placeFrom(std::move(text), leaf, what);
       auto again = index->page(leaf.entry);
       if (!again) return tl::unexpected(again.error());
-      leaf.json = std::move(*again);
-    }
-    const std::string what = index->nameOf(leaf.entry);
-    auto place = withinSense(what, [&] { return placeFrom(std::exchange(leaf.json, nullptr), leaf, what); });
-    tree->dropTexts();
-    if (!place) return place;
-    places.push_front(*place);
-    if (places.size() > kKeptPlaces) places.pop_back();
-    return place;
+      return placeFrom(std::move(*again), leaf, what);
+    });
   }
 
   Result<BundlePlacePtr> placeFrom(Json text, const WalkPage& leaf, const std::string& what) const {
@@ -201,15 +211,6 @@ Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
   return {};
 }
 
-/// One at a time. A range that is not there is none of what was asked for.
-template <class Body>
-auto WalkPages::looking(const Body& body) -> decltype(body()) {
-  const std::lock_guard lock(mutex_);
-  auto found = body();
-  if (!found && found.error().kind == ErrorKind::notFound) found.error().kind = ErrorKind::unreadable;
-  return found;
-}
-
 Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
   std::vector<std::pair<double, std::size_t>> atLeast;
   for (std::size_t s = 0; s < counts_.size(); ++s)
@@ -217,63 +218,82 @@ Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
       atLeast.emplace_back(misfitOf(index_->tree->leastDistance(s, eye), root_.storeys[s].layout, eye), s);
   if (counts_.size() == 1 || atLeast.empty()) return 0;
   std::ranges::sort(atLeast);
-  return looking([&]() -> Result<std::size_t> {
-    std::pair<double, std::size_t> best{std::numeric_limits<double>::infinity(), 0};
-    WalkPagePtr leaf;
-    for (const auto& [least, s] : atLeast) {
-      if (least > best.first) break;
-      const auto nearest = index_->tree->nearest(s, eye);
-      if (!nearest) return tl::unexpected(nearest.error());
-      const std::pair misfit(misfitOf(nearest->distance, root_.storeys[s].layout, eye), s);
-      if (misfit < best) best = misfit, leaf = nearest->leaf;
-    }
-    index_->tree->dropTexts(leaf.get());  // it is asked for next
-    return best.second;
-  });
+  const std::lock_guard lock(mutex_);
+  std::pair<double, std::size_t> best{std::numeric_limits<double>::infinity(), 0};
+  WalkPagePtr leaf;
+  for (const auto& [least, s] : atLeast) {
+    if (least > best.first) break;
+    const auto nearest = index_->tree->nearest(s, eye);
+    if (!nearest) return tl::unexpected(nearest.error());
+    const std::pair misfit(misfitOf(nearest->distance, root_.storeys[s].layout, eye), s);
+    if (misfit < best) best = misfit, leaf = nearest->leaf;
+  }
+  index_->tree->dropTexts(leaf.get());  // it is asked for next
+  return best.second;
 }
 
 Result<BundlePlacePtr> WalkPages::placeAt(std::size_t storey, const glm::dvec2& point) {
   if (storey >= counts_.size() || counts_[storey].regions == 0)
     return fail(ErrorKind::notFound, "has no region to stand in", name_);
-  return looking([&]() -> Result<BundlePlacePtr> {
-    const auto nearest = index_->tree->nearest(storey, point);
-    if (!nearest) return tl::unexpected(nearest.error());
-    return index_->placeOf(*nearest->leaf);
-  });
+  const std::lock_guard lock(mutex_);
+  const auto nearest = index_->tree->nearest(storey, point);
+  if (!nearest) return tl::unexpected(nearest.error());
+  return index_->placeOf(*nearest->leaf);
+}
+
+void WalkPages::readAhead(std::size_t storey, const glm::dvec2& point) {
+  std::unique_lock lock(mutex_);
+  WalkTree& tree = *index_->tree;
+  std::size_t read = 0;
+  while (const auto missing = tree.missing(storey, point)) {
+    if (read++ == kKeptWalkPages) return;
+    lock.unlock();
+    const auto page = tree.read(storey, *missing);
+    lock.lock();
+    if (!page) return;
+    tree.keep(*page);
+  }
+  const auto nearest = tree.nearest(storey, point);
+  if (!nearest || index_->placeKept(*nearest->leaf)) return;
+  Json text = std::exchange(nearest->leaf->json, nullptr);
+  lock.unlock();
+  const auto place = index_->made(*nearest->leaf, std::move(text));
+  lock.lock();
+  if (place && !index_->placeKept(*nearest->leaf)) index_->keep(*place);
 }
 
 Result<BundlePlacePtr> WalkPages::placeOfCamera(std::size_t storey, std::size_t camera) {
-  return looking([&] { return index_->placeOfCamera(storey, camera); });
+  const std::lock_guard lock(mutex_);
+  return index_->placeOfCamera(storey, camera);
 }
 
 Result<BundlePlacePtr> WalkPages::placeOfRegion(std::size_t storey, std::size_t region) {
-  return looking([&] { return index_->placeOfRegion(storey, region); });
+  const std::lock_guard lock(mutex_);
+  return index_->placeOfRegion(storey, region);
 }
 
 Result<CameraFacts> WalkPages::camera(std::size_t storey, std::size_t camera) {
-  return looking([&]() -> Result<CameraFacts> {
-    auto& cameras = index_->known[storey].cameras;
-    if (!cameras.contains(camera)) {
-      const auto place = index_->placeOfCamera(storey, camera);
-      if (!place) return tl::unexpected(place.error());
-      takeCameras(**place, index_->known[storey]);
-    }
-    return cameras.at(camera);
-  });
+  const std::lock_guard lock(mutex_);
+  auto& cameras = index_->known[storey].cameras;
+  if (!cameras.contains(camera)) {
+    const auto place = index_->placeOfCamera(storey, camera);
+    if (!place) return tl::unexpected(place.error());
+    takeCameras(**place, index_->known[storey]);
+  }
+  return cameras.at(camera);
 }
 
 Result<RegionFacts> WalkPages::region(std::size_t storey, std::size_t region) {
-  return looking([&]() -> Result<RegionFacts> {
-    auto& regions = index_->known[storey].regions;
-    if (!regions.contains(region)) {
-      const auto place = index_->placeOfOwn(storey, region);
-      if (!place) return tl::unexpected(place.error());
-      takeRegions(**place, index_->known[storey]);
-    }
-    const KnownRegion& its = regions.at(region);
-    return RegionFacts{its.kind,       its.polygon.corners, its.grown.corners,
-                       its.neighbours, its.triangles,       its.bytes};
-  });
+  const std::lock_guard lock(mutex_);
+  auto& regions = index_->known[storey].regions;
+  if (!regions.contains(region)) {
+    const auto place = index_->placeOfOwn(storey, region);
+    if (!place) return tl::unexpected(place.error());
+    takeRegions(**place, index_->known[storey]);
+  }
+  const KnownRegion& its = regions.at(region);
+  return RegionFacts{its.kind,       its.polygon.corners, its.grown.corners,
+                     its.neighbours, its.triangles,       its.bytes};
 }
 
 WalkPagesStats WalkPages::stats() const { return {index_->counted.requests(), index_->counted.bytes()}; }

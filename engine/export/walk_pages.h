@@ -31,6 +31,8 @@ class WalkPages final : public BundlePlaces {
   /// The page whose own regions hold a point of the plan, or come nearest to it: of all own regions the eye's
   /// is the first in the storey's order. notFound where there is no such storey, or no region in it.
   Result<BundlePlacePtr> placeAt(std::size_t storey, const glm::dvec2& point) override;
+  /// What is damaged is named when it is asked for.
+  void readAhead(std::size_t storey, const glm::dvec2& point) override;
   /// A page that was read lately where one has it; else one that the index is looked through for.
   Result<BundlePlacePtr> placeOfCamera(std::size_t storey, std::size_t camera) override;
   Result<BundlePlacePtr> placeOfRegion(std::size_t storey, std::size_t region) override;
@@ -43,8 +45,6 @@ class WalkPages final : public BundlePlaces {
   struct Index;
   explicit WalkPages(std::string name);
   Status readRoot(std::shared_ptr<const ByteRanges> ranges);
-  template <class Body>
-  auto looking(const Body& body) -> decltype(body());
 
   const std::string name_;
   std::mutex mutex_;

@@ -11,9 +11,6 @@ namespace {
 
 using Json = BundleJson;
 
-/// Those that were used last. A way down the tree has kMostWalkLevels of them at most, and a step over a
-/// border needs another one.
-constexpr std::size_t kKeptPages = 4 * kMostWalkLevels;
 /// Distances are rounded.
 constexpr double kSlack = 1e-12;
 
@@ -89,17 +86,25 @@ Result<WalkPagePtr> WalkTree::read(std::size_t storey, const WalkPageEntry& entr
   });
 }
 
+WalkPagePtr WalkTree::kept(std::size_t storey, std::uint64_t at) {
+  const auto found = std::ranges::find_if(
+      kept_, [&](const WalkPagePtr& p) { return p->storey == storey && p->entry.at == at; });
+  if (found == kept_.end()) return nullptr;
+  kept_.splice(kept_.begin(), kept_, found);
+  return kept_.front();
+}
+
 void WalkTree::keep(const WalkPagePtr& page) {
+  if (kept(page->storey, page->entry.at)) return;
   kept_.push_front(page);
-  if (kept_.size() > kKeptPages) kept_.pop_back();
+  if (kept_.size() > kKeptWalkPages) kept_.pop_back();
 }
 
 Result<WalkPagePtr> WalkTree::page(std::size_t storey, const WalkPageEntry& entry) {
-  const auto found = std::ranges::find_if(
-      kept_, [&](const WalkPagePtr& p) { return p->storey == storey && p->entry.at == entry.at; });
-  if (found != kept_.end()) {
-    kept_.splice(kept_.begin(), kept_, found);
-    return kept_.front();
+  if (auto known = kept(storey, entry.at)) return known;
+  if (!reads_) {
+    missing_ = entry;
+    return fail(ErrorKind::cancelled, "has to be read first", index_.nameOf(entry));
   }
   auto made = read(storey, entry);
   if (made) keep(*made);
@@ -157,18 +162,26 @@ Result<WalkTree::Nearest> WalkTree::nearest(std::size_t storey, const glm::dvec2
   if (Status done = run(storey, query); !done) return tl::unexpected(done.error());
   if (query.distance > 0) {
     const ConvexPolygon& polygon =
-        std::ranges::lower_bound(query.leaf->regions, query.number, {}, &WalkPage::SeenRegion::number)->polygon;
+        std::ranges::lower_bound(query.leaf->regions, query.number, {}, &WalkPage::SeenRegion::number)
+            ->polygon;
     const auto holds = [&](const glm::dvec2& p) { return polygon.contains(p); };
     return Nearest{query.leaf, glm::distance(pointInside(polygon, point, holds), point)};
   }
   const auto first = std::ranges::find_if(query.leaf->regions, [&](const WalkPage::SeenRegion& region) {
     return region.polygon.containsClosed(point);
   });
-  if (first->own) return Nearest{query.leaf, 0};
+  if (first == query.leaf->regions.end() || first->own) return Nearest{query.leaf, 0};
   Query owner{point, first->number};  // of regions that overlap the first is the eye's
   owner.reach = 0;
   if (Status done = run(storey, owner); !done) return tl::unexpected(done.error());
   return Nearest{owner.leaf, 0};
+}
+
+std::optional<WalkPageEntry> WalkTree::missing(std::size_t storey, const glm::dvec2& point) {
+  reads_ = false, missing_ = std::nullopt;
+  static_cast<void>(nearest(storey, point));
+  reads_ = true;
+  return missing_;
 }
 
 double WalkTree::leastDistance(std::size_t storey, const glm::dvec2& point) const {
@@ -200,7 +213,8 @@ Result<WalkPagePtr> WalkTree::expand(std::size_t storey, const Search::Pending& 
   if (!page) return page;
   const std::vector<WalkPageEntry>& children = (*page)->children;
   for (std::size_t c = 0; c < children.size(); ++c)
-    if (search.named.contains(children[c].at) || std::ranges::count(children, children[c].at, &WalkPageEntry::at) > 1)
+    if (search.named.contains(children[c].at) ||
+        std::ranges::count(children, children[c].at, &WalkPageEntry::at) > 1)
       return index_.malformed("its index names a page twice");
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
     search.named.insert(child->at);

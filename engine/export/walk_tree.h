@@ -47,7 +47,11 @@ class LeafNumbers {
 
 enum class WalkThing { region, camera };
 
-/// One thread.
+/// Pages that are kept, those that were used last. A way down the tree has kMostWalkLevels of them at most,
+/// and a step over a border needs another one.
+inline constexpr std::size_t kKeptWalkPages = 4 * kMostWalkLevels;
+
+/// One thread, but where it says so.
 class WalkTree {
  public:
   /// `index` outlives it. `top`: the topmost pages by storey, none where it has no region.
@@ -62,10 +66,15 @@ class WalkTree {
   Result<Nearest> nearest(std::size_t storey, const glm::dvec2& point);
   /// No region is nearer to the point; infinite where there is none.
   double leastDistance(std::size_t storey, const glm::dvec2& point) const;
-  /// The leaf that has a camera, or whose own a region is. `inside`: a point of the region, where one is known.
-  /// Where no page that is kept has it, leaves are looked through until one does, each once.
+  /// The leaf that has a camera, or whose own a region is. `inside`: a point of the region, where one is
+  /// known. Where no page that is kept has it, leaves are looked through until one does, each once.
   Result<WalkPagePtr> leafOf(std::size_t storey, WalkThing thing, std::uint64_t number,
                              const std::optional<glm::dvec2>& inside = std::nullopt);
+  /// The first page that `nearest` would read; none: all that it looks at is kept.
+  std::optional<WalkPageEntry> missing(std::size_t storey, const glm::dvec2& point);
+  /// From any thread.
+  Result<WalkPagePtr> read(std::size_t storey, const WalkPageEntry& entry) const;
+  void keep(const WalkPagePtr& page);
   /// Lets go of the texts of leaves, but for one.
   void dropTexts(const WalkPage* but = nullptr);
 
@@ -91,9 +100,8 @@ class WalkTree {
     std::vector<WalkPageEntry> leaves;
     LeafNumbers regions, cameras;
   };
-  Result<WalkPagePtr> read(std::size_t storey, const WalkPageEntry& entry) const;
+  WalkPagePtr kept(std::size_t storey, std::uint64_t at);
   Result<WalkPagePtr> page(std::size_t storey, const WalkPageEntry& entry);
-  void keep(const WalkPagePtr& page);
   Status run(std::size_t storey, Query& query);
   Status visit(std::size_t storey, const WalkPageEntry& entry, int level, Query& query);
   Result<WalkPagePtr> lookThrough(std::size_t storey, WalkThing thing, std::uint64_t number);
@@ -103,6 +111,8 @@ class WalkTree {
   std::vector<std::optional<WalkPageEntry>> top_;
   std::vector<Search> searches_;  ///< by storey
   std::list<WalkPagePtr> kept_;   ///< last used first
+  bool reads_ = true;
+  std::optional<WalkPageEntry> missing_;  ///< where it does not
 };
 
 }  // namespace acentric

@@ -182,12 +182,12 @@ TEST_F(WalkTest, RefusesWhatIsDamagedOrCutOff) {
 
 void expectSame(const CameraFacts& a, const CameraFacts& b) {
   const auto numbers = [](const CameraFacts& f) {
-    return std::vector<double>{f.position.x, f.position.y, f.lowAzimuth, f.fovRadians, f.topElevation,
-                               f.bottomElevation};
+    return std::vector<double>{f.position.x, f.position.y,   f.lowAzimuth,
+                               f.fovRadians, f.topElevation, f.bottomElevation};
   };
   const auto rendition = [](const CameraFacts::Rendition& r) {
-    return std::vector<std::uint64_t>{std::uint64_t(r.columns), std::uint64_t(r.rows), r.samples, r.reflections,
-                                      r.bytes};
+    return std::vector<std::uint64_t>{std::uint64_t(r.columns), std::uint64_t(r.rows), r.samples,
+                                      r.reflections, r.bytes};
   };
   EXPECT_EQ(numbers(a), numbers(b));
   EXPECT_EQ(rendition(a.full), rendition(b.full));
@@ -267,16 +267,19 @@ TEST_F(WalkTest, PlacesAndNumbersAreThoseOfTheWholeIndex) {
 }
 
 /// A walk whose root says so many regions, however few its pages have.
-std::vector<std::byte> withCount(const std::vector<std::byte>& walk, const char* count, std::uint64_t number) {
+std::vector<std::byte> withCount(const std::vector<std::byte>& walk, const char* count,
+                                 std::uint64_t number) {
   walk_format::Header header = *walk_format::headerOf(walk, "grid");
   const auto part = [&](std::uint64_t at, std::uint64_t bytes) {
-    return std::vector<std::byte>(walk.begin() + std::ptrdiff_t(at), walk.begin() + std::ptrdiff_t(at + bytes));
+    return std::vector<std::byte>(walk.begin() + std::ptrdiff_t(at),
+                                  walk.begin() + std::ptrdiff_t(at + bytes));
   };
   auto root = *parseJson<BundleJson>(
       *unpackedText(part(walk_format::kHeaderBytes, header.rootBytes), header.rootRaw), "root");
   for (BundleJson& storey : root["storeys"]) storey[count] = number;
   const std::string text = jsonText(root);
-  const std::vector<std::byte> packed = packedText(text), pages = part(header.pageStart, header.dataStart - header.pageStart),
+  const std::vector<std::byte> packed = packedText(text),
+                               pages = part(header.pageStart, header.dataStart - header.pageStart),
                                data = part(header.dataStart, header.fileBytes - header.dataStart);
   header.rootBytes = packed.size(), header.rootRaw = text.size();
   header.pageStart = walk_format::kHeaderBytes + packed.size();
@@ -294,7 +297,8 @@ std::vector<std::byte> withCount(const std::vector<std::byte>& walk, const char*
 TEST_F(WalkTest, AStoreyMayHaveMoreRegionsThanOneIndexIsReadFor) {
   std::vector<std::pair<std::uint64_t, std::size_t>> reads;
   const auto opened = [&](const char* count, std::uint64_t number) {
-    return WalkPages::open(std::make_shared<CountedRanges>(withCount(written({4}), count, number), reads), "grid");
+    return WalkPages::open(std::make_shared<CountedRanges>(withCount(written({4}), count, number), reads),
+                           "grid");
   };
   const auto pages = opened("regionCount", 1'000'000);
   ASSERT_TRUE(pages) << pages.error().describe();
@@ -306,7 +310,8 @@ TEST_F(WalkTest, AStoreyMayHaveMoreRegionsThanOneIndexIsReadFor) {
     const auto missing = (*pages)->region(1, 900'000);
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().kind, ErrorKind::malformed);
-    EXPECT_NE(missing.error().describe().find("region 900000"), std::string::npos) << missing.error().describe();
+    EXPECT_NE(missing.error().describe().find("region 900000"), std::string::npos)
+        << missing.error().describe();
   }
   EXPECT_TRUE(reads.empty()) << "looked through once";
   EXPECT_FALSE(opened("regionCount", std::uint64_t(1) << 31));
