@@ -35,14 +35,11 @@ struct Known {
   std::unordered_map<std::uint64_t, KnownRegion> regions;
 };
 
-void takeCameras(const BundlePlace& place, Known& known) {
+/// What the page tells of its cameras and own regions.
+void take(const BundlePlace& place, Known& known) {
   const BundleStorey& here = place.here();
   for (std::size_t c = 0; c < place.cameras.size(); ++c)
     known.cameras.try_emplace(place.cameras[c], factsOf(here.layout.cameras[c], here.cameras[c]));
-}
-
-void takeRegions(const BundlePlace& place, Known& known) {
-  const BundleStorey& here = place.here();
   for (std::size_t r = 0; r < place.regions.size(); ++r) {
     if (place.own[r] == 0) continue;  // of others it lacks neighbours
     const Region& region = here.layout.regions[r];
@@ -59,17 +56,15 @@ void takeRegions(const BundlePlace& place, Known& known) {
 struct WalkPages::Index {
   std::shared_ptr<const ByteRanges> ranges;  ///< that files are read through
   CountedRanges counted;
-  std::string name;
   std::optional<WalkIndex> index;
   Json root;  ///< with the pages of storeys left out
   FilePlaces textures;
-  std::vector<Counts> counts;
+  std::vector<Counts> counts;  ///< by storey
   std::optional<WalkTree> tree;
   std::vector<Known> known;          ///< by storey
   std::list<BundlePlacePtr> places;  ///< last used first
 
-  Index(std::shared_ptr<const ByteRanges> from, std::string its)
-      : ranges(from), counted(std::move(from)), name(std::move(its)) {}
+  explicit Index(std::shared_ptr<const ByteRanges> from) : ranges(from), counted(std::move(from)) {}
 
   /// A place that is kept, and fits.
   template <class Fits>
@@ -171,6 +166,8 @@ struct WalkPages::Index {
 WalkPages::WalkPages(std::string name) : name_(std::move(name)) {}
 WalkPages::~WalkPages() = default;
 
+BundlePlaces::Counts WalkPages::counts(std::size_t storey) const { return index_->counts[storey]; }
+
 Result<std::unique_ptr<WalkPages>> WalkPages::open(std::shared_ptr<const ByteRanges> ranges,
                                                    const std::string& name) {
   std::unique_ptr<WalkPages> pages(new WalkPages(name));
@@ -180,7 +177,7 @@ Result<std::unique_ptr<WalkPages>> WalkPages::open(std::shared_ptr<const ByteRan
 }
 
 Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
-  index_ = std::make_unique<Index>(std::move(ranges), name_);
+  index_ = std::make_unique<Index>(std::move(ranges));
   auto index = WalkIndex::open(index_->counted, name_);
   if (!index) return tl::unexpected(index.error());
   index_->index = *index;
@@ -198,14 +195,13 @@ Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
       return index_->index->malformed("a storey has regions without pages, or pages without regions");
     top.emplace_back();
     if (!page.is_null()) top.back() = WalkIndex::entryOf(page);
-    counts_.push_back({cameras, regions});
+    index_->counts.push_back({cameras, regions});
     WalkIndex::putLists(storey, Json::array(), Json::array());
   }
   auto bundle = parseBundle(jsonText(*root), name_);
   if (!bundle) return tl::unexpected(bundle.error());
   root_ = std::move(*bundle);
   index_->root = std::move(*root);
-  index_->counts = counts_;
   index_->known.resize(top.size());
   index_->tree.emplace(*index_->index, std::move(top));
   return {};
@@ -213,10 +209,11 @@ Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
 
 Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
   std::vector<std::pair<double, std::size_t>> atLeast;
-  for (std::size_t s = 0; s < counts_.size(); ++s)
-    if (counts_[s].regions > 0)
+  const std::vector<Counts>& all = index_->counts;
+  for (std::size_t s = 0; s < all.size(); ++s)
+    if (all[s].regions > 0)
       atLeast.emplace_back(misfitOf(index_->tree->leastDistance(s, eye), root_.storeys[s].layout, eye), s);
-  if (counts_.size() == 1 || atLeast.empty()) return 0;
+  if (all.size() == 1 || atLeast.empty()) return 0;
   std::ranges::sort(atLeast);
   const std::lock_guard lock(mutex_);
   std::pair<double, std::size_t> best{std::numeric_limits<double>::infinity(), 0};
@@ -233,7 +230,7 @@ Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
 }
 
 Result<BundlePlacePtr> WalkPages::placeAt(std::size_t storey, const glm::dvec2& point) {
-  if (storey >= counts_.size() || counts_[storey].regions == 0)
+  if (storey >= index_->counts.size() || counts(storey).regions == 0)
     return fail(ErrorKind::notFound, "has no region to stand in", name_);
   const std::lock_guard lock(mutex_);
   const auto nearest = index_->tree->nearest(storey, point);
@@ -278,7 +275,7 @@ Result<CameraFacts> WalkPages::camera(std::size_t storey, std::size_t camera) {
   if (!cameras.contains(camera)) {
     const auto place = index_->placeOfCamera(storey, camera);
     if (!place) return tl::unexpected(place.error());
-    takeCameras(**place, index_->known[storey]);
+    take(**place, index_->known[storey]);
   }
   return cameras.at(camera);
 }
@@ -289,7 +286,7 @@ Result<RegionFacts> WalkPages::region(std::size_t storey, std::size_t region) {
   if (!regions.contains(region)) {
     const auto place = index_->placeOfOwn(storey, region);
     if (!place) return tl::unexpected(place.error());
-    takeRegions(**place, index_->known[storey]);
+    take(**place, index_->known[storey]);
   }
   const KnownRegion& its = regions.at(region);
   return RegionFacts{its.kind,       its.polygon.corners, its.grown.corners,

@@ -25,7 +25,7 @@ class WalkPages final : public BundlePlaces {
 
   /// Without regions and cameras.
   const Bundle& root() const override { return root_; }
-  Counts counts(std::size_t storey) const override { return counts_[storey]; }
+  Counts counts(std::size_t storey) const override;
   /// Of storeys only pages are read that may have the nearest region.
   Result<std::size_t> storeyAt(const glm::dvec3& eye) override;
   /// The page whose own regions hold a point of the plan, or come nearest to it: of all own regions the eye's
@@ -50,7 +50,6 @@ class WalkPages final : public BundlePlaces {
   std::mutex mutex_;
   std::unique_ptr<Index> index_;
   Bundle root_;
-  std::vector<Counts> counts_;  ///< by storey
 };
 
 }  // namespace acentric
