@@ -10,8 +10,14 @@
  * a time; different handles know nothing of each other. Every function takes NULL for a handle, and answers
  * ACENTRIC_ERROR_ARGUMENT then (or 0, or NULL).
  *
- * Strings and arrays that are given out live as long as the handle; those of a capture, a region or a texture
- * until it is unloaded. A closed handle must not be used. */
+ * Strings and arrays that are given out live as long as the handle; those of a capture's, a region's or a
+ * texture's data until it is unloaded. A closed handle must not be used.
+ *
+ * Of a bundle's folder, and of a caller's files, the whole index is read when it is opened; of a walk only
+ * pages of it, when they are needed. What is asked by a place or a view reads the page of that place; what is
+ * asked by a number is answered from pages that were read, or looks through those that were not until one
+ * tells of it, each once. A page that is damaged or cannot be read is an error of the call that needed it,
+ * and the message names it; all else goes on. What is loaded stays when the eye comes to another page. */
 #ifndef ACENTRIC_RUNTIME_H
 #define ACENTRIC_RUNTIME_H
 
@@ -73,7 +79,7 @@ typedef struct acentric_files {
 ACENTRIC_API acentric_status acentric_open_folder(const char* folder, acentric_bundle** bundle);
 /* `files` is copied. */
 ACENTRIC_API acentric_status acentric_open_files(const acentric_files* files, acentric_bundle** bundle);
-/* A walk: a bundle as one file (`acentric export --to walk`). */
+/* A walk: a bundle as one file (`acentric export --to walk`). Reads the root of its index. */
 ACENTRIC_API acentric_status acentric_open_walk(const char* file, acentric_bundle** bundle);
 
 /* The same file wherever it is, such as behind HTTP range requests. Called as acentric_files are. */
@@ -241,8 +247,9 @@ ACENTRIC_API acentric_status acentric_load_view(acentric_bundle* bundle, const a
 /* As acentric_load_view, but at once: threads of the library's own read and unpack, captures that are nearest
  * first. Of cameras of which nothing is loaded the coarse capture comes first, whatever `detail`. Each
  * request takes the place of the one before; what is being read then is still finished. What could not be
- * read is not tried again until acentric_cancel. Call it whenever the eye has moved, such as in each frame.
- */
+ * read is not tried again until acentric_cancel. Call it whenever the eye has moved, such as in each frame:
+ * of a walk it reads the page of the index where the eye is before it returns, but pages that the eye comes
+ * near to are read in the background beforehand. */
 ACENTRIC_API acentric_status acentric_request_view(acentric_bundle* bundle, const acentric_view* view,
                                                    const acentric_settings* settings, int32_t detail);
 /* Takes what has come: it is loaded then. Never waits. An error is of one file; call it again for the rest.

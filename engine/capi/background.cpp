@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "engine/capi/handle.h"
 
@@ -18,37 +19,10 @@ struct Unneeded {
   Loaded detail;  ///< of a capture
 };
 
-std::vector<Unneeded> unneededOf(const BundlePlayer& runtime, const Wanted& wanted) {
-  const std::vector<int> cameras = camerasOf(runtime, wanted);
-  const glm::dvec2 eye(wanted.view.eye);
-  std::vector<Unneeded> out;
-  for (std::size_t s = 0; s < runtime.bundle().storeys.size(); ++s) {
-    const Layout& layout = runtime.bundle().storeys[s].layout;
-    const bool here = s == wanted.needs.storey;
-    const auto awayOf = [&](const glm::dvec2& place) {
-      return here ? glm::distance(eye, place) : std::numeric_limits<double>::infinity();
-    };
-    for (std::size_t c = 0; c < layout.cameras.size(); ++c) {
-      if (here && std::ranges::find(cameras, int(c)) != cameras.end()) continue;
-      for (const Loaded detail : {Loaded::full, Loaded::coarse})
-        if (runtime.capture(s, c, detail) != nullptr)
-          out.push_back({awayOf(layout.cameras[c].position), s, c, false, detail});
-    }
-    for (std::size_t r = 0; r < layout.regions.size(); ++r)
-      if (runtime.regionLoaded(s, r) && !(here && int(r) == wanted.needs.region))
-        out.push_back({awayOf(layout.regions[r].polygon.centroid()), s, r, true, Loaded::full});
-  }
-  std::ranges::stable_sort(out, std::ranges::greater(), &Unneeded::away);
-  return out;
-}
-
-}  // namespace
-
-namespace acentric::capi {
-
-std::vector<int> camerasOf(const BundlePlayer& runtime, const Wanted& wanted) {
+/// Cameras of a view, nearest first, then the others of its region: numbers within the place.
+std::vector<int> camerasOf(const Wanted& wanted) {
   std::vector<int> cameras(wanted.needs.cameras.rbegin(), wanted.needs.cameras.rend());
-  const Layout& layout = runtime.bundle().storeys[wanted.needs.storey].layout;
+  const Layout& layout = wanted.needs.place->here().layout;
   const auto& covers = layout.regions[std::size_t(wanted.needs.region)].covers;
   for (std::size_t c = 0; c < covers.size() && (c == 0 || wanted.settings.secondaryCover); ++c)
     for (const Piece& piece : covers[c].pieces)
@@ -56,37 +30,81 @@ std::vector<int> camerasOf(const BundlePlayer& runtime, const Wanted& wanted) {
   return cameras;
 }
 
-std::vector<LoadJob> jobsOf(const BundlePlayer& runtime, const Wanted& wanted, Loaded detail,
-                            const std::function<bool(const LoadJob&)>& wants, const LoadJob& like) {
-  const std::size_t storey = wanted.needs.storey;
+std::vector<Unneeded> unneededOf(const BundlePlayer& runtime, const Wanted& wanted) {
+  const BundlePlace& place = *wanted.needs.place;
+  std::set<std::size_t> needed;
+  for (const int camera : camerasOf(wanted)) needed.insert(place.cameras[std::size_t(camera)]);
+  const glm::dvec2 eye(wanted.view.eye);
+  std::vector<Unneeded> out;
+  for (std::size_t s = 0; s < runtime.bundle().storeys.size(); ++s) {
+    const bool here = s == place.storey;
+    const auto awayOf = [&](const glm::dvec2& at) {
+      return here ? glm::distance(eye, at) : std::numeric_limits<double>::infinity();
+    };
+    for (const auto& [number, camera] : runtime.parts(s).cameras) {
+      if (here && needed.contains(number)) continue;
+      const double away = awayOf(glm::dvec2(camera.best()->camera.centreOfProjection));
+      if (camera.full) out.push_back({away, s, number, false, Loaded::full});
+      if (camera.coarse) out.push_back({away, s, number, false, Loaded::coarse});
+    }
+    for (const auto& [number, region] : runtime.parts(s).regions)
+      if (!here || number != place.regions[std::size_t(wanted.needs.region)])
+        out.push_back({awayOf(region.middle), s, number, true, Loaded::full});
+  }
+  std::ranges::stable_sort(out, std::ranges::greater(), &Unneeded::away);
+  return out;
+}
+
+/// Where the eye is in a page's last regions, the pages beside it: whoever draws frames does not wait for
+/// them.
+void readAhead(acentric_bundle& bundle, const BundlePlayer::Needs& needs) {
+  const BundlePlace& place = *needs.place;
+  const std::pair now(place.storey, place.regions[std::size_t(needs.region)]);
+  if (std::exchange(bundle.ahead, now) == now) return;
+  std::vector<glm::dvec2> points;
+  for (const int neighbour : place.here().neighbours[std::size_t(needs.region)])
+    if (place.own[std::size_t(neighbour)] == 0)
+      points.push_back(place.here().layout.regions[std::size_t(neighbour)].polygon.centroid());
+  if (points.empty()) return;
+  bundle.loader->doAside([&places = bundle.runtime.places(), storey = place.storey, points] {
+    for (const glm::dvec2& point : points) places.readAhead(storey, point);
+  });
+}
+
+}  // namespace
+
+namespace acentric::capi {
+
+acentric_status request(acentric_bundle& bundle, const Wanted& wanted, Loaded detail,
+                        const std::function<bool(const LoadJob&)>& wants, const LoadJob& like) {
+  const BundlePlace& place = *wanted.needs.place;
   std::vector<LoadJob> jobs;
-  const auto add = [&](LoadJob job) {
-    if (wants(job)) jobs.push_back(job);
+  const auto add = [&](const LoadJob& job) {
+    if (wants(job) && !bundle.failed.contains(job) && std::ranges::find(jobs, job) == jobs.end())
+      jobs.push_back(job);
   };
-  const std::vector<int> cameras = camerasOf(runtime, wanted);
+  const std::vector<int> cameras = camerasOf(wanted);
   const auto addCaptures = [&](Loaded of) {
     for (const int camera : cameras) {
       LoadJob job = like;
-      job.storey = storey, job.number = std::size_t(camera);
-      job.detail = renditionOf(runtime, storey, job.number, of);
-      if (job.detail != Loaded::absent && std::ranges::find(jobs, job) == jobs.end()) add(job);
+      job.storey = place.storey, job.number = place.cameras[std::size_t(camera)];
+      job.detail = renditionOf(place.here().cameras[std::size_t(camera)], of);
+      if (job.detail != Loaded::absent) add(job);
     }
   };
   addCaptures(Loaded::coarse);
   if (wanted.settings.localGeometry || like.model) {
     LoadJob job = like;
-    job.region = true, job.storey = storey, job.number = std::size_t(wanted.needs.region);
+    job.region = true, job.storey = place.storey;
+    job.number = place.regions[std::size_t(wanted.needs.region)];
     add(job);
   }
   if (detail == Loaded::full) addCaptures(Loaded::full);
-  return jobs;
-}
-
-acentric_status request(acentric_bundle& bundle, std::vector<LoadJob> jobs) {
   if (!bundle.loader)
-    bundle.loader = std::make_unique<BackgroundLoader>(bundle.runtime, bundle.runtime.threads());
-  std::erase_if(jobs, [&](const LoadJob& job) { return bundle.failed.contains(job); });
-  bundle.loader->ask(std::move(jobs));
+    bundle.loader =
+        std::make_unique<BackgroundLoader>(bundle.runtime.bundle().textures.size(), bundle.runtime.threads());
+  bundle.loader->ask(wanted.needs.place, std::move(jobs));
+  readAhead(bundle, wanted.needs);
   return kOk;
 }
 
@@ -100,7 +118,7 @@ acentric_status acentric_request_view(acentric_bundle* bundle, const acentric_vi
                      if (job.region) return !runtime.regionLoaded(job.storey, job.number);
                      return runtime.loaded(job.storey, job.number) < job.detail;
                    };
-                   return request(*bundle, jobsOf(runtime, wanted, Loaded(detail), wants, {}));
+                   return request(*bundle, wanted, Loaded(detail), wants, {});
                  });
 }
 
@@ -117,7 +135,7 @@ acentric_status acentric_poll(acentric_bundle* bundle, int32_t* arrived) {
         kept = tl::unexpected(next->part.error());
       else if (auto* region = std::get_if<ReadRegion>(&*next->part))
         kept = runtime.keepRegion(job.storey, job.number, std::move(*region));
-      else if (auto* capture = std::get_if<std::shared_ptr<const DisplayCapture>>(&*next->part))
+      else if (auto* capture = std::get_if<CapturePtr>(&*next->part))
         kept = runtime.keepCapture(job.storey, job.number, job.detail, std::move(*capture));
       if (!kept) {
         bundle->failed.insert(job);
@@ -131,7 +149,8 @@ acentric_status acentric_poll(acentric_bundle* bundle, int32_t* arrived) {
 
 acentric_status acentric_cancel(acentric_bundle* bundle) {
   return guarded(bundle, [&](BundlePlayer&) {
-    if (bundle->loader) bundle->loader->ask({});
+    if (bundle->loader) bundle->loader->ask(nullptr, {}), bundle->loader->doAside(nullptr);
+    bundle->ahead.reset();
     bundle->failed.clear();
     return kOk;
   });

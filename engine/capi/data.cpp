@@ -35,10 +35,7 @@ template <class Body>
 acentric_status forLoaded(acentric_bundle* bundle, int32_t storey, int32_t region, const void* out,
                           const Body& body) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (out == nullptr || !within(storey, storeys.size()) ||
-        !within(region, storeys[std::size_t(storey)].local.size()))
-      return refused(bundle, "no such region");
+    if (out == nullptr || !hasRegion(runtime, storey, region)) return refused(bundle, "no such region");
     const LocalGeometry* local = runtime.region(std::size_t(storey), std::size_t(region));
     if (local == nullptr) return failed(*bundle, ACENTRIC_ERROR_NOT_LOADED, "the region is not loaded");
     return body(*local);
@@ -62,9 +59,7 @@ bool has(const std::vector<Item>& items, int32_t number, const void* out) {
 acentric_status acentric_get_capture_data(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                           int32_t detail, acentric_capture_data* out) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (out == nullptr || !within(storey, storeys.size()) ||
-        !within(camera, storeys[std::size_t(storey)].cameras.size()) ||
+    if (out == nullptr || !hasCamera(runtime, storey, camera) ||
         (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL))
       return refused(bundle, "no such capture");
     const DisplayCapture* from = runtime.capture(std::size_t(storey), std::size_t(camera), Loaded(detail));

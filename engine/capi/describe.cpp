@@ -16,11 +16,10 @@ void copy(const Vector& from, Number (&to)[Count]) {
 }
 
 static_assert(sizeof(glm::dvec2) == 2 * sizeof(double));
-const double* numbersOf(const ConvexPolygon& polygon) { return &polygon.corners.front().x; }
+const double* numbersOf(std::span<const glm::dvec2> corners) { return &corners.front().x; }
 
-acentric_rendition renditionOf(const std::optional<BundleCapture>& capture) {
-  if (!capture) return {};
-  return {capture->columns, capture->rows, capture->samples, capture->reflections, capture->file.bytes};
+acentric_rendition renditionOf(const CameraFacts::Rendition& capture) {
+  return {capture.columns, capture.rows, capture.samples, capture.reflections, capture.bytes};
 }
 
 }  // namespace
@@ -52,19 +51,13 @@ acentric_status acentric_get_info(acentric_bundle* bundle, acentric_info* info) 
 
 acentric_status acentric_get_storey(acentric_bundle* bundle, int32_t storey, acentric_storey* out) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    if (out == nullptr || !within(storey, runtime.bundle().storeys.size()))
-      return refused(bundle, "no such storey");
+    if (out == nullptr || !hasStorey(runtime, storey)) return refused(bundle, "no such storey");
+    const BundlePlaces::Counts counts = runtime.places().counts(std::size_t(storey));
     const BundleStorey& from = runtime.bundle().storeys[std::size_t(storey)];
     const LayoutSpec& spec = from.layout.spec;
-    *out = {from.name.c_str(),
-            spec.floorHeight,
-            spec.eyeHeight,
-            from.layout.eyeZ(),
-            spec.nearBand,
-            {from.start.x, from.start.y},
-            from.startYaw,
-            int32_t(from.cameras.size()),
-            int32_t(from.local.size())};
+    *out = {from.name.c_str(),  spec.floorHeight,        spec.eyeHeight,
+            from.layout.eyeZ(), spec.nearBand,           {from.start.x, from.start.y},
+            from.startYaw,      int32_t(counts.cameras), int32_t(counts.regions)};
     return kOk;
   });
 }
@@ -72,19 +65,16 @@ acentric_status acentric_get_storey(acentric_bundle* bundle, int32_t storey, ace
 acentric_status acentric_get_camera(acentric_bundle* bundle, int32_t storey, int32_t camera,
                                     acentric_camera* out) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (out == nullptr || !within(storey, storeys.size()) ||
-        !within(camera, storeys[std::size_t(storey)].cameras.size()))
-      return refused(bundle, "no such camera");
-    const LayoutCamera& place = storeys[std::size_t(storey)].layout.cameras[std::size_t(camera)];
-    const BundleCamera& from = storeys[std::size_t(storey)].cameras[std::size_t(camera)];
-    *out = {{place.position.x, place.position.y},
-            place.lowAzimuth,
-            place.fovRadians,
-            from.topElevation,
-            from.bottomElevation,
-            renditionOf(from.full),
-            renditionOf(from.coarse)};
+    if (out == nullptr || !hasCamera(runtime, storey, camera)) return refused(bundle, "no such camera");
+    const auto from = runtime.places().camera(std::size_t(storey), std::size_t(camera));
+    if (!from) return failed(*bundle, from.error());
+    *out = {{from->position.x, from->position.y},
+            from->lowAzimuth,
+            from->fovRadians,
+            from->topElevation,
+            from->bottomElevation,
+            renditionOf(from->full),
+            renditionOf(from->coarse)};
     return kOk;
   });
 }
@@ -92,18 +82,19 @@ acentric_status acentric_get_camera(acentric_bundle* bundle, int32_t storey, int
 acentric_status acentric_get_region(acentric_bundle* bundle, int32_t storey, int32_t region,
                                     acentric_region* out) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (out == nullptr || !within(storey, storeys.size()) ||
-        !within(region, storeys[std::size_t(storey)].local.size()))
-      return refused(bundle, "no such region");
-    const BundleStorey& of = storeys[std::size_t(storey)];
-    const Region& from = of.layout.regions[std::size_t(region)];
-    const auto& near = of.neighbours[std::size_t(region)];
-    const auto& local = of.local[std::size_t(region)];
+    if (out == nullptr || !hasRegion(runtime, storey, region)) return refused(bundle, "no such region");
+    const auto from = runtime.places().region(std::size_t(storey), std::size_t(region));
+    if (!from) return failed(*bundle, from.error());
     static_assert(sizeof(int) == sizeof(int32_t));
-    *out = {int32_t(from.kind),   int32_t(from.polygon.size()), int32_t(from.grown.size()),
-            int32_t(near.size()), numbersOf(from.polygon),      numbersOf(from.grown),
-            near.data(),          local ? local->triangles : 0, local ? local->file.bytes : 0};
+    *out = {int32_t(from->kind),
+            int32_t(from->polygon.size()),
+            int32_t(from->grown.size()),
+            int32_t(from->neighbours.size()),
+            numbersOf(from->polygon),
+            numbersOf(from->grown),
+            from->neighbours.data(),
+            from->triangles,
+            from->bytes};
     return kOk;
   });
 }
@@ -136,7 +127,9 @@ acentric_status acentric_get_path(acentric_bundle* bundle, int32_t path, acentri
 acentric_status acentric_storey_at(acentric_bundle* bundle, const double eye[3], int32_t* storey) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
     if (eye == nullptr || storey == nullptr) return refused(bundle, "eye or storey is NULL");
-    *storey = int32_t(runtime.storeyAt({eye[0], eye[1], eye[2]}));
+    const auto at = runtime.storeyAt({eye[0], eye[1], eye[2]});
+    if (!at) return failed(*bundle, at.error());
+    *storey = int32_t(*at);
     return kOk;
   });
 }
@@ -144,21 +137,27 @@ acentric_status acentric_storey_at(acentric_bundle* bundle, const double eye[3],
 acentric_status acentric_region_at(acentric_bundle* bundle, int32_t storey, const double place[2],
                                    int32_t* region) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (place == nullptr || region == nullptr || !within(storey, storeys.size()))
+    if (place == nullptr || region == nullptr || !hasStorey(runtime, storey))
       return refused(bundle, "no such storey, or NULL");
-    const auto at = storeys[std::size_t(storey)].layout.regionAt({place[0], place[1]});
-    *region = at.value_or(-1);
-    return at ? kOk : failed(*bundle, ACENTRIC_ERROR_OUTSIDE, "no region holds the place");
+    *region = -1;
+    const glm::dvec2 point(place[0], place[1]);
+    const auto around = runtime.placeAt(std::size_t(storey), point);
+    if (!around) return failed(*bundle, around.error());
+    const auto at = *around ? (*around)->here().layout.regionAt(point) : std::nullopt;
+    if (!at) return failed(*bundle, ACENTRIC_ERROR_OUTSIDE, "no region holds the place");
+    *region = int32_t((*around)->regions[std::size_t(*at)]);
+    return kOk;
   });
 }
 
 acentric_status acentric_clamp(acentric_bundle* bundle, int32_t storey, double place[2]) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (place == nullptr || !within(storey, storeys.size()))
-      return refused(bundle, "no such storey, or NULL");
-    const auto nearest = storeys[std::size_t(storey)].layout.nearestRegion({place[0], place[1]});
+    if (place == nullptr || !hasStorey(runtime, storey)) return refused(bundle, "no such storey, or NULL");
+    const glm::dvec2 point(place[0], place[1]);
+    const auto around = runtime.placeAt(std::size_t(storey), point);
+    if (!around) return failed(*bundle, around.error());
+    const Layout::Nearest nearest =
+        *around ? (*around)->here().layout.nearestRegion(point) : Layout::Nearest();
     if (nearest.region < 0) return failed(*bundle, ACENTRIC_ERROR_OUTSIDE, "there is no region near it");
     place[0] = nearest.point.x, place[1] = nearest.point.y;
     return kOk;

@@ -5,8 +5,10 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/capi/acentric_runtime.h"
@@ -20,6 +22,8 @@ struct acentric_bundle {
   std::vector<std::vector<acentric_pose>> poses;  ///< by path
   std::set<acentric::LoadJob> failed;             ///< in the background
   std::set<acentric::LoadJob> handedOut;          ///< models
+  /// Storey and region of the last request: what is beside them was asked for.
+  std::optional<std::pair<std::size_t, std::uint64_t>> ahead;
   std::unique_ptr<acentric::BackgroundLoader> loader;
 };
 
@@ -61,6 +65,15 @@ inline acentric_status refused(acentric_bundle* bundle, const char* what) {
 inline bool within(int32_t number, std::size_t count) {
   return number >= 0 && static_cast<std::size_t>(number) < count;
 }
+inline bool hasStorey(const BundlePlayer& runtime, int32_t storey) {
+  return within(storey, runtime.bundle().storeys.size());
+}
+inline bool hasCamera(const BundlePlayer& runtime, int32_t storey, int32_t camera) {
+  return hasStorey(runtime, storey) && within(camera, runtime.places().counts(std::size_t(storey)).cameras);
+}
+inline bool hasRegion(const BundlePlayer& runtime, int32_t storey, int32_t region) {
+  return hasStorey(runtime, storey) && within(region, runtime.places().counts(std::size_t(storey)).regions);
+}
 
 /// With `settings` NULL the project's.
 Result<ViewSettings> settingsOf(const Bundle& bundle, const acentric_settings* settings);
@@ -93,18 +106,9 @@ inline const char* wrongDetail(int32_t detail) {
   return detail == ACENTRIC_COARSE || detail == ACENTRIC_FULL ? nullptr
                                                               : "detail: ACENTRIC_COARSE or ACENTRIC_FULL";
 }
-/// The rendition of a camera that there is and that comes nearest to `detail`; absent: it was not baked.
-Loaded renditionOf(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail);
-/// Roles of a camera that a region draws.
-std::uint8_t rolesIn(const Layout& layout, std::size_t region, int camera);
-
-/// Cameras of a view, nearest first, then the others of its region.
-std::vector<int> camerasOf(const BundlePlayer& runtime, const Wanted& wanted);
-/// What is to be loaded for a view in the background, in order; `like` says whether as models. Those that
-/// `wants` does not are left out.
-std::vector<LoadJob> jobsOf(const BundlePlayer& runtime, const Wanted& wanted, Loaded detail,
-                            const std::function<bool(const LoadJob&)>& wants, const LoadJob& like);
-/// In place of what was requested before. Leaves out what failed.
-acentric_status request(acentric_bundle& bundle, std::vector<LoadJob> jobs);
+/// Asks for what a view needs in the background, in place of what was requested before: all that `wants` does
+/// and that did not fail; `like` says whether as models.
+acentric_status request(acentric_bundle& bundle, const Wanted& wanted, Loaded detail,
+                        const std::function<bool(const LoadJob&)>& wants, const LoadJob& like);
 
 }  // namespace acentric::capi

@@ -90,19 +90,22 @@ acentric_status acentric_make_model(acentric_bundle* bundle, int32_t storey, int
                                     int32_t detail, int32_t texture_pixels, const acentric_model** model) {
   if (model != nullptr) *model = nullptr;
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
     if (model == nullptr) return refused(bundle, "model is NULL");
-    if (!within(storey, storeys.size())) return refused(bundle, "no such storey");
+    if (!hasStorey(runtime, storey)) return refused(bundle, "no such storey");
     if (!isTextureSize(texture_pixels)) return refused(bundle, kTextureSize);
-    const BundleStorey& of = storeys[std::size_t(storey)];
+    const auto of = std::size_t(storey), its = std::size_t(number);
     Result<DrawModel> made;
     if (kind == ACENTRIC_REGION) {
-      if (!within(number, of.layout.regions.size())) return refused(bundle, "no such region");
-      made = regionModel(runtime, std::size_t(storey), std::size_t(number), texture_pixels, runtime.images());
+      if (!hasRegion(runtime, storey, number)) return refused(bundle, "no such region");
+      const auto place = runtime.places().placeOfRegion(of, its);
+      if (!place) return failed(*bundle, place.error());
+      made = regionModel(*place, *(*place)->regionIn(its), texture_pixels, runtime.images());
     } else if (kind == ACENTRIC_CAPTURE) {
-      if (!within(number, of.cameras.size()) || (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL))
+      if (!hasCamera(runtime, storey, number) || wrongDetail(detail) != nullptr)
         return refused(bundle, "no such capture");
-      made = captureModel(runtime, std::size_t(storey), std::size_t(number), Loaded(detail), texture_pixels);
+      const auto place = runtime.places().placeOfCamera(of, its);
+      if (!place) return failed(*bundle, place.error());
+      made = captureModel(**place, *(*place)->cameraIn(its), Loaded(detail), texture_pixels);
     } else {
       return refused(bundle, "kind: ACENTRIC_CAPTURE or ACENTRIC_REGION");
     }
@@ -117,13 +120,13 @@ void acentric_free_model(const acentric_model* model) { delete static_cast<const
 acentric_status acentric_request_models(acentric_bundle* bundle, const acentric_view* view,
                                         const acentric_settings* settings, int32_t texture_pixels) {
   const char* const wrong = isTextureSize(texture_pixels) ? nullptr : kTextureSize;
-  return forView(bundle, view, settings, wrong, [&](BundlePlayer& runtime, const Wanted& wanted) {
+  return forView(bundle, view, settings, wrong, [&](BundlePlayer&, const Wanted& wanted) {
     LoadJob like;
     like.model = true, like.texturePixels = texture_pixels;
     const auto wants = [&](const LoadJob& job) {
       return !bundle->handedOut.contains(job) && !hasBetter(*bundle, job);
     };
-    return request(*bundle, jobsOf(runtime, wanted, Loaded::full, wants, like));
+    return request(*bundle, wanted, Loaded::full, wants, like);
   });
 }
 

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "engine/capi/handle.h"
-#include "engine/export/walk_read.h"
+#include "engine/export/walk_pages.h"
 
 using namespace acentric;
 using namespace acentric::capi;
@@ -59,20 +59,21 @@ class CallerRanges final : public ByteRanges {
   acentric_ranges ranges_;
 };
 
-/// `makeFiles` gives a result of files, null where an argument is.
-template <class MakeFiles>
-acentric_status openWith(acentric_bundle** out, const MakeFiles& makeFiles) noexcept {
+using Opened = Result<std::unique_ptr<BundlePlaces>>;
+
+/// `read` gives an index, null where an argument is.
+template <class Read>
+acentric_status openWith(acentric_bundle** out, const Read& read) noexcept {
   if (out == nullptr) return ACENTRIC_ERROR_ARGUMENT;
   *out = new (std::nothrow) acentric_bundle;
   if (*out == nullptr) return ACENTRIC_ERROR_MEMORY;
   acentric_bundle& bundle = **out;
   try {
-    Result<std::unique_ptr<BundleFiles>> files = makeFiles();
-    if (!files) return failed(bundle, files.error());
-    if (*files == nullptr)
+    Opened places = read();
+    if (!places) return failed(bundle, places.error());
+    if (*places == nullptr)
       return failed(bundle, ACENTRIC_ERROR_ARGUMENT, "no path, or no functions that read files");
-    if (const Status opened = bundle.runtime.open(std::move(*files)); !opened)
-      return failed(bundle, opened.error());
+    bundle.runtime.open(std::move(*places));
     for (const BundlePath& path : bundle.runtime.bundle().paths) {
       bundle.poses.emplace_back();
       for (const BundlePose& p : path.poses)
@@ -146,32 +147,32 @@ const char* acentric_status_name(acentric_status status) {
 }
 
 acentric_status acentric_open_folder(const char* folder, acentric_bundle** bundle) {
-  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+  return openWith(bundle, [&]() -> Opened {
     if (folder == nullptr) return nullptr;
-    return bundleFolder(folder);
+    return wholeBundle(bundleFolder(folder));
   });
 }
 
 acentric_status acentric_open_files(const acentric_files* files, acentric_bundle** bundle) {
-  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+  return openWith(bundle, [&]() -> Opened {
     if (files == nullptr || files->size == nullptr || files->read == nullptr) return nullptr;
-    return std::make_unique<CallerFiles>(*files);
+    return wholeBundle(std::make_unique<CallerFiles>(*files));
   });
 }
 
 acentric_status acentric_open_walk(const char* file, acentric_bundle** bundle) {
-  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+  return openWith(bundle, [&]() -> Opened {
     if (file == nullptr) return nullptr;
     auto ranges = fileRanges(file);
     if (!ranges) return tl::unexpected(ranges.error());
-    return walkFiles(std::move(*ranges), file);
+    return WalkPages::open(std::move(*ranges), file);
   });
 }
 
 acentric_status acentric_open_ranges(const acentric_ranges* ranges, acentric_bundle** bundle) {
-  return openWith(bundle, [&]() -> Result<std::unique_ptr<BundleFiles>> {
+  return openWith(bundle, [&]() -> Opened {
     if (ranges == nullptr || ranges->size == nullptr || ranges->read == nullptr) return nullptr;
-    return walkFiles(std::make_unique<CallerRanges>(*ranges), "walk");
+    return WalkPages::open(std::make_unique<CallerRanges>(*ranges), "walk");
   });
 }
 

@@ -29,9 +29,7 @@ template <class Body>
 acentric_status forCapture(acentric_bundle* bundle, int32_t storey, int32_t camera, int32_t detail,
                            const Body& body) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (!within(storey, storeys.size()) || !within(camera, storeys[std::size_t(storey)].cameras.size()))
-      return refused(bundle, "no such camera");
+    if (!hasCamera(runtime, storey, camera)) return refused(bundle, "no such camera");
     if (detail != ACENTRIC_COARSE && detail != ACENTRIC_FULL)
       return refused(bundle, "detail: ACENTRIC_COARSE or ACENTRIC_FULL");
     return body(runtime, std::size_t(storey), std::size_t(camera), Loaded(detail));
@@ -41,9 +39,7 @@ acentric_status forCapture(acentric_bundle* bundle, int32_t storey, int32_t came
 template <class Body>
 acentric_status forRegion(acentric_bundle* bundle, int32_t storey, int32_t region, const Body& body) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
-    const auto& storeys = runtime.bundle().storeys;
-    if (!within(storey, storeys.size()) || !within(region, storeys[std::size_t(storey)].local.size()))
-      return refused(bundle, "no such region");
+    if (!hasRegion(runtime, storey, region)) return refused(bundle, "no such region");
     return body(runtime, std::size_t(storey), std::size_t(region));
   });
 }
@@ -52,10 +48,17 @@ acentric_status done(acentric_bundle* bundle, const Status& status) {
   return status ? kOk : failed(*bundle, status.error());
 }
 
-/// The rendition that serves best; absent where there is none, or enough is loaded.
-Loaded choose(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
-  if (detail == Loaded::coarse && runtime.loaded(storey, camera) != Loaded::absent) return Loaded::absent;
-  return renditionOf(runtime, storey, camera, detail);
+/// Roles of a camera that a region draws.
+std::uint8_t rolesIn(const Layout& layout, std::size_t region, int camera) {
+  std::uint8_t roles = 0;
+  const auto add = [&](const std::vector<Cover>& covers) {
+    for (const Cover& cover : covers)
+      for (const Piece& piece : cover.pieces)
+        if (piece.camera == camera) roles |= roleBit(layout.cameras[std::size_t(camera)], piece.role);
+  };
+  add(layout.regions[region].covers);
+  add(layout.panoramas[region]);
+  return roles;
 }
 
 }  // namespace
@@ -112,32 +115,16 @@ acentric_status failedView(acentric_bundle& bundle, const Error& error) {
                 error.describe());
 }
 
-Loaded renditionOf(const BundlePlayer& runtime, std::size_t storey, std::size_t camera, Loaded detail) {
-  const BundleCamera& has = runtime.bundle().storeys[storey].cameras[camera];
-  if (!has.full && !has.coarse) return Loaded::absent;
-  if (detail == Loaded::full) return has.full ? Loaded::full : Loaded::coarse;
-  return has.coarse ? Loaded::coarse : Loaded::full;
-}
-
-std::uint8_t rolesIn(const Layout& layout, std::size_t region, int camera) {
-  std::uint8_t roles = 0;
-  const auto add = [&](const std::vector<Cover>& covers) {
-    for (const Cover& cover : covers)
-      for (const Piece& piece : cover.pieces)
-        if (piece.camera == camera) roles |= roleBit(layout.cameras[std::size_t(camera)], piece.role);
-  };
-  add(layout.regions[region].covers);
-  add(layout.panoramas[region]);
-  return roles;
-}
-
 }  // namespace acentric::capi
 
 acentric_status acentric_start_view(acentric_bundle* bundle, acentric_view* view) {
   return guarded(bundle, [&](BundlePlayer& runtime) {
     if (view == nullptr) return refused(bundle, "view is NULL");
     const BundleStorey& storey = runtime.bundle().storeys[std::size_t(runtime.bundle().storey)];
-    const auto place = storey.layout.nearestRegion(storey.start).point;
+    const auto around = runtime.placeAt(std::size_t(runtime.bundle().storey), storey.start);
+    if (!around) return failed(*bundle, around.error());
+    const glm::dvec2 place =
+        *around ? (*around)->here().layout.nearestRegion(storey.start).point : storey.start;
     *view = {{place.x, place.y, storey.layout.eyeZ()}, storey.startYaw, 0, runtime.bundle().fov, 960, 540};
     return kOk;
   });
@@ -167,15 +154,17 @@ acentric_status acentric_view_needs(acentric_bundle* bundle, const acentric_view
       if (count < capacity) list[count] = {kind, number, int32_t(loaded), roles};
       ++count;
     };
-    const Layout& layout = runtime.bundle().storeys[found.storey].layout;
-    for (const int camera : found.cameras)
-      add(ACENTRIC_CAPTURE, camera, runtime.loaded(found.storey, std::size_t(camera)),
-          rolesIn(layout, std::size_t(found.region), camera));
+    const BundlePlace& place = *found.place;
+    for (const int camera : found.cameras) {
+      const std::uint64_t number = place.cameras[std::size_t(camera)];
+      add(ACENTRIC_CAPTURE, int(number), runtime.loaded(place.storey, number),
+          rolesIn(place.here().layout, std::size_t(found.region), camera));
+    }
+    const std::uint64_t region = place.regions[std::size_t(found.region)];
     if (wanted->settings.localGeometry)
-      add(ACENTRIC_REGION, found.region,
-          runtime.regionLoaded(found.storey, std::size_t(found.region)) ? Loaded::full : Loaded::absent,
-          0xff);
-    *needs = {int32_t(found.storey), found.region, count};
+      add(ACENTRIC_REGION, int(region),
+          runtime.regionLoaded(place.storey, region) ? Loaded::full : Loaded::absent, 0xff);
+    *needs = {int32_t(place.storey), int32_t(region), count};
     return kOk;
   });
 }
@@ -232,15 +221,7 @@ acentric_status acentric_load_view(acentric_bundle* bundle, const acentric_view*
                                    const acentric_settings* settings, int32_t detail) {
   return forView(
       bundle, view, settings, wrongDetail(detail), [&](BundlePlayer& runtime, const Wanted& wanted) {
-        const BundlePlayer::Needs& needs = wanted.needs;
-        for (const int camera : needs.cameras) {
-          const Loaded chosen = choose(runtime, needs.storey, std::size_t(camera), Loaded(detail));
-          if (chosen == Loaded::absent) continue;
-          if (const Status loaded = runtime.loadCapture(needs.storey, std::size_t(camera), chosen); !loaded)
-            return failed(*bundle, loaded.error());
-        }
-        if (!wanted.settings.localGeometry) return kOk;
-        return done(bundle, runtime.loadRegion(needs.storey, std::size_t(needs.region)));
+        return done(bundle, runtime.loadView(wanted.needs, Loaded(detail), wanted.settings.localGeometry));
       });
 }
 
@@ -251,9 +232,9 @@ acentric_status acentric_render(acentric_bundle* bundle, const acentric_view* vi
       return refused(bundle, "view, picture or its rgba is NULL");
     if (picture->row_bytes > 0 && (view->width < 0 || picture->row_bytes < 4 * std::size_t(view->width)))
       return refused(bundle, "row_bytes: less than a row");
-    const auto wanted = wantedOf(runtime, *view, settings);
-    if (!wanted) return failedView(*bundle, wanted.error());
-    auto frame = runtime.render(wanted->view, wanted->settings);
+    const auto chosen = settingsOf(runtime.bundle(), settings);
+    if (!chosen) return failed(*bundle, chosen.error());
+    auto frame = runtime.render(viewOf(*view), *chosen);
     if (!frame) return failedView(*bundle, frame.error());
     writePicture(*frame, runtime.inverseZDepth(), *picture);
     runtime.recycle(std::move(*frame));

@@ -8,13 +8,21 @@
 #include "engine/cli/frame_pictures.h"
 #include "engine/export/walk_pages.h"
 #include "engine/geometry/conventions.h"
-#include "engine/layout/storey_choice.h"
 
 namespace acentric::cli {
 
-Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads) {
+Result<std::unique_ptr<BundlePlayer>> playerFor(const std::filesystem::path& bundle, int threads) {
+  const auto read = [&]() -> Result<std::unique_ptr<BundlePlaces>> {
+    std::error_code error;
+    if (std::filesystem::is_directory(bundle, error)) return wholeBundle(bundleFolder(bundle));
+    auto ranges = fileRanges(bundle);
+    if (!ranges) return tl::unexpected(ranges.error());
+    return WalkPages::open(std::move(*ranges), bundle.string());
+  };
+  auto places = read();
+  if (!places) return tl::unexpected(places.error());
   auto player = std::make_unique<BundlePlayer>();
-  if (Status opened = player->open(std::move(files)); !opened) return tl::unexpected(opened.error());
+  player->open(std::move(*places));
   player->setThreads(threads);
   return player;
 }
@@ -31,40 +39,12 @@ PerspectiveView startOf(const Bundle& bundle) {
 Result<Frame> bundleFrame(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings) {
   const auto needs = player.needsOf(view, settings);
   if (!needs) return tl::unexpected(needs.error());
-  const BundleStorey& storey = player.bundle().storeys[needs->storey];
-  for (const int camera : needs->cameras) {
-    const BundleCamera& renditions = storey.cameras[std::size_t(camera)];
-    if (!renditions.full && !renditions.coarse) continue;  // it stays a hole
-    const Loaded detail = renditions.full ? Loaded::full : Loaded::coarse;
-    if (Status loaded = player.loadCapture(needs->storey, std::size_t(camera), detail); !loaded)
-      return tl::unexpected(loaded.error());
-  }
-  if (Status loaded = player.loadRegion(needs->storey, std::size_t(needs->region)); !loaded)
+  if (Status loaded = player.loadView(*needs, Loaded::full, settings.localGeometry); !loaded)
     return tl::unexpected(loaded.error());
   return player.render(view, settings);
 }
 
 namespace {
-
-/// Of a walk that is one file, the place where the eye is: the other pages of its index are not read.
-Result<std::unique_ptr<BundlePlayer>> playerAt(WalkPages& pages, const glm::dvec3& eye, int threads) {
-  WalkPlacePtr best;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; s < pages.root().storeys.size(); ++s) {
-    if (pages.regionCount(s) == 0) continue;
-    auto place = pages.placeAt(s, glm::dvec2(eye));
-    if (!place) return tl::unexpected(place.error());
-    const double misfit = misfitOf((*place)->here().layout, eye);
-    if (!best || misfit < nearest) best = std::move(*place), nearest = misfit;
-  }
-  auto player = std::make_unique<BundlePlayer>();
-  if (best)
-    player->open(best->files, best->bundle);
-  else
-    player->open(nullptr, pages.root());
-  player->setThreads(threads);
-  return player;
-}
 
 /// `bundle`: names bookmarks and where the walk begins.
 Result<PerspectiveView> viewOf(const RenderOptions& options, const Bundle& bundle) {
@@ -100,24 +80,11 @@ Result<Report> renderBundle(const RenderOptions& options, const Common& common) 
   };
   if (options.mode != "picture") return needsProject("--mode");
   if (options.renderer == "truth") return needsProject("--renderer truth");
-  const int threads = common.runner()->threads();
-  Result<std::unique_ptr<BundlePlayer>> player;
-  Result<PerspectiveView> wanted;
-  std::error_code error;
-  if (std::filesystem::is_directory(options.project, error)) {
-    player = playerFor(bundleFolder(options.project), threads);
-    if (player) wanted = viewOf(options, (*player)->bundle());
-  } else {
-    auto ranges = fileRanges(options.project);
-    if (!ranges) return tl::unexpected(ranges.error());
-    const auto pages = WalkPages::open(std::move(*ranges), options.project.string());
-    if (!pages) return tl::unexpected(pages.error());
-    wanted = viewOf(options, (*pages)->root());
-    if (wanted) player = playerAt(**pages, wanted->eye, threads);
-  }
+  const auto player = playerFor(options.project, common.runner()->threads());
   if (!player) return tl::unexpected(player.error());
-  if (!wanted) return tl::unexpected(wanted.error());
   const Bundle& bundle = (*player)->bundle();
+  const auto wanted = viewOf(options, bundle);
+  if (!wanted) return tl::unexpected(wanted.error());
   PerspectiveView view = *wanted;
   view.width = size->width, view.height = size->height;
   ViewSettings settings = bundle.view;

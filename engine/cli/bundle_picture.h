@@ -8,8 +8,8 @@
 
 namespace acentric::cli {
 
-/// With all that the view needs in memory.
-Result<std::unique_ptr<BundlePlayer>> playerFor(std::unique_ptr<BundleFiles> files, int threads);
+/// Of a bundle's folder, or of a walk, whose index is read page by page.
+Result<std::unique_ptr<BundlePlayer>> playerFor(const std::filesystem::path& bundle, int threads);
 /// The view that the walk begins with.
 PerspectiveView startOf(const Bundle& bundle);
 /// Full captures, or coarse ones where there are no others; loads what is missing.

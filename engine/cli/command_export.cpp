@@ -53,7 +53,7 @@ constexpr int kPosterWidth = 1200, kPosterHeight = 630;
 /// Of a page for the bundle in a folder; its poster, of a page that is not alone, is put there: what the walk
 /// begins with.
 Result<PageTitle> titleOf(const fs::path& folder, bool alone, const Common& common) {
-  const auto player = playerFor(bundleFolder(folder), common.runner()->threads());
+  const auto player = playerFor(folder, common.runner()->threads());
   if (!player) return tl::unexpected(player.error());
   const Bundle& bundle = (*player)->bundle();
   PageTitle title{bundle.name, {}};

@@ -18,13 +18,13 @@ namespace acentric {
 struct LoadJob {
   bool model = false;  ///< to be drawn by others; else what BundlePlayer keeps
   bool region = false;
-  std::size_t storey = 0, number = 0;  ///< of the camera or region
+  std::size_t storey = 0, number = 0;  ///< of the camera or region, in the storey
   Loaded detail = Loaded::full;        ///< of a capture
   int texturePixels = 0;               ///< of a model
   auto operator<=>(const LoadJob&) const = default;
 };
 
-using LoadedPart = std::variant<std::shared_ptr<const DisplayCapture>, ReadRegion, DrawModel>;
+using LoadedPart = std::variant<CapturePtr, ReadRegion, DrawModel>;
 
 struct Arrival {
   LoadJob job;
@@ -34,14 +34,17 @@ struct Arrival {
 /// Used by one thread.
 class BackgroundLoader {
  public:
-  /// The player outlives it, and its files may be asked from several threads at once.
-  BackgroundLoader(const BundlePlayer& player, int threads);
+  /// Files may be asked from several threads at once. `textures`: how many the bundle has.
+  BackgroundLoader(std::size_t textures, int threads);
   /// Waits for what is being read; nothing is asked of the files afterwards.
   ~BackgroundLoader();
 
-  /// These in this order, in place of those of the last call that were not begun. What is being read, or has
-  /// arrived and was not taken, is not read again.
-  void ask(std::vector<LoadJob> jobs);
+  /// These in this order, all of one place, in place of those of the last call that were not begun. What is
+  /// being read, or has arrived and was not taken, is not read again.
+  void ask(BundlePlacePtr place, std::vector<LoadJob> jobs);
+  /// Done once, before what was asked for and not begun, in place of the last such call's where that was not
+  /// begun. Nobody is told of it.
+  void doAside(std::function<void()> work);
   /// The first that has arrived of those that `chosen` takes.
   std::optional<Arrival> take(const std::function<bool(const LoadJob&)>& chosen);
   /// Jobs that were asked for, and have not been taken.
@@ -49,14 +52,15 @@ class BackgroundLoader {
 
  private:
   void work(const std::stop_token& stop);
-  Result<LoadedPart> load(const LoadJob& job, const std::stop_token& stop);
-  BundlePlayer::Images knownImages();
-  void remember(const BundlePlayer::Images& images);
+  Result<LoadedPart> load(const BundlePlacePtr& place, const LoadJob& job, const std::stop_token& stop);
+  Images knownImages();
+  void remember(const Images& images);
 
-  const BundlePlayer& player_;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;
+  BundlePlacePtr place_;  ///< of jobs_
   std::deque<LoadJob> jobs_;
+  std::function<void()> aside_;
   std::set<LoadJob> begun_;  ///< and not taken
   std::deque<Arrival> arrived_;
   std::vector<std::weak_ptr<const ColourImage>> images_;  ///< by texture: those that someone still has

@@ -8,13 +8,13 @@
 
 namespace acentric {
 
-Result<DrawModel> captureModel(const BundlePlayer& player, std::size_t storey, std::size_t camera,
-                               Loaded detail, int texturePixels, const std::stop_token& stop) {
-  const auto capture = player.readCapture(storey, camera, detail);
+Result<DrawModel> captureModel(const BundlePlace& place, std::size_t camera, Loaded detail, int texturePixels,
+                               const std::stop_token& stop) {
+  const auto capture = readCapture(place, camera, detail);
   if (!capture) return tl::unexpected(capture.error());
   if (!(*capture)->hasPatches())
     return fail(ErrorKind::unsupported, "has no planes of surfaces, which models are made of",
-                fmt::format("storey {}, camera {}", storey, camera));
+                fmt::format("storey {}, camera {}", place.storey, place.cameras[camera]));
   DrawModel model;
   model.origin = (*capture)->camera.centreOfProjection;
   const ShownCapture shown{capture->get(), 0xff};
@@ -23,11 +23,11 @@ Result<DrawModel> captureModel(const BundlePlayer& player, std::size_t storey, s
   return model;
 }
 
-Result<DrawModel> regionModel(const BundlePlayer& player, std::size_t storey, std::size_t region,
-                              int texturePixels, BundlePlayer::Images known) {
-  auto read = player.readRegion(storey, region, std::move(known));
+Result<DrawModel> regionModel(const BundlePlacePtr& place, std::size_t region, int texturePixels,
+                              Images known) {
+  auto read = readRegion(*place, region, std::move(known));
   if (!read) return tl::unexpected(read.error());
-  const WalkScene walk = player.bareWalk(storey, std::move(read->images));
+  const WalkScene walk = walkSceneOf(place, sceneOf(*place->bundle, std::move(read->images)));
   DrawModel model;
   model.origin = {walk.layout->regions[region].polygon.centroid(), walk.layout->eyeZ()};
   addNear(walk, region, read->local, texturePixels, model);

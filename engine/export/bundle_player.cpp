@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
-#include "engine/layout/storey_choice.h"
 #include "engine/view/view_cameras.h"
 
 namespace acentric {
@@ -31,84 +30,100 @@ std::uint64_t bytesOf(const ColourImage& image) { return bytesIn(image.pixels); 
 
 }  // namespace
 
-Status BundlePlayer::open(std::unique_ptr<BundleFiles> files) {
-  auto bundle = readBundle(*files);
-  if (!bundle) return tl::unexpected(bundle.error());
-  open(std::move(files), std::move(*bundle));
-  return {};
-}
-
-void BundlePlayer::open(std::shared_ptr<const BundleFiles> files, Bundle bundle) {
-  files_ = std::move(files);
-  bundle_ = std::move(bundle);
-  images_.resize(bundle_.textures.size());
-  const ScenePtr scene = sceneOf(bundle_, images_);
-  for (const BundleStorey& storey : bundle_.storeys) {
-    StoreyState state;
-    state.cameras.resize(storey.cameras.size());
-    state.regions.resize(storey.local.size());
-    state.walk = walkSceneOf(bundle_, storey, scene);
-    storeys_.push_back(std::move(state));
-  }
+void BundlePlayer::open(std::unique_ptr<BundlePlaces> places) {
+  places_ = std::move(places);
+  images_.resize(bundle().textures.size());
+  parts_.resize(bundle().storeys.size());
 }
 
 void BundlePlayer::setThreads(int threads) { runner_ = std::make_unique<TaskRunner>(threads - 1); }
 
-std::size_t BundlePlayer::storeyAt(const glm::dvec3& eye) const {
-  std::size_t best = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t s = 0; storeys_.size() > 1 && s < storeys_.size(); ++s) {
-    const double misfit = misfitOf(bundle_.storeys[s].layout, eye);
-    if (misfit < nearest) nearest = misfit, best = s;
-  }
-  return best;
+Result<std::size_t> BundlePlayer::storeyAt(const glm::dvec3& eye) const {
+  if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z)) return 0;
+  return places_->storeyAt(eye);
+}
+
+Result<BundlePlacePtr> BundlePlayer::placeAt(std::size_t storey, const glm::dvec2& point) const {
+  if (places_->counts(storey).regions == 0 || !std::isfinite(point.x) || !std::isfinite(point.y))
+    return nullptr;
+  return places_->placeAt(storey, point);
+}
+
+Result<BundlePlayer::Eye> BundlePlayer::stand(const PerspectiveView& view,
+                                              const ViewSettings& settings) const {
+  for (const Status& sound : {view.check(), settings.check()})
+    if (!sound) return tl::unexpected(sound.error());
+  const auto failed = [](Error error) {  // notFound is what the eye may be
+    if (error.kind == ErrorKind::notFound) error.kind = ErrorKind::unreadable;
+    return tl::unexpected(std::move(error));
+  };
+  const auto storey = storeyAt(view.eye);
+  if (!storey) return failed(storey.error());
+  const glm::dvec2 point(view.eye);
+  const auto place = placeAt(*storey, point);
+  if (!place) return failed(place.error());
+  const auto region = *place ? (*place)->here().layout.regionAt(point) : std::nullopt;
+  if (!region)
+    return fail(ErrorKind::notFound,
+                fmt::format("the eye ({:.3f}, {:.3f}) stands in no region", point.x, point.y), "view");
+  return Eye{*place, *region};
 }
 
 Result<BundlePlayer::Needs> BundlePlayer::needsOf(const PerspectiveView& view,
                                                   const ViewSettings& settings) const {
-  for (const Status& sound : {view.check(), settings.check()})
-    if (!sound) return tl::unexpected(sound.error());
-  Needs needs;
-  needs.storey = storeyAt(view.eye);
-  const Layout& layout = bundle_.storeys[needs.storey].layout;
-  const auto region = layout.regionAt(glm::dvec2(view.eye));
-  if (!region)
-    return fail(ErrorKind::notFound,
-                fmt::format("the eye ({:.3f}, {:.3f}) stands in no region", view.eye.x, view.eye.y), "view");
-  needs.region = *region;
-  needs.cameras = paintingOrder(layout, view, settings);
-  return needs;
+  const auto eye = stand(view, settings);
+  if (!eye) return tl::unexpected(eye.error());
+  return Needs{eye->place, eye->region, paintingOrder(eye->place->here().layout, view, settings)};
 }
 
-std::shared_ptr<const DisplayCapture>& BundlePlayer::slot(std::size_t storey, std::size_t camera,
-                                                          Loaded detail) {
-  Camera& of = storeys_[storey].cameras[camera];
-  return detail == Loaded::full ? of.full : of.coarse;
-}
+// What is loaded
+// ------------------------------------------------------------------------------------------------------------
 
 const DisplayCapture* BundlePlayer::capture(std::size_t storey, std::size_t camera, Loaded detail) const {
-  const Camera& of = storeys_[storey].cameras[camera];
-  return detail == Loaded::full ? of.full.get() : of.coarse.get();
+  const auto found = parts_[storey].cameras.find(camera);
+  if (found == parts_[storey].cameras.end()) return nullptr;
+  return detail == Loaded::full ? found->second.full.get() : found->second.coarse.get();
 }
 
 const LocalGeometry* BundlePlayer::region(std::size_t storey, std::size_t region) const {
-  return storeys_[storey].regions[region].get();
+  const auto found = parts_[storey].regions.find(region);
+  return found == parts_[storey].regions.end() ? nullptr : found->second.local.get();
 }
-
-const ColourImage* BundlePlayer::texture(std::size_t texture) const { return images_[texture].get(); }
 
 Loaded BundlePlayer::loaded(std::size_t storey, std::size_t camera) const {
-  const Camera& of = storeys_[storey].cameras[camera];
-  return of.full ? Loaded::full : of.coarse ? Loaded::coarse : Loaded::absent;
+  const auto found = parts_[storey].cameras.find(camera);
+  if (found == parts_[storey].cameras.end()) return Loaded::absent;
+  return found->second.full ? Loaded::full : Loaded::coarse;
 }
 
-bool BundlePlayer::regionLoaded(std::size_t storey, std::size_t region) const {
-  return storeys_[storey].regions[region] != nullptr;
+void BundlePlayer::showCamera(std::size_t storey, std::size_t camera) {
+  if (!place_ || place_->storey != storey) return;
+  if (const auto here = place_->cameraIn(camera)) {
+    const auto found = parts_[storey].cameras.find(camera);
+    walk_.captures[*here] = found != parts_[storey].cameras.end() ? found->second.best() : nullptr;
+  }
 }
 
-void BundlePlayer::show(std::size_t storey, std::size_t camera) {
-  const Camera& of = storeys_[storey].cameras[camera];
-  storeys_[storey].walk.captures[camera] = of.full ? of.full : of.coarse;
+void BundlePlayer::showRegion(std::size_t storey, std::size_t region) {
+  if (!place_ || place_->storey != storey) return;
+  if (const auto here = place_->regionIn(region)) {
+    const auto found = parts_[storey].regions.find(region);
+    walk_.local[*here] = found != parts_[storey].regions.end() ? found->second.local : nullptr;
+  }
+}
+
+void BundlePlayer::enter(const BundlePlacePtr& place) {
+  if (place == place_) return;
+  walk_ = walkSceneOf(place, sceneOf(bundle(), images_));
+  place_ = place;
+  for (std::size_t c = 0; c < place->cameras.size(); ++c) {
+    const auto found = parts_[place->storey].cameras.find(place->cameras[c]);
+    if (found != parts_[place->storey].cameras.end()) walk_.captures[c] = found->second.best();
+  }
+  for (std::size_t r = 0; r < place->regions.size(); ++r) {
+    const auto found = parts_[place->storey].regions.find(place->regions[r]);
+    if (found != parts_[place->storey].regions.end()) walk_.local[r] = found->second.local;
+  }
 }
 
 Status BundlePlayer::takeRoom(std::uint64_t bytes, const std::string& what) {
@@ -121,122 +136,87 @@ Status BundlePlayer::takeRoom(std::uint64_t bytes, const std::string& what) {
   return {};
 }
 
-Result<std::shared_ptr<const DisplayCapture>> BundlePlayer::readCapture(std::size_t storey,
-                                                                        std::size_t camera,
-                                                                        Loaded detail) const {
-  const BundleCamera& renditions = bundle_.storeys[storey].cameras[camera];
-  const auto& file = detail == Loaded::full ? renditions.full : renditions.coarse;
-  if (!file)
-    return fail(ErrorKind::notFound, "was not baked", fmt::format("storey {}, camera {}", storey, camera));
-  const auto read = readBundleCapture(*files_, bundle_.storeys[storey], camera, *file);
-  if (!read) return tl::unexpected(read.error());
-  return std::make_shared<const DisplayCapture>(prepareForDisplay(*read, bundle_.exposure));
-}
+// Loading
+// ------------------------------------------------------------------------------------------------------------
 
-Status BundlePlayer::keepCapture(std::size_t storey, std::size_t camera, Loaded detail,
-                                 std::shared_ptr<const DisplayCapture> capture) {
-  auto& place = slot(storey, camera, detail);
-  if (place) return {};
+Status BundlePlayer::keepCapture(std::size_t storey, std::size_t camera, Loaded detail, CapturePtr capture) {
+  if (this->capture(storey, camera, detail) != nullptr) return {};
   if (Status room =
           takeRoom(acentric::bytesOf(*capture), fmt::format("storey {}, camera {}", storey, camera));
       !room)
     return room;
-  place = std::move(capture);
-  show(storey, camera);
+  parts_[storey].cameras[camera].of(detail) = std::move(capture);
+  showCamera(storey, camera);
   return {};
 }
 
-Status BundlePlayer::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
-  if (slot(storey, camera, detail)) return {};
-  auto read = readCapture(storey, camera, detail);
+Status BundlePlayer::loadCapture(const BundlePlace& place, std::size_t camera, Loaded detail) {
+  const std::size_t number = place.cameras[camera];
+  if (capture(place.storey, number, detail) != nullptr) return {};
+  auto read = readCapture(place, camera, detail);
   if (!read) return tl::unexpected(read.error());
-  return keepCapture(storey, camera, detail, std::move(*read));
+  return keepCapture(place.storey, number, detail, std::move(*read));
+}
+
+Status BundlePlayer::loadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
+  if (capture(storey, camera, detail) != nullptr) return {};
+  const auto place = places_->placeOfCamera(storey, camera);
+  if (!place) return tl::unexpected(place.error());
+  return loadCapture(**place, *(*place)->cameraIn(camera), detail);
 }
 
 void BundlePlayer::unloadCapture(std::size_t storey, std::size_t camera, Loaded detail) {
-  auto& place = slot(storey, camera, detail);
-  if (!place) return;
-  memory_ -= acentric::bytesOf(*place);
-  place.reset();
-  show(storey, camera);
-}
-
-Result<ReadRegion> BundlePlayer::readRegion(std::size_t storey, std::size_t region, Images known) const {
-  auto local = readBundleLocal(*files_, bundle_, bundle_.storeys[storey], region);
-  if (!local) return tl::unexpected(local.error());
-  ReadRegion read{std::move(*local), Images(bundle_.textures.size())};
-  const auto imageOf = [&](std::size_t texture) -> Result<std::shared_ptr<const ColourImage>> {
-    const BundleTexture& described = bundle_.textures[texture];
-    for (std::size_t t = 0; t < known.size(); ++t)  // several textures may share a picture
-      if (known[t] && bundle_.textures[t].file == described.file) return known[t];
-    auto image = readBundleTexture(*files_, described);
-    if (!image) return tl::unexpected(image.error());
-    return std::make_shared<const ColourImage>(std::move(*image));
-  };
-  known.resize(bundle_.textures.size());
-  for (const Mesh& mesh : read.local.surfaces->meshes) {
-    const Material& material = bundle_.materials[std::size_t(mesh.material)];
-    for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture}) {
-      if (!use->used()) continue;
-      const auto texture = std::size_t(use->texture);
-      auto image = imageOf(texture);
-      if (!image) return tl::unexpected(image.error());
-      known[texture] = read.images[texture] = std::move(*image);
-    }
-  }
-  return read;
-}
-
-WalkScene BundlePlayer::bareWalk(std::size_t storey, Images images) const {
-  const WalkScene& loaded = storeys_[storey].walk;
-  WalkScene walk;
-  walk.scene = sceneOf(bundle_, std::move(images));
-  walk.layout = loaded.layout, walk.plan = loaded.plan;
-  walk.exposure = loaded.exposure, walk.mirrors = loaded.mirrors;
-  return walk;
+  if (capture(storey, camera, detail) == nullptr) return;
+  Camera& of = parts_[storey].cameras[camera];
+  memory_ -= acentric::bytesOf(*of.of(detail));
+  of.of(detail).reset();
+  if (!of.best()) parts_[storey].cameras.erase(camera);
+  showCamera(storey, camera);
 }
 
 Status BundlePlayer::keepTexture(std::size_t texture, std::shared_ptr<const ColourImage> image) {
   if (images_[texture]) return {};
   if (std::ranges::find(images_, image) == images_.end())
-    if (Status room = takeRoom(bytesOf(*image), bundle_.textures[texture].file.path); !room) return room;
+    if (Status room = takeRoom(bytesOf(*image), bundle().textures[texture].file.path); !room) return room;
   images_[texture] = std::move(image);
   return {};
 }
 
 Status BundlePlayer::keepRegion(std::size_t storey, std::size_t region, ReadRegion read) {
-  auto& place = storeys_[storey].regions[region];
-  if (place) return {};
+  if (regionLoaded(storey, region)) return {};
   for (std::size_t texture = 0; texture < read.images.size(); ++texture)
     if (read.images[texture])
       if (Status kept = keepTexture(texture, std::move(read.images[texture])); !kept) return kept;
   auto made = std::make_shared<const LocalGeometry>(std::move(read.local));
   if (Status room = takeRoom(bytesOf(*made), fmt::format("storey {}, region {}", storey, region)); !room)
     return room;
-  showTextures();
-  place = std::move(made);
-  storeys_[storey].walk.local[region] = place;
+  walk_.scene = sceneOf(bundle(), images_);
+  parts_[storey].regions[region] = {read.middle, std::move(made)};
+  showRegion(storey, region);
   return {};
 }
 
-void BundlePlayer::showTextures() {
-  const ScenePtr scene = sceneOf(bundle_, images_);
-  for (StoreyState& storey : storeys_) storey.walk.scene = scene;
+Status BundlePlayer::loadRegion(const BundlePlace& place, std::size_t region) {
+  const std::size_t number = place.regions[region];
+  if (regionLoaded(place.storey, number)) return {};
+  auto read = readRegion(place, region, images_);
+  if (!read) return tl::unexpected(read.error());
+  return keepRegion(place.storey, number, std::move(*read));
 }
 
 Status BundlePlayer::loadRegion(std::size_t storey, std::size_t region) {
-  if (storeys_[storey].regions[region]) return {};
-  auto read = readRegion(storey, region, images_);
-  if (!read) return tl::unexpected(read.error());
-  return keepRegion(storey, region, std::move(*read));
+  if (regionLoaded(storey, region)) return {};
+  const auto place = places_->placeOfRegion(storey, region);
+  if (!place) return tl::unexpected(place.error());
+  return loadRegion(**place, *(*place)->regionIn(region));
 }
 
 void BundlePlayer::unloadRegion(std::size_t storey, std::size_t region) {
-  auto& place = storeys_[storey].regions[region];
-  if (!place) return;
-  memory_ -= bytesOf(*place);
-  place.reset();
-  storeys_[storey].walk.local[region].reset();
+  const LocalGeometry* local = this->region(storey, region);
+  if (local == nullptr) return;
+  memory_ -= bytesOf(*local);
+  parts_[storey].regions.erase(region);
+  showRegion(storey, region);
 }
 
 void BundlePlayer::unloadTextures() {
@@ -246,11 +226,26 @@ void BundlePlayer::unloadTextures() {
     for (std::size_t other = images_.size(); other-- > t;)  // of a picture that several share, all
       if (images_[other] == images_[t]) images_[other].reset();
   }
-  showTextures();
+  walk_.scene = sceneOf(bundle(), images_);
+}
+
+Status BundlePlayer::loadView(const Needs& needs, Loaded detail, bool regions) {
+  const BundlePlace& place = *needs.place;
+  for (const int c : needs.cameras) {
+    const auto camera = std::size_t(c);
+    if (detail == Loaded::coarse && loaded(place.storey, place.cameras[camera]) != Loaded::absent) continue;
+    const Loaded chosen = renditionOf(place.here().cameras[camera], detail);
+    if (chosen == Loaded::absent) continue;  // it stays a hole
+    if (Status done = loadCapture(place, camera, chosen); !done) return done;
+  }
+  return regions ? loadRegion(place, std::size_t(needs.region)) : Status();
 }
 
 Result<Frame> BundlePlayer::render(const PerspectiveView& view, const ViewSettings& settings) {
-  return renderFrame(storeys_[storeyAt(view.eye)].walk, view, settings, *runner_, frames_);
+  const auto eye = stand(view, settings);
+  if (!eye) return tl::unexpected(eye.error());
+  enter(eye->place);
+  return renderFrame(walk_, view, settings, *runner_, frames_);
 }
 
 }  // namespace acentric

@@ -1,58 +1,50 @@
 #pragma once
 /// A bundle, and what of it is in memory to be drawn. A handle of the C library is one: acentric_runtime.h
 /// has the meaning of each call.
+///
+/// Numbers of cameras and regions are the storey's, whatever the place that they were read from; what is
+/// loaded stays when the eye comes to another one.
+
+#include <map>
 
 #include "engine/base/task_runner.h"
-#include "engine/export/bundle_read.h"
+#include "engine/export/bundle_places.h"
 #include "engine/view/render.h"
 
 namespace acentric {
 
-/// As in acentric_runtime.h.
-enum class Loaded { absent = 0, coarse = 1, full = 2 };
-
-/// Near geometry as it was read, with the textures that its surfaces need.
-struct ReadRegion {
-  LocalGeometry local;
-  std::vector<std::shared_ptr<const ColourImage>> images;  ///< by texture; null: not needed
-};
-
 class BundlePlayer {
  public:
-  /// Reads the index. Nothing else may be called where this failed.
-  Status open(std::unique_ptr<BundleFiles> files);
-  /// With an index that was read already.
-  void open(std::shared_ptr<const BundleFiles> files, Bundle bundle);
+  /// Nothing else may be called before.
+  void open(std::unique_ptr<BundlePlaces> places);
 
-  const Bundle& bundle() const { return bundle_; }
+  BundlePlaces& places() const { return *places_; }
+  /// Storeys may lack their cameras and regions.
+  const Bundle& bundle() const { return places_->root(); }
   void setThreads(int threads);
   int threads() const { return runner_->threads(); }
 
-  std::size_t storeyAt(const glm::dvec3& eye) const;
+  Result<std::size_t> storeyAt(const glm::dvec3& eye) const;
+  /// Null where the storey has no region, or a number is not finite.
+  Result<BundlePlacePtr> placeAt(std::size_t storey, const glm::dvec2& point) const;
+  /// Numbers are those within the place.
   struct Needs {
-    std::size_t storey = 0;
+    BundlePlacePtr place;
     int region = -1;
     std::vector<int> cameras;  ///< in drawing order
   };
-  /// Fails where the eye stands in no region.
+  /// Fails where the eye stands in no region, as notFound.
   Result<Needs> needsOf(const PerspectiveView& view, const ViewSettings& settings) const;
 
   std::uint64_t memory() const { return memory_; }
   void setLimit(std::uint64_t bytes) { limit_ = bytes; }
   Loaded loaded(std::size_t storey, std::size_t camera) const;
-  bool regionLoaded(std::size_t storey, std::size_t region) const;
+  bool regionLoaded(std::size_t storey, std::size_t region) const {
+    return this->region(storey, region) != nullptr;
+  }
 
-  /// What loading reads, from any thread, and several at once where the files may be. `known`: textures that
-  /// need not be read.
-  Result<std::shared_ptr<const DisplayCapture>> readCapture(std::size_t storey, std::size_t camera,
-                                                            Loaded detail) const;
-  using Images = std::vector<std::shared_ptr<const ColourImage>>;
-  Result<ReadRegion> readRegion(std::size_t storey, std::size_t region, Images known) const;
-  /// The storey with nothing loaded, and surfaces of these images.
-  WalkScene bareWalk(std::size_t storey, Images images) const;
   /// Takes what was read; what is loaded already stays.
-  Status keepCapture(std::size_t storey, std::size_t camera, Loaded detail,
-                     std::shared_ptr<const DisplayCapture> capture);
+  Status keepCapture(std::size_t storey, std::size_t camera, Loaded detail, CapturePtr capture);
   Status keepRegion(std::size_t storey, std::size_t region, ReadRegion read);
 
   Status loadCapture(std::size_t storey, std::size_t camera, Loaded detail);
@@ -60,6 +52,9 @@ class BundlePlayer {
   Status loadRegion(std::size_t storey, std::size_t region);
   void unloadRegion(std::size_t storey, std::size_t region);
   void unloadTextures();
+  /// Of captures those that renditionOf says, coarse ones where nothing is loaded yet; `regions`: the near
+  /// geometry too.
+  Status loadView(const Needs& needs, Loaded detail, bool regions);
 
   Result<Frame> render(const PerspectiveView& view, const ViewSettings& settings);
   /// Of the last frame, 1/m along the viewing direction.
@@ -67,31 +62,46 @@ class BundlePlayer {
   /// The next frame is made in its memory.
   void recycle(Frame frame) { frames_.frame = std::move(frame); }
 
+  struct Camera {
+    CapturePtr full, coarse;
+    const CapturePtr& best() const { return full ? full : coarse; }
+    CapturePtr& of(Loaded detail) { return detail == Loaded::full ? full : coarse; }
+  };
+  struct NearRegion {
+    glm::dvec2 middle{0};
+    std::shared_ptr<const LocalGeometry> local;
+  };
+  /// What is loaded of a storey, by number.
+  struct Parts {
+    std::map<std::size_t, Camera> cameras;
+    std::map<std::size_t, NearRegion> regions;
+  };
+  const Parts& parts(std::size_t storey) const { return parts_[storey]; }
   /// Null unless loaded.
   const DisplayCapture* capture(std::size_t storey, std::size_t camera, Loaded detail) const;
   const LocalGeometry* region(std::size_t storey, std::size_t region) const;
-  const ColourImage* texture(std::size_t texture) const;
+  const ColourImage* texture(std::size_t texture) const { return images_[texture].get(); }
   const Images& images() const { return images_; }
 
  private:
-  struct Camera {
-    std::shared_ptr<const DisplayCapture> full, coarse;
+  struct Eye {
+    BundlePlacePtr place;
+    int region = -1;
   };
-  struct StoreyState {
-    std::vector<Camera> cameras;
-    std::vector<std::shared_ptr<const LocalGeometry>> regions;
-    WalkScene walk;
-  };
-  std::shared_ptr<const DisplayCapture>& slot(std::size_t storey, std::size_t camera, Loaded detail);
-  void show(std::size_t storey, std::size_t camera);
+  Result<Eye> stand(const PerspectiveView& view, const ViewSettings& settings) const;
+  void enter(const BundlePlacePtr& place);
+  Status loadCapture(const BundlePlace& place, std::size_t camera, Loaded detail);
+  Status loadRegion(const BundlePlace& place, std::size_t region);
+  void showCamera(std::size_t storey, std::size_t camera);
+  void showRegion(std::size_t storey, std::size_t region);
   Status takeRoom(std::uint64_t bytes, const std::string& what);
   Status keepTexture(std::size_t texture, std::shared_ptr<const ColourImage> image);
-  void showTextures();
 
-  std::shared_ptr<const BundleFiles> files_;
-  Bundle bundle_;
-  std::vector<StoreyState> storeys_;
-  Images images_;  ///< by texture
+  std::unique_ptr<BundlePlaces> places_;
+  std::vector<Parts> parts_;  ///< by storey
+  Images images_;             ///< by texture
+  BundlePlacePtr place_;      ///< that was drawn last
+  WalkScene walk_;            ///< of it what is loaded
   std::unique_ptr<TaskRunner> runner_ = std::make_unique<TaskRunner>(0);
   FrameMemory frames_;
   std::uint64_t memory_ = 0, limit_ = 0;

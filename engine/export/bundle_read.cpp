@@ -133,14 +133,14 @@ ScenePtr sceneOf(const Bundle& bundle, std::vector<std::shared_ptr<const ColourI
   return scene;
 }
 
-WalkScene walkSceneOf(const Bundle& bundle, const BundleStorey& storey, ScenePtr scene) {
+WalkScene walkSceneOf(const Bundle& bundle, std::shared_ptr<const Layout> layout, ScenePtr scene) {
   WalkScene walk;
   walk.scene = std::move(scene);
-  walk.layout = std::make_shared<const Layout>(storey.layout);
+  walk.captures.resize(layout->cameras.size());
+  walk.local.resize(layout->regions.size());
+  walk.layout = std::move(layout);
   walk.plan = everythingOn();  // materials say what is left of each
   walk.exposure = bundle.exposure;
-  walk.captures.resize(storey.layout.cameras.size());
-  walk.local.resize(storey.layout.regions.size());
   if (!bundle.mirrors.empty()) walk.mirrors = std::make_shared<const FlatMirrors>(bundle.mirrors);
   return walk;
 }

@@ -40,7 +40,7 @@ Result<ColourImage> readBundleTexture(const BundleFiles& files, const BundleText
 /// readBundleTexture; null ones are white.
 ScenePtr sceneOf(const Bundle& bundle, std::vector<std::shared_ptr<const ColourImage>> images);
 /// A storey to be rendered: nothing is loaded yet, neither captures nor local geometry.
-WalkScene walkSceneOf(const Bundle& bundle, const BundleStorey& storey, ScenePtr scene);
+WalkScene walkSceneOf(const Bundle& bundle, std::shared_ptr<const Layout> layout, ScenePtr scene);
 
 /// `bytes` of a local file (FORMAT.md, "Kind 4") that belongs to a bundle with so many materials and mirrors.
 Result<LocalGeometry> readLocalFile(std::vector<std::byte> bytes, const std::string& name,

@@ -42,29 +42,41 @@ Result<WalkIndex> WalkIndex::open(const ByteRanges& ranges, const std::string& n
 Result<BundleJson> WalkIndex::read(std::uint64_t at, std::uint64_t bytes, std::uint64_t raw,
                                    const std::string& hash, const std::string& what,
                                    std::uint64_t mostRaw) const {
-  if (raw > mostRaw || bytes > raw + 1024) return malformed(what + " is too large");
+  if (raw > mostRaw || bytes > raw + 1024) return fail(ErrorKind::malformed, "is too large", what);
   if (at > header_.dataStart || bytes > header_.dataStart - at)
-    return malformed(what + " lies outside the index");
+    return fail(ErrorKind::malformed, "lies outside the index", what);
   std::vector<std::byte> packed(bytes);
   if (Status got = ranges_->read(at, packed); !got) return tl::unexpected(got.error());
-  const auto text = checkedText(packed, raw, hash, *name_ + ", " + what);
+  const auto text = checkedText(packed, raw, hash, what);
   if (!text) return tl::unexpected(text.error());
-  return parseJson<BundleJson>(*text, *name_ + ", " + what);
+  return parseJson<BundleJson>(*text, what);
 }
 
 Result<BundleJson> WalkIndex::root() const {
   const ContentKey hash{header_.rootHash[0], header_.rootHash[1]};
-  auto root = read(kHeaderBytes, header_.rootBytes, header_.rootRaw, hash.toHex(), "the root of its index",
-                   kMostRootBytes);
+  auto root = read(kHeaderBytes, header_.rootBytes, header_.rootRaw, hash.toHex(),
+                   *name_ + ", the root of its index", kMostRootBytes);
   if (root && !root->is_object()) return malformed("its index is no object");
   return root;
 }
 
-Result<BundleJson> WalkIndex::page(const BundleJson& entry) const {
-  const std::uint64_t at = number(entry.at("at"));
-  if (at > header_.dataStart) return malformed("a page lies outside the index");
-  return read(header_.pageStart + at, number(entry.at("bytes")), number(entry.at("raw")),
-              entry.at("hash").get<std::string>(), fmt::format("the page at {}", at), kMostPageBytes);
+WalkPageEntry WalkIndex::entryOf(const BundleJson& json) {
+  const BundleJson& box = json.at("box");
+  const auto side = [&](std::size_t i) { return box.at(i).get<double>(); };
+  return {number(json.at("at")),      number(json.at("bytes")),
+          number(json.at("raw")),     json.at("hash").get<std::string>(),
+          {side(0), side(1)},         {side(2), side(3)},
+          json.at("leaf").get<bool>()};
+}
+
+std::string WalkIndex::nameOf(const WalkPageEntry& entry) const {
+  return fmt::format("{}, the page at {}", *name_, entry.at);
+}
+
+Result<BundleJson> WalkIndex::page(const WalkPageEntry& entry) const {
+  if (entry.at > header_.dataStart) return malformed("a page lies outside the index");
+  return read(header_.pageStart + entry.at, entry.bytes, entry.raw, entry.hash, nameOf(entry),
+              kMostPageBytes);
 }
 
 void WalkIndex::take(BundleJson& file, FilePlaces& places) const {

@@ -2,6 +2,7 @@
 /// A walk's index as it lies in the file (FORMAT.md, "Walks"): header, root and pages, each checked against
 /// its hash before it is believed. What both readers of walks share.
 
+#include <glm/glm.hpp>
 #include <map>
 #include <memory>
 #include <new>
@@ -19,15 +20,26 @@ using FilePlaces = std::map<std::string, std::pair<std::uint64_t, std::uint64_t>
 
 inline constexpr int kMostWalkLevels = 8;  // of pages
 
+/// A page, as the one above it or the root names it.
+struct WalkPageEntry {
+  std::uint64_t at = 0;  ///< from where pages begin
+  std::uint64_t bytes = 0, raw = 0;
+  std::string hash;
+  glm::dvec2 low{0}, high{0};  ///< box around the regions that are own in it or below it
+  bool leaf = false;
+};
+
 class WalkIndex {
  public:
   /// Reads the header. `ranges` and `name` outlive it.
   static Result<WalkIndex> open(const ByteRanges& ranges, const std::string& name);
 
   Result<BundleJson> root() const;
-  /// `entry` names it, in the root or in the page above. Throws what JSON throws where something is of
-  /// another type than it should be.
-  Result<BundleJson> page(const BundleJson& entry) const;
+  Result<BundleJson> page(const WalkPageEntry& entry) const;
+  /// Throws what JSON throws where something is of another type than it should be.
+  static WalkPageEntry entryOf(const BundleJson& json);
+  /// The page, for messages.
+  std::string nameOf(const WalkPageEntry& entry) const;
   /// Takes a file's place out of its description, which is then that of a bundle.
   void take(BundleJson& file, FilePlaces& places) const;
 

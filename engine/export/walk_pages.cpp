@@ -4,47 +4,52 @@
 #include <cmath>
 #include <limits>
 #include <list>
-#include <new>
+#include <map>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 
 #include "engine/base/json_text.h"
 #include "engine/export/counted_ranges.h"
-#include "engine/export/walk_index.h"
+#include "engine/export/walk_tree.h"
+#include "engine/layout/storey_choice.h"
 
 namespace acentric {
 namespace {
 
 using Json = BundleJson;
 
-/// Pages that are kept, those that were used last. A way down the tree has kMostWalkLevels of them at most,
-/// and a step over a border needs another one.
-constexpr std::size_t kKeptPages = 4 * kMostWalkLevels, kKeptPlaces = 4;
+constexpr std::size_t kKeptPlaces = 8;  // those that were used last: the eye's, and pages beside it
 
-struct Box {
-  glm::dvec2 low, high;
-  double distanceTo(const glm::dvec2& p) const {
-    return glm::length(glm::max(glm::max(low - p, p - high), glm::dvec2(0)));
+/// A region as it is told of, without its covers.
+struct KnownRegion {
+  RegionKind kind = RegionKind::ring;
+  ConvexPolygon polygon, grown;
+  std::vector<int> neighbours;
+  std::uint64_t triangles = 0, bytes = 0;
+};
+
+/// Of a storey; what was told stays where it is.
+struct Known {
+  std::unordered_map<std::uint64_t, CameraFacts> cameras;
+  std::unordered_map<std::uint64_t, KnownRegion> regions;
+};
+
+/// What the page tells of its cameras and own regions.
+void take(const BundlePlace& place, Known& known) {
+  const BundleStorey& here = place.here();
+  for (std::size_t c = 0; c < place.cameras.size(); ++c)
+    known.cameras.try_emplace(place.cameras[c], factsOf(here.layout.cameras[c], here.cameras[c]));
+  for (std::size_t r = 0; r < place.regions.size(); ++r) {
+    if (place.own[r] == 0) continue;  // of others it lacks neighbours
+    const Region& region = here.layout.regions[r];
+    KnownRegion its{region.kind, region.polygon, region.grown, {}};
+    for (const int neighbour : here.neighbours[r])
+      its.neighbours.push_back(int(place.regions[std::size_t(neighbour)]));
+    if (here.local[r]) its.triangles = here.local[r]->triangles, its.bytes = here.local[r]->file.bytes;
+    known.regions.try_emplace(place.regions[r], std::move(its));
   }
-};
-
-Box boxOf(const Json& entry) {
-  const Json& box = entry.at("box");
-  const auto side = [&](std::size_t i) { return box.at(i).get<double>(); };
-  return {{side(0), side(1)}, {side(2), side(3)}};
 }
-
-/// A page as it is kept: of an inner one what is below it, of a leaf where its regions are. All of a leaf
-/// takes a hundred times the room.
-struct Page {
-  std::uint64_t at = 0;
-  Json entry, json;  ///< of a leaf `json` goes when it was looked at
-  struct Own {
-    std::uint64_t number = 0;
-    ConvexPolygon polygon;
-  };
-  std::vector<Own> own;  ///< of a leaf
-};
-using PagePtr = std::shared_ptr<Page>;
 
 }  // namespace
 
@@ -52,115 +57,116 @@ struct WalkPages::Index {
   std::shared_ptr<const ByteRanges> ranges;  ///< that files are read through
   CountedRanges counted;
   std::optional<WalkIndex> index;
-  Json root;              ///< with the pages of storeys left out
-  std::vector<Json> top;  ///< entries of the storeys' topmost pages
+  Json root;  ///< with the pages of storeys left out
   FilePlaces textures;
-  std::list<PagePtr> pages;        ///< last used first
-  std::list<WalkPlacePtr> places;  ///< the same
-  int read = 0;
+  std::vector<Counts> counts;  ///< by storey
+  std::optional<WalkTree> tree;
+  std::vector<Known> known;          ///< by storey
+  std::list<BundlePlacePtr> places;  ///< last used first
 
   explicit Index(std::shared_ptr<const ByteRanges> from) : ranges(from), counted(std::move(from)) {}
 
-  template <class List, class Same>
-  static auto kept(List& list, const Same& same) -> typename List::value_type {
-    const auto found = std::ranges::find_if(list, same);
-    if (found == list.end()) return nullptr;
-    list.splice(list.begin(), list, found);
-    return list.front();
+  /// A place that is kept, and fits.
+  template <class Fits>
+  BundlePlacePtr kept(std::size_t storey, const Fits& fits) {
+    const auto found = std::ranges::find_if(
+        places, [&](const BundlePlacePtr& p) { return p->storey == storey && fits(*p); });
+    if (found == places.end()) return nullptr;
+    places.splice(places.begin(), places, found);
+    return places.front();
   }
 
-  Result<PagePtr> page(const Json& entry) {
-    const std::uint64_t at = WalkIndex::number(entry.at("at"));
-    if (auto known = kept(pages, [&](const PagePtr& p) { return p->at == at; })) return known;
-    auto json = index->page(entry);
-    if (!json) return tl::unexpected(json.error());
-    ++read;
-    auto made = std::make_shared<Page>();
-    made->at = at, made->entry = entry, made->json = std::move(*json);
-    if (entry.at("leaf").get<bool>()) {
-      for (const Json& region : made->json.at("regions")) {
-        if (!region.at("own").get<bool>()) continue;
-        Page::Own own{WalkIndex::number(region.at("number")), {}};
-        for (const Json& corner : region.at("polygon"))
-          own.polygon.corners.emplace_back(corner.at(0).get<double>(), corner.at(1).get<double>());
-        if (own.polygon.size() < 3) return index->malformed("a region of its index has no polygon");
-        made->own.push_back(std::move(own));
-      }
-    } else if (!made->json.at("pages").is_array()) {
-      return index->malformed("a page of its index makes no sense");
-    }
-    pages.push_front(std::move(made));
-    if (pages.size() > kKeptPages) pages.pop_back();
-    return pages.front();
+  BundlePlacePtr placeKept(const WalkPage& leaf) {
+    return kept(leaf.storey, [&](const BundlePlace& p) { return p.page == leaf.entry.at; });
+  }
+  void keep(const BundlePlacePtr& place) {
+    places.push_front(place);
+    if (places.size() > kKeptPlaces) places.pop_back();
   }
 
-  struct Nearest {
-    PagePtr leaf;
-    std::uint64_t number = 0;
-    double distance = std::numeric_limits<double>::infinity();
-  };
-
-  Status visit(const Json& entry, int level, const glm::dvec2& point, Nearest& best) {
-    if (level >= kMostWalkLevels) return index->malformed("its pages nest too deep");
-    if (best.leaf && boxOf(entry).distanceTo(point) > best.distance) return {};
-    const auto found = page(entry);
-    if (!found) return tl::unexpected(found.error());
-    if (!entry.at("leaf").get<bool>()) {
-      std::vector<std::pair<double, const Json*>> nearestFirst;
-      for (const Json& child : (*found)->json["pages"])
-        nearestFirst.emplace_back(boxOf(child).distanceTo(point), &child);
-      std::ranges::stable_sort(nearestFirst, {}, [](const auto& child) { return child.first; });
-      for (const auto& [distance, child] : nearestFirst)
-        if (Status visited = visit(*child, level + 1, point, best); !visited) return visited;
-      return {};
-    }
-    for (const Page::Own& own : (*found)->own) {
-      const double distance =
-          own.polygon.containsClosed(point) ? 0 : glm::distance(own.polygon.nearestPoint(point), point);
-      // Of regions that overlap the first is the eye's.
-      if (distance < best.distance || (distance == best.distance && own.number < best.number))
-        best = {*found, own.number, distance};
-    }
-    return {};
+  Result<BundlePlacePtr> placeOf(WalkPage& leaf) {
+    if (auto place = placeKept(leaf)) return place;
+    auto place = made(leaf, std::exchange(leaf.json, nullptr));
+    tree->dropTexts();
+    if (place) keep(*place);
+    return place;
   }
 
-  Result<WalkPlacePtr> placeOf(Page& leaf, std::size_t storey, const std::string& name) {
-    if (leaf.json.is_null()) {
+  /// From any thread. `text`: null where it has to be read again.
+  Result<BundlePlacePtr> made(const WalkPage& leaf, Json text) const {
+    const std::string what = index->nameOf(leaf.entry);
+    return withinSense(what, [&]() -> Result<BundlePlacePtr> {
+      if (!text.is_null()) return placeFrom(std::move(text), leaf, what);
       auto again = index->page(leaf.entry);
       if (!again) return tl::unexpected(again.error());
-      leaf.json = std::move(*again), ++read;
-    }
-    auto place = std::make_shared<WalkPlace>();
-    place->page = leaf.at, place->storey = storey;
+      return placeFrom(std::move(*again), leaf, what);
+    });
+  }
+
+  Result<BundlePlacePtr> placeFrom(Json text, const WalkPage& leaf, const std::string& what) const {
+    auto place = std::make_shared<BundlePlace>();
+    place->page = leaf.entry.at, place->storey = leaf.storey;
+    place->cameras = leaf.cameras;
     FilePlaces files = textures;
-    Json json = root, cameras = std::move(leaf.json.at("cameras")),
-         regions = std::move(leaf.json.at("regions"));
-    leaf.json = nullptr;
-    for (Json& camera : cameras) {
-      place->cameras.push_back(WalkIndex::number(camera.at("number")));
-      index->take(camera["full"], files), index->take(camera["coarse"], files);
+    Json json = root, cameras = std::move(text.at("cameras")), regions = std::move(text.at("regions"));
+    for (Json& camera : cameras) index->take(camera["full"], files), index->take(camera["coarse"], files);
+    for (Json& region : regions) index->take(region["local"], files);
+    for (const WalkPage::SeenRegion& region : leaf.regions) {
+      place->regions.push_back(region.number);
+      place->own.push_back(region.own ? 1 : 0);
     }
-    for (Json& region : regions) {
-      place->regions.push_back(WalkIndex::number(region.at("number")));
-      place->own.push_back(region.at("own").get<bool>() ? 1 : 0);
-      index->take(region["local"], files);
-    }
-    const auto tooLarge = [](std::uint64_t n) { return n > std::uint64_t(std::numeric_limits<int>::max()); };
-    if (!std::ranges::is_sorted(place->regions) || std::ranges::any_of(place->regions, tooLarge) ||
-        std::ranges::any_of(place->cameras, tooLarge))
-      return index->malformed("the numbers of a page of its index make no sense");
-    Json& here = json["storeys"][storey];
+    const Counts& all = counts[leaf.storey];
+    if (place->regions.back() >= all.regions ||
+        std::ranges::any_of(place->cameras, [&](std::uint64_t n) { return n >= all.cameras; }))
+      return fail(ErrorKind::malformed, "has a camera or a region beyond the storey's count", what);
+    Json& here = json["storeys"][leaf.storey];
     here["cameras"] = std::move(cameras), here["regions"] = std::move(regions);
-    auto bundle = parseBundle(jsonText(json), name);
+    auto bundle = parseBundle(jsonText(json), what);
     if (!bundle) return tl::unexpected(bundle.error());
-    place->bundle = std::move(*bundle);
+    place->bundle = std::make_shared<const Bundle>(std::move(*bundle));
     place->files = std::make_shared<const RangeFiles>(ranges, std::move(files));
     return place;
+  }
+
+  Result<BundlePlacePtr> placeOf(const Result<WalkPagePtr>& leaf) {
+    if (!leaf) return tl::unexpected(leaf.error());
+    return placeOf(**leaf);
+  }
+
+  /// Of those that are kept.
+  BundlePlacePtr placeWith(std::size_t storey, std::size_t region) {
+    return kept(storey, [&](const BundlePlace& place) { return place.regionIn(region).has_value(); });
+  }
+
+  Result<BundlePlacePtr> placeOfRegion(std::size_t storey, std::size_t region) {
+    if (auto place = placeWith(storey, region)) return place;
+    return placeOfOwn(storey, region);
+  }
+
+  /// The place of the page whose own it is.
+  Result<BundlePlacePtr> placeOfOwn(std::size_t storey, std::size_t region) {
+    const auto owns = [&](const BundlePlace& place) {
+      const auto found = place.regionIn(region);
+      return found && place.own[*found] != 0;
+    };
+    if (auto place = kept(storey, owns)) return place;
+    std::optional<glm::dvec2> inside;
+    if (const auto near = placeWith(storey, region))
+      inside = near->here().layout.regions[*near->regionIn(region)].polygon.centroid();
+    return placeOf(tree->leafOf(storey, WalkThing::region, region, inside));
+  }
+
+  Result<BundlePlacePtr> placeOfCamera(std::size_t storey, std::size_t camera) {
+    const auto has = [&](const BundlePlace& place) { return place.cameraIn(camera).has_value(); };
+    if (auto place = kept(storey, has)) return place;
+    return placeOf(tree->leafOf(storey, WalkThing::camera, camera));
   }
 };
 
 WalkPages::WalkPages(std::string name) : name_(std::move(name)) {}
 WalkPages::~WalkPages() = default;
+
+BundlePlaces::Counts WalkPages::counts(std::size_t storey) const { return index_->counts[storey]; }
 
 Result<std::unique_ptr<WalkPages>> WalkPages::open(std::shared_ptr<const ByteRanges> ranges,
                                                    const std::string& name) {
@@ -178,45 +184,115 @@ Status WalkPages::readRoot(std::shared_ptr<const ByteRanges> ranges) {
   auto root = index_->index->root();
   if (!root) return tl::unexpected(root.error());
   for (Json& texture : (*root)["textures"]) index_->index->take(texture, index_->textures);
+  std::vector<std::optional<WalkPageEntry>> top;
   for (Json& storey : (*root)["storeys"]) {
-    index_->top.push_back(storey.at("page"));
-    counts_.push_back(WalkIndex::number(storey.at("regionCount")));
+    const std::uint64_t cameras = WalkIndex::number(storey.at("cameraCount")),
+                        regions = WalkIndex::number(storey.at("regionCount"));
+    constexpr auto kMost = std::uint64_t(std::numeric_limits<std::int32_t>::max());
+    const Json& page = storey.at("page");
+    if (cameras > kMost || regions > kMost) return index_->index->malformed("a storey counts too much");
+    if (page.is_null() != (regions == 0))
+      return index_->index->malformed("a storey has regions without pages, or pages without regions");
+    top.emplace_back();
+    if (!page.is_null()) top.back() = WalkIndex::entryOf(page);
+    index_->counts.push_back({cameras, regions});
     WalkIndex::putLists(storey, Json::array(), Json::array());
   }
   auto bundle = parseBundle(jsonText(*root), name_);
   if (!bundle) return tl::unexpected(bundle.error());
   root_ = std::move(*bundle);
   index_->root = std::move(*root);
+  index_->known.resize(top.size());
+  index_->tree.emplace(*index_->index, std::move(top));
   return {};
 }
 
-Result<WalkPlacePtr> WalkPages::placeAt(std::size_t storey, const glm::dvec2& point) {
+Result<std::size_t> WalkPages::storeyAt(const glm::dvec3& eye) {
+  std::vector<std::pair<double, std::size_t>> atLeast;
+  const std::vector<Counts>& all = index_->counts;
+  for (std::size_t s = 0; s < all.size(); ++s)
+    if (all[s].regions > 0)
+      atLeast.emplace_back(misfitOf(index_->tree->leastDistance(s, eye), root_.storeys[s].layout, eye), s);
+  if (all.size() == 1 || atLeast.empty()) return 0;
+  std::ranges::sort(atLeast);
   const std::lock_guard lock(mutex_);
-  return withinSense(name_, [&] { return find(storey, point); });
+  std::pair<double, std::size_t> best{std::numeric_limits<double>::infinity(), 0};
+  WalkPagePtr leaf;
+  for (const auto& [least, s] : atLeast) {
+    if (least > best.first) break;
+    const auto nearest = index_->tree->nearest(s, eye);
+    if (!nearest) return tl::unexpected(nearest.error());
+    const std::pair misfit(misfitOf(nearest->distance, root_.storeys[s].layout, eye), s);
+    if (misfit < best) best = misfit, leaf = nearest->leaf;
+  }
+  index_->tree->dropTexts(leaf.get());  // it is asked for next
+  return best.second;
 }
 
-Result<WalkPlacePtr> WalkPages::find(std::size_t storey, const glm::dvec2& point) {
-  Index::Nearest best;
-  if (storey >= index_->top.size() || index_->top[storey].is_null())
+Result<BundlePlacePtr> WalkPages::placeAt(std::size_t storey, const glm::dvec2& point) {
+  if (storey >= index_->counts.size() || counts(storey).regions == 0)
     return fail(ErrorKind::notFound, "has no region to stand in", name_);
-  if (Status visited = index_->visit(index_->top[storey], 0, point, best); !visited)
-    return tl::unexpected(visited.error());
-  if (!best.leaf) return index_->index->malformed("its index has pages without regions");
-  const auto same = [&](const WalkPlacePtr& p) { return p->page == best.leaf->at && p->storey == storey; };
-  Result<WalkPlacePtr> place = Index::kept(index_->places, same);
-  const bool known = *place != nullptr;
-  if (!known) place = index_->placeOf(*best.leaf, storey, name_);
-  for (const PagePtr& page : index_->pages)
-    if (!page->own.empty()) page->json = nullptr;
-  if (known || !place) return place;
-  index_->places.push_front(*place);
-  if (index_->places.size() > kKeptPlaces) index_->places.pop_back();
-  return place;
+  const std::lock_guard lock(mutex_);
+  const auto nearest = index_->tree->nearest(storey, point);
+  if (!nearest) return tl::unexpected(nearest.error());
+  return index_->placeOf(*nearest->leaf);
 }
 
-WalkPagesStats WalkPages::stats() const {
-  const std::lock_guard lock(mutex_);
-  return {index_->counted.requests(), index_->counted.bytes(), index_->read};
+void WalkPages::readAhead(std::size_t storey, const glm::dvec2& point) {
+  std::unique_lock lock(mutex_);
+  WalkTree& tree = *index_->tree;
+  std::size_t read = 0;
+  while (const auto missing = tree.missing(storey, point)) {
+    if (read++ == kKeptWalkPages) return;
+    lock.unlock();
+    const auto page = tree.read(storey, *missing);
+    lock.lock();
+    if (!page) return;
+    tree.keep(*page);
+  }
+  const auto nearest = tree.nearest(storey, point);
+  if (!nearest || index_->placeKept(*nearest->leaf)) return;
+  Json text = std::exchange(nearest->leaf->json, nullptr);
+  lock.unlock();
+  const auto place = index_->made(*nearest->leaf, std::move(text));
+  lock.lock();
+  if (place && !index_->placeKept(*nearest->leaf)) index_->keep(*place);
 }
+
+Result<BundlePlacePtr> WalkPages::placeOfCamera(std::size_t storey, std::size_t camera) {
+  const std::lock_guard lock(mutex_);
+  return index_->placeOfCamera(storey, camera);
+}
+
+Result<BundlePlacePtr> WalkPages::placeOfRegion(std::size_t storey, std::size_t region) {
+  const std::lock_guard lock(mutex_);
+  return index_->placeOfRegion(storey, region);
+}
+
+Result<CameraFacts> WalkPages::camera(std::size_t storey, std::size_t camera) {
+  const std::lock_guard lock(mutex_);
+  auto& cameras = index_->known[storey].cameras;
+  if (!cameras.contains(camera)) {
+    const auto place = index_->placeOfCamera(storey, camera);
+    if (!place) return tl::unexpected(place.error());
+    take(**place, index_->known[storey]);
+  }
+  return cameras.at(camera);
+}
+
+Result<RegionFacts> WalkPages::region(std::size_t storey, std::size_t region) {
+  const std::lock_guard lock(mutex_);
+  auto& regions = index_->known[storey].regions;
+  if (!regions.contains(region)) {
+    const auto place = index_->placeOfOwn(storey, region);
+    if (!place) return tl::unexpected(place.error());
+    take(**place, index_->known[storey]);
+  }
+  const KnownRegion& its = regions.at(region);
+  return RegionFacts{its.kind,       its.polygon.corners, its.grown.corners,
+                     its.neighbours, its.triangles,       its.bytes};
+}
+
+WalkPagesStats WalkPages::stats() const { return {index_->counted.requests(), index_->counted.bytes()}; }
 
 }  // namespace acentric

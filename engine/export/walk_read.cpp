@@ -72,7 +72,7 @@ class IndexReader {
     if (cameras > kMostListed || regions > kMostListed) return index_.malformed("a storey counts too much");
     cameras_.assign(cameras, Json()), regions_.assign(regions, Json());
     if (!storey["page"].is_null())
-      if (Status read = readPage(storey["page"], 0); !read) return read;
+      if (Status read = readPage(WalkIndex::entryOf(storey["page"]), 0); !read) return read;
     const auto isMissing = [](const Json& json) { return json.is_null(); };
     if (std::ranges::any_of(cameras_, isMissing) || std::ranges::any_of(regions_, isMissing))
       return index_.malformed("its pages lack cameras or regions that it counts");
@@ -80,15 +80,15 @@ class IndexReader {
     return {};
   }
 
-  Status readPage(const Json& entry, int level) {
+  Status readPage(const WalkPageEntry& entry, int level) {
     if (level >= kMostWalkLevels) return index_.malformed("its pages nest too deep");
-    if (const std::uint64_t raw = number(entry.at("raw")); raw <= kMostIndexBytes) unpacked_ += raw;
+    if (entry.raw <= kMostIndexBytes) unpacked_ += entry.raw;
     if (unpacked_ > kMostIndexBytes) return index_.malformed("its index is too large to be read as a whole");
     auto json = index_.page(entry);
     if (!json) return tl::unexpected(json.error());
-    if (entry.at("leaf").get<bool>()) return readLeaf(*json);
+    if (entry.leaf) return readLeaf(*json);
     for (const Json& child : json->at("pages"))
-      if (Status read = readPage(child, level + 1); !read) return read;
+      if (Status read = readPage(WalkIndex::entryOf(child), level + 1); !read) return read;
     return {};
   }
 

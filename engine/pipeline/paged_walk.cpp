@@ -118,8 +118,8 @@ PagedWalkStats PagedWalk::stats() const {
 // The thread that follows the eye
 // ------------------------------------------------------------------------------------------------------------
 
-std::vector<WalkPlacePtr> PagedWalk::placed(const WalkPlacePtr& place) const {
-  std::vector<WalkPlacePtr> places(place->bundle.storeys.size());
+std::vector<BundlePlacePtr> PagedWalk::placed(const BundlePlacePtr& place) const {
+  std::vector<BundlePlacePtr> places(place->bundle->storeys.size());
   places[storey_] = place;
   return places;
 }
@@ -129,7 +129,7 @@ bool PagedWalk::isOwn(const glm::dvec2& eye) const {
   return region && at_.walk->isOwn(int(storey_), *region);
 }
 
-Result<PagedWalk::Place> PagedWalk::enter(const WalkPlacePtr& place, const Whereabouts& where,
+Result<PagedWalk::Place> PagedWalk::enter(const BundlePlacePtr& place, const Whereabouts& where,
                                           const std::stop_token& stop) {
   TaskRunner alone(0);
   auto walk = shippedPlaces(placed(place), file_, at_.walk.get(), alone, stop);

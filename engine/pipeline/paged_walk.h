@@ -48,15 +48,15 @@ class PagedWalk {
   PagedWalk(std::unique_ptr<WalkPages> pages, std::size_t storey, std::filesystem::path file,
             WalkStreamOptions options);
   struct Place {
-    WalkPlacePtr place;
+    BundlePlacePtr place;
     ShippedWalkPtr walk;
     std::shared_ptr<WalkStream> stream;
   };
   void follow(const std::stop_token& stop);
   void look(const Whereabouts& where, const std::stop_token& stop);
-  std::vector<WalkPlacePtr> placed(const WalkPlacePtr& place) const;  ///< by storey
+  std::vector<BundlePlacePtr> placed(const BundlePlacePtr& place) const;  ///< by storey
   bool isOwn(const glm::dvec2& eye) const;
-  Result<Place> enter(const WalkPlacePtr& place, const Whereabouts& where, const std::stop_token& stop);
+  Result<Place> enter(const BundlePlacePtr& place, const Whereabouts& where, const std::stop_token& stop);
   void replace(Place next, const Whereabouts& where);
   void warn(std::vector<std::string> warnings);
   std::shared_ptr<WalkStream> stream() const;

@@ -162,8 +162,8 @@ Status checkProject(const ShippedWalk& walk) {
 /// Files of several pages.
 class FilesOfPlaces final : public BundleFiles {
  public:
-  explicit FilesOfPlaces(const std::vector<WalkPlacePtr>& places) {
-    for (const WalkPlacePtr& place : places)
+  explicit FilesOfPlaces(const std::vector<BundlePlacePtr>& places) {
+    for (const BundlePlacePtr& place : places)
       if (place) files_.push_back(place->files);
   }
   Result<std::vector<std::byte>> read(const std::string& path, std::uint64_t mostBytes) const override {
@@ -179,10 +179,10 @@ class FilesOfPlaces final : public BundleFiles {
 
 /// The pages around a place of a storey, and beside it on the others; null where a storey has no region. The
 /// others' that cannot be read are left out.
-Result<std::vector<WalkPlacePtr>> placesAt(ShippedWalk& walk, std::size_t storey, const glm::dvec2& point) {
-  std::vector<WalkPlacePtr> places(walk.pages->root().storeys.size());
+Result<std::vector<BundlePlacePtr>> placesAt(ShippedWalk& walk, std::size_t storey, const glm::dvec2& point) {
+  std::vector<BundlePlacePtr> places(walk.pages->root().storeys.size());
   for (std::size_t s = 0; s < places.size(); ++s) {
-    if (walk.pages->regionCount(s) == 0) continue;
+    if (walk.pages->counts(s).regions == 0) continue;
     auto place = walk.pages->placeAt(s, point);
     if (place)
       places[s] = std::move(*place);
@@ -195,9 +195,9 @@ Result<std::vector<WalkPlacePtr>> placesAt(ShippedWalk& walk, std::size_t storey
 }
 
 /// Makes them, at least one, what is there of the walk.
-void putPlaces(ShippedWalk& walk, std::vector<WalkPlacePtr> places) {
-  const auto any = std::ranges::find_if(places, [](const WalkPlacePtr& place) { return place != nullptr; });
-  walk.bundle = (*any)->bundle;
+void putPlaces(ShippedWalk& walk, std::vector<BundlePlacePtr> places) {
+  const auto any = std::ranges::find_if(places, [](const BundlePlacePtr& place) { return place != nullptr; });
+  walk.bundle = *(*any)->bundle;
   for (std::size_t s = 0; s < places.size(); ++s) {
     BundleStorey& storey = walk.bundle.storeys[s];
     if (places[s]) storey = places[s]->here();
@@ -217,7 +217,7 @@ std::shared_ptr<WalkPages> pagesOf(const std::filesystem::path& file, std::uint6
   auto pages = WalkPages::open(std::move(*ranges), file.string());
   if (!pages) return nullptr;
   std::uint64_t regions = 0;
-  for (std::size_t s = 0; s < (*pages)->root().storeys.size(); ++s) regions += (*pages)->regionCount(s);
+  for (std::size_t s = 0; s < (*pages)->root().storeys.size(); ++s) regions += (*pages)->counts(s).regions;
   return regions > regionsAtOnce ? std::move(*pages) : nullptr;
 }
 
@@ -264,7 +264,7 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
   return walk;
 }
 
-Result<ShippedWalkPtr> shippedPlaces(std::vector<WalkPlacePtr> places, const std::filesystem::path& file,
+Result<ShippedWalkPtr> shippedPlaces(std::vector<BundlePlacePtr> places, const std::filesystem::path& file,
                                      const ShippedWalk* former, TaskRunner& runner,
                                      const std::stop_token& stop) {
   auto walk = std::make_shared<ShippedWalk>();
@@ -283,7 +283,7 @@ Result<ShippedWalkPtr> placeAround(const ShippedWalkPtr& walk, int storey, const
   next->file = walk->file, next->pages = walk->pages, next->bytes = walk->bytes;
   auto places = placesAt(*next, std::size_t(storey), point);
   if (!places) return tl::unexpected(places.error());
-  const auto same = [](const WalkPlacePtr& a, const WalkPlacePtr& b) {
+  const auto same = [](const BundlePlacePtr& a, const BundlePlacePtr& b) {
     return (a == nullptr) == (b == nullptr) && (a == nullptr || a->page == b->page);
   };
   if (std::ranges::equal(*places, walk->places, same)) return walk;
@@ -293,7 +293,7 @@ Result<ShippedWalkPtr> placeAround(const ShippedWalkPtr& walk, int storey, const
 }
 
 std::uint64_t ShippedWalk::regionCount(int storey) const {
-  return pages ? pages->regionCount(std::size_t(storey)) : layouts[std::size_t(storey)]->regions.size();
+  return pages ? pages->counts(std::size_t(storey)).regions : layouts[std::size_t(storey)]->regions.size();
 }
 
 bool ShippedWalk::isOwn(int storey, int region) const {
@@ -362,8 +362,7 @@ WalkStart startWalk(const ShippedWalkPtr& walk, int storey, const LoadedWalk* fo
   const BundleStorey& from = walk->bundle.storeys[std::size_t(storey)];
   WalkStart start;
   LoadedWalk& loaded = start.walk;
-  loaded.walk = walkSceneOf(walk->bundle, from, walk->scene);
-  loaded.walk.layout = walk->layouts[std::size_t(storey)];
+  loaded.walk = walkSceneOf(walk->bundle, walk->layouts[std::size_t(storey)], walk->scene);
   loaded.standsIn.assign(from.cameras.size(), false);
   for (const BundleCamera& camera : from.cameras) {
     loaded.keys.push_back(keyOf(camera));

@@ -30,7 +30,7 @@ struct ShippedWalk {
   /// Of a walk that is read page by page: its index, and the pages that are here, by storey (null: it has no
   /// region). Layouts and `bundle` are those of the pages then.
   std::shared_ptr<WalkPages> pages;
-  std::vector<WalkPlacePtr> places;
+  std::vector<BundlePlacePtr> places;
 
   std::uint64_t regionCount(int storey) const;  ///< with those that are not here
   /// Has this region all around it? Beside one that has not, another page knows more.
@@ -45,7 +45,7 @@ Result<ShippedWalkPtr> openShippedWalk(const std::filesystem::path& file, TaskRu
 
 /// What pages, by storey (null: none), tell of. The ids of regions and cameras number them in their storey.
 /// `former`: of other pages of the same walk, whose textures it has.
-Result<ShippedWalkPtr> shippedPlaces(std::vector<WalkPlacePtr> places, const std::filesystem::path& file,
+Result<ShippedWalkPtr> shippedPlaces(std::vector<BundlePlacePtr> places, const std::filesystem::path& file,
                                      const ShippedWalk* former, TaskRunner& runner,
                                      const std::stop_token& stop = {});
 

@@ -116,6 +116,7 @@ class Walk:
         self._lock = threading.RLock()
         self._calling = False
         self._leases: weakref.WeakValueDictionary[tuple, _Lease] = weakref.WeakValueDictionary()
+        self._asked: set[tuple[str, int, int]] = set()  # all that may be loaded: kind, storey, number
         self._handle: _Handle | None = self._opened(source)
         try:
             self.threads = min(len(os.sched_getaffinity(0)), 1024) if threads is None else threads
@@ -328,7 +329,11 @@ class Walk:
 
         A camera that was not baked is left out, one that has no such rendition gives its other. Raises OutOfMemory
         beyond the memory limit, and leaves what is there."""
-        self._call("load_view", byref(_view(view)), _settings(settings), _code(_DETAILS, detail, "detail"))
+        asked, code = _view(view), _code(_DETAILS, detail, "detail")
+        with self._lock:
+            needs = self.needs(view, settings)
+            self._asked.update((need.kind, needs.storey, need.number) for need in needs.items)
+            self._call("load_view", byref(asked), _settings(settings), code)
 
     def render(self, view: View, settings: Settings | None = None, detail: Detail | None = "full") -> Frame:
         """Draws a view, after it has loaded what it needs; with `detail` None of what is loaded, the rest holes."""
@@ -379,11 +384,15 @@ class Walk:
 
     def load_capture(self, storey: int, camera: int, detail: Detail = "full") -> None:
         """Raises NotFound where it was not baked, OutOfMemory beyond the memory limit."""
-        self._call("load_capture", storey, camera, _code(_DETAILS, detail, "detail"))
+        with self._lock:
+            self._call("load_capture", storey, camera, _code(_DETAILS, detail, "detail"))
+            self._asked.add(("capture", storey, camera))
 
     def load_region(self, storey: int, region: int) -> None:
         """A region's near geometry, with the textures that it needs. Raises OutOfMemory beyond the memory limit."""
-        self._call("load_region", storey, region)
+        with self._lock:
+            self._call("load_region", storey, region)
+            self._asked.add(("region", storey, region))
 
     def unload_capture(self, storey: int, camera: int, detail: Detail = "full") -> None:
         """Refused while an array of its data is in use; nothing happens where it is not loaded."""
@@ -415,14 +424,15 @@ class Walk:
                     details = _DETAILS if need.kind == "capture" else [None]
                     kept.update((need.kind, needs.storey, need.number, *([d] if d else [])) for d in details)
                 kept.add(("textures",))
-            for s, storey in enumerate(self.storeys):
-                for camera in range(len(storey.cameras)):
-                    for detail, code in _DETAILS.items():
-                        if ("capture", s, camera, detail) not in kept:
-                            self._call("unload_capture", s, camera, code)
-                for region in range(len(storey.regions)):
-                    if ("region", s, region) not in kept:
-                        self._call("unload_region", s, region)
+            for part in sorted(self._asked):
+                if part[0] == "region":
+                    codes = [()] if part not in kept else []
+                else:
+                    codes = [(code,) for detail, code in _DETAILS.items() if (*part, detail) not in kept]
+                for code in codes:
+                    self._call(f"unload_{part[0]}", *part[1:], *code)
+                if len(codes) == (1 if part[0] == "region" else len(_DETAILS)):
+                    self._asked.remove(part)
             if ("textures",) not in kept:
                 self._call("unload_textures")
 

@@ -157,6 +157,9 @@ class Frames(unittest.TestCase):
             with self.subTest(type(source).__name__), acentric.open(source) as walk:
                 self.assert_frames(walk)
         self.assertGreater(len(ranges.reads), 10)
+        opened = Bytes(ranges.content)
+        with acentric.open(opened):
+            self.assertEqual([offset for offset, _ in opened.reads], [0, 88], "header and root of the index")
         with WALK.open("rb") as file, acentric.open(file, threads=1) as walk:
             self.assertEqual(walk.threads, 1)
             self.assert_frames(walk)

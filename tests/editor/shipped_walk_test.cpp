@@ -40,8 +40,10 @@ class ShippedWalkTest : public SessionTest {
     waitFor(session, [&] { return session.walk() && !session.working(); });
   }
   static void expectFramesOfPlayer(const Session& session, const fs::path& file) {
+    auto whole = wholeBundle(std::move(*bundleAt(file)));
+    ASSERT_TRUE(whole);
     BundlePlayer player;
-    ASSERT_TRUE(player.open(std::move(*bundleAt(file))));
+    player.open(std::move(*whole));
     const BundleStorey& storey = player.bundle().storeys.front();
     for (std::size_t c = 0; c < storey.cameras.size(); ++c)
       ASSERT_TRUE(player.loadCapture(0, c, Loaded::full));

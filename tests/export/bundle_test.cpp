@@ -72,7 +72,8 @@ class BundleTest : public testing::Test {
       images.push_back(std::make_shared<const ColourImage>(image.value_or(ColourImage())));
     }
     const BundleStorey& storey = bundle->storeys.front();
-    WalkScene walk = walkSceneOf(*bundle, storey, sceneOf(*bundle, images));
+    WalkScene walk =
+        walkSceneOf(*bundle, std::make_shared<const Layout>(storey.layout), sceneOf(*bundle, images));
     for (std::size_t c = 0; c < storey.cameras.size(); ++c) {
       const auto& file = coarse ? storey.cameras[c].coarse : storey.cameras[c].full;
       if (!file) continue;

@@ -6,8 +6,12 @@
 #include <random>
 
 #include "engine/base/file.h"
+#include "engine/base/json_text.h"
+#include "engine/export/bundle_json.h"
+#include "engine/export/walk_format.h"
 #include "engine/export/walk_pages.h"
 #include "engine/export/walk_write.h"
+#include "engine/store/packed_text.h"
 #include "tests/store/temporary_folder.h"
 
 namespace acentric {
@@ -41,9 +45,11 @@ class WalkTest : public FolderTest {
     return {name, bytes.size(), Hasher().bytes(bytes.data(), bytes.size()).finish()};
   }
 
-  BundleStorey storey(const std::string& name) {
+  /// Regions reach so far into those beside them.
+  BundleStorey storey(const std::string& name, double overlap = 0) {
     BundleStorey storey;
     storey.name = name;
+    storey.layout.spec.floorHeight = name == "low" ? 0 : 3;
     storey.layout.spec.nearBand = 1;
     storey.start = {7.5, 3.5};
     for (int r = 0; r < kSide * kSide; ++r) {
@@ -57,7 +63,9 @@ class WalkTest : public FolderTest {
         renditions.coarse = BundleCapture{file(name + "/coarse" + std::to_string(r) + ".pack"), 1, 1, 1, 0};
       storey.cameras.push_back(renditions);
       Region region;
-      region.polygon.corners = {low, low + glm::dvec2(1, 0), low + glm::dvec2(1, 1), low + glm::dvec2(0, 1)};
+      const double from = -overlap, to = 1 + overlap;
+      for (const glm::dvec2 corner : {glm::dvec2(from), {to, from}, {to, to}, {from, to}})
+        region.polygon.corners.push_back(low + corner);
       region.grown = region.polygon;
       Cover cover;
       for (const int c : {r, (r + 1) % (kSide * kSide)}) {
@@ -172,6 +180,148 @@ TEST_F(WalkTest, RefusesWhatIsDamagedOrCutOff) {
     EXPECT_FALSE(opened({sound.begin(), sound.begin() + std::ptrdiff_t(length)})) << length;
 }
 
+void expectSame(const CameraFacts& a, const CameraFacts& b) {
+  const auto numbers = [](const CameraFacts& f) {
+    return std::vector<double>{f.position.x, f.position.y,   f.lowAzimuth,
+                               f.fovRadians, f.topElevation, f.bottomElevation};
+  };
+  const auto rendition = [](const CameraFacts::Rendition& r) {
+    return std::vector<std::uint64_t>{std::uint64_t(r.columns), std::uint64_t(r.rows), r.samples,
+                                      r.reflections, r.bytes};
+  };
+  EXPECT_EQ(numbers(a), numbers(b));
+  EXPECT_EQ(rendition(a.full), rendition(b.full));
+  EXPECT_EQ(rendition(a.coarse), rendition(b.coarse));
+}
+
+void expectSame(const RegionFacts& a, const RegionFacts& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_TRUE(std::ranges::equal(a.polygon, b.polygon));
+  EXPECT_TRUE(std::ranges::equal(a.grown, b.grown));
+  EXPECT_TRUE(std::ranges::equal(a.neighbours, b.neighbours));
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.bytes, b.bytes);
+}
+
+TEST_F(WalkTest, PlacesAndNumbersAreThoseOfTheWholeIndex) {
+  std::uniform_real_distribution<double> anywhere(-2, kSide + 2), height(-2, 8);
+  for (const double overlap : {0.0, 0.3})
+    for (const int regionsPerPage : {1, 5, 64}) {
+      bundle_.storeys = {storey("low", overlap), storey("high", overlap)};
+      ASSERT_TRUE(writeTextAtomically(folder_ / "bundle" / kBundleIndex, formatBundle(bundle_)));
+      std::vector<std::pair<std::uint64_t, std::size_t>> reads;
+      const std::vector<std::byte> bytes = written({regionsPerPage});
+      const auto opened = [&] {
+        auto pages = WalkPages::open(std::make_shared<CountedRanges>(bytes, reads), "grid");
+        EXPECT_TRUE(pages) << pages.error().describe();
+        return std::move(*pages);
+      };
+      const auto whole = wholeBundle(std::move(*bundleAt(walk())));
+      ASSERT_TRUE(whole) << whole.error().describe();
+      const auto pages = opened();
+      for (int n = 0; n < 60; ++n) {
+        const glm::dvec3 eye = n % 5 == 0 ? glm::dvec3(n % kSide, n / 5 % kSide, height(random_))
+                                          : glm::dvec3(anywhere(random_), anywhere(random_), height(random_));
+        EXPECT_EQ(*pages->storeyAt(eye), *(*whole)->storeyAt(eye));
+        for (const std::size_t s : {0U, 1U}) {
+          const Layout& all = bundle_.storeys[s].layout;
+          const auto place = pages->placeAt(s, eye);
+          ASSERT_TRUE(place) << place.error().describe();
+          const auto expected = all.regionAt(eye), here = (*place)->here().layout.regionAt(eye);
+          ASSERT_EQ(here.has_value(), expected.has_value());
+          if (here) {
+            EXPECT_EQ((*place)->regions[std::size_t(*here)], std::uint64_t(*expected));
+            EXPECT_EQ((*place)->own[std::size_t(*here)], 1);
+          }
+          EXPECT_EQ((*place)->here().layout.nearestRegion(eye).point, all.nearestRegion(eye).point);
+        }
+      }
+      for (std::size_t n = 0; n < 120; ++n) {
+        const std::size_t s = random_() % 2, region = random_() % (kSide * kSide),
+                          camera = random_() % (kSide * kSide + 1);
+        const auto fresh = n % 10 == 0 ? opened() : nullptr;
+        WalkPages& from = fresh ? *fresh : *pages;
+        const auto its = from.region(s, region);
+        ASSERT_TRUE(its) << its.error().describe();
+        expectSame(*its, *(*whole)->region(s, region));
+        const auto facts = from.camera(s, camera);
+        ASSERT_TRUE(facts) << facts.error().describe();
+        expectSame(*facts, *(*whole)->camera(s, camera));
+        const auto around = from.placeOfRegion(s, region), by = from.placeOfCamera(s, camera);
+        ASSERT_TRUE(around && by);
+        const auto r = (*around)->regionIn(region), c = (*by)->cameraIn(camera);
+        ASSERT_TRUE(r && c);
+        EXPECT_EQ((*around)->here().local[*r], bundle_.storeys[s].local[region]);
+        EXPECT_EQ((*by)->here().cameras[*c], bundle_.storeys[s].cameras[camera]);
+      }
+      // Of a storey that is far below the eye no page is read.
+      const auto fresh = opened();
+      reads.clear();
+      EXPECT_EQ(*fresh->storeyAt({7.2, 3.7, 3 + fresh->root().storeys[1].layout.spec.eyeHeight}), 1U);
+      const std::size_t before = reads.size();
+      ASSERT_TRUE(fresh->placeAt(1, {7.2, 3.7}));
+      EXPECT_EQ(reads.size(), before);
+      ASSERT_TRUE(fresh->placeAt(0, {7.2, 3.7}));
+      EXPECT_GT(reads.size(), before);
+    }
+}
+
+/// A walk whose root says so many regions, however few its pages have.
+std::vector<std::byte> withCount(const std::vector<std::byte>& walk, const char* count,
+                                 std::uint64_t number) {
+  walk_format::Header header = *walk_format::headerOf(walk, "grid");
+  const auto part = [&](std::uint64_t at, std::uint64_t bytes) {
+    return std::vector<std::byte>(walk.begin() + std::ptrdiff_t(at),
+                                  walk.begin() + std::ptrdiff_t(at + bytes));
+  };
+  auto root = *parseJson<BundleJson>(
+      *unpackedText(part(walk_format::kHeaderBytes, header.rootBytes), header.rootRaw), "root");
+  for (BundleJson& storey : root["storeys"]) storey[count] = number;
+  const std::string text = jsonText(root);
+  const std::vector<std::byte> packed = packedText(text),
+                               pages = part(header.pageStart, header.dataStart - header.pageStart),
+                               data = part(header.dataStart, header.fileBytes - header.dataStart);
+  header.rootBytes = packed.size(), header.rootRaw = text.size();
+  header.pageStart = walk_format::kHeaderBytes + packed.size();
+  header.dataStart = header.pageStart + pages.size();
+  header.fileBytes = header.dataStart + data.size();
+  const ContentKey hash = Hasher().bytes(packed.data(), packed.size()).finish();
+  header.rootHash = {hash.high, hash.low};
+  std::vector<std::byte> out;
+  const auto first = walk_format::headerBytes(header);
+  for (const std::span<const std::byte> next : {std::span<const std::byte>(first), {packed}, {pages}, {data}})
+    out.insert(out.end(), next.begin(), next.end());
+  return out;
+}
+
+TEST_F(WalkTest, AStoreyMayHaveMoreRegionsThanOneIndexIsReadFor) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> reads;
+  const auto opened = [&](const char* count, std::uint64_t number) {
+    return WalkPages::open(std::make_shared<CountedRanges>(withCount(written({4}), count, number), reads),
+                           "grid");
+  };
+  const auto pages = opened("regionCount", 1'000'000);
+  ASSERT_TRUE(pages) << pages.error().describe();
+  EXPECT_EQ((*pages)->counts(1).regions, 1'000'000U);
+  EXPECT_TRUE((*pages)->placeAt(1, {3.5, 4.5}));
+  EXPECT_TRUE((*pages)->region(1, 20));
+  for (int twice = 0; twice < 2; ++twice) {
+    reads.clear();
+    const auto missing = (*pages)->region(1, 900'000);
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().kind, ErrorKind::malformed);
+    EXPECT_NE(missing.error().describe().find("region 900000"), std::string::npos)
+        << missing.error().describe();
+  }
+  EXPECT_TRUE(reads.empty()) << "looked through once";
+  EXPECT_FALSE(opened("regionCount", std::uint64_t(1) << 31));
+  EXPECT_FALSE(opened("cameraCount", std::uint64_t(1) << 31));
+  EXPECT_FALSE(opened("regionCount", 0));
+  const auto fewer = opened("regionCount", 10);
+  ASSERT_TRUE(fewer);
+  EXPECT_FALSE((*fewer)->placeAt(0, {13.5, 13.5})) << "its region is beyond the count";
+}
+
 /// Page by page against the whole.
 TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
   std::uniform_real_distribution<double> anywhere(-2, kSide + 2);
@@ -179,7 +329,7 @@ TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
     std::vector<std::pair<std::uint64_t, std::size_t>> reads;
     auto pages = WalkPages::open(std::make_shared<CountedRanges>(written({regionsPerPage}), reads), "grid");
     ASSERT_TRUE(pages) << pages.error().describe();
-    EXPECT_EQ((*pages)->regionCount(0), std::uint64_t(kSide * kSide));
+    EXPECT_EQ((*pages)->counts(0).regions, std::size_t(kSide * kSide));
     EXPECT_TRUE((*pages)->root().storeys[0].layout.regions.empty());
     EXPECT_EQ((*pages)->root().storeys[1].start, bundle_.storeys[1].start);
     for (int n = 0; n < 30; ++n) {
@@ -189,9 +339,9 @@ TEST_F(WalkTest, APlaceIsWhatTheWholeBundleIsThere) {
                                           : glm::dvec2(anywhere(random_), anywhere(random_));
       const auto found = (*pages)->placeAt(s, point);
       ASSERT_TRUE(found) << found.error().describe();
-      const WalkPlace& place = **found;
+      const BundlePlace& place = **found;
       const BundleStorey& here = place.here();
-      EXPECT_TRUE(place.bundle.storeys[1 - s].layout.regions.empty());
+      EXPECT_TRUE(place.bundle->storeys[1 - s].layout.regions.empty());
       const auto number = whole.layout.regionAt(point), local = here.layout.regionAt(point);
       ASSERT_EQ(number.has_value(), local.has_value());
       const int nearest = here.layout.nearestRegion(point).region;

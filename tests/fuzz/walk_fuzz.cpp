@@ -58,13 +58,20 @@ bool accepts(const std::uint8_t* data, std::size_t size) {
   bytes.resize(header.fileBytes);
   if (auto pages = WalkPages::open(std::make_shared<Memory>(bytes), "walk")) {
     const std::size_t storeys = (*pages)->root().storeys.size();
-    for (std::size_t s = 0; s < storeys; ++s)
+    static_cast<void>((*pages)->storeyAt({0.5, 0.5, 1}));
+    for (std::size_t s = 0; s < storeys; ++s) {
+      for (const std::size_t number : {0U, 1U, 1000U}) {
+        if (number < (*pages)->counts(s).cameras) static_cast<void>((*pages)->camera(s, number));
+        if (number < (*pages)->counts(s).regions) static_cast<void>((*pages)->region(s, number));
+      }
+      if ((*pages)->counts(s).regions == 0) continue;
       for (const glm::dvec2 point : {glm::dvec2(0), glm::dvec2(0.5), glm::dvec2(1e6, -3)}) {
         const auto place = (*pages)->placeAt(s, point);
         if (!place) continue;
         for (const BundleCamera& camera : (*place)->here().cameras)
           if (camera.full) static_cast<void>((*place)->files->read(camera.full->file.path, 1 << 20));
       }
+    }
   }
   const auto files = walkFiles(std::make_unique<Memory>(std::move(bytes)), "walk");
   if (!files) return false;
