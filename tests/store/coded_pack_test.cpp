@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "engine/base/file.h"
@@ -12,6 +13,7 @@
 #include "engine/store/capture_store.h"
 #include "engine/store/colour_picture.h"
 #include "engine/store/deep_colours.h"
+#include "engine/store/distance_model.h"
 #include "engine/store/sample_coder.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
@@ -522,6 +524,19 @@ TEST(DeepColours, TakeNextToNothingWhereTheirSurfaceGoesOnBesideThem) {
   std::vector<ColourCodes> codes = codesOf(edged);
   EXPECT_LT(codeDeepColours(edged, {160, kQuality, mostCodeOf(ColourScale::radiance)}, codes).size(),
             deep / 10);
+}
+
+/// A damaged file may tell of a plane that its step hardly measures.
+TEST(DistanceNumbers, OfWhatIsFartherThanAnyStepStayInRange) {
+  for (const double step : {1e-24, 1e-300, std::numeric_limits<double>::denorm_min()}) {
+    const DistanceNumbers numbers(step);
+    const std::int64_t number = numbers.numberOf(1);
+    EXPECT_EQ(numbers.numberOf(1e9f), number);
+    EXPECT_GE(number, 0);
+    EXPECT_TRUE(numbers.at(number));
+  }
+  const DistanceNumbers usual(0x1p-12);
+  for (const float w : {0.0f, 0.25f, 1.0f, 15.75f}) EXPECT_EQ(usual.at(usual.numberOf(w)), w);
 }
 
 }  // namespace
