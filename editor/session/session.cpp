@@ -310,7 +310,7 @@ void Session::followPages() {
   const auto region = built_->layout->regionAt(where_.eye);
   if (!region || shipped_->isOwn(storey, *region)) return;
   const int number = built_->layout->regions[std::size_t(*region)].id.i;
-  if (!pagesNotRead_.contains({storey, number})) readAround(where_.eye);
+  if (!readFrom_.contains({storey, number})) readAround(where_.eye);
 }
 
 bool Session::isAround(const glm::dvec2& place) {
@@ -328,17 +328,16 @@ void Session::readAround(const glm::dvec2& place) {
     context.post([this, shipped, storey, place, there] {
       if (shipped_ != shipped) return;
       lookedFor_ = place;
-      if (there) return arrived(*there);
-      messages_.addFailure("Reading the walk", there.error());
-      if (const auto region = shipped->layouts[std::size_t(storey)]->regionAt(place))
-        pagesNotRead_.emplace(storey,
-                              shipped->layouts[std::size_t(storey)]->regions[std::size_t(*region)].id.i);
+      if (there && *there != shipped) return arrived(*there);
+      if (!there) messages_.addFailure("Reading the walk", there.error());
+      const Layout& layout = *shipped->layouts[std::size_t(storey)];
+      if (const auto region = layout.regionAt(place))
+        readFrom_.emplace(storey, layout.regions[std::size_t(*region)].id.i);
     });
   });
 }
 
 void Session::arrived(const ShippedWalkPtr& place) {
-  if (place == shipped_) return;
   for (const std::string& warning : place->warnings) messages_.add(MessageLevel::warning, warning);
   shipped_ = place;
   show(openProject(*shipped_, project()));

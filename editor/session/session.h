@@ -359,8 +359,8 @@ class Session {
   std::shared_ptr<const LoadedWalk> walk_;
   std::shared_ptr<WalkStream> stream_;  // makes walk_
   int streamedStorey_ = 0;
-  std::optional<glm::dvec2> lookedFor_;         // the place that was read around last
-  std::set<std::pair<int, int>> pagesNotRead_;  // regions, by storey and number, beside damaged pages
+  std::optional<glm::dvec2> lookedFor_;     // the place that was read around last
+  std::set<std::pair<int, int>> readFrom_;  // regions, by storey and number, where no other page was had
   Whereabouts where_;
   double keepWalkUntil_ = 0;  // seconds: that of the storey before is shown
   std::string simplifiedTold_;

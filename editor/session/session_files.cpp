@@ -138,7 +138,7 @@ void Session::close() {
   shipped_.reset();
   reading_.abandon();
   lookedFor_.reset();
-  pagesNotRead_.clear();
+  readFrom_.clear();
   leaveFiles();
   built_.reset();
   dropStream();
