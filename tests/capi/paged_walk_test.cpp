@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "engine/capi/acentric_runtime.h"
-#include "engine/export/walk_read.h"
+#include "engine/export/counted_ranges.h"
 #include "engine/pipeline/repeated_walk.h"
 
 namespace acentric {
@@ -80,21 +80,11 @@ std::uint64_t bytesOf(const std::vector<WatchedWalk::Read>& reads) {
   return bytes;
 }
 
-class Shared final : public ByteRanges {
- public:
-  explicit Shared(std::shared_ptr<const ByteRanges> ranges) : ranges_(std::move(ranges)) {}
-  Result<std::uint64_t> size() const override { return ranges_->size(); }
-  Status read(std::uint64_t at, std::span<std::byte> into) const override { return ranges_->read(at, into); }
-
- private:
-  std::shared_ptr<const ByteRanges> ranges_;
-};
-
 /// The same with its whole index: the files of a bundle.
 class WholeWalk {
  public:
   explicit WholeWalk(std::shared_ptr<const RepeatedWalk> walk) {
-    auto files = walkFiles(std::make_unique<Shared>(std::move(walk)), "whole");
+    auto files = walkFiles(std::make_unique<CountedRanges>(std::move(walk)), "whole");
     EXPECT_TRUE(files) << files.error().describe();
     files_ = std::move(*files);
   }

@@ -13,6 +13,7 @@
 
 #include "engine/base/file.h"
 #include "engine/export/bundle_json.h"
+#include "engine/export/counted_ranges.h"
 #include "engine/export/walk_write.h"
 #include "engine/pipeline/paged_walk.h"
 #include "engine/view/view_cameras.h"
@@ -22,16 +23,6 @@ namespace acentric {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Shared final : public ByteRanges {
- public:
-  explicit Shared(std::shared_ptr<const ByteRanges> ranges) : ranges_(std::move(ranges)) {}
-  Result<std::uint64_t> size() const override { return ranges_->size(); }
-  Status read(std::uint64_t at, std::span<std::byte> into) const override { return ranges_->read(at, into); }
-
- private:
-  std::shared_ptr<const ByteRanges> ranges_;
-};
 
 class RepeatedWalkTest : public FolderTest {
  protected:
@@ -53,7 +44,7 @@ class RepeatedWalkTest : public FolderTest {
   }
   /// All files as those of a bundle on disk; returns it.
   Bundle written(const std::shared_ptr<const RepeatedWalk>& walk, const fs::path& folder) {
-    const auto files = walkFiles(std::make_unique<Shared>(walk), "repeated");
+    const auto files = walkFiles(std::make_unique<CountedRanges>(walk), "repeated");
     EXPECT_TRUE(files) << files.error().describe();
     auto bundle = readBundle(**files);
     EXPECT_TRUE(bundle) << bundle.error().describe();
