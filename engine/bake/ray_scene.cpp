@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <new>
@@ -147,6 +148,19 @@ RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
   return query;
 }
 
+/// Embree reads 16 bytes at a time: of a mapped array in place, of a vector, whose end nothing follows, a
+/// copy.
+template <class T>
+bool setBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const MeshArray<T>& array) {
+  if (array.isMapped()) {
+    rtcSetSharedGeometryBuffer(geometry, type, 0, format, array.data(), 0, sizeof(T), array.size());
+    return true;
+  }
+  void* own = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), array.size());
+  if (own != nullptr) std::ranges::copy(array, static_cast<T*>(own));
+  return own != nullptr;
+}
+
 Status checkMesh(const Scene& scene, const Mesh& mesh) {
   const auto bad = [&](const char* message) {
     return fail(ErrorKind::malformed, message, fmt::format("{}, mesh {}", scene.name, mesh.name));
@@ -238,15 +252,9 @@ Status RayScene::Embree::add(RTCScene into, unsigned number, const Scene& source
                              const MaterialRules& rules, const DetailRules& detail) {
   EmbreeGeometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   if (!geometry) return embreeFailure(error.code, error.message, source.name);
-  // Embree's own buffers: it reads 16 bytes at a time, beyond the end of a shared vector.
-  void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                            sizeof(glm::vec3), mesh.positions.size());
-  void* triangles = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(glm::uvec3), mesh.triangles.size());
-  if (positions == nullptr || triangles == nullptr)
-    return embreeFailure(error.code, error.message, source.name);
-  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(positions));
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<glm::uvec3*>(triangles));
+  const bool taken = setBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions) &&
+                     setBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+  if (!taken) return embreeFailure(error.code, error.message, source.name);
 
   rtcSetGeometryMask(geometry.get(), rules.clear() ? kClearMask : kSolidMask);
   if (rules.masked || rules.clear()) {

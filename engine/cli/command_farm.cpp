@@ -14,6 +14,8 @@ namespace acentric::cli {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kFarmScenes = "scenes";
+
 /// A task opens the project first; that should be a small part of it.
 constexpr double kLeastOpenings = 10;
 
@@ -93,11 +95,17 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
     report.text = "everything is baked: there is nothing to submit\n";
     return report;
   }
-  if (Status sound = farm.check(); !sound) return tl::unexpected(sound.error());
-  tell(*work, common);
   fs::path folder = options.output;
   if (folder.empty()) folder = captureFolderFor(farm.project).replace_extension(".farm");
   folder = fs::absolute(folder, error).lexically_normal();
+  farm.scenes = folder / kFarmScenes;
+  if (Status sound = farm.check(); !sound) return tl::unexpected(sound.error());
+  tell(*work, common);
+  const Project& project = storeys->front().project;
+  if (Status shared =
+          shareImported(sceneFileOf(farm.project, project), project.import, common.host, farm.scenes);
+      !shared)
+    return tl::unexpected(shared.error());
   const FarmScripts scripts = slurmScripts(farm);
   if (Status written = writeScripts(scripts, folder); !written) return tl::unexpected(written.error());
   report.json["folder"] = folder.string();

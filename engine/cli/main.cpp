@@ -72,6 +72,9 @@ int main(int argc, char** argv) {
          },
          "Gigabytes that a scene may take (default: three quarters of the machine's)")
       ->check(CLI::Range(0.1, 1e5));
+  app.add_option("--import-cache", common.host.cacheFolder,
+                 "Folder where imported scenes are kept (default: of the user's cache); one that holds the "
+                 "scene need not be writable");
   app.add_flag(
       "--outside-files", common.host.outsideFiles,
       "Let models name files outside their own folder; what they name may end up in what is exported");

@@ -10,9 +10,9 @@
 namespace acentric {
 namespace {
 
-template <class T>
-std::uint64_t bytesIn(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
+template <class Array>
+std::uint64_t bytesIn(const Array& values) {
+  return values.size() * sizeof(typename Array::value_type);
 }
 
 std::uint64_t bytesOf(const LocalGeometry& local) {

@@ -67,8 +67,8 @@ class CellScene {
     Mesh& mesh = scene_.meshes[number];
     const auto first = std::uint32_t(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-    mesh.normals.insert(mesh.normals.end(), 4,
-                        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0])));
+    const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    for (std::size_t i = 0; i < corners.size(); ++i) mesh.normals.push_back(normal);
     mesh.triangles.emplace_back(first, first + 1, first + 2);
     mesh.triangles.emplace_back(first, first + 2, first + 3);
   }

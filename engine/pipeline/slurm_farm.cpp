@@ -26,9 +26,9 @@ std::string head(const FarmOptions& options, const char* purpose, const char* na
 }
 
 std::string command(const FarmOptions& options) {
-  std::string text =
-      fmt::format("{} bake {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\"",
-                  shellQuoted(options.program.string()), shellQuoted(options.project.string()));
+  std::string text = fmt::format("{} bake {} --import-cache {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\"",
+                                 shellQuoted(options.program.string()), shellQuoted(options.project.string()),
+                                 shellQuoted(options.scenes.string()));
   // A task that is started again may be locked out by itself, on a node that is lost.
   text += " --take-over";
   if (!options.storey.empty()) text += " --storey " + shellQuoted(options.storey);
@@ -64,8 +64,9 @@ Status FarmOptions::check() const {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == ',';
   });
   if (!plain) return bad("names of partitions have letters, digits and _ - . only", "--partition");
-  if (!program.is_absolute() || !project.is_absolute())
-    return bad("the nodes need the absolute paths of the program and of the project", project.string());
+  if (!program.is_absolute() || !project.is_absolute() || !scenes.is_absolute())
+    return bad("the nodes need the absolute paths of the program, the project and its scene",
+               project.string());
   return {};
 }
 

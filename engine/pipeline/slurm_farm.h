@@ -16,6 +16,7 @@ inline constexpr int kMostFarmTasks = 1000;
 struct FarmOptions {
   std::filesystem::path program;  ///< acentric, absolute; the nodes have it there too
   std::filesystem::path project;  ///< absolute, in a folder that the nodes share
+  std::filesystem::path scenes;   ///< absolute, shared too: holds the imported scene, which tasks map
   std::string storey;             ///< empty = all of them
   std::string partition;          ///< empty = the cluster's own choice
   int nodes = 1;                  ///< tasks that run at once, each on one node

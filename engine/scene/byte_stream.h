@@ -77,6 +77,8 @@ class ByteReader {
     if (count > left_ / least) sound_ = false;
     return sound_ ? std::size_t(count) : 0;
   }
+  /// What was read cannot be.
+  void refuse() { sound_ = false; }
   bool sound() const { return sound_; }
   bool atEnd() const { return left_ == 0; }
 

@@ -188,4 +188,23 @@ std::vector<fs::path> importedFiles(const fs::path& asked, const ImportOptions& 
   return files;
 }
 
+Status shareImported(const fs::path& asked, const ImportOptions& given, const ImportHost& host,
+                     const fs::path& folder) {
+  const ImportOptions options = permitted(given, host);
+  std::error_code error;
+  const fs::path model = fs::weakly_canonical(asked, error);
+  const auto content = hashFile(model);
+  if (!content) return tl::unexpected(content.error());
+  const fs::path own = importCacheFolder(host);
+  const fs::path entry = entryFor(own, model, *content, options);
+  const fs::path shared = entryFor(folder, model, *content, options);
+  if (own == folder) return {};
+  return replaceFileAtomically(shared, [&](const fs::path& temporary) -> Status {
+    fs::copy_file(entry, temporary, error);
+    if (!error) return {};
+    return fail(error == std::errc::no_space_on_device ? ErrorKind::outOfSpace : ErrorKind::unreadable,
+                "the imported scene cannot be copied: " + error.message(), shared.string());
+  });
+}
+
 }  // namespace acentric

@@ -2,7 +2,7 @@
 /// From a model file to a Scene. Parsing runs in a child process (the `acentric-importer` program) with
 /// limits on time and memory, because parsers crash and hang on bad files; the child hands the Scene over as
 /// a scene file in the cache. That cache is keyed by the content of every file read and by the options, so a
-/// second open is fast.
+/// second open is fast. Vertices and triangles stay in that file, which is mapped.
 
 #include <filesystem>
 #include <optional>
@@ -67,11 +67,16 @@ ScenePtr lastImported(const std::filesystem::path& path, const ImportOptions& op
 std::vector<std::filesystem::path> importedFiles(const std::filesystem::path& path,
                                                  const ImportOptions& options, const ImportHost& host = {});
 
+/// Puts what the cache holds of this scene, which was imported, into another folder as well: machines that
+/// see that one take the scene from it, with `cacheFolder`, and need not be able to write there.
+Status shareImported(const std::filesystem::path& path, const ImportOptions& options, const ImportHost& host,
+                     const std::filesystem::path& folder);
+
 /// What the child does, in this process: parse, check, convert. Only for the child and for tests of sound
 /// files.
 Result<Scene> parseScene(const std::filesystem::path& path, const ImportOptions& options);
 
-/// The scene file (cache, hand-over): versioned, checksummed, zstd.
+/// The scene file (cache, hand-over): versioned, checksummed; the geometry of what is read is mapped.
 Status writeSceneFile(const Scene& scene, const std::filesystem::path& path);
 Result<Scene> readSceneFile(const std::filesystem::path& path);
 

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "engine/scene/scene.h"
 
 namespace acentric {
 
 template <class Value>
-Value interpolate(const std::vector<Value>& values, const glm::uvec3& corners, const glm::vec2& b) {
+Value interpolate(const MeshArray<Value>& values, const glm::uvec3& corners, const glm::vec2& b) {
   return values[corners.x] * (1 - b.x - b.y) + values[corners.y] * b.x + values[corners.z] * b.y;
 }
 
@@ -44,7 +43,7 @@ inline Mesh withVertices(const Mesh& from, std::span<const std::uint32_t> vertic
 }
 
 /// The coordinates that `use` reads, untransformed; empty where the mesh has none.
-inline const std::vector<glm::vec2>& coordinatesOf(const Mesh& mesh, const TextureUse& use) {
+inline const MeshArray<glm::vec2>& coordinatesOf(const Mesh& mesh, const TextureUse& use) {
   return mesh.uv[use.uvSet == 1 ? 1 : 0];
 }
 inline bool hasCoordinates(const Mesh& mesh, const TextureUse& use) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace acentric {
 namespace {
@@ -11,7 +12,7 @@ constexpr double kFarthest = 1e12;
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
 template <class T>
-void gather(std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+void gather(MeshArray<T>& values, const std::vector<std::uint32_t>& from) {
   if (values.empty()) return;
   std::vector<T> out(from.size());
   for (std::size_t i = 0; i < from.size(); ++i) out[i] = values[from[i]];
@@ -107,7 +108,7 @@ struct UvFrame {
   float handedness = 0;   ///< of the uv map; 0 = it is flat here
 };
 
-UvFrame uvFrame(const Mesh& mesh, const glm::uvec3& t, const std::vector<glm::vec2>& uv) {
+UvFrame uvFrame(const Mesh& mesh, const glm::uvec3& t, std::span<const glm::vec2> uv) {
   const glm::dvec3 p1 = glm::dvec3(mesh.positions[t.y]) - glm::dvec3(mesh.positions[t.x]);
   const glm::dvec3 p2 = glm::dvec3(mesh.positions[t.z]) - glm::dvec3(mesh.positions[t.x]);
   const glm::dvec2 u1(uv[t.y] - uv[t.x]), u2(uv[t.z] - uv[t.x]);
@@ -123,7 +124,7 @@ UvFrame uvFrame(const Mesh& mesh, const glm::uvec3& t, const std::vector<glm::ve
 }
 
 /// Area-weighted tangents; corners shared by triangles whose uv maps are mirror images are split.
-void makeTangents(Mesh& mesh, const std::vector<glm::vec2>& sourceUv, const glm::mat3x2& uvTransform) {
+void makeTangents(Mesh& mesh, std::span<const glm::vec2> sourceUv, const glm::mat3x2& uvTransform) {
   std::vector<glm::vec2> uv(sourceUv.size());
   for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = uvTransform * glm::vec3(sourceUv[i], 1);
   const std::size_t corners = mesh.positions.size();
@@ -203,7 +204,9 @@ Mesh cleanMesh(SourceMesh&& source, const glm::dvec3& origin, bool wantsTangents
   out.triangles = std::move(source.triangles);
 
   const std::size_t before = out.triangles.size();
-  std::erase_if(out.triangles, [&](const glm::uvec3& t) { return isDegenerate(out, t); });
+  const auto degenerate =
+      std::ranges::remove_if(out.triangles, [&](const glm::uvec3& t) { return isDegenerate(out, t); });
+  out.triangles.resize(before - degenerate.size());
   counts.degenerate += before - out.triangles.size();
   counts.kept += out.triangles.size();
   if (out.triangles.empty()) return out;
@@ -220,7 +223,7 @@ Mesh cleanMesh(SourceMesh&& source, const glm::dvec3& origin, bool wantsTangents
     repairNormals(out);
   }
   if (wantsTangents && out.tangents.empty() && !out.uv[tangentSet].empty()) {
-    makeTangents(out, std::vector<glm::vec2>(out.uv[tangentSet]), uvTransform);
+    makeTangents(out, out.uv[tangentSet], uvTransform);
     ++counts.tangentsMade;
   } else {
     repairTangents(out);

@@ -1,5 +1,6 @@
 #pragma once
-/// Bytes into a file and out of it by zstd, in pieces. Private to this folder.
+/// Bytes into a file, as they are or by zstd, and packed ones out of memory, in pieces. Private to this
+/// folder.
 
 #include <zstd.h>
 
@@ -68,19 +69,19 @@ class Packer {
   const char* trouble_ = nullptr;
 };
 
-/// The frame that the rest of a file is, in pieces.
+/// A frame that is in memory, in pieces.
 class Unpacker {
  public:
-  explicit Unpacker(std::FILE* file)
-      : file_(file), context_(ZSTD_createDCtx(), &ZSTD_freeDCtx), buffer_(ZSTD_DStreamInSize()) {
+  explicit Unpacker(std::span<const std::byte> packed)
+      : context_(ZSTD_createDCtx(), &ZSTD_freeDCtx), in_{packed.data(), packed.size(), 0} {
     if (!context_) throw std::bad_alloc();
   }
   bool read(std::span<std::byte> bytes) {
     ZSTD_outBuffer out{bytes.data(), bytes.size(), 0};
     while (out.pos < out.size) {
-      const std::size_t before = out.pos;
+      const std::size_t had = in_.pos, before = out.pos;
       unpack(out);
-      if (ZSTD_isError(ended_) || (in_.size == 0 && out.pos == before)) return false;
+      if (ZSTD_isError(ended_) || (in_.pos == had && out.pos == before)) return false;
     }
     return true;
   }
@@ -89,20 +90,15 @@ class Unpacker {
     std::byte more;
     ZSTD_outBuffer out{&more, 1, 0};
     if (ended_ != 0) unpack(out);
-    return ended_ == 0 && out.pos == 0 && in_.pos == in_.size && std::fgetc(file_) == EOF;
+    return ended_ == 0 && out.pos == 0 && in_.pos == in_.size;
   }
 
  private:
   /// As much as there is room for.
-  void unpack(ZSTD_outBuffer& out) {
-    if (in_.pos == in_.size) in_ = {buffer_.data(), std::fread(buffer_.data(), 1, buffer_.size(), file_), 0};
-    ended_ = ZSTD_decompressStream(context_.get(), &out, &in_);
-  }
+  void unpack(ZSTD_outBuffer& out) { ended_ = ZSTD_decompressStream(context_.get(), &out, &in_); }
 
-  std::FILE* file_;
   std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context_;
-  std::vector<std::byte> buffer_;
-  ZSTD_inBuffer in_{nullptr, 0, 0};
+  ZSTD_inBuffer in_;
   std::size_t ended_ = 1;  ///< 0: the frame has
 };
 

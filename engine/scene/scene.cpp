@@ -27,9 +27,9 @@ void add(Hasher& hasher, const Material& m) {
   hasher.value(m.doubleSided).value(m.unlit);
 }
 
-template <class T>
-void addArray(Hasher& hasher, const std::vector<T>& values) {
-  hasher.array(std::span<const T>(values));
+template <class Array>
+void addArray(Hasher& hasher, const Array& values) {
+  hasher.array(std::span<const typename Array::value_type>(values));
 }
 
 void add(Hasher& hasher, const Mesh& mesh) {

@@ -15,6 +15,7 @@
 #include "engine/base/hash.h"
 #include "engine/image/image.h"
 #include "engine/image/sky.h"
+#include "engine/scene/mesh_array.h"
 
 namespace acentric {
 
@@ -61,12 +62,12 @@ struct Material {
 struct Mesh {
   std::string name;
   int material = 0;  ///< index into Scene::materials (always valid)
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;   ///< unit; always filled by import (from the file, else made flat)
-  std::vector<glm::vec4> tangents;  ///< xyz unit, w = handedness; filled only where a normal texture needs it
-  std::vector<glm::vec2> uv[2];
-  std::vector<glm::u8vec4> colours;   ///< linear RGBA8 vertex colours
-  std::vector<glm::uvec3> triangles;  ///< counter-clockwise = front, indices valid, no degenerate ones
+  MeshArray<glm::vec3> positions;
+  MeshArray<glm::vec3> normals;   ///< unit; always filled by import (from the file, else made flat)
+  MeshArray<glm::vec4> tangents;  ///< xyz unit, w = handedness; filled only where a normal texture needs it
+  MeshArray<glm::vec2> uv[2];
+  MeshArray<glm::u8vec4> colours;   ///< linear RGBA8 vertex colours
+  MeshArray<glm::uvec3> triangles;  ///< counter-clockwise = front, indices valid, no degenerate ones
 };
 
 /// A place where a prototype stands.

@@ -12,6 +12,7 @@
 #include <new>
 
 #include "engine/base/file.h"
+#include "engine/base/mapped_file.h"
 #include "engine/scene/byte_stream.h"
 #include "engine/scene/import.h"
 #include "engine/scene/instances.h"
@@ -21,15 +22,27 @@ namespace acentric {
 namespace {
 
 constexpr char kMagic[8] = {'A', 'C', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr std::size_t kHeaderBytes = 56;
+constexpr std::size_t kHeaderBytes = 64;
 constexpr std::uint64_t kMaxUnpacked = std::uint64_t(64) << 30;
+constexpr std::uint64_t kAlignment = 16;
+
+constexpr std::uint64_t aligned(std::uint64_t bytes) {
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
+/// That an array takes in the geometry.
+constexpr std::uint64_t withPadding(std::uint64_t bytes) {
+  return bytes == 0 ? 0 : aligned(bytes + MeshArray<std::byte>::kPadding);
+}
 
 struct Header {
   std::uint32_t version = kSceneFileVersion;
   std::uint64_t dependencyBytes = 0;
   std::uint64_t packedBytes = 0;
   std::uint64_t unpackedBytes = 0;
+  std::uint64_t geometryBytes = 0;
   ContentKey checksum;
+
+  std::uint64_t geometryStart() const { return aligned(kHeaderBytes + dependencyBytes + packedBytes); }
 };
 
 /// `hasher` has had what follows the header.
@@ -38,6 +51,7 @@ ContentKey checksumOf(const Header& header, Hasher& hasher) {
       .value(header.dependencyBytes)
       .value(header.packedBytes)
       .value(header.unpackedBytes)
+      .value(header.geometryBytes)
       .finish();
 }
 
@@ -91,31 +105,50 @@ void read(ByteReader& in, Material& m) {
   in.small(m.unlit, 1);
 }
 
+/// Hands all arrays of a mesh on, in the order of the file.
+template <class AnyMesh, class Visit>
+void forEachArray(AnyMesh& m, const Visit& visit) {
+  visit(m.positions);
+  visit(m.normals);
+  visit(m.tangents);
+  visit(m.uv[0]);
+  visit(m.uv[1]);
+  visit(m.colours);
+  visit(m.triangles);
+}
+
 void write(ByteWriter& out, const Mesh& m) {
   out.text(m.name);
   out.value(std::int32_t(m.material));
-  out.array(m.positions);
-  out.array(m.normals);
-  out.array(m.tangents);
-  out.array(m.uv[0]);
-  out.array(m.uv[1]);
-  out.array(m.colours);
-  out.array(m.triangles);
+  forEachArray(m, [&](const auto& array) { out.value(std::uint64_t(array.size())); });
 }
 
-void read(ByteReader& in, Mesh& m) {
-  in.text(m.name);
-  std::int32_t material = 0;
-  in.value(material);
-  m.material = material;
-  in.array(m.positions);
-  in.array(m.normals);
-  in.array(m.tangents);
-  in.array(m.uv[0]);
-  in.array(m.uv[1]);
-  in.array(m.colours);
-  in.array(m.triangles);
-}
+/// Takes the lengths of arrays from the scene and their contents from the geometry, one behind the other.
+class GeometryReader {
+ public:
+  GeometryReader(std::shared_ptr<const MappedFile> file, std::uint64_t start, std::uint64_t bytes)
+      : file_(std::move(file)), left_(file_->bytes().subspan(start, bytes)) {}
+
+  void read(ByteReader& in, Mesh& m) {
+    in.text(m.name);
+    std::int32_t material = 0;
+    in.value(material);
+    m.material = material;
+    forEachArray(m, [&]<class T>(MeshArray<T>& array) {
+      std::uint64_t size = 0;
+      in.value(size);
+      if (size > left_.size() / sizeof(T) || withPadding(size * sizeof(T)) > left_.size()) in.refuse();
+      if (!in.sound() || size == 0) return;
+      array = MeshArray<T>::mapped({reinterpret_cast<const T*>(left_.data()), std::size_t(size)}, file_);
+      left_ = left_.subspan(withPadding(size * sizeof(T)));
+    });
+  }
+  bool atEnd() const { return left_.empty(); }
+
+ private:
+  std::shared_ptr<const MappedFile> file_;
+  std::span<const std::byte> left_;
+};
 
 void write(ByteWriter& out, const Instance& i) {
   out.value(i.prototype);
@@ -223,10 +256,14 @@ void writeAll(ByteWriter& out, const std::vector<T>& things) {
   for (const T& thing : things) write(out, thing);
 }
 
+template <class T, class Read>
+void readAll(ByteReader& in, std::vector<T>& things, const Read& readOne) {
+  const std::size_t count = in.length(8);
+  for (std::size_t i = 0; i < count && in.sound(); ++i) readOne(things.emplace_back());
+}
 template <class T>
 void readAll(ByteReader& in, std::vector<T>& things) {
-  const std::size_t count = in.length(8);
-  for (std::size_t i = 0; i < count && in.sound(); ++i) read(in, things.emplace_back());
+  readAll(in, things, [&](T& thing) { read(in, thing); });
 }
 
 void write(ByteWriter& out, const Scene& scene) {
@@ -252,14 +289,15 @@ void write(ByteWriter& out, const Scene& scene) {
   out.value(scene.report.metresPerUnit);
 }
 
-void read(ByteReader& in, Scene& scene) {
+void read(ByteReader& in, GeometryReader& geometry, Scene& scene) {
+  const auto readMesh = [&](Mesh& mesh) { geometry.read(in, mesh); };
   in.text(scene.name);
   in.value(scene.key);
   in.value(scene.parts);
   in.value(scene.origin);
   readAll(in, scene.materials);
-  readAll(in, scene.meshes);
-  readAll(in, scene.prototypes);
+  readAll(in, scene.meshes, readMesh);
+  readAll(in, scene.prototypes, readMesh);
   readAll(in, scene.instances);
   readAll(in, scene.textures);
   readAll(in, scene.images);
@@ -327,6 +365,7 @@ std::vector<std::byte> bytesOf(const Header& header) {
   out.value(header.dependencyBytes);
   out.value(header.packedBytes);
   out.value(header.unpackedBytes);
+  out.value(header.geometryBytes);
   out.value(header.checksum);
   return bytes;
 }
@@ -339,19 +378,38 @@ std::uint64_t sizeOf(const Write& write) {
   return size;
 }
 
-ByteReader readerOf(std::FILE* file, std::uint64_t bytes) {
-  return {
-      [file](std::span<std::byte> out) { return std::fread(out.data(), 1, out.size(), file) == out.size(); },
-      bytes};
+/// Calls `each` for all arrays of vertices and triangles, in the order of the file.
+template <class Visit>
+void forEachArray(const Scene& scene, const Visit& each) {
+  for (const auto* meshes : {&scene.meshes, &scene.prototypes})
+    for (const Mesh& mesh : *meshes) forEachArray(mesh, each);
 }
 
-/// Of all that follows where the file is.
-Hasher hashedRest(std::FILE* file) {
-  Hasher hasher;
-  std::vector<std::byte> piece(std::size_t(1) << 20);
-  while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), file))
-    hasher.bytes(piece.data(), got);
-  return hasher;
+std::uint64_t geometryBytesOf(const Scene& scene) {
+  std::uint64_t bytes = 0;
+  forEachArray(scene,
+               [&](const auto& array) { bytes += withPadding(std::as_bytes(std::span(array)).size()); });
+  return bytes;
+}
+
+void writeGeometry(HashedOutput& out, const Scene& scene) {
+  constexpr std::array<std::byte, kAlignment + MeshArray<std::byte>::kPadding> kZeros{};
+  out.write(std::span(kZeros).first(aligned(kHeaderBytes + out.written()) - kHeaderBytes - out.written()));
+  forEachArray(scene, [&](const auto& array) {
+    const auto bytes = std::as_bytes(std::span(array));
+    out.write(bytes);
+    out.write(std::span(kZeros).first(withPadding(bytes.size()) - bytes.size()));
+  });
+}
+
+ByteReader readerOf(std::span<const std::byte> bytes) {
+  return {[left = bytes](std::span<std::byte> out) mutable {
+            if (out.size() > left.size()) return false;
+            std::ranges::copy(left.first(out.size()), out.begin());
+            left = left.subspan(out.size());
+            return true;
+          },
+          bytes.size()};
 }
 
 }  // namespace
@@ -362,6 +420,7 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
   Header header;
   header.dependencyBytes = sizeOf(writeDependencies);
   header.unpackedBytes = sizeOf(writeScene);
+  header.geometryBytes = geometryBytesOf(file.scene);
   return replaceFileAtomically(path, [&](const std::filesystem::path& temporary) -> Status {
     const File stream = openFile(temporary, "wb");
     const auto failed = [&] {
@@ -380,6 +439,7 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
     if (const char* trouble = packer.close())
       return fail(ErrorKind::internal, fmt::format("packing failed: {}", trouble), path.string());
     header.packedBytes = out.written() - header.dependencyBytes;
+    writeGeometry(out, file.scene);
     header.checksum = checksumOf(header, out.hasher());
     head = bytesOf(header);
     if (!out.sound() || std::fseek(stream.get(), 0, SEEK_SET) != 0 ||
@@ -394,22 +454,20 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
 
 Result<SceneFile> readSceneFile(const std::filesystem::path& path,
                                 const std::function<bool(const std::vector<Dependency>&)>& accept) try {
-  const File file = openFile(path, "rb");
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!file || error)
-    return fail(std::filesystem::exists(path) ? ErrorKind::unreadable : ErrorKind::notFound,
-                "cannot be opened for reading", path.string());
+  const auto file = MappedFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  const std::span<const std::byte> bytes = (*file)->bytes();
   Header header;
   std::array<char, sizeof kMagic> magic{};
   std::uint32_t zero = 0;
-  ByteReader in = readerOf(file.get(), size);
+  ByteReader in = readerOf(bytes);
   in.value(magic);
   in.value(header.version);
   in.value(zero);
   in.value(header.dependencyBytes);
   in.value(header.packedBytes);
   in.value(header.unpackedBytes);
+  in.value(header.geometryBytes);
   in.value(header.checksum);
   if (!in.sound() || !std::ranges::equal(magic, kMagic)) return malformed("is not a scene file", path);
   if (header.version != kSceneFileVersion || zero != 0)
@@ -417,25 +475,27 @@ Result<SceneFile> readSceneFile(const std::filesystem::path& path,
                 fmt::format("is version {} of the scene file; this program reads version {}", header.version,
                             kSceneFileVersion),
                 path.string());
-  const std::uint64_t rest = size - kHeaderBytes;
-  if (header.dependencyBytes > rest || header.packedBytes != rest - header.dependencyBytes)
+  const std::uint64_t size = bytes.size();
+  if (std::max({header.dependencyBytes, header.packedBytes, header.geometryBytes}) > size ||
+      header.geometryStart() + header.geometryBytes != size)
     return malformed("is cut off or too long", path);
   if (header.unpackedBytes > kMaxUnpacked) return malformed("has a broken size", path);
-  Hasher hasher = hashedRest(file.get());
+  Hasher hasher;
+  hasher.bytes(bytes.data() + kHeaderBytes, size - kHeaderBytes);
   if (checksumOf(header, hasher) != header.checksum)
     return malformed("is damaged: its checksum is wrong", path);
-  if (std::fseek(file.get(), long(kHeaderBytes), SEEK_SET) != 0) return malformed("cannot be read", path);
 
   SceneFile out;
-  ByteReader dependencies = readerOf(file.get(), header.dependencyBytes);
+  ByteReader dependencies = readerOf(bytes.subspan(kHeaderBytes, header.dependencyBytes));
   readAll(dependencies, out.dependencies);
   if (!dependencies.sound() || !dependencies.atEnd()) return malformed("has a broken list of files", path);
   if (accept && !accept(out.dependencies)) return out;
 
-  Unpacker unpacker(file.get());
-  ByteReader scene([&](std::span<std::byte> bytes) { return unpacker.read(bytes); }, header.unpackedBytes);
-  read(scene, out.scene);
-  if (!scene.sound() || !scene.atEnd() || !unpacker.atEnd() || !keepsPromises(out.scene))
+  Unpacker unpacker(bytes.subspan(kHeaderBytes + header.dependencyBytes, header.packedBytes));
+  ByteReader scene([&](std::span<std::byte> part) { return unpacker.read(part); }, header.unpackedBytes);
+  GeometryReader geometry(*file, header.geometryStart(), header.geometryBytes);
+  read(scene, geometry, out.scene);
+  if (!scene.sound() || !scene.atEnd() || !unpacker.atEnd() || !geometry.atEnd() || !keepsPromises(out.scene))
     return malformed("has broken contents", path);
   return out;
 } catch (const std::bad_alloc&) {

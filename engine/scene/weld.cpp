@@ -49,7 +49,7 @@ VertexKey keyOf(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex) {
 }
 
 /// The whole triangles as one mesh for decimation, and where its vertices come from.
-const std::vector<glm::vec2>* paintedUv(const Scene& scene, const Mesh& mesh) {
+const MeshArray<glm::vec2>* paintedUv(const Scene& scene, const Mesh& mesh) {
   const Material& material = scene.materials[std::size_t(mesh.material)];
   for (const TextureUse* use : {&material.baseColourTexture, &material.emissiveTexture})
     if (hasCoordinates(mesh, *use)) return &coordinatesOf(mesh, *use);

@@ -4,10 +4,12 @@
 #include <xmmintrin.h>
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/surface.h"
+#include "engine/scene/import.h"
 #include "scene_builder.h"
 
 namespace acentric {
@@ -92,6 +94,44 @@ TEST(RayScene, AlphaTestedSurfacesAreCutOutForEveryKindOfRay) {
   EXPECT_FLOAT_EQ(rays->occluderDistance(leaf), 2);
   EXPECT_EQ(rays->transmittance({hole.origin, kDown, 0, 2.5f}), glm::vec3(1));
   EXPECT_EQ(rays->transmittance({leaf.origin, kDown, 0, 2.5f}), glm::vec3(0));
+}
+
+/// Of a mapped scene file the ray tracer reads vertices and triangles in place.
+TEST(RayScene, RaysMeetAMappedSceneAsTheSameSceneInMemory) {
+  SceneBuilder builder = cutOutScene();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-1, 1);
+  const auto point = [&] { return glm::vec3(place(random), place(random), place(random)); };
+  auto scene = std::make_shared<Scene>(*builder.scene());
+  Mesh soup;
+  for (std::uint32_t i = 0; i < 300; ++i) soup.positions.push_back(point());
+  soup.normals.assign(soup.positions.size(), kUp);
+  for (std::uint32_t i = 0; i < 300; i += 3) soup.triangles.push_back({i, i + 1, i + 2});
+  scene->prototypes = {soup};
+  scene->instances = {{0, glm::mat4x3(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 3)}};
+  const auto path = std::filesystem::temp_directory_path() / "acentric_mapped_rays.acscene";
+  ASSERT_TRUE(writeSceneFile(*scene, path));
+  auto read = readSceneFile(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(read) << read.error().describe();
+  ASSERT_TRUE(read->meshes[0].positions.isMapped() && read->prototypes[0].triangles.isMapped());
+  const EffectPlan plan = planEffects(*scene);
+  const auto inMemory = RayScene::build(scene, plan);
+  const auto mapped = RayScene::build(std::make_shared<const Scene>(std::move(*read)), plan);
+  ASSERT_TRUE(inMemory && mapped);
+  int found = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Ray ray{2.0f * point() + glm::vec3(0, 0, 2), glm::normalize(point())};
+    const Hit a = (*inMemory)->trace(ray), b = (*mapped)->trace(ray);
+    ASSERT_EQ(a.found(), b.found());
+    if (!a.found()) continue;
+    ++found;
+    ASSERT_EQ(a.distance, b.distance);
+    ASSERT_EQ(a.mesh, b.mesh);
+    ASSERT_EQ(a.triangle, b.triangle);
+    ASSERT_EQ(a.barycentric, b.barycentric);
+  }
+  EXPECT_GT(found, 2000);
 }
 
 TEST(RayScene, WithoutTheAlphaTestMaskedSurfacesAreWhole) {

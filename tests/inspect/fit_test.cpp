@@ -13,7 +13,8 @@ namespace {
 
 void addSpeck(Mesh& mesh, const glm::vec3& at, float size = 1e-3f) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {at, at + glm::vec3(size, 0, 0), at + glm::vec3(0, size, 0)});
+  for (const glm::vec3& aside : {glm::vec3(0), glm::vec3(size, 0, 0), glm::vec3(0, size, 0)})
+    mesh.positions.push_back(at + aside);
   mesh.triangles.emplace_back(first, first + 1, first + 2);
 }
 

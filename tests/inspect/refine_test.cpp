@@ -18,8 +18,8 @@ using testing::HasSubstr;
 void addSpeck(Mesh& mesh, const glm::dvec2& at) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const glm::vec3 corner(at, 1);
-  mesh.positions.insert(mesh.positions.end(),
-                        {corner, corner + glm::vec3(1e-3f, 0, 0), corner + glm::vec3(0, 1e-3f, 0)});
+  for (const glm::vec3& aside : {glm::vec3(0), glm::vec3(1e-3f, 0, 0), glm::vec3(0, 1e-3f, 0)})
+    mesh.positions.push_back(corner + aside);
   mesh.triangles.emplace_back(first, first + 1, first + 2);
 }
 

@@ -28,6 +28,7 @@ FarmOptions sound() {
   FarmOptions options;
   options.program = "/opt/a b/acentric";
   options.project = "/srv/it's \"here\"/$HOME/x.acentric.json";
+  options.scenes = "/srv/it's \"here\"/$HOME/x.farm/scenes";
   options.cameraTasks = 7;
   options.nodes = 3;
   return options;
@@ -56,7 +57,10 @@ TEST(SlurmScripts, RunTheirShareWithPathsUnharmed) {
     script.replace(script.find(program), program.size(), "printf '%s\\n'");
     return outputOf("SLURM_CPUS_ON_NODE=5 SLURM_ARRAY_TASK_ID=" + task + " bash -c " + shellQuoted(script));
   };
-  const std::string start = "bake\n/srv/it's \"here\"/$HOME/x.acentric.json\n--threads\n5\n--take-over\n";
+  const std::string start =
+      "bake\n/srv/it's \"here\"/$HOME/x.acentric.json\n--import-cache\n/srv/it's "
+      "\"here\"/$HOME/x.farm/scenes\n"
+      "--threads\n5\n--take-over\n";
   EXPECT_EQ(run(scripts.bake, "3"), start + "--light\nwithout\n--shard\n3/7\n");
   EXPECT_EQ(run(scripts.bake, "0"), start + "--light\nonly\n");
   EXPECT_EQ(run(scripts.merge, "0"), start + "--verify\n");
@@ -107,6 +111,7 @@ TEST(FarmOptions, ThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(refused([](FarmOptions& o) { o.cameraTasks = 0, o.light = false; }));
   EXPECT_TRUE(refused([](FarmOptions& o) { o.partition = "a\n#SBATCH --wrap=x"; }));
   EXPECT_TRUE(refused([](FarmOptions& o) { o.project = "here.acentric.json"; }));
+  EXPECT_TRUE(refused([](FarmOptions& o) { o.scenes.clear(); }));
 }
 
 }  // namespace

@@ -303,9 +303,9 @@ TEST_F(GltfImport, SkinsStandInThePoseOfTheirJointsAndNotWhereTheirNodeIs) {
   builder.json["scenes"][0]["nodes"] = {0, 1, 2};
   const Scene scene = parsed();
   ASSERT_EQ(scene.meshes.size(), 1u);
-  std::vector<glm::vec3> corners(scene.meshes[0].positions);
+  MeshArray<glm::vec3> corners = scene.meshes[0].positions;
   std::ranges::sort(corners, {}, [](const glm::vec3& p) { return -p.y; });
-  EXPECT_EQ(corners, (std::vector<glm::vec3>{{0, 0, 0}, {1, -1, 0}, {0, -2, 1}}));
+  EXPECT_EQ(corners, (MeshArray<glm::vec3>{{0, 0, 0}, {1, -1, 0}, {0, -2, 1}}));
   builder.json["skins"][0]["joints"] = {1, 77};
   EXPECT_THAT(refusal(), HasSubstr("joint 77"));
   builder.json["skins"][0]["joints"] = {1};

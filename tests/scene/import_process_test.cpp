@@ -83,6 +83,24 @@ TEST_F(ImportProcess, TheSecondOpenNeedsNoImporter) {
   EXPECT_EQ(import()->name, "copy");
 }
 
+TEST_F(ImportProcess, AnotherMachineTakesAnImportedSceneFromAFolderThatItOnlyReads) {
+  const ScenePtr first = import();
+  const fs::path shared = folder.path() / "shared";
+  ASSERT_TRUE(shareImported(model, {}, host, shared));
+  paint({0, 255, 0, 255});
+  const ScenePtr green = import();
+  ASSERT_NE(green->key, first->key);
+  ASSERT_TRUE(shareImported(model, {}, host, shared)) << "what was shared of the model as it was is replaced";
+  fs::permissions(shared, fs::perms::owner_read | fs::perms::owner_exec);
+  host.importer = "/nonexistent";
+  host.cacheFolder = shared;
+  const ScenePtr taken = import();
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->key, green->key);
+  EXPECT_TRUE(taken->meshes[0].positions.isMapped());
+  fs::permissions(shared, fs::perms::owner_all);
+}
+
 TEST_F(ImportProcess, AChangedTextureOrOptionIsImportedAfresh) {
   const ScenePtr red = import();
   paint({0, 255, 0, 255});

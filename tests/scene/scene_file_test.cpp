@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
+#include <functional>
 #include <random>
 
 #include "tests/scene/scene_fixtures.h"
@@ -65,6 +67,80 @@ TEST(SceneFile, ARoundTripKeepsEverything) {
   EXPECT_EQ(back->bounds.max, scene.bounds.max);
   EXPECT_EQ(back->report.found, scene.report.found);
   EXPECT_EQ(back->report.guessed, scene.report.guessed);
+}
+
+TEST(SceneFile, TheGeometryIsMappedAndCanBeReadBeyondItsEnds) {
+  const TemporaryFolder folder("scene_file");
+  const auto path = folder.path() / "s.acscene";
+  Scene scene = sampleScene();
+  scene.prototypes = {scene.meshes[0]};
+  scene.instances = {{0, glm::mat4x3(1)}};
+  ASSERT_TRUE(writeSceneFile(scene, path));
+  const auto back = readSceneFile(path);
+  ASSERT_TRUE(back) << back.error().describe();
+  std::filesystem::remove(path);  // the pages stay
+  const auto expectMapped = [](const auto& array) {
+    EXPECT_TRUE(array.isMapped());
+    const auto* const data = reinterpret_cast<const std::byte*>(array.data());
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(data) % 16, 0u);
+    const std::span behind(data + std::as_bytes(std::span(array)).size(), MeshArray<int>::kPadding);
+    EXPECT_TRUE(std::ranges::all_of(behind, [](std::byte b) { return b == std::byte(0); }));
+  };
+  for (const Mesh& mesh : {std::cref(back->meshes[0]), std::cref(back->prototypes[0])}) {
+    expectMapped(mesh.positions);
+    expectMapped(mesh.normals);
+    expectMapped(mesh.tangents);
+    expectMapped(mesh.uv[0]);
+    expectMapped(mesh.uv[1]);
+    expectMapped(mesh.colours);
+    expectMapped(mesh.triangles);
+    EXPECT_EQ(mesh.positions, scene.meshes[0].positions);
+    EXPECT_EQ(mesh.triangles, scene.meshes[0].triangles);
+  }
+}
+
+/// A count that no geometry is there for must not be believed, whatever the checksum says.
+TEST(SceneFile, ArraysLongerThanTheGeometryAreRefused) {
+  const TemporaryFolder folder("scene_file");
+  const auto path = folder.path() / "s.acscene";
+  Scene scene = sampleScene();
+  scene.meshes[0].colours.clear();
+  ASSERT_TRUE(writeSceneFile(scene, path));
+  const auto short_ = readFile(path);
+  scene.meshes[0].colours.assign(4, {1, 2, 3, 4});
+  ASSERT_TRUE(writeSceneFile(scene, path));
+  const auto long_ = readFile(path);
+  ASSERT_TRUE(short_ && long_);
+  // The scene of the one with the geometry of the other: sizes and checksum made to fit.
+  const auto number = [](const std::vector<std::byte>& bytes, std::size_t at) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+  };
+  constexpr std::size_t kDependencies = 16, kPacked = 24, kGeometry = 40, kChecksum = 48, kHeader = 64;
+  const auto joined = [&](const std::vector<std::byte>& scenes, const std::vector<std::byte>& geometries) {
+    std::vector<std::byte> out(scenes.begin(), scenes.end() - std::ptrdiff_t(number(scenes, kGeometry)));
+    const std::uint64_t bytes = number(geometries, kGeometry);
+    out.insert(out.end(), geometries.end() - std::ptrdiff_t(bytes), geometries.end());
+    std::memcpy(out.data() + kGeometry, &bytes, sizeof bytes);
+    Hasher hasher;
+    hasher.bytes(out.data() + kHeader, out.size() - kHeader);
+    const ContentKey sum = hasher.value(kSceneFileVersion)
+                               .value(number(out, kDependencies))
+                               .value(number(out, kPacked))
+                               .value(number(out, kPacked + 8))
+                               .value(bytes)
+                               .finish();
+    std::memcpy(out.data() + kChecksum, &sum, sizeof sum);
+    EXPECT_TRUE(writeFileAtomically(path, out));
+    return readSceneFile(path);
+  };
+  EXPECT_TRUE(joined(*long_, *long_));
+  for (const auto& refused : {joined(*long_, *short_), joined(*short_, *long_)}) {
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::malformed);
+    EXPECT_EQ(refused.error().message, "has broken contents");
+  }
 }
 
 TEST(SceneFile, EveryTruncationAndEveryFlippedByteIsRefused) {
