@@ -119,9 +119,11 @@ bakingOn() {
   done
   return 1
 }
+hasMapped() { grep -qF -- "$2" "/proc/$1/maps" 2> /dev/null; }
 # Stops two programs while they bake, $killed on node one and $orphan on node two. Not yet: 1, and both go on.
 holdOneOfEachNode() {
   killed=$(bakingOn one) && orphan=$(bakingOn two) || return 1
+  hasMapped "$killed" .acscene && hasMapped "$orphan" .acscene || return 1
   kill -STOP "$killed" "$orphan" 2> /dev/null || true
   [[ $(readlink "/proc/$killed/exe") == "$acentric" && $(readlink "/proc/$orphan/exe") == "$acentric" ]] && return 0
   kill -CONT "$killed" "$orphan" 2> /dev/null || true
@@ -147,7 +149,7 @@ jobsEnded() { [[ -z $(squeue --noheader 2> /dev/null) ]] && squeue --noheader > 
 showLogs() {
   [[ -n $cluster ]] || return 0
   squeue 2> /dev/null || true
-  tail -n 15 "$cluster"/*.log "$shared"/gallery.farm/*.log 2> /dev/null || true
+  tail -n 15 "$cluster"/*.log "$shared"/balls.farm/*.log 2> /dev/null || true
 }
 
 stopCluster() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A bake on a Slurm cluster of two nodes, both on this machine's loopback interface. One task's program and one
 # whole node are killed; what comes of it must be the very store that a local bake makes.
-# usage: slurm.sh ACENTRIC SAMPLE_GENERATOR FOLDER
+# usage: slurm.sh ACENTRIC MAKE_INSTANCES FOLDER
 set -euo pipefail
 
 acentric=$1 generator=$2 work=$3
@@ -16,16 +16,16 @@ began=$EPOCHREALTIME
 skipUnlessPossible
 trap stopCluster EXIT
 
-# --- A project in a folder whose name needs quoting, and what a local bake makes of it
+# --- A project of an instanced scene in a folder whose name needs quoting, and what a local bake makes of it
 rm -rf -- "$work"
 shared="$work/it's a farm"
 mkdir -p -- "$shared"
-project=$shared/gallery.acentric.json
-captures=$shared/gallery.captures
-"$generator" "$shared/gallery.glb" > /dev/null
-"$acentric" new "$shared/gallery.glb" -o "$project" --cell 2.5 --samples-per-degree 2 \
-  --outline "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5" > /dev/null
-sed -i 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.15/' "$project"
+export XDG_CACHE_HOME=$work/cache
+project=$shared/balls.acentric.json
+captures=$shared/balls.captures
+"$generator" "$shared/balls.glb" --instances 150 --triangles 20000 --spacing 4 --clear 3 > /dev/null
+"$acentric" new "$shared/balls.glb" -o "$project" --cell 2 --samples-per-degree 1.5 --outline "-3,-2;3,-2;3,2;-3,2" > /dev/null
+sed -i 's/"surfaceTexel": [0-9.]*/"surfaceTexel": 0.15/; s/"ambientRays": [0-9]*/"ambientRays": 16/' "$project"
 "$acentric" bake "$project" > "$work/local.txt" || fail "the local bake failed"
 mv -- "$captures" "$work/expected"
 note "local: $(cat "$work/local.txt")"
@@ -49,10 +49,18 @@ tasks=$(sed -n 's/.*"cameraTasks": \([0-9]*\).*/\1/p' "$work/farm.json")
 ((tasks >= 4)) || fail "only $tasks tasks: too few to lose some"
 note "submitted $tasks tasks and the light as job $array, and $merge after them"
 
+# Tasks are to find the scene beside the scripts, not in a cache of their nodes.
+scene=$(find "$shared/balls.farm/scenes" -name '*.acscene')
+[[ -f $scene ]] || fail "the scene is not beside the scripts"
+rm -rf -- "$XDG_CACHE_HOME"
+
 # --- Both nodes bake; then one program and the other node are killed
 # Both programs are held while this is done, so that neither ends meanwhile however busy the machine is.
 waitFor "both nodes to bake" holdOneOfEachNode
 lostTask=$(variableOf "$orphan" SLURM_ARRAY_TASK_ID)
+for process in "$killed" "$orphan"; do
+  hasMapped "$process" "$scene" || fail "program $process does not map the shared scene: $(cat "/proc/$process/maps")"
+done
 kill -9 "$killed"
 killNode two "$orphan"
 note "killed the program of one task, and the node of task $lostTask"
@@ -66,8 +74,10 @@ for ((task = 0; task <= tasks; ++task)); do
 done
 [[ $(stateOf "$merge") == COMPLETED ]] || fail "the merging job: $(stateOf "$merge")"
 [[ $(fieldOf "${array}_$lostTask" Restarts) -ge 1 ]] || fail "task $lostTask was not started again"
-grep -q 'was ended by signal 9' "$shared"/gallery.farm/bake-*.log || fail "the killed program is not in the logs"
-grep -q '^baked 0 cameras' "$shared/gallery.farm/merge.log" || fail "$(cat "$shared/gallery.farm/merge.log")"
+grep -q 'was ended by signal 9' "$shared"/balls.farm/bake-*.log || fail "the killed program is not in the logs"
+grep -q '^baked 0 cameras' "$shared/balls.farm/merge.log" || fail "$(cat "$shared/balls.farm/merge.log")"
+
+[[ -z $(find "$XDG_CACHE_HOME" -name '*.acscene' 2> /dev/null) ]] || fail "a task imported the scene again"
 
 [[ $(ls -A "$captures") == "$(ls -A "$work/expected")" ]] || fail "the store has other files than a local bake's:
 $(diff <(ls -A "$work/expected") <(ls -A "$captures"))"
@@ -82,11 +92,11 @@ read -r size pack < <(find "$captures" -name '*.pack' -printf '%s %p\n' | sort -
 touch -r "$pack" "$work/written"
 printf 'XXXX' | dd of="$pack" bs=1 seek=$((size / 2)) conv=notrunc status=none
 touch -r "$work/written" "$pack" # so that reading it to its end alone can tell
-bash "$shared/gallery.farm/submit.sh" > "$work/again.txt"
+bash "$shared/balls.farm/submit.sh" > "$work/again.txt"
 read -r array merge < "$work/again.txt"
 waitFor "the second submission" jobsEnded
 [[ $(stateOf "$merge") == COMPLETED ]] || fail "the second merging job: $(stateOf "$merge")"
-grep -q "^written again: .*$(basename "$pack")" "$shared/gallery.farm/merge.log" ||
-  fail "the damaged capture is not named: $(cat "$shared/gallery.farm/merge.log")"
+grep -q "^written again: .*$(basename "$pack")" "$shared/balls.farm/merge.log" ||
+  fail "the damaged capture is not named: $(cat "$shared/balls.farm/merge.log")"
 diff -r "$work/expected" "$captures" || fail "the mended store differs from a local bake's"
 note "passed"
