@@ -87,7 +87,7 @@ Result<Candidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid, const
       std::erase_if(here, [&](const FloorLevel& level) {
         return std::abs(double(level.height) - options.floorHeight) > options.floorTolerance;
       });
-  Standing standing = surveyStanding(grid, levels, options.standingRules(), probe);
+  Standing standing = surveyStanding(grid, levels, options.standingRules(), probe, options.runner);
   if (!given)
     height = dominantHeight(heightsBelowRoofs(standing, levels, options.ignoreSides), options.floorTolerance);
   if (!height)

@@ -268,7 +268,8 @@ Result<std::vector<StairPiece>> findStairs(const Bounds& bounds, const Storeys& 
   WalkableOptions walkable = options.walkable;
   walkable.ignoreSides = storeys.ignoredSides;
   const FloorLevels levels = findFloorLevels(bounds, grid, walkable.headRoom(), probe);
-  return StairSurvey(storeys, way, options, surveyStanding(grid, levels, walkable.standingRules(), probe))
+  return StairSurvey(storeys, way, options,
+                     surveyStanding(grid, levels, walkable.standingRules(), probe, walkable.runner))
       .pieces();
 }
 

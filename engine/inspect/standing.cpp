@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/task_runner.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric {
@@ -167,16 +168,27 @@ bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRu
 }
 
 Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const StandingRules& rules,
-                        const SurfaceProbe& probe) {
+                        const SurfaceProbe& probe, TaskRunner* runner) {
   const Surveyor surveyor(grid, rules, probe);
+  TaskRunner inTurn;
+  TaskRunner& look = runner != nullptr ? *runner : inTurn;
+  std::vector<std::vector<Body>> bodies(levels.size());  // by cell and level
+  look.parallelFor(std::size_t(grid.rows), [&](std::size_t y) {
+    for (int x = 0; x < grid.columns; ++x) {
+      const std::size_t cell = grid.index(x, int(y));
+      for (const FloorLevel& level : levels[cell])
+        bodies[cell].push_back(surveyor.feel(grid.centreOf(x, int(y)), level));
+    }
+  });
   Standing standing{grid, {}};
   std::vector<FreeWay> freeWays;
   std::vector<int> firstOfCell(levels.size() + 1, 0);
   for (int y = 0; y < grid.rows; ++y)
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t cell = grid.index(x, y);
-      for (const FloorLevel& level : levels[cell]) {
-        const Body body = surveyor.feel(grid.centreOf(x, y), level);
+      for (std::size_t n = 0; n < levels[cell].size(); ++n) {
+        const FloorLevel& level = levels[cell][n];
+        const Body& body = bodies[cell][n];
         if (!body.fits) continue;
         standing.spots.push_back({x, y, level.height, level.covered, body.seemsInside, body.clearance,
                                   body.enclosure, body.wideEnclosure});
@@ -194,21 +206,31 @@ Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const 
         nearest = s;
     return nearest;
   };
-  for (std::size_t s = 0; s < standing.spots.size(); ++s) {
-    StandingSpot& spot = standing.spots[s];
+  // Towards +x and +y: the spot that a step leads to, or -1.
+  std::vector<std::array<int, 2>> steps(standing.spots.size(), {-1, -1});
+  look.parallelFor(std::size_t(grid.rows), [&](std::size_t row) {
+    const int first = firstOfCell[grid.index(0, int(row))];
+    const int end = firstOfCell[grid.index(grid.columns - 1, int(row)) + 1];
+    for (auto s = std::size_t(first); s < std::size_t(end); ++s) {
+      const StandingSpot& spot = standing.spots[s];
+      for (const std::size_t side : {std::size_t(0), std::size_t(1)}) {
+        const int x = spot.x + (side == 0 ? 1 : 0), y = spot.y + (side == 1 ? 1 : 0);
+        if (x >= grid.columns || y >= grid.rows) continue;
+        const int other = nearestIn(grid.index(x, y), spot.height);
+        if (other >= 0 && surveyor.canStep(spot, standing.spots[std::size_t(other)], freeWays[s][side],
+                                           freeWays[std::size_t(other)][side + 2]))
+          steps[s][side] = other;
+      }
+    }
+  });
+  for (std::size_t s = 0; s < standing.spots.size(); ++s)
     for (const std::size_t side : {std::size_t(0), std::size_t(1)}) {
-      const int x = spot.x + (side == 0 ? 1 : 0), y = spot.y + (side == 1 ? 1 : 0);
-      if (x >= grid.columns || y >= grid.rows) continue;
-      const int other = nearestIn(grid.index(x, y), spot.height);
-      if (other < 0) continue;
-      StandingSpot& neighbour = standing.spots[std::size_t(other)];
-      if (neighbour.next[side + 2] >= 0 ||
-          !surveyor.canStep(spot, neighbour, freeWays[s][side], freeWays[std::size_t(other)][side + 2]))
-        continue;
-      spot.next[side] = other;
+      if (steps[s][side] < 0) continue;
+      StandingSpot& neighbour = standing.spots[std::size_t(steps[s][side])];
+      if (neighbour.next[side + 2] >= 0) continue;
+      standing.spots[s].next[side] = steps[s][side];
       neighbour.next[side + 2] = static_cast<int>(s);
     }
-  }
   if (rules.refuseInside) dropInsides(standing);
   return standing;
 }

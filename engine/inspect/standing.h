@@ -10,6 +10,8 @@
 
 namespace acentric {
 
+class TaskRunner;
+
 struct StandingRules {
   double eyeHeight = 1.6;      ///< metres
   double wallClearance = 0.2;  ///< metres from obstacles between knee and eye
@@ -48,7 +50,8 @@ std::vector<int> numberParts(const Standing& standing, const std::vector<std::ui
 bool canStand(const glm::dvec2& place, const FloorLevel& level, const StandingRules& rules,
               const SurfaceProbe& probe);
 
+/// `runner` looks around at many places at a time; without one it is done at one after the other.
 Standing surveyStanding(const ProbeGrid& grid, const FloorLevels& levels, const StandingRules& rules,
-                        const SurfaceProbe& probe);
+                        const SurfaceProbe& probe, TaskRunner* runner = nullptr);
 
 }  // namespace acentric

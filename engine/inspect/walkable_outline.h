@@ -20,6 +20,8 @@
 
 namespace acentric {
 
+class TaskRunner;
+
 struct WalkableOptions {
   double eyeHeight = 1.6;        ///< metres of head room needed = eyeHeight + 0.15
   double floorTolerance = 0.25;  ///< metres: floors within this of the chosen height count
@@ -28,6 +30,8 @@ struct WalkableOptions {
   double gridStep = 0;           ///< metres; 0 = from the scene's size (about 200 x 200 points)
   double floorHeight = std::numeric_limits<double>::quiet_NaN();  ///< NaN = chosen: see above
   bool ignoreSides = false;  ///< every surface may be floor, and nothing is the inside of a solid
+  /// Looks around at many places at a time; null: at one after the other. Finds the same.
+  TaskRunner* runner = nullptr;
 
   Status check() const;
   double headRoom() const;  ///< metres

@@ -67,16 +67,18 @@ Result<WalkableArea> walkableArea(const Scene& scene, const RayScene& rays, cons
   return WalkableArea{area ? area->floorHeight : double(scene.bounds.min.z), *outline};
 }
 
-WalkableOptions walkableFor(const NewProjectOptions& options) {
+WalkableOptions walkableFor(const NewProjectOptions& options, TaskRunner& runner) {
   WalkableOptions walkable;
+  walkable.runner = &runner;
   walkable.eyeHeight = options.eyeHeight;
   walkable.ignoreSides = options.ignoreSides;
   return walkable;
 }
 
 /// Walk planes to lay cells on, at least one. Of a single one without a choice only height and outline count.
-Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewProjectOptions& options) {
-  const WalkableOptions walkable = walkableFor(options);
+Result<Storeys> planesFor(const Scene& scene, const RayScene& rays, const NewProjectOptions& options,
+                          TaskRunner& runner) {
+  const WalkableOptions walkable = walkableFor(options, runner);
   if (options.storey.given() || options.everyStorey) return chosenPlanes(rays, options, walkable);
   auto area = walkableArea(scene, rays, options, walkable);
   if (!area) return tl::unexpected(area.error());
@@ -177,7 +179,7 @@ class Maker {
     if (!limitedBy) return tl::unexpected(limitedBy.error());
     if (options_.stairs) {
       StairRequest request;
-      request.walkable = walkableFor(options_);
+      request.walkable = walkableFor(options_, runner_);
       auto added = addStairs(project_, *bare_.rays, planes_, request, progress_, stop_);
       if (!added) return tl::unexpected(added.error());
       plan_.reset();
@@ -298,7 +300,7 @@ Result<NewProject> makeProject(const fs::path& sceneFile, const fs::path& projec
   bare.rays = *rays, bare.mirrors = flatMirrorsOf(**scene, bare.plan);
 
   if (progress) progress({0, 0, "finding the walkable area"});
-  auto planes = planesFor(**scene, **rays, options);
+  auto planes = planesFor(**scene, **rays, options, runner);
   if (!planes) return tl::unexpected(planes.error());
   return Maker(std::move(bare), std::move(*planes), options, host, runner, progress, stop).make();
 }

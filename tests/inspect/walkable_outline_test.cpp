@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
+#include "engine/base/task_runner.h"
 #include "engine/inspect/simplify_outline.h"
 #include "tests/inspect/box_world.h"
 
@@ -53,6 +55,34 @@ TEST(WalkableArea, LeavesOutATableAndWhatIsTooLowAbove) {
   EXPECT_FALSE(area.outline.contains({4.5, 1.5}));
   EXPECT_TRUE(area.outline.contains({4.5, 2.85}));
   EXPECT_TRUE(area.outline.contains({3, 3}));
+}
+
+TEST(WalkableArea, IsTheSameForManyThreads) {
+  BoxWorld world = BoxWorld::room(6, 4, 5);
+  for (int step = 0; step < 12; ++step)  // stairs up to a gallery
+    world.boxes.push_back({{0.3 * step, 0, 0}, {0.3 * (step + 1), 1, 0.17 * (step + 1)}});
+  world.boxes.push_back({{3.6, 0, 1.9}, {6, 4, 2.05}});
+  world.boxes.push_back({{1, 2, 0}, {2, 3, 0.72}});
+  WalkableOptions options;
+  options.gridStep = 0.1;
+  const auto grid = layProbeGrid(world.bounds(), options);
+  ASSERT_TRUE(grid);
+  const FloorLevels levels = findFloorLevels(world.bounds(), *grid, options.headRoom(), world.probe());
+  TaskRunner runner(3);
+  const Standing one = surveyStanding(*grid, levels, options.standingRules(), world.probe());
+  const Standing many = surveyStanding(*grid, levels, options.standingRules(), world.probe(), &runner);
+  ASSERT_EQ(many.spots.size(), one.spots.size());
+  ASSERT_GT(one.spots.size(), 1000u);
+  int climbs = 0;
+  for (std::size_t s = 0; s < one.spots.size(); ++s) {
+    const StandingSpot &a = one.spots[s], &b = many.spots[s];
+    ASSERT_EQ(a.next, b.next);
+    ASSERT_EQ(std::tuple(a.x, a.y, a.height, a.clearance, a.wideEnclosure, a.seemsInside),
+              std::tuple(b.x, b.y, b.height, b.clearance, b.wideEnclosure, b.seemsInside));
+    for (const int next : a.next)
+      climbs += next >= 0 && std::abs(one.spots[std::size_t(next)].height - a.height) > 0.1f;
+  }
+  EXPECT_GT(climbs, 50) << "steps were looked at too";
 }
 
 TEST(WalkableArea, TakesAStepWithinTheToleranceAndNotAHigherOne) {
