@@ -51,12 +51,25 @@ KeyParts sceneKeyParts(std::string_view version, const Scene& scene, const Effec
 std::vector<ContentKey> captureKeys(const Scene& scene, const EffectPlan& plan, const BakeSettings& settings,
                                     const Layout& layout);
 
+/// What the parts of a capture take, seconds of work (WorkClock) on all threads together.
+struct CaptureSeconds {
+  double testEyes = 0;     ///< choosing where regions are looked from
+  double eyeViews = 0;     ///< tracing what these see
+  double march = 0;        ///< along the pixels' rays, with the light of what they meet
+  double silhouettes = 0;  ///< where surfaces end in their pixels
+  double edgeOn = 0;       ///< of facets seen edge on
+  double rounding = 0;     ///< joining, numbering and rounding what was found
+  double sight() const { return testEyes + eyeViews; }
+  double total() const { return sight() + march + silhouettes + edgeOn + rounding; }
+  CaptureSeconds& operator+=(const CaptureSeconds& other);
+};
+
 struct CaptureCounts {
   RayCounts rays;
   SampleCounts samples;
   std::uint64_t reflections = 0;  ///< samples of what flat mirrors show, besides those
   int eyeViews = 0;               ///< traced for pruning
-  double eyeViewSeconds = 0;      ///< that it took
+  CaptureSeconds seconds;
   CaptureCounts& operator+=(const CaptureCounts& other);
 };
 

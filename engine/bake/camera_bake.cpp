@@ -76,12 +76,22 @@ std::uint64_t traceFirstRays(const RayScene& scene, const LayoutCamera& camera, 
   return hits;
 }
 
+CaptureSeconds& CaptureSeconds::operator+=(const CaptureSeconds& other) {
+  testEyes += other.testEyes;
+  eyeViews += other.eyeViews;
+  march += other.march;
+  silhouettes += other.silhouettes;
+  edgeOn += other.edgeOn;
+  rounding += other.rounding;
+  return *this;
+}
+
 CaptureCounts& CaptureCounts::operator+=(const CaptureCounts& other) {
   rays += other.rays;
   samples += other.samples;
   reflections += other.reflections;
   eyeViews += other.eyeViews;
-  eyeViewSeconds += other.eyeViewSeconds;
+  seconds += other.seconds;
   return *this;
 }
 
@@ -103,6 +113,11 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                 scene_.scene().name);
   };
   const auto stopped = [] { return fail(ErrorKind::cancelled, "the bake was stopped"); };
+  std::optional<WorkClock> watch(std::in_place);
+  const auto split = [&watch](double& seconds) {
+    seconds += watch->seconds();
+    watch.emplace();
+  };
   try {
     if (!shader_ || shaderStop_ != stop) {
       shader_ = std::make_unique<Shader>(scene_, settings_, stop);
@@ -117,13 +132,16 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       if (!testEyes_) testEyes_ = std::make_unique<TestEyes>(scene_, settings_);
       if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
       if (!skies_) skies_ = std::make_unique<RegionSkies>(scene_, settings_, budget_);
-      const WorkClock watch;
+      watch.emplace();
       const int before = views_->traced();
-      sight = RegionSight::look(scene_, camera, columns.centreOfProjection.z, *testEyes_, *views_, *skies_,
-                                runner, counts.rays, stop);
+      const double eyeZ = columns.centreOfProjection.z;
+      if (!RegionSight::findEyes(camera, eyeZ, *testEyes_, runner, counts.rays, stop)) return stopped();
+      split(counts.seconds.testEyes);
+      sight =
+          RegionSight::look(scene_, camera, eyeZ, *testEyes_, *views_, *skies_, runner, counts.rays, stop);
       if (!sight) return stopped();
       counts.eyeViews += views_->traced() - before;
-      counts.eyeViewSeconds += watch.seconds();
+      split(counts.seconds.eyeViews);
     }
     const FlatMirrors* mirrors = mirrors_->any() ? mirrors_.get() : nullptr;
     std::optional<RegionSight> intoMirrors;
@@ -178,6 +196,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     if (total > kMaxCaptureSamples)
       return fail(ErrorKind::tooLarge, "more than 2^31 samples in one capture; lower the samples per degree",
                   scene_.scene().name);
+    split(counts.seconds.march);
     CaptureCounts counted;
     for (const ChunkSamples& s : chunks) counted += s.counts;
     counts += counted;
@@ -189,9 +208,12 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
     capture.distanceStep = setting.distanceStep;
     if (capture.background.runCount() > 0) capture.background.sky = shader_->sky();
     if (settings_.silhouettes) {
+      split(counts.seconds.rounding);
       capture.planeTolerance = planeToleranceFor(camera, columns);
       traceSilhouettes(setting, capture, runner, counts, stop);
+      split(counts.seconds.silhouettes);
       if (!stop.stop_requested()) turnEdgeOnFacets(setting, capture, runner, counts, stop);
+      split(counts.seconds.edgeOn);
     }
     if (stop.stop_requested()) return stopped();
     if (!capture.hasSilhouettes() && !capture.reflections.hasSilhouettes()) capture.planeTolerance = 0;
@@ -201,6 +223,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
         roundPlanes(*list, columns, capture.distanceStep);
         roundAlpha(*list);
       }
+    split(counts.seconds.rounding);
     return capture;
   } catch (const std::bad_alloc&) {
     return noMemory();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace acentric {
 namespace {
@@ -65,8 +66,9 @@ bool nothingBefore(const RayScene& scene, const glm::dvec3& eye, const glm::dvec
   const double distance = glm::length(way), farthest = distance - tolerance;
   if (!(farthest > 0)) return true;
   ++rays.visibility;
-  return !(double(scene.occluderDistance({glm::vec3(eye), glm::vec3(way / distance), 0, float(farthest)})) <
-           farthest);
+  auto end = float(farthest);
+  if (double(end) < farthest) end = std::nextafter(end, std::numeric_limits<float>::infinity());
+  return !scene.isOccluded({glm::vec3(eye), glm::vec3(way / distance), 0, end});
 }
 
 bool seesPoint(const RayScene& scene, const EyeView& view, const glm::dvec3& point, double tolerance,

@@ -10,6 +10,7 @@
 
 #include "engine/bake/surface.h"
 #include "engine/base/contract.h"
+#include "engine/base/stopwatch.h"
 #include "engine/scene/placed_mesh.h"
 #include "engine/scene/surface_light.h"
 
@@ -260,8 +261,10 @@ HalfColour GatheredLight::placeLight(const Side& side, std::uint32_t i, std::uin
   const std::uint32_t r = resolutionOf(places_, side, texel_);
   const std::uint32_t within = (side.back ? surfaceSampleCount(r) : 0) + surfaceSampleIndex(r, i, j);
   const auto gathered = [&](std::uint32_t index, RayCounts& own) {
+    const Stopwatch watch;
     const Surface surface = surfaceOf(side, surfaceSamplePlace(r, i, j));
     const Gathered g = gather(surface, side.sceneTriangle, index, own, rays, stop);
+    own.gatherSeconds = watch.seconds();
     return stop.stop_requested() ? HalfColour(0) : packColour({g.radiance, 0.5f + 0.5f * g.open});
   };
   if (!isLaidOut(side.mesh))

@@ -32,6 +32,18 @@ std::pair<double, double> clipped(const FlatMirror& mirror, const glm::dvec2& a,
   return {from, to};
 }
 
+/// Is all of the way from a to b on the far side of one of the mirror's edges, by more than `clipped` rounds?
+/// Most are, and this takes no division.
+bool passesBy(const FlatMirror& mirror, const glm::dvec2& a, const glm::dvec2& b) {
+  constexpr double kRoundings = 1e-12;
+  for (int i = 0; i < 2; ++i) {
+    const double slack = kRoundings * (std::abs(a[i]) + std::abs(b[i]));
+    if (std::max(a[i], b[i]) < mirror.low[i] - slack || std::min(a[i], b[i]) > mirror.high[i] + slack)
+      return true;
+  }
+  return false;
+}
+
 /// From where an eye sees surfaces that a mirror shows it.
 struct ImageIn {
   const FlatMirror& mirror;
@@ -76,7 +88,9 @@ void MirrorSight::spansAlong(const glm::dvec3& origin, const glm::dvec3& directi
       continue;
     Span span{&mirror, kInfinity, 0};
     for (const EyeBefore& eye : faced.eyes) {
-      const auto [low, high] = clipped(mirror, first, eye.foot + eye.height / slope * along);
+      const glm::dvec2 last = eye.foot + eye.height / slope * along;
+      if (passesBy(mirror, first, last)) continue;
+      const auto [low, high] = clipped(mirror, first, last);
       if (low > high) continue;
       const auto distanceAt = [&](double share) {
         return share < 1 ? start + eye.height * share / (1 - share) / slope : kInfinity;
@@ -96,7 +110,7 @@ std::optional<MirrorSight::Seen> MirrorSight::meets(const EyeView& view, const F
     return std::nullopt;
   if (onwards.farthest > 0) {
     ++rays.visibility;
-    if (scene_->occluderDistance(onwards) < onwards.farthest) return std::nullopt;
+    if (scene_->isOccluded(onwards)) return std::nullopt;
   }
   const glm::vec3 eye(view.eye());
   const glm::vec3 way = glm::normalize(glm::vec3(at) - eye);

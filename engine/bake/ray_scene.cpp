@@ -7,13 +7,16 @@
 #include <mutex>
 #include <new>
 
+#include "engine/bake/alpha_cells.h"
 #include "engine/bake/area_lights.h"
 #include "engine/bake/embree_handles.h"
 #include "engine/bake/flush_denormals.h"
 #include "engine/bake/gathered_light.h"
+#include "engine/bake/ray_log.h"
 #include "engine/bake/surface.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/material_rules.h"
+#include "engine/scene/mesh_attributes.h"
 #include "engine/scene/placed_mesh.h"
 
 namespace acentric {
@@ -30,6 +33,7 @@ struct FilteredMesh {
   const Mesh* mesh = nullptr;
   MaterialRules rules;
   DetailRules detail;
+  std::shared_ptr<const AlphaCells> cuts;  ///< null: the texture has to be read everywhere
 };
 
 struct TransmittanceContext {
@@ -82,18 +86,29 @@ glm::vec3 passedBy(const FilteredMesh& filtered, const glm::vec4& baseColour) {
   return passed;
 }
 
+AlphaCells::Cut cutAt(const FilteredMesh& filtered, unsigned triangle, const glm::vec2& barycentric) {
+  if (!filtered.cuts) return AlphaCells::Cut::readTexture;
+  const Mesh& mesh = *filtered.mesh;
+  const TextureUse& use = filtered.scene->materials[std::size_t(mesh.material)].baseColourTexture;
+  const glm::vec2 uv = interpolate(coordinatesOf(mesh, use), mesh.triangles[triangle], barycentric);
+  return filtered.cuts->at(use.transform * glm::vec3(uv, 1));
+}
+
 void cutOutFilter(const RTCFilterFunctionNArguments* args) {
   const auto& filtered = *static_cast<const FilteredMesh*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-    if (isCutOut(filtered, baseColourAt(*filtered.scene, *filtered.mesh, triangle, hitBarycentric(*args, i),
-                                        filtered.detail)))
+    const glm::vec2 at = hitBarycentric(*args, i);
+    const AlphaCells::Cut cut = cutAt(filtered, triangle, at);
+    if (cut == AlphaCells::Cut::nowhere) continue;
+    if (cut == AlphaCells::Cut::everywhere ||
+        isCutOut(filtered, baseColourAt(*filtered.scene, *filtered.mesh, triangle, at, filtered.detail)))
       args->valid[i] = 0;
   }
 }
 
-/// Occlusion asks for transmittance alone, one ray at a time: see RayScene::transmittance.
+/// Occlusion asks what passes, one ray at a time: see RayScene::transmittance and isOccluded.
 void passFilter(const RTCFilterFunctionNArguments* args) {
   constexpr float kBlack = 1.0f / 4096;
   const auto& filtered = *static_cast<const FilteredMesh*>(args->geometryUserPtr);
@@ -101,8 +116,17 @@ void passFilter(const RTCFilterFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-    const glm::vec4 colour =
-        baseColourAt(*filtered.scene, *filtered.mesh, triangle, hitBarycentric(*args, i), filtered.detail);
+    const glm::vec2 at = hitBarycentric(*args, i);
+    const AlphaCells::Cut cut = cutAt(filtered, triangle, at);
+    if (cut == AlphaCells::Cut::everywhere) {
+      args->valid[i] = 0;
+      continue;
+    }
+    if (cut == AlphaCells::Cut::nowhere && !filtered.rules.clear()) {
+      context.passed = glm::vec3(0);
+      continue;
+    }
+    const glm::vec4 colour = baseColourAt(*filtered.scene, *filtered.mesh, triangle, at, filtered.detail);
     if (isCutOut(filtered, colour)) {
       args->valid[i] = 0;
       continue;
@@ -123,6 +147,24 @@ RTCRay embreeRay(const Ray& ray, unsigned mask) {
   return r;
 }
 
+RTCRayHit nearestHit(RTCScene scene, const Ray& ray, unsigned mask) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query{};
+  query.ray = embreeRay(ray, mask);
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &query);
+  return query;
+}
+
+/// By something that lets no light pass; what passes the rest is in the context.
+bool isBlocked(RTCScene scene, const Ray& ray, unsigned mask, TransmittanceContext& context) {
+  rtcInitIntersectContext(&context.base);
+  RTCRay query = embreeRay(ray, mask);
+  rtcOccluded1(scene, &context.base, &query);
+  return query.tfar < 0;  // Embree marks an occluded ray by tfar = -infinity
+}
+
 /// Traces a packet; what its rays hit is in the result.
 RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
   RTCIntersectContext context;
@@ -139,7 +181,7 @@ RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
     query.ray.dir_x[i] = rays.direction[n].x, query.ray.dir_y[i] = rays.direction[n].y;
     query.ray.dir_z[i] = rays.direction[n].z;
     query.ray.tnear[i] = rays.nearest[n];
-    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    query.ray.tfar[i] = rays.farthest[n];
     query.ray.mask[i] = mask;
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -204,6 +246,7 @@ RayCounts& RayCounts::operator+=(const RayCounts& other) {
   mirror += other.mirror;
   through += other.through;
   gathered += other.gathered;
+  gatherSeconds += other.gatherSeconds;
   return *this;
 }
 
@@ -214,6 +257,7 @@ struct RayScene::Embree {
   std::vector<std::unique_ptr<FilteredMesh>> filtered;  ///< address handed to Embree
 
   std::vector<EmbreeScene> prototypes;  ///< by Scene::prototypes
+  std::vector<std::shared_ptr<const AlphaCells>> cuts;
 
   Status open(const std::string& name);
   EmbreeScene newScene() const;
@@ -224,7 +268,23 @@ struct RayScene::Embree {
   Status addInstances(const Scene& source, const std::vector<MaterialRules>& rules,
                       const DetailRules& detail);
   Status commit(const std::string& name);
+  /// Null where alpha is not a texture's alone.
+  std::shared_ptr<const AlphaCells> cutsOf(const Scene& source, const Mesh& mesh, const DetailRules& detail);
 };
+
+std::shared_ptr<const AlphaCells> RayScene::Embree::cutsOf(const Scene& source, const Mesh& mesh,
+                                                           const DetailRules& detail) {
+  const Material& material = source.materials[std::size_t(mesh.material)];
+  const TextureSampler texture(source, material.baseColourTexture);
+  const float factor = material.baseColour.a;
+  if (!detail.textures || !hasCoordinates(mesh, material.baseColourTexture) || !texture.used() ||
+      (detail.vertexColours && !mesh.colours.empty()) || !(factor >= 0))
+    return nullptr;
+  for (const auto& known : cuts)
+    if (known->isOf(texture, factor, material.alphaCutoff)) return known;
+  cuts.push_back(std::make_shared<const AlphaCells>(texture, factor, material.alphaCutoff));
+  return cuts.back();
+}
 
 EmbreeScene RayScene::Embree::newScene() const {
   EmbreeScene made(rtcNewScene(device.get()));
@@ -258,7 +318,8 @@ Status RayScene::Embree::add(RTCScene into, unsigned number, const Scene& source
 
   rtcSetGeometryMask(geometry.get(), rules.clear() ? kClearMask : kSolidMask);
   if (rules.masked || rules.clear()) {
-    filtered.push_back(std::make_unique<FilteredMesh>(FilteredMesh{&source, &mesh, rules, detail}));
+    filtered.push_back(std::make_unique<FilteredMesh>(
+        FilteredMesh{&source, &mesh, rules, detail, rules.masked ? cutsOf(source, mesh, detail) : nullptr}));
     rtcSetGeometryUserData(geometry.get(), filtered.back().get());
     if (rules.masked) rtcSetGeometryIntersectFilterFunction(geometry.get(), cutOutFilter);
     rtcSetGeometryOccludedFilterFunction(geometry.get(), passFilter);
@@ -309,7 +370,7 @@ RayScene::RayScene(ScenePtr scene, const EffectPlan& plan)
 
 RayScene::~RayScene() = default;
 
-Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const EffectPlan& plan) {
+Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const EffectPlan& plan, RayLog* log) {
   const FlushDenormals flush;
   try {
     std::shared_ptr<RayScene> made(new RayScene(std::move(scene), plan));
@@ -331,6 +392,7 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const Ef
       return tl::unexpected(added.error());
     if (auto committed = made->embree_->commit(source.name); !committed)
       return tl::unexpected(committed.error());
+    made->log_ = log;
     made->areaLights_ = std::make_unique<const AreaLights>(source, plan);
     return made;
   } catch (const std::bad_alloc&) {
@@ -341,13 +403,34 @@ Result<std::shared_ptr<const RayScene>> RayScene::build(ScenePtr scene, const Ef
 Hit RayScene::trace(const Ray& ray) const { return trace(ray, kSolidMask | kClearMask); }
 Hit RayScene::traceSolid(const Ray& ray) const { return trace(ray, kSolidMask); }
 
+void RayScene::note(const Ray& ray, unsigned mask, bool nearest) const {
+  if (log_ != nullptr) log_->add(ray, mask, nearest ? RayLog::Asked::nearest : RayLog::Asked::passing);
+}
+void RayScene::note(const RayPacket& rays, unsigned mask) const {
+  if (log_ != nullptr) log_->add(rays, mask);
+}
+
+std::uint64_t RayScene::replay(const RayLog& log) const {
+  std::uint64_t hits = 0;
+  for (const RayLog::Single& single : log.singles()) {
+    if (single.asked == RayLog::Asked::nearest) {
+      hits += nearestHit(embree_->scene.get(), single.ray, single.mask).hit.geomID != RTC_INVALID_GEOMETRY_ID;
+      continue;
+    }
+    TransmittanceContext context;
+    hits += isBlocked(embree_->scene.get(), single.ray, single.mask, context);
+  }
+  for (const RayLog::Together& together : log.packets()) {
+    const RTCRayHit8 query = traced(embree_->scene.get(), together.rays, together.mask);
+    for (int i = 0; i < together.rays.count; ++i)
+      hits += query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+  }
+  return hits;
+}
+
 Hit RayScene::trace(const Ray& ray, unsigned mask) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  query.ray = embreeRay(ray, mask);
-  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene.get(), &context, &query);
+  note(ray, mask, true);
+  const RTCRayHit query = nearestHit(embree_->scene.get(), ray, mask);
   Hit hit;
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.distance = query.ray.tfar;
@@ -365,6 +448,7 @@ glm::vec3 RayScene::acrossOf(std::uint32_t placed, const glm::vec3& across) cons
 }
 
 void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& hits) const {
+  note(rays, kSolidMask | kClearMask);
   const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
   for (int i = 0; i < rays.count; ++i) {
     Hit& hit = hits[std::size_t(i)];
@@ -379,6 +463,7 @@ void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& h
 }
 
 int RayScene::countHits(const RayPacket& rays) const {
+  note(rays, kSolidMask | kClearMask);
   const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
   int hits = 0;
   for (int i = 0; i < rays.count; ++i) hits += query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
@@ -387,6 +472,7 @@ int RayScene::countHits(const RayPacket& rays) const {
 
 void RayScene::occluderDistances(const RayPacket& rays,
                                  std::array<float, RayPacket::kSize>& distances) const {
+  note(rays, kSolidMask);
   const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask);
   for (int i = 0; i < rays.count; ++i)
     distances[std::size_t(i)] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
@@ -395,22 +481,25 @@ void RayScene::occluderDistances(const RayPacket& rays,
 }
 
 glm::vec3 RayScene::transmittance(const Ray& ray) const {
+  note(ray, kSolidMask | kClearMask, false);
   TransmittanceContext context;
-  rtcInitIntersectContext(&context.base);
-  RTCRay query = embreeRay(ray, kSolidMask | kClearMask);
-  rtcOccluded1(embree_->scene.get(), &context.base, &query);
-  return query.tfar < 0 ? glm::vec3(0) : context.passed;  // Embree marks an occluded ray by tfar = -infinity
+  return isBlocked(embree_->scene.get(), ray, kSolidMask | kClearMask, context) ? glm::vec3(0)
+                                                                                : context.passed;
 }
 
 float RayScene::occluderDistance(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  query.ray = embreeRay(ray, kSolidMask);
-  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->scene.get(), &context, &query);
+  note(ray, kSolidMask, true);
+  const RTCRayHit query = nearestHit(embree_->scene.get(), ray, kSolidMask);
   return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
                                                      : query.ray.tfar;
+}
+
+bool RayScene::isOccluded(const Ray& ray) const {
+  note(ray, kSolidMask, false);
+  Ray before = ray;
+  if (std::isfinite(ray.farthest)) before.farthest = std::nextafter(ray.farthest, 0.0f);
+  TransmittanceContext context;
+  return isBlocked(embree_->scene.get(), before, kSolidMask, context);
 }
 
 std::shared_ptr<const GatheredLight> RayScene::gatheredLight(const BakeSettings& settings) const {

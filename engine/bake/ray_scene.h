@@ -36,9 +36,17 @@ struct Hit {
 struct RayPacket {
   static constexpr int kSize = 8;
   glm::vec3 origin{0};
-  std::array<glm::vec3, kSize> direction;  ///< unit
-  std::array<float, kSize> nearest{};      ///< metres
-  int count = 0;                           ///< of them that are traced
+  std::array<glm::vec3, kSize> direction;             ///< unit
+  std::array<float, kSize> nearest{};                 ///< metres
+  std::array<float, kSize> farthest = allInfinite();  ///< metres
+  int count = 0;                                      ///< of them that are traced
+
+ private:
+  static constexpr std::array<float, kSize> allInfinite() {
+    std::array<float, kSize> all{};
+    all.fill(std::numeric_limits<float>::infinity());
+    return all;
+  }
 };
 
 /// Rays traced, by purpose; a plan that lacks an effect traces none of its rays.
@@ -52,6 +60,7 @@ struct RayCounts {
   std::uint64_t mirror = 0;
   std::uint64_t through = 0;   ///< of the others: those that met glass or a blended surface
   std::uint64_t gathered = 0;  ///< of the others: those that a place's light was gathered by, once for all
+  double gatherSeconds = 0;    ///< of one thread, that these took with all that comes of them
   std::uint64_t total() const {
     return primary + visibility + shadow + softShadow + ambient + bounce + mirror;
   }
@@ -59,12 +68,15 @@ struct RayCounts {
 };
 
 class AreaLights;
+class RayLog;
 class GatheredLight;
 struct BakeSettings;
 
 class RayScene {
  public:
-  static Result<std::shared_ptr<const RayScene>> build(ScenePtr scene, const EffectPlan& plan);
+  /// `log`: what is asked of the scene is added to it; it outlives the scene.
+  static Result<std::shared_ptr<const RayScene>> build(ScenePtr scene, const EffectPlan& plan,
+                                                       RayLog* log = nullptr);
   ~RayScene();
 
   const Scene& scene() const { return *scene_; }
@@ -90,15 +102,22 @@ class RayScene {
   float occluderDistance(const Ray& ray) const;
   /// The same for each ray of a packet.
   void occluderDistances(const RayPacket& rays, std::array<float, RayPacket::kSize>& distances) const;
+  /// Is there an occluder nearer than the ray's end? Whichever is found first will do.
+  bool isOccluded(const Ray& ray) const;
+  /// Asks the ray tracer alone what a log holds: how many rays hit something.
+  std::uint64_t replay(const RayLog& log) const;
 
  private:
   struct Embree;
   Hit trace(const Ray& ray, unsigned mask) const;
+  void note(const Ray& ray, unsigned mask, bool nearest) const;
+  void note(const RayPacket& rays, unsigned mask) const;
   glm::vec3 acrossOf(std::uint32_t placed, const glm::vec3& across) const;
   RayScene(ScenePtr scene, const EffectPlan& plan);
   ScenePtr scene_;
   EffectPlan plan_;
   std::unique_ptr<Embree> embree_;
+  RayLog* log_ = nullptr;
   std::unique_ptr<const AreaLights> areaLights_;
   mutable std::mutex gatheredMutex_;
   mutable std::shared_ptr<const GatheredLight> gathered_;

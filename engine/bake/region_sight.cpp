@@ -4,6 +4,18 @@
 
 namespace acentric {
 
+bool RegionSight::findEyes(const LayoutCamera& camera, double eyeZ, TestEyes& testEyes, TaskRunner& runner,
+                           RayCounts& rays, const std::stop_token& stop) {
+  const Role* former = nullptr;
+  for (const Role& role : camera.roles) {
+    if ((former == nullptr || former->region != role.region) &&
+        !testEyes.of(role.polygon, role.grown, eyeZ, runner, rays, stop))
+      return false;
+    former = &role;
+  }
+  return true;
+}
+
 std::optional<RegionSight> RegionSight::look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
                                              TestEyes& testEyes, EyeViews& views, RegionSkies& skies,
                                              TaskRunner& runner, RayCounts& rays,
@@ -111,7 +123,7 @@ bool RegionSight::seesAlong(std::size_t role, const glm::dvec3& direction, Hints
   if (shown != EyeView::Sees::unsure) return shown == EyeView::Sees::yes;
   return any(role, hints, [&](const EyeView& view, std::size_t) {
     ++rays.visibility;
-    return !std::isfinite(scene_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
+    return !scene_->isOccluded({glm::vec3(view.eye()), glm::vec3(direction)});
   });
 }
 

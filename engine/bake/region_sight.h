@@ -20,6 +20,9 @@ inline constexpr double kSameDepth = 0.5;
 
 class RegionSight {
  public:
+  /// Chooses the test eyes of the camera's regions, so that `look` finds them chosen. False when stopped.
+  static bool findEyes(const LayoutCamera& camera, double eyeZ, TestEyes& testEyes, TaskRunner& runner,
+                       RayCounts& rays, const std::stop_token& stop);
   /// Nothing when stopped.
   static std::optional<RegionSight> look(const RayScene& scene, const LayoutCamera& camera, double eyeZ,
                                          TestEyes& testEyes, EyeViews& views, RegionSkies& skies,

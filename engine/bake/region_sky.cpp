@@ -59,7 +59,7 @@ std::shared_ptr<const RegionSky> RegionSky::trace(const RayScene& scene,
         const glm::vec3 direction(glm::normalize(lattice.direction(now[i].corner)));
         const auto sees = [&](std::size_t eye) {
           ++count;
-          return !std::isfinite(scene.occluderDistance({glm::vec3(eyes[eye]), direction}));
+          return !scene.isOccluded({glm::vec3(eyes[eye]), direction});
         };
         std::uint32_t eye = now[i].eye;
         if (!sees(eye))

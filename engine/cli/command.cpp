@@ -349,9 +349,16 @@ std::string countText(std::uint64_t count) {
 }
 
 Json toJson(const RayCounts& rays) {
-  return {{"primary", rays.primary},       {"visibility", rays.visibility}, {"shadow", rays.shadow},
-          {"softShadow", rays.softShadow}, {"ambient", rays.ambient},       {"bounce", rays.bounce},
-          {"mirror", rays.mirror},         {"through", rays.through},       {"gathered", rays.gathered}};
+  return {{"primary", rays.primary},   {"visibility", rays.visibility},
+          {"shadow", rays.shadow},     {"softShadow", rays.softShadow},
+          {"ambient", rays.ambient},   {"bounce", rays.bounce},
+          {"mirror", rays.mirror},     {"through", rays.through},
+          {"gathered", rays.gathered}, {"gatherSeconds", rays.gatherSeconds}};
+}
+
+Json toJson(const CaptureSeconds& parts) {
+  return {{"testEyes", parts.testEyes},       {"eyeViews", parts.eyeViews}, {"march", parts.march},
+          {"silhouettes", parts.silhouettes}, {"edgeOn", parts.edgeOn},     {"rounding", parts.rounding}};
 }
 
 Json toJson(const SampleCounts& samples) {

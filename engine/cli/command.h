@@ -140,6 +140,7 @@ std::string countText(std::uint64_t count);
 /// "27,126 triangles", "10,000,000 triangles (50,000 unique, 200 instances)".
 std::string trianglesText(const Scene& scene);
 Json toJson(const RayCounts& rays);
+Json toJson(const CaptureSeconds& parts);
 Json toJson(const SampleCounts& samples);
 Json toJson(const FrameStats& stats);
 Json toJson(const glm::dvec3& v);

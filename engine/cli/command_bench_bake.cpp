@@ -17,6 +17,9 @@ Json toJson(const BakeBenchSet& set) {
           {"primaryMegaraysPerSecond", perSecond(double(set.counts.rays.primary), set.seconds)},
           {"megaraysPerSecond", perSecond(double(set.counts.rays.total()), set.seconds)},
           {"shareOfTracer", set.primaryShare},
+          {"tracerShare", set.tracerShare},
+          {"gatherSeconds", set.gatherSeconds},
+          {"parts", cli::toJson(set.counts.seconds)},
           {"rays", cli::toJson(set.counts.rays)},
           {"samples", cli::toJson(set.counts.samples)}};
 }
@@ -36,6 +39,8 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
   const BakeBenchBytes& bytes = bench->bytes;
   const double cameras = bench->cameras;
   const auto perCamera = [&](double all) { return bytesText(std::uint64_t(all / cameras)); };
+  const BakeBenchSet& final = bench->sets.back();
+  const CaptureSeconds& parts = final.counts.seconds;
   Report report;
   report.json = measuredOn(bench->threads);
   report.json.update({{"project", options.project.string()},
@@ -51,7 +56,6 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
                       {"seconds",
                        {{"tracing", bench->sets.front().seconds},
                         {"shading", bench->shadingSeconds},
-                        {"pruning", bench->pruningSeconds},
                         {"encoding", bench->encodingSeconds},
                         {"writing", bench->writingSeconds}}},
                       {"bytesPerCamera",
@@ -66,21 +70,24 @@ Result<Report> runBenchBake(const BenchBakeOptions& options, const Common& commo
       bench->tracerSeconds, perSecond(bench->firstRays, bench->tracerSeconds));
   for (const BakeBenchSet& set : bench->sets) {
     report.json["sets"].push_back(toJson(set));
-    report.text +=
-        fmt::format("  {:<16} {:7.2f} s, {:6.1f} M rays/s, {:6.1f} M primary ({:.0f} %); {} samples\n",
-                    set.name, set.seconds, perSecond(double(set.counts.rays.total()), set.seconds),
-                    perSecond(double(set.counts.rays.primary), set.seconds), 100 * set.primaryShare,
-                    countText(set.counts.samples.keptInAll()));
+    report.text += fmt::format(
+        "  {:<16} {:7.2f} s, {:6.1f} M rays/s, {:6.1f} M primary ({:.0f} %); tracer {:.0f} %; {} "
+        "samples\n",
+        set.name, set.seconds, perSecond(double(set.counts.rays.total()), set.seconds),
+        perSecond(double(set.counts.rays.primary), set.seconds), 100 * set.primaryShare,
+        100 * set.tracerShare, countText(set.counts.samples.keptInAll()));
   }
   report.text += fmt::format(
       "  one shadow ray, files written: {:.2f} s\n"
-      "  final: tracing {:.2f} s, shading {:.2f} s, pruning and deeper layers {:.2f} s; encoding {:.2f} s "
-      "and "
+      "  one layer: tracing {:.2f} s, shading {:.2f} s\n"
+      "  final: choosing test eyes {:.2f} s, what they see {:.2f} s, march {:.2f} s, silhouettes {:.2f} s, "
+      "facets edge on {:.2f} s, rounding {:.2f} s; gathering light, once, {:.2f} s; encoding {:.2f} s and "
       "writing {:.2f} s on one thread behind them\n"
       "  bytes a camera, final: every surface {}, what some region sees {}, the background "
       "as runs of rows {}, distances of 16 bits {}; packed {}\n"
       "  1 to {} threads: {:.2f} times as fast\n",
-      bench->ringSeconds, bench->sets.front().seconds, bench->shadingSeconds, bench->pruningSeconds,
+      bench->ringSeconds, bench->sets.front().seconds, bench->shadingSeconds, parts.testEyes, parts.eyeViews,
+      parts.march, parts.silhouettes, parts.edgeOn, parts.rounding, final.gatherSeconds,
       bench->encodingSeconds, bench->writingSeconds, perCamera(bytes.everySurface), perCamera(bytes.pruned),
       perCamera(bytes.surfaces), perCamera(bytes.quantised), perCamera(bytes.pack), bench->threads, scaling);
   return report;

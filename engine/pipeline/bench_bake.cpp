@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "engine/bake/capture_writer.h"
+#include "engine/bake/ray_log.h"
 #include "engine/base/file.h"
 #include "engine/base/stopwatch.h"
+#include "engine/base/work_clock.h"
 #include "engine/pipeline/bake_to_size.h"
 #include "engine/pipeline/trial_folder.h"
 
@@ -135,11 +137,39 @@ class Bench {
     return {};
   }
 
-  /// Seconds of the fastest repeat. Captures are kept of the last: memory that is used again costs nothing.
+  /// BakeBenchSet::tracerShare.
+  Result<double> tracerShare(const EffectPlan& plan, const BakeSettings& settings) const {
+    RayLog log;
+    const auto rays = RayScene::build(open_.scene, plan, &log);
+    if (!rays) return tl::unexpected(rays.error());
+    TaskRunner one(0);
+    CameraBaker baker(**rays, settings);
+    double seconds = 0;
+    for (int pass = 0; pass < 2; ++pass) {  // the first for what cameras share
+      log.clear();
+      CaptureCounts counts;
+      const LayoutCamera& camera = ring_.cameras.front();
+      const WorkClock watch;
+      const auto capture = baker.bake(camera, columnsOf(camera, settings), one, counts, stop_);
+      if (!capture) return tl::unexpected(capture.error());
+      seconds = watch.seconds();
+    }
+    const WorkClock watch;
+    (*rays)->replay(log);
+    return watch.seconds() * log.scale() / seconds;
+  }
+
+  /// Seconds of the fastest repeat, and of gathering light in the first of them. Captures are kept of the
+  /// last: memory that is used again costs nothing.
   Result<double> bakeRing(const RayScene& rays, const BakeSettings& settings, TaskRunner& runner,
-                          CaptureCounts& counts, std::vector<Capture>* captures = nullptr) const {
-    return fastest(
-        [&](bool last) { return bakeOnce(rays, settings, runner, counts, last ? captures : nullptr); });
+                          CaptureCounts& counts, double& gatherSeconds,
+                          std::vector<Capture>* captures = nullptr) const {
+    gatherSeconds = 0;
+    return fastest([&](bool last) {
+      Status done = bakeOnce(rays, settings, runner, counts, last ? captures : nullptr);
+      gatherSeconds += counts.rays.gatherSeconds / runner.threads();
+      return done;
+    });
   }
 
   /// The same ring from start to files.
@@ -339,7 +369,8 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     set.name = kind.name;
     set.effects = effectsOf(plan);
     set.firstRays = bench.firstRays(settings);
-    const auto seconds = bench.bakeRing(**rays, settings, runner, set.counts, last ? &captures : nullptr);
+    const auto seconds =
+        bench.bakeRing(**rays, settings, runner, set.counts, set.gatherSeconds, last ? &captures : nullptr);
     if (!seconds) return tl::unexpected(seconds.error());
     set.seconds = *seconds;
     set.primaryShare = double(set.counts.rays.primary) / set.seconds / (out.firstRays / out.tracerSeconds);
@@ -357,15 +388,18 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
     if (last && runner.threads() > 1) {
       TaskRunner one(0);
       CaptureCounts counts;
-      const auto alone = bench.bakeRing(**rays, settings, one, counts);
+      double gathered = 0;
+      const auto alone = bench.bakeRing(**rays, settings, one, counts, gathered);
       if (!alone) return tl::unexpected(alone.error());
       out.oneThreadSeconds = *alone;
     }
+    const auto share = bench.tracerShare(plan, settings);
+    if (!share) return tl::unexpected(share.error());
+    set.tracerShare = *share;
     out.sets.push_back(std::move(set));
   }
   const BakeBenchSet& final = out.sets.back();
   out.shadingSeconds = std::max(0.0, out.sets[kAllEffects].seconds - out.sets[kGeometry].seconds);
-  out.pruningSeconds = std::max(0.0, final.seconds - out.sets[kAllEffects].seconds);
   const double kept = double(final.counts.samples.keptInAll());
   double runs = 0;
   for (const Capture& capture : captures) runs += double(capture.background.bytes());

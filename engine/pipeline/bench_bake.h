@@ -23,7 +23,13 @@ struct BakeBenchSet {
   double firstRays = 0;  ///< one per pixel
   std::string effects;   ///< that are on
   double seconds = 0;    ///< tracing and shading, without files
-  CaptureCounts counts;
+  CaptureCounts counts;  ///< of the last repeat
+  /// Gathering the light that all cameras share, once, on all threads together; not in `seconds` where there
+  /// are repeats.
+  double gatherSeconds = 0;
+  /// Of one camera on one thread, where what cameras share is known already: the part of its time that the
+  /// ray tracer alone takes for the same rays, of all kinds.
+  double tracerShare = 0;
   double primaryShare = 0;  ///< primary rays per second, against the ray tracer's own on the same first rays
 };
 
@@ -41,10 +47,9 @@ struct BakeBench {
   double firstRays = 0;            ///< one per pixel
   double tracerSeconds = 0;        ///< the ray tracer alone, for these
   std::vector<BakeBenchSet> sets;  ///< the last: final quality
-  /// Of the last set: what each part takes.
-  double shadingSeconds = 0, pruningSeconds = 0;
-  double encodingSeconds = 0,
-         writingSeconds = 0;  ///< one thread, on which the bake does it behind the tracing
+  double shadingSeconds = 0;       ///< of all effects, with one layer
+  /// Of the last set, one thread, on which the bake does it behind the tracing.
+  double encodingSeconds = 0, writingSeconds = 0;
   BakeBenchBytes bytes;
   /// The set `one shadow ray`, files written, from start to end.
   double ringSeconds = 0;

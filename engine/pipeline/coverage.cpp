@@ -62,10 +62,10 @@ class SceneTracer final : public OpaqueTracer {
 /// Asks RegionSight, by which the bake prunes. The eyes of a camera are placed when it is asked first.
 class BakeSight final : public CaptureSight {
  public:
-  explicit BakeSight(const OpenProject& open)
+  BakeSight(const OpenProject& open, const BakeSettings& settings)
       : rays_(open.rays),
         layout_(open.layout),
-        settings_(open.project.bake),
+        settings_(settings),
         testEyes_(*rays_, settings_),
         skyEyes_(*rays_, forSky(settings_)),
         rowPitch_(radians(1.0) / settings_.samplesPerDegree),
@@ -123,8 +123,11 @@ class BakeSight final : public CaptureSight {
   std::unique_ptr<Lazy[]> sights_;
 };
 
-std::unique_ptr<CaptureSight> sightFor(const OpenProject& open) {
-  return open.project.bake.pruning ? std::make_unique<BakeSight>(open) : nullptr;
+std::unique_ptr<CaptureSight> sightFor(const OpenProject& open, ProjectReach::Eyes eyes) {
+  BakeSettings settings = open.project.bake;
+  if (!settings.pruning) return nullptr;
+  if (eyes == ProjectReach::Eyes::placed) settings.pruningLoss = 0;
+  return std::make_unique<BakeSight>(open, settings);
 }
 
 std::vector<ColumnCamera> columnsOf(const OpenProject& open) {
@@ -174,10 +177,10 @@ std::unique_ptr<OpaqueTracer> opaqueTracerFor(RayScenePtr rays) {
   return std::make_unique<SceneTracer>(std::move(rays));
 }
 
-ProjectReach::ProjectReach(const OpenProject& open)
+ProjectReach::ProjectReach(const OpenProject& open, Eyes eyes)
     : layout_(open.layout),
       tracer_(opaqueTracerFor(open.rays)),
-      sight_(sightFor(open)),
+      sight_(sightFor(open, eyes)),
       reach_(*layout_, columnsOf(open), open.project.bake.maxLayers, *tracer_, sight_.get()) {}
 
 SurfaceCoverageOptions surfaceCoverageOptionsFor(const Project& project, int displayWidth) {

@@ -15,10 +15,13 @@ namespace acentric {
 std::unique_ptr<OpaqueTracer> opaqueTracerFor(RayScenePtr rays);
 
 /// What the captures of a project would hold. Keeps what it refers to alive; immutable.
-/// Its pruning asks the bake's own test, from the bake's test eyes.
+/// Its pruning asks the bake's own test, from the bake's test eyes: all of them, or those alone that are
+/// placed without a look at the scene, where regions are so many that those which limit the loss are not to
+/// be found for each.
 class ProjectReach {
  public:
-  explicit ProjectReach(const OpenProject& open);
+  enum class Eyes : std::uint8_t { all, placed };
+  explicit ProjectReach(const OpenProject& open, Eyes eyes = Eyes::all);
   const CaptureReach& operator*() const { return reach_; }
 
  private:

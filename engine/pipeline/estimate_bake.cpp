@@ -245,7 +245,7 @@ class ProjectProber final : public BakeProber {
         if (!traced) return tl::unexpected(traced.error());
         probe.pixels += double(slice.columns) * slice.rows;
         apart +=
-            traced->counts.eyeViewSeconds + double(traced->counts.rays.gathered) * secondsPerGatheredRay_;
+            traced->counts.seconds.sight() + double(traced->counts.rays.gathered) * secondsPerGatheredRay_;
         if (Status put = writer.put({}, std::move(traced->capture)); !put) return tl::unexpected(put.error());
       }
       probe.seconds = std::max(0.0, watch.seconds() - apart);
@@ -343,7 +343,7 @@ class ProjectProber final : public BakeProber {
     auto capture = baker_.bake(layoutCamera(camera), columns, runner_, traced.counts, stop_);
     if (!capture) return tl::unexpected(capture.error());
     traced.capture = std::move(*capture);
-    traced.seconds = watch.seconds() - traced.counts.eyeViewSeconds;
+    traced.seconds = watch.seconds() - traced.counts.seconds.sight();
     return traced;
   }
 

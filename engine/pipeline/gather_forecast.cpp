@@ -46,7 +46,7 @@ std::vector<std::size_t> spread(std::size_t count, std::size_t all) {
 class Readers {
  public:
   Readers(const OpenProject& open, const std::vector<int>& cameras, const SurfaceLight* light)
-      : open_(open), reach_(open), light_(light) {
+      : open_(open), reach_(open, ProjectReach::Eyes::placed), light_(light) {
     for (const int number : cameras) {
       const LayoutCamera& camera = open.layout->cameras[std::size_t(number)];
       Served& served = cameras_.emplace_back(Served{number, &camera, {}});

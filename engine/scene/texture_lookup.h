@@ -2,8 +2,10 @@
 /// Reading textures on the CPU: bilinear with wrap modes, level 0, sRGB decoded to linear where the use is a
 /// colour. One routine for bake, truth and the software renderer, so that their pictures agree.
 
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "engine/image/colour.h"
 #include "engine/scene/scene.h"
@@ -36,18 +38,25 @@ class TextureSampler {
   /// `at`: transformed texture coordinates. `decode`: from Rgba8.
   template <class Decode>
   glm::vec4 sample(glm::vec2 at, const Decode& decode) const {
-    const int width = image_->width, height = image_->height;
-    const float x = wrapCoordinate(at.x, wrapU_) * float(width);
-    const float y = wrapCoordinate(at.y, wrapV_) * float(height);
-    if (nearest_) return decode(image_->at(glm::min(int(x), width - 1), glm::min(int(y), height - 1)));
-    const float left = floorOf(x - 0.5f), top = floorOf(y - 0.5f);
-    const float fx = x - 0.5f - left, fy = y - 0.5f - top;
-    const int x0 = wrapTexel(int(left), width, wrapU_), x1 = wrapTexel(int(left) + 1, width, wrapU_);
-    const int y0 = wrapTexel(int(top), height, wrapV_), y1 = wrapTexel(int(top) + 1, height, wrapV_);
-    const glm::vec4 upper = glm::mix(decode(image_->at(x0, y0)), decode(image_->at(x1, y0)), fx);
-    const glm::vec4 lower = glm::mix(decode(image_->at(x0, y1)), decode(image_->at(x1, y1)), fx);
-    return glm::mix(upper, lower, fy);
+    const Place place = placeOf(at);
+    if (nearest_) return decode(image_->at(place.cell.x, place.cell.y));
+    const auto [x0, x1] = between(place.cell.x, image_->width, wrapU_);
+    const auto [y0, y1] = between(place.cell.y, image_->height, wrapV_);
+    const glm::vec4 upper = glm::mix(decode(image_->at(x0, y0)), decode(image_->at(x1, y0)), place.within.x);
+    const glm::vec4 lower = glm::mix(decode(image_->at(x0, y1)), decode(image_->at(x1, y1)), place.within.x);
+    return glm::mix(upper, lower, place.within.y);
   }
+  /// Between which texels a place is read: that of the cell and the next, both ways, from -1 to the image's
+  /// size less one; of the nearest texel that itself.
+  glm::ivec2 cellAt(glm::vec2 at) const { return placeOf(at).cell; }
+  std::array<Rgba8, 4> texelsOf(glm::ivec2 cell) const {
+    if (nearest_) cell = glm::max(cell, glm::ivec2(0));
+    auto [x0, x1] = between(cell.x, image_->width, wrapU_);
+    auto [y0, y1] = between(cell.y, image_->height, wrapV_);
+    if (nearest_) x1 = x0, y1 = y0;
+    return {image_->at(x0, y0), image_->at(x1, y0), image_->at(x0, y1), image_->at(x1, y1)};
+  }
+  bool operator==(const TextureSampler&) const = default;
   glm::vec4 stored(glm::vec2 at) const {
     return sample(at, [](const Rgba8& p) { return glm::vec4(p) * (1 / 255.0f); });
   }
@@ -59,6 +68,21 @@ class TextureSampler {
   }
 
  private:
+  struct Place {
+    glm::ivec2 cell;
+    glm::vec2 within{0};  ///< 0..1
+  };
+  Place placeOf(glm::vec2 at) const {
+    const int width = image_->width, height = image_->height;
+    const float x = wrapCoordinate(at.x, wrapU_) * float(width);
+    const float y = wrapCoordinate(at.y, wrapV_) * float(height);
+    if (nearest_) return {{glm::min(int(x), width - 1), glm::min(int(y), height - 1)}};
+    const float left = floorOf(x - 0.5f), top = floorOf(y - 0.5f);
+    return {{int(left), int(top)}, {x - 0.5f - left, y - 0.5f - top}};
+  }
+  static std::pair<int, int> between(int cell, int size, Wrap wrap) {
+    return {wrapTexel(cell, size, wrap), wrapTexel(cell + 1, size, wrap)};
+  }
   /// Of a finite number; a call to the library's costs more than the texel.
   static float floorOf(float t) {
     if (!(std::abs(t) < 0x1p23f)) return t;  // has no fraction

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "engine/bake/flush_denormals.h"
+#include "engine/bake/ray_log.h"
 #include "engine/bake/surface.h"
 #include "engine/scene/import.h"
 #include "scene_builder.h"
@@ -83,6 +84,52 @@ SceneBuilder cutOutScene() {
   leaf.baseColourTexture = builder.texture(std::move(image));
   builder.floor(builder.material(leaf), 1, 1).floor(builder.material(matte()), 1, 0);
   return builder;
+}
+
+TEST(RayScene, OccludersAreNearerThanTheRaysEnd) {
+  SceneBuilder builder;
+  Material glass = matte();
+  glass.alphaMode = AlphaMode::blend;
+  glass.baseColour.a = 0.5f;
+  builder.box(builder.material(matte()), {1, -1, -1}, {2, 1, 1}).floor(builder.material(glass), 9, -2);
+  const auto rays = builder.rays();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> any(-1, 1), end(0.5f, 4);
+  int occluded = 0;
+  for (int n = 0; n < 5000; ++n) {
+    Ray ray{{any(random), 3 * any(random), any(random)},
+            glm::normalize(glm::vec3(1, any(random), any(random)))};
+    if (n % 3 != 0) ray.farthest = end(random);
+    if (n % 5 == 0) ray.farthest = rays->occluderDistance(ray);  // what it meets at its end does not count
+    const bool expected = rays->occluderDistance(ray) < ray.farthest;
+    ASSERT_EQ(rays->isOccluded(ray), expected);
+    occluded += expected ? 1 : 0;
+  }
+  EXPECT_GT(occluded, 500);
+  EXPECT_FALSE(rays->isOccluded({{0, 0, 0}, kDown})) << "light passes it";
+}
+
+TEST(RayScene, ALogIsAskedAgainAsItWasAsked) {
+  SceneBuilder builder;
+  builder.box(builder.material(matte()), glm::vec3(-1), glm::vec3(1), true);
+  RayLog log;
+  const auto rays = RayScene::build(builder.scene(), planEffects(*builder.scene()), &log);
+  ASSERT_TRUE(rays);
+  const std::uint64_t asked = 3 * RayLog::kRun * RayLog::kEvery;
+  for (std::uint64_t n = 0; n < asked / 2; ++n) {
+    (*rays)->trace({glm::vec3(0), kUp});
+    (*rays)->isOccluded({glm::vec3(0), kUp, 0, 0.5f});  // nothing
+  }
+  EXPECT_NEAR(log.scale(), double(RayLog::kEvery), 0.01);
+  EXPECT_EQ((*rays)->replay(log), log.singles().size() / 2);
+  EXPECT_EQ(log.singles().size(), asked / RayLog::kEvery);
+  log.clear();
+  RayPacket packet;
+  packet.direction.fill(kUp);
+  packet.count = 5;
+  std::array<Hit, RayPacket::kSize> hits;
+  (*rays)->trace(packet, hits);
+  EXPECT_EQ((*rays)->replay(log), 5u);
 }
 
 TEST(RayScene, AlphaTestedSurfacesAreCutOutForEveryKindOfRay) {

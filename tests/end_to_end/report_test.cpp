@@ -89,6 +89,14 @@ TEST(ReportTest, BenchTellsRaysAndBytesOfEachSetAndLeavesNothing) {
   EXPECT_EQ(sets["preview"]["rays"]["visibility"], 0);
   EXPECT_GT(sets["final"]["rays"]["visibility"].get<double>(), 0);
   EXPECT_GE(sets["final"]["rays"]["primary"].get<double>(), sets["preview"]["rays"]["primary"].get<double>());
+  for (const auto& [name, set] : sets) {
+    EXPECT_GT(set["tracerShare"].get<double>(), 0) << name;
+    EXPECT_GT(set["parts"]["march"].get<double>(), 0) << name;
+  }
+  EXPECT_EQ(sets["all effects"]["parts"]["silhouettes"], 0);
+  EXPECT_GT(sets["final"]["parts"]["silhouettes"].get<double>(), 0);
+  EXPECT_GT(sets["final"]["parts"]["testEyes"].get<double>(), 0);
+  EXPECT_GT(sets["final"]["parts"]["eyeViews"].get<double>(), 0);
   const Json& bytes = bench["bytesPerCamera"];
   EXPECT_GE(bytes["everySurface"].get<double>(), bytes["pruned"].get<double>());
   EXPECT_GT(bytes["pruned"].get<double>(), bytes["quantised"].get<double>());
