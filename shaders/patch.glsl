@@ -15,6 +15,7 @@ struct Patch {
   uvec2 size;           // without the border
   uint mirror;
   bool blended;
+  bool settled;  // told as densest
 };
 struct Piece {
   vec2 perRadian;  // columns, rows
@@ -26,7 +27,8 @@ struct Piece {
 
 Patch patchOf(uvec4 start, uvec4 down, uvec4 across, uvec4 places, uvec4 looks) {
   return Patch(uintBitsToFloat(start), uintBitsToFloat(down), uintBitsToFloat(across), uintBitsToFloat(places.xy),
-               uintBitsToFloat(places.z), places.w, uvec2(looks.x & 0xffffu, looks.x >> 16), looks.y & 0xffu, looks.y >> 8 != 0u);
+               uintBitsToFloat(places.z), places.w, uvec2(looks.x & 0xffffu, looks.x >> 16), looks.y & 0xffu, (looks.y & 256u) != 0u,
+               (looks.y & 512u) != 0u);
 }
 Piece pieceOf(uvec4 first, uvec4 low, uvec4 high) {
   return Piece(uintBitsToFloat(first.xy), first.z, first.w, uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz), low.w);
@@ -106,7 +108,7 @@ vec4 colourAt(Patch patch_, Block block) {
 uint densityAt(vec2 across, vec2 down) {
   float area = across.x * down.y - down.x * across.y;
   float squares = (across.x * across.x + across.y * across.y) + (down.x * down.x + down.y * down.y);
-  return uint(min(abs(area) / sqrt(max(squares, 1e-20)), 1.0) * 4095.0);
+  return uint(min(abs(area) / sqrt(max(squares, 1e-20)), 1.0) * float(kMostDensity));
 }
 
 void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth, vec2 across, vec2 down) {
@@ -136,7 +138,7 @@ void blend(Patch patch_, Block block, uint open, uint parts, float inverseDepth,
   else if (waits)
     state.y = (mirrorPartsOf(state) | parts) | patch_.mirror << 16;
   if (number > float(numberOf(state))) {
-    state.z = paintedOf(uint(number), piece.source, densityAt(across, down));
+    state.z = paintedOf(uint(number), piece.source, patch_.settled ? kMostDensity : densityAt(across, down));
     state.w = floatBitsToUint(inverseDepth);
   }
 #endif

@@ -37,6 +37,7 @@ uint sourceOf(uvec4 state) { return state.z >> 4 & 0xffffu; }
 uint densityOf(uvec4 state) { return state.z >> 20; }
 // What is sampled more thinly is painted again from the second cover, and shown so where that is denser by this factor (kDenser).
 const uint kThinDensity = 2048u;
+const uint kMostDensity = 4095u;
 // Not through glass, which the other cover may lack, nor for what a mirror shows: then sums.w is not 1. `sums`: of the same cover.
 bool isThin(uvec4 first, vec4 sums) { return first.z != 0u && sums.w == 1.0 && densityOf(first) < kThinDensity; }
 // Does the second show the same surface, and more densely? Neither lies before the other (Cracks::kBefore).

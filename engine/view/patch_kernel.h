@@ -86,6 +86,7 @@ struct PatchColumn {
   std::uint32_t slot;         ///< of the canvas
   std::uint32_t mirror;       ///< the patch's, 0 = none
   bool blended;
+  bool settled;   ///< told as sampled most densely: the second cover is not worth a look (second_look.h)
   bool reflects;  ///< painted where the canvas shows that mirror, and nowhere else
   /// Parts of views: a pixel is painted where low >= 0 and high > 0, or with `eitherSide` one of both.
   bool limited, eitherSide;

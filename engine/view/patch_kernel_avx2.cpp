@@ -8,6 +8,7 @@ namespace {
 struct PatchLanes : EightLanes {
   static std::int32_t lowest(I a) { return _mm_cvtsi128_si32(_mm256_castsi256_si128(a.v)); }
   static I shiftRightBy(I a, I bits) { return {_mm256_srlv_epi32(a.v, bits.v)}; }
+  static I shiftLeftBy(I a, int bits) { return {_mm256_slli_epi32(a.v, bits)}; }
   /// Words at the index and behind it: half as many loads as two gathers.
   static void gatherNext(const std::uint32_t* table, I index, I& at, I& next) {
     const auto* const pairs = reinterpret_cast<const long long*>(table);

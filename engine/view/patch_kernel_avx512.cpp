@@ -8,6 +8,7 @@ namespace {
 struct PatchLanes : SixteenLanes {
   static std::int32_t lowest(I a) { return _mm_cvtsi128_si32(_mm512_castsi512_si128(a.v)); }
   static I shiftRightBy(I a, I bits) { return {_mm512_srlv_epi32(a.v, bits.v)}; }
+  static I shiftLeftBy(I a, int bits) { return {_mm512_slli_epi32(a.v, static_cast<unsigned>(bits))}; }
   /// Words at the index and behind it: half as many loads as two gathers.
   static void gatherNext(const std::uint32_t* table, I index, I& at, I& next) {
     const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(index.v), table, 4);

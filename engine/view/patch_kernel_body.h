@@ -25,6 +25,7 @@ struct Places {
 template <class B>
 struct Block {
   typename B::I first;        ///< the upper left one, from the corner of the patch's border
+  typename B::I column, row;  ///< of that texel, from the same corner
   typename B::F right, down;  ///< of the place, from that texel's middle
 };
 
@@ -203,9 +204,8 @@ struct Kernel {
     const F column = limited(places.column - B::set(0.5f)), row = limited(places.row - B::set(0.5f));
     const F left = B::min(B::max(B::floorOf(column), B::set(-1)), B::set(float(c.columns) - 1));
     const F top = B::min(B::max(B::floorOf(row), B::set(-1)), B::set(float(c.rows) - 1));
-    const I first =
-        B::times(B::truncate(left) + B::seti(1), B::seti(c.rows + 2)) + B::truncate(top) + B::seti(1);
-    return {first, column - left, row - top};
+    const I i = B::truncate(left) + B::seti(1), j = B::truncate(top) + B::seti(1);
+    return {B::times(i, B::seti(c.rows + 2)) + j, i, j, column - left, row - top};
   }
   /// What is read once covers are known, and for the columns of the picture that come next.
   void prefetch(std::int32_t texel) const {
@@ -257,6 +257,36 @@ struct Kernel {
       }
     }
     return B::load(parts, kWidth);
+  }
+  /// The same of pixels whose rays all meet the block, all pixels at once: the parts of its four texels are
+  /// the bits of two words, one for either column. `upperLeft`: the word of its first texel.
+  I partsWithin(const Places<B>& places, const Block<B>& block, I upperLeft) const {
+    I upperRight, lowerRight;
+    B::gatherNext(c.cover, block.first + B::seti(c.rows + 2), upperRight, lowerRight);
+    const I lowerLeft = B::gather(c.cover, block.first + B::seti(1));
+    const auto wanted = [&](I cover) {
+      return B::when(isWanted(cover), B::both(cover, B::seti(std::int32_t(kTexelParts))));
+    };
+    const I left = wanted(upperLeft) + B::template shiftLeft<16>(wanted(lowerLeft));
+    const I right = wanted(upperRight) + B::template shiftLeft<16>(wanted(lowerRight));
+    const I covered = B::maxi(B::maxi(wanted(upperLeft), wanted(lowerLeft)),
+                              B::maxi(wanted(upperRight), wanted(lowerRight)));
+    if (!B::any(B::greater(covered, B::seti(0)))) return B::seti(0);
+    const F four = B::set(4), column = four * places.column, row = four * places.row;
+    const I firstColumn = B::template shiftLeft<2>(block.column);
+    const I firstRow = B::template shiftLeft<2>(block.row);
+    I parts = B::seti(0);
+    for (int part = 0; part < kPixelParts; ++part) {
+      const F dx = B::set(kPartX4[part]), dy = B::set(kPartY4[part]);
+      const I i =
+          partAt(column + (dx * places.columnAcross + dy * places.columnDown), c.columns) - firstColumn;
+      const I j = partAt(row + (dx * places.rowAcross + dy * places.rowDown), c.rows) - firstRow;
+      const I cover = B::select(B::greater(i, B::seti(3)), right, left);
+      const I bit = B::template shiftLeft<2>(j) + B::both(i, B::seti(3));
+      const I own = B::both(B::shiftRightBy(cover, bit), B::seti(1));
+      parts = parts + B::shiftLeftBy(own, part);
+    }
+    return parts;
   }
   /// From the border's first part on. Whatever lies beyond is the outermost of the border, which covers
   /// nothing.
@@ -322,6 +352,20 @@ struct Kernel {
     return B::bits(B::greater(openTo(open, mirror), B::seti(0)));
   }
 
+  /// Parts of `wanted` pixels that the patch covers, of `within` those whose rays all meet the block.
+  I edgesOf(const Places<B>& places, const Block<B>& block, I cover, M within, M wanted) const {
+    constexpr int kFew = 4;  // one by one they take no longer
+    if constexpr (B::kWidth > 1) {
+      const M here = wanted & within;
+      if (__builtin_popcount(B::bits(here)) > kFew) {
+        const I parts = B::when(here, partsWithin(places, block, cover));
+        const M others = B::greater(B::when(wanted, B::seti(1)), B::when(within, B::seti(1)));
+        return B::any(others) ? B::select(others, partsOf(places, others), parts) : parts;
+      }
+    }
+    return partsOf(places, wanted);
+  }
+
   /// Whole batches are read and written: what lies beyond the rows stays as it is.
   int paintBatch(int y0, int count, const PatchCanvasColumn& canvas) const {
     const I before = loaded(canvas.open + y0);
@@ -344,7 +388,8 @@ struct Kernel {
     const M whole = isWanted(cover) & ((within & has(cover, kBlockWhole)) | has(cover, kBlockInner));
     I parts = B::when(whole, open);
     const M byEdges = B::greater(B::different(parts, open), B::seti(0));
-    if (B::any(byEdges)) parts = B::select(whole, parts, B::both(partsOf(places, byEdges), open));
+    if (B::any(byEdges))
+      parts = B::select(whole, parts, B::both(edgesOf(places, block, cover, within, byEdges), open));
     const M painted = B::greater(parts, B::seti(0));
     if (!B::any(painted)) return 0;
     blend(y0, count, y, before, open, parts, painted, places, block, canvas);
@@ -396,8 +441,9 @@ struct Kernel {
     const I mine = countOf<B>(parts);
     const M more = painted & B::greater(mine, B::both(source, B::seti(255)));
     if (!B::any(more)) return;
-    const I itsSource = mine + B::seti(std::int32_t(c.slot << kSourceSlot)) +
-                        B::template shiftLeft<kSourceDensity>(densityAt(places));
+    const I density = c.settled ? B::seti(std::int32_t(kMostDensity)) : densityAt(places);
+    const I itsSource =
+        mine + B::seti(std::int32_t(c.slot << kSourceSlot)) + B::template shiftLeft<kSourceDensity>(density);
     B::store(canvas.source + y0, B::select(more, itsSource, source), B::kWidth);
     const F depth = loaded(canvas.inverseZDepth + y0);
     B::store(canvas.inverseZDepth + y0, B::select(more, at(c.depthStart, c.depthStep, y), depth), B::kWidth);

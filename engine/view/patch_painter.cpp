@@ -142,14 +142,16 @@ class PatchPainter {
 
   void paint(const StripDraw& strip, const PatchDraw& draw) {
     const PolygonRows& polygon = draw.polygon;
-    const int x0 = std::max(polygon.x0(), canvas_.x0);
-    const int x1 = std::min(polygon.x1(), canvas_.x0 + canvas_.width);
+    int x0 = std::max(polygon.x0(), canvas_.x0);
+    int x1 = std::min(polygon.x1(), canvas_.x0 + canvas_.width);
     if (x0 >= x1) return;
     counts_.samplesRead += polygon.x0() < countedTo_ && std::max(polygon.x0(), 0) >= countedFrom_;
+    const std::uint64_t reached = cellsOf(polygon.y0(), polygon.y1());
+    const auto isClosed = [&](int x) { return (memory_.cells[std::size_t(x - canvas_.x0)] & reached) == 0; };
+    while (x0 < x1 && isClosed(x0)) ++x0;
+    while (x0 < x1 && isClosed(x1 - 1)) --x1;
+    if (x0 == x1) return;
     const auto cells = std::span(memory_.cells).subspan(std::size_t(x0 - canvas_.x0), std::size_t(x1 - x0));
-    std::uint64_t open = 0;
-    for (const std::uint64_t column : cells) open |= column;
-    if ((open & cellsOf(polygon.y0(), polygon.y1())) == 0) return;
     polygon.rows(x0, x1, memory_.rows);
     PatchColumn column = draw.column;
     for (int x = x0; x < x1; ++x) {

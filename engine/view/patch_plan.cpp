@@ -6,6 +6,7 @@
 #include "engine/geometry/conventions.h"
 #include "engine/view/display_patches.h"
 #include "engine/view/picture_axes.h"
+#include "engine/view/second_look.h"
 #include "engine/view/warp.h"
 
 namespace acentric {
@@ -21,10 +22,12 @@ constexpr double kNear = 1e-4;
 /// Rays through pixels: of pixel (x, y) `first + x * across + y * down`, one metre along the view axis.
 struct PixelRays {
   glm::dvec3 first, across, down;
+  glm::dvec3 axis;  ///< of the view
 
   explicit PixelRays(const PerspectiveView& view) {
     const glm::dmat3 axes = glm::transpose(view.viewFromWorld());
     const double focal = view.focalPixels();
+    axis = axes[2];
     across = axes[0] / focal, down = axes[1] / focal;
     first = axes[2] + (0.5 - 0.5 * view.width) * across + (0.5 - 0.5 * view.height) * down;
   }
@@ -34,13 +37,14 @@ struct PixelRays {
 class StripPlanner {
  public:
   StripPlanner(const PerspectiveView& view, const PixelRays& rays, const PieceDraw& piece,
-               const DisplayCapture& capture, std::size_t strip, std::uint32_t slot)
+               const DisplayCapture& capture, std::size_t strip, std::uint32_t slot, const SecondLook* look)
       : view_(view),
         rays_(rays),
         axes_(view),
         piece_(piece),
         capture_(capture),
         strip_(strip),
+        look_(look),
         eye_(-glm::dvec3(piece.baseline)),
         baseline_(axes_.project(glm::dvec3(piece.baseline))) {
     const DisplayPatches& patches = *capture.patches;
@@ -136,8 +140,34 @@ class StripPlanner {
     }
     column.mirror = patch.mirror;
     column.blended = patch.blended;
+    column.settled = look_ != nullptr && !isWorthALook(patch);
     draw.x0 = std::min(draw.x0, polygon.x0()), draw.x1 = std::max(draw.x1, polygon.x1());
     draw.patches.push_back({column, polygon, patch.firstTexel});
+  }
+
+  /// Is any of it sampled thinly, and may be more densely by the second cover? Told by its middle, and of
+  /// larger patches by four places around it.
+  bool isWorthALook(const DisplayPatch& patch) const {
+    constexpr int kFew = 8;
+    constexpr double kNotThin = 1.25 * kThinDensity / kMostDensity;  // there and all around
+    constexpr std::array<glm::ivec2, 5> kEighths{{{4, 4}, {1, 1}, {1, 7}, {7, 1}, {7, 7}}};
+    const std::size_t places = patch.columns <= kFew && patch.rows <= kFew ? 1 : kEighths.size();
+    const glm::dvec3 normal(patch.normal);
+    return std::any_of(kEighths.begin(), kEighths.begin() + places, [&](const glm::ivec2& share) {
+      const auto x = std::size_t(patch.column + share.x * patch.columns / 8);
+      const auto y = std::size_t(patch.row + share.y * patch.rows / 8);
+      const glm::dvec3 direction(glm::dvec2(capture_.patches->columnBorder[x]),
+                                 capture_.patches->rowBorder[y]);
+      const double inverse = glm::dot(normal, direction);
+      if (!(inverse > 0)) return true;
+      const glm::dvec3 place = direction / inverse - eye_;
+      const double zDepth = glm::dot(rays_.axis, place);
+      if (!(zDepth >= kNear)) return true;
+      const auto pixel = SurfacePixel::onPlane(normal, zDepth, place / zDepth, rays_.across, rays_.down);
+      const double density =
+          densityAt(pixel, -eye_, double(common_.columnsPerRadian), double(common_.rowsPerRadian));
+      return density < kNotThin && look_->isWorth(pixel, density);
+    });
   }
 
   std::span<const glm::dvec3> cornersOf(const DisplayPatch& patch) {
@@ -166,8 +196,9 @@ class StripPlanner {
   const PieceDraw& piece_;
   const DisplayCapture& capture_;
   std::size_t strip_;
-  glm::dvec3 eye_;       ///< e = E - P, metres
-  glm::dvec3 baseline_;  ///< P - E on the picture
+  const SecondLook* look_;  ///< null: of what is painted there is no second cover
+  glm::dvec3 eye_;          ///< e = E - P, metres
+  glm::dvec3 baseline_;     ///< P - E on the picture
   int first_ = 0, end_ = 0;
   double middle_ = 0;    ///< column
   glm::dvec2 ahead_{0};  ///< its direction
@@ -242,8 +273,12 @@ void PolygonRows::rows(int first, int end, std::vector<RowRange>& out) const {
       const float atRight = b.x > right ? a.y + (right - a.x) * rate : b.y;
       RowRange& rows = out[std::size_t(x - first)];
       const float top = std::min(atLeft, atRight) - kMargin, bottom = std::max(atLeft, atRight) + kMargin;
-      rows.first = std::min(rows.first, int(std::clamp(std::floor(top), float(y0_), float(y1_))));
-      rows.end = std::max(rows.end, int(std::clamp(std::ceil(bottom), float(y0_), float(y1_))));
+      // Rounded as numbers that are not negative.
+      const float begins = std::clamp(top, float(y0_), float(y1_)),
+                  ends = std::clamp(bottom, float(y0_), float(y1_));
+      const int whole = int(ends);
+      rows.first = std::min(rows.first, int(begins));
+      rows.end = std::max(rows.end, whole + (float(whole) < ends));
     }
   }
 }
@@ -286,10 +321,13 @@ PatchPlan planPatches(const WalkScene& scene, const PerspectiveView& view, const
     addAll(pieces, 0, pieces.size(), pieceSlot(plan, 0), false, true, patches.mirrors);
   }
   const PixelRays rays(view);
+  const SecondLook look(scene, std::span(pieces).first(front));
   runner.parallelFor(tasks.size(), [&](std::size_t i) {
     const Task& task = tasks[i];
-    *task.out = StripPlanner(view, rays, *task.piece, *task.capture, task.strip, task.slot)
-                    .plan(task.reflects, task.mirrorsOnly);
+    const bool isFirst = !task.piece->secondary && !task.reflects && front > 0;
+    *task.out =
+        StripPlanner(view, rays, *task.piece, *task.capture, task.strip, task.slot, isFirst ? &look : nullptr)
+            .plan(task.reflects, task.mirrorsOnly);
     task.out->piece = task.piece, task.out->capture = task.capture;
   });
   return patches;

@@ -19,7 +19,7 @@ PatchRecord recordOf(const PatchDraw& draw, std::uint32_t captureTexel, std::siz
           c.middleTangent,
           captureTexel + draw.firstTexel,
           std::uint32_t(c.columns) | std::uint32_t(c.rows) << 16,
-          c.mirror | (c.blended ? 1u << 8 : 0u),
+          c.mirror | (c.blended ? 1u << 8 : 0u) | (c.settled ? 1u << 9 : 0u),
           std::uint32_t(piece)};
 }
 

@@ -14,7 +14,7 @@ struct PatchRecord {
   float columnOffset, rowOffset, middleTangent;
   std::uint32_t firstTexel;  ///< of its border
   std::uint32_t size;        ///< columns | rows << 16, without the border
-  std::uint32_t looks;       ///< mirror | is it blended? << 8
+  std::uint32_t looks;       ///< mirror | is it blended? << 8 | PatchColumn::settled << 9
   std::uint32_t piece;       ///< of PatchTables::pieces
   std::uint32_t unused = 0;
 };

@@ -99,6 +99,18 @@ TEST(PatchKernel, TellsHowDenselyASurfaceIsSampled) {
     }
 }
 
+TEST(PatchKernel, TellsWhatIsSettledAsSampledMostDensely) {
+  FlatPatch patch(8, 32);
+  patch.setAll(kTexelParts, 0xffffffff);
+  for (const Kernels& kernels : supportedKernels()) {
+    CanvasColumn canvas;
+    PatchColumn column = patch.column(4, 0.25, 0);
+    column.settled = true;
+    kernels.patches->paint(column, 0, kRows, canvas.view());
+    EXPECT_EQ(densityOf(canvas.source[10]), kMostDensity) << kernels.name;
+  }
+}
+
 TEST(PatchKernel, PaintsWhatIsStillOpenAndNothingElse) {
   FlatPatch patch(4, 32);
   patch.setAll(kTexelParts, 0xffffffff);
@@ -225,11 +237,14 @@ TEST(PatchKernel, EveryVariantGivesTheSameBits) {
       for (int j = 0; j < size.rows; ++j)
         patch.set(i, j, random() % 3 == 0 ? random() & kTexelParts : kTexelParts, std::uint32_t(random()),
                   1 + random() % 3);
+    for (int j = -1; j <= size.rows && random() % 2 == 0; ++j)  // what reaches into the border
+      patch.set(random() % 2 == 0 ? -1 : size.columns, j, random() & kTexelParts, std::uint32_t(random()));
     if (random() % 2 == 0) patch.markWhole();
     PatchColumn column =
         patch.column(between(-2, float(size.columns) + 2), between(0.1f, 3), between(-20, 20));
     column.step[1] = between(-0.001f, 0.001f), column.depthStep = between(-0.01f, 0.01f);
     column.blended = random() % 4 == 0;
+    column.settled = random() % 4 == 0;
     column.mirror = random() % 3;
     column.reflects = random() % 4 == 0;
     column.limited = random() % 4 == 0, column.eitherSide = random() % 2 == 0;

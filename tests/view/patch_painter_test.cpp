@@ -12,11 +12,12 @@ constexpr int kFrameWidth = 12, kFrameHeight = 24;
 constexpr std::uint32_t kSecondSlot = 4, kFirstSlot = 6;
 constexpr std::uint32_t kOfFirst = 0xff0000ff, kOfSecond = 0xff00ff00;
 
-/// Samples per pixel, the inverse depth, and the number of the mirror that it is.
+/// Samples per pixel, the inverse depth, the number of the mirror that it is, and PatchColumn::settled.
 struct Wall {
   double density = 1;
   float inverseDepth = 0.25f;
   std::uint32_t mirror = 0;
+  bool settled = false;
 };
 
 /// One cover of a frame: a wall that fills it.
@@ -29,6 +30,7 @@ class WallCover {
     draw.column.slot = slot;
     draw.column.depthStart = wall.inverseDepth;
     draw.column.mirror = wall.mirror;
+    draw.column.settled = wall.settled;
     const std::vector<glm::dvec3> corners{
         {0, 0, 1}, {kFrameWidth, 0, 1}, {kFrameWidth, kFrameHeight, 1}, {0, kFrameHeight, 1}};
     EXPECT_TRUE(draw.polygon.set(corners, kFrameWidth, kFrameHeight));
@@ -78,6 +80,7 @@ TEST(PatchPainter, ShowsTheSecondCoverWhereTheFirstIsThinAndTheSecondDenser) {
   EXPECT_EQ(shownOf({0.3}, {0.33}).slot, kFirstSlot) << "hardly denser";
   EXPECT_EQ(shownOf({0.6}, {0.3}).slot, kFirstSlot) << "thinner";
   EXPECT_EQ(shownOf({0.9}, {2}).slot, kFirstSlot) << "the first is dense enough";
+  EXPECT_EQ(shownOf({0.3, 0.25f, 0, true}, {0.6}).slot, kFirstSlot) << "not worth a look";
 }
 
 TEST(PatchPainter, ShowsTheSecondCoverOfTheSameSurfaceAlone) {
