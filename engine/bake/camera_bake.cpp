@@ -113,10 +113,10 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
                 scene_.scene().name);
   };
   const auto stopped = [] { return fail(ErrorKind::cancelled, "the bake was stopped"); };
-  std::optional<WorkClock> watch(std::in_place);
+  WorkClock watch;
   const auto split = [&watch](double& seconds) {
-    seconds += watch->seconds();
-    watch.emplace();
+    seconds += watch.seconds();
+    watch = {};
   };
   try {
     if (!shader_ || shaderStop_ != stop) {
@@ -132,7 +132,7 @@ Result<Capture> CameraBaker::bake(const LayoutCamera& camera, const ColumnCamera
       if (!testEyes_) testEyes_ = std::make_unique<TestEyes>(scene_, settings_);
       if (!views_) views_ = std::make_unique<EyeViews>(scene_, elevations, settings_, budget_);
       if (!skies_) skies_ = std::make_unique<RegionSkies>(scene_, settings_, budget_);
-      watch.emplace();
+      watch = {};
       const int before = views_->traced();
       const double eyeZ = columns.centreOfProjection.z;
       if (!RegionSight::findEyes(camera, eyeZ, *testEyes_, runner, counts.rays, stop)) return stopped();

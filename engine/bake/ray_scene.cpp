@@ -181,13 +181,18 @@ RTCRayHit8 traced(RTCScene scene, const RayPacket& rays, unsigned mask) {
     query.ray.dir_x[i] = rays.direction[n].x, query.ray.dir_y[i] = rays.direction[n].y;
     query.ray.dir_z[i] = rays.direction[n].z;
     query.ray.tnear[i] = rays.nearest[n];
-    query.ray.tfar[i] = rays.farthest[n];
+    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
     query.ray.mask[i] = mask;
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   rtcIntersect8(valid, scene, &context, &query);
   return query;
+}
+
+int hitsAmong(const RTCRayHit8& query, int count) {
+  return int(std::count_if(query.hit.geomID, query.hit.geomID + count,
+                           [](unsigned geometry) { return geometry != RTC_INVALID_GEOMETRY_ID; }));
 }
 
 /// Embree reads 16 bytes at a time: of a mapped array in place, of a vector, whose end nothing follows, a
@@ -420,11 +425,8 @@ std::uint64_t RayScene::replay(const RayLog& log) const {
     TransmittanceContext context;
     hits += isBlocked(embree_->scene.get(), single.ray, single.mask, context);
   }
-  for (const RayLog::Together& together : log.packets()) {
-    const RTCRayHit8 query = traced(embree_->scene.get(), together.rays, together.mask);
-    for (int i = 0; i < together.rays.count; ++i)
-      hits += query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-  }
+  for (const auto& [rays, mask] : log.packets())
+    hits += std::uint64_t(hitsAmong(traced(embree_->scene.get(), rays, mask), rays.count));
   return hits;
 }
 
@@ -464,10 +466,7 @@ void RayScene::trace(const RayPacket& rays, std::array<Hit, RayPacket::kSize>& h
 
 int RayScene::countHits(const RayPacket& rays) const {
   note(rays, kSolidMask | kClearMask);
-  const RTCRayHit8 query = traced(embree_->scene.get(), rays, kSolidMask | kClearMask);
-  int hits = 0;
-  for (int i = 0; i < rays.count; ++i) hits += query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
-  return hits;
+  return hitsAmong(traced(embree_->scene.get(), rays, kSolidMask | kClearMask), rays.count);
 }
 
 void RayScene::occluderDistances(const RayPacket& rays,

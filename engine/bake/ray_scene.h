@@ -36,17 +36,9 @@ struct Hit {
 struct RayPacket {
   static constexpr int kSize = 8;
   glm::vec3 origin{0};
-  std::array<glm::vec3, kSize> direction;             ///< unit
-  std::array<float, kSize> nearest{};                 ///< metres
-  std::array<float, kSize> farthest = allInfinite();  ///< metres
-  int count = 0;                                      ///< of them that are traced
-
- private:
-  static constexpr std::array<float, kSize> allInfinite() {
-    std::array<float, kSize> all{};
-    all.fill(std::numeric_limits<float>::infinity());
-    return all;
-  }
+  std::array<glm::vec3, kSize> direction;  ///< unit
+  std::array<float, kSize> nearest{};      ///< metres
+  int count = 0;                           ///< of them that are traced
 };
 
 /// Rays traced, by purpose; a plan that lacks an effect traces none of its rays.

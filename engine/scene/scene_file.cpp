@@ -351,9 +351,6 @@ tl::unexpected<Error> malformed(const char* message, const std::filesystem::path
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-File openFile(const std::filesystem::path& path, const char* mode) {
-  return File(std::fopen(path.c_str(), mode), &std::fclose);
-}
 
 std::vector<std::byte> bytesOf(const Header& header) {
   std::vector<std::byte> bytes;
@@ -422,7 +419,7 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
   header.unpackedBytes = sizeOf(writeScene);
   header.geometryBytes = geometryBytesOf(file.scene);
   return replaceFileAtomically(path, [&](const std::filesystem::path& temporary) -> Status {
-    const File stream = openFile(temporary, "wb");
+    const File stream(std::fopen(temporary.c_str(), "wb"), &std::fclose);
     const auto failed = [&] {
       return fail(errno == ENOSPC || errno == EDQUOT ? ErrorKind::outOfSpace : ErrorKind::unreadable,
                   fmt::format("writing failed: {}", std::strerror(errno)), path.string());
