@@ -7,17 +7,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "editor/panels/bake_panel.h"
-#include "editor/panels/bottom_tabs.h"
 #include "editor/panels/menu_bar.h"
-#include "editor/panels/report_panel.h"
-#include "editor/panels/settings_panel.h"
 #include "editor/panels/status_bar.h"
-#include "editor/panels/walk_facts.h"
-#include "editor/panels/welcome.h"
 #include "editor/session/window_places.h"
 #include "ui/keys.h"
-#include "ui/splitter.h"
 #include "ui/widgets.h"
 
 namespace acentric::editor {
@@ -124,6 +117,7 @@ void App::update() {
   if (options_.exitAfterSeconds > 0 && now >= options_.exitAfterSeconds) window_->close();
   if (state_.quit || options_.stop.stop_requested()) window_->close();
   followPreferences();
+  window_->setFullScreen(state_.fullScreen);
   startGuide();
 }
 
@@ -142,6 +136,7 @@ void App::runShortcuts(PanelContext& context) {
   if (popupOpen()) return;  // not inputBlocked: keys reach past what lies under the pointer
   for (const ui::InputEvent& event : context.events) {
     if (event.kind != ui::InputEvent::Kind::keyPress) continue;
+    if (event.code == ui::key::escape) state_.fullScreen = false;
     const Shortcut pressed{event.code, event.modifiers & ui::modifier::all};
     // While a field takes text, only combinations with Ctrl that no text field uses may act.
     const bool typing = ImGui::GetIO().WantTextInput;
@@ -206,77 +201,6 @@ void App::keepDrawing(PanelContext& context) {
   if (const auto change = toasts_.nextChange()) context.window.pacer().requestAt(*change);
 }
 
-void App::drawBottom(PanelContext& context, const PaneSizes& panes) {
-  if (session_.shippedWalk()) {  // nothing to bake or to report of
-    if (beginPane("##messagesPane", {0, panes.bottom})) drawBottomTabs(context);
-    return endPane();
-  }
-  const float gap = 2;
-  if (beginPane("##bakePane", {panes.bake, panes.bottom})) drawBakePanel(context);
-  endPane();
-  if (panes.report > 0) {
-    ImGui::SameLine(0, gap);
-    if (beginPane("##reportPane", {panes.report, panes.bottom})) drawReportPanel(context);
-    endPane();
-  }
-  if (panes.messages > 0) {
-    ImGui::SameLine(0, gap);
-    if (beginPane("##messagesPane", {panes.messages, panes.bottom})) drawBottomTabs(context);
-    endPane();
-  }
-}
-
-float App::drawLayout(PanelContext& context, float top) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float scale = window_->look().scale;
-  const float bar = ui::splitterPixels();
-  const float height = std::max(1.0F, display.y - top - statusBarPixels());
-  Preferences& wanted = session_.preferences();
-  const PaneSizes panes = paneSizes(display.x, height, bar, wanted, scale);
-  // Sizes are remembered unscaled.
-  const auto split = [scale](const char* id, ui::SplitDirection direction, float length, float shown,
-                             float& kept, float least, float most, bool sizesNext) {
-    float size = shown;
-    if (ui::splitter(id, direction, length, size, least * scale, most, sizesNext)) kept = size / scale;
-  };
-  using enum ui::SplitDirection;
-  if (panes.settings > 0) {
-    if (beginPane("##settingsPane", {panes.settings, height})) {
-      if (session_.shippedWalk())
-        drawWalkFacts(context);
-      else
-        drawSettingsPanel(context, configurations_);
-    }
-    endPane();
-    ImGui::SameLine(0, 0);
-    split("##split1", horizontal, height, panes.settings, wanted.settingsWidth, 220, display.x * 0.4F, false);
-    ImGui::SameLine(0, 0);
-  }
-  ImGui::BeginGroup();
-  const float width = std::max(1.0F, display.x - (panes.settings > 0 ? panes.settings + bar : 0));
-  const float upper = std::max(1.0F, panes.upper);
-  if (!session_.hasProject()) {
-    if (beginPane("##welcomePane", {width, upper})) drawWelcome(context);
-    endPane();
-  } else {
-    if (beginPane("##planPane", {std::max(1.0F, panes.plan), upper}, false)) centre_.draw(context);
-    endPane();
-    if (panes.walk > 0) {
-      ImGui::SameLine(0, 0);
-      split("##split2", horizontal, upper, panes.walk, wanted.walkWidth, 240, width - 300 * scale, true);
-      ImGui::SameLine(0, 0);
-      if (beginPane("##walkPane", {panes.walk, upper}, false)) walk_.draw(context);
-      endPane();
-    }
-  }
-  if (panes.bottom > 0) {
-    split("##split3", vertical, width, panes.bottom, wanted.bottomHeight, 120, height * 0.6F, true);
-    drawBottom(context, panes);
-  }
-  ImGui::EndGroup();
-  return top + upper;
-}
-
 void App::drawStatus(PanelContext& context, float top) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetCursorPos({0, display.y - top - statusBarPixels()});
@@ -318,6 +242,23 @@ void App::startGuide() {
   state_.guide.start(guideFacts(actions));
 }
 
+float App::drawMain(PanelContext& context, float top) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
+  ImGui::SetNextWindowPos({0, top});
+  ImGui::SetNextWindowSize({std::max(1.0F, display.x), std::max(1.0F, display.y - top)});
+  ImGui::Begin("##main", nullptr, kFixedWindow);
+  ImGui::PopStyleVar(3);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});  // panes touch; each restores the spacing inside
+  const float middleEnds = drawLayout(context, top);
+  ImGui::PopStyleVar();
+  if (!state_.fullScreen) drawStatus(context, top);
+  ImGui::End();
+  return middleEnds;
+}
+
 void App::draw() {
   events_ = window_->input().take();
   tellNews();
@@ -333,26 +274,13 @@ void App::draw() {
   walk_.walk(context);
   if (state_.openMenus) menusByKey_ = kFramesBetween;
 
-  menuBar_ = drawMenuBar(context);
-  const float top = menuBar_.height;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
-  ImGui::SetNextWindowPos({0, top});
-  ImGui::SetNextWindowSize({std::max(1.0F, display.x), std::max(1.0F, display.y - top)});
-  ImGui::Begin("##main", nullptr, kFixedWindow);
-  ImGui::PopStyleVar(3);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});  // panes touch; each restores the spacing inside
-  const float middleEnds = drawLayout(context, top);
-  ImGui::PopStyleVar();
-  drawStatus(context, top);
-  ImGui::End();
+  menuBar_ = state_.fullScreen ? MenuBar() : drawMenuBar(context);
+  const float middleEnds = drawMain(context, menuBar_.height);
 
   dialogs_.draw(context);
   guideCard_.draw(context);
   // Over the walk, not over the panes below, which are clicked more.
-  if (toasts_.draw({display.x - ui::scaled(16), middleEnds - ui::scaled(14)}, log_))
+  if (toasts_.draw({ImGui::GetIO().DisplaySize.x - ui::scaled(16), middleEnds - ui::scaled(14)}, log_))
     state_.messagesLitUntil = context.now + kLitSeconds;
   window_->setTitle(session_.title());
   logNews(context);

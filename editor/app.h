@@ -1,6 +1,8 @@
 #pragma once
 /// The editor: owns window, session and panels, and composes them. All behaviour lives in the parts.
 
+#include <imgui.h>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -43,8 +45,13 @@ class App {
   explicit App(const AppOptions& options, std::unique_ptr<ui::Window> window);
   void update();
   void draw();
-  /// Returns the lower edge of the plan and the walk, pixels.
+  /// All below the menus; returns the lower edge of the plan and the walk, pixels. So does drawLayout.
+  float drawMain(PanelContext& context, float top);
   float drawLayout(PanelContext& context, float top);
+  void drawPanels(PanelContext& context, const PaneSizes& panes, float width);
+  void drawFour(PanelContext& context, const PaneSizes& panes, float width, float height);
+  void drawCentre(PanelContext& context, const ImVec2& size);
+  void drawWalk(PanelContext& context, const ImVec2& size);
   void drawBottom(PanelContext& context, const PaneSizes& panes);
   void drawStatus(PanelContext& context, float top);
   void giveKeys();

@@ -12,7 +12,8 @@ inline constexpr int equal = 61, a = 65, b = 66, c = 67, d = 68, e = 69, f = 70,
 inline constexpr int q = 81, r = 82, s = 83, w = 87, x = 88, y = 89, z = 90;
 inline constexpr int escape = 256, enter = 257, tab = 258, backspace = 259, insert = 260, del = 261;
 inline constexpr int right = 262, left = 263, down = 264, up = 265, pageUp = 266, pageDown = 267, home = 268;
-inline constexpr int f1 = 290, f2 = 291, f3 = 292, f4 = 293, f5 = 294, f6 = 295, f10 = 299, f12 = 301;
+inline constexpr int f1 = 290, f2 = 291, f3 = 292, f4 = 293, f5 = 294, f6 = 295, f7 = 296, f8 = 297,
+                     f10 = 299, f11 = 300, f12 = 301;
 inline constexpr int keypadEnter = 335;
 inline constexpr int leftShift = 340, leftControl = 341, leftAlt = 342;
 inline constexpr int rightShift = 344, rightControl = 345, rightAlt = 346;

@@ -27,6 +27,7 @@ static_assert(key::t == GLFW_KEY_T && key::v == GLFW_KEY_V);
 static_assert(key::escape == GLFW_KEY_ESCAPE && key::del == GLFW_KEY_DELETE && key::home == GLFW_KEY_HOME);
 static_assert(key::comma == GLFW_KEY_COMMA && key::k == GLFW_KEY_K && key::f10 == GLFW_KEY_F10);
 static_assert(key::leftAlt == GLFW_KEY_LEFT_ALT && key::rightAlt == GLFW_KEY_RIGHT_ALT);
+static_assert(key::f7 == GLFW_KEY_F7 && key::f8 == GLFW_KEY_F8 && key::f11 == GLFW_KEY_F11);
 static_assert(key::up == GLFW_KEY_UP && key::f1 == GLFW_KEY_F1 && key::f5 == GLFW_KEY_F5);
 static_assert(key::k == GLFW_KEY_K && key::m == GLFW_KEY_M && key::f12 == GLFW_KEY_F12);
 static_assert(key::keypadEnter == GLFW_KEY_KP_ENTER && key::rightShift == GLFW_KEY_RIGHT_SHIFT);
@@ -44,6 +45,7 @@ GLFWwindow* createWithVersion(const WindowOptions& options, int major, int minor
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a full screen stays while another window is used
   return glfwCreateWindow(kFirstSize.x, kFirstSize.y, options.title.c_str(), nullptr, nullptr);
 }
 
@@ -65,6 +67,26 @@ std::vector<Monitor> monitorsThere() {
     monitors.push_back(std::move(monitor));
   }
   return monitors;
+}
+
+/// Which shows most of it; null if none does.
+GLFWmonitor* monitorOf(const ScreenRect& rect) {
+  int count = 0;
+  GLFWmonitor** const found = glfwGetMonitors(&count);
+  GLFWmonitor* most = nullptr;
+  int largest = 0;
+  for (int m = 0; m < count; ++m) {
+    const GLFWvidmode* const mode = glfwGetVideoMode(found[m]);
+    if (mode == nullptr) continue;
+    glm::ivec2 at(0);
+    glfwGetMonitorPos(found[m], &at.x, &at.y);
+    const glm::ivec2 shared =
+        glm::max(glm::ivec2(0), glm::min(rect.at + rect.size, at + glm::ivec2(mode->width, mode->height)) -
+                                    glm::max(rect.at, at));
+    if (shared.x * shared.y > largest) most = found[m];
+    largest = std::max(largest, shared.x * shared.y);
+  }
+  return most;
 }
 
 std::string lastGlfwError(const char* otherwise) {
@@ -135,13 +157,33 @@ void Window::show(std::span<const WindowPlace> remembered, const std::optional<g
   glfwShowWindow(window_);
 }
 
+void Window::setFullScreen(bool on) {
+  if (on == isFullScreen()) return;
+  if (on) {
+    noteRect();
+    maximised_ = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+    GLFWmonitor* const monitor = monitorOf(normal_);
+    if (monitor == nullptr) return;
+    const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
+  } else {
+    glfwSetWindowMonitor(window_, nullptr, normal_.at.x, normal_.at.y, normal_.size.x, normal_.size.y,
+                         GLFW_DONT_CARE);
+    if (maximised_) glfwMaximizeWindow(window_);
+  }
+  pacer_.request();
+}
+
+bool Window::isFullScreen() const { return glfwGetWindowMonitor(window_) != nullptr; }
+
 std::optional<WindowPlace> Window::place() const {
-  const bool maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+  const bool maximised =
+      isFullScreen() ? maximised_ : glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
   return placeToRemember({normal_, maximised}, monitorsThere());
 }
 
 void Window::noteRect() {
-  if (glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE) return;
+  if (isFullScreen() || glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE) return;
   glfwGetWindowPos(window_, &normal_.at.x, &normal_.at.y);
   glfwGetWindowSize(window_, &normal_.size.x, &normal_.size.y);
 }

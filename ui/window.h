@@ -51,6 +51,9 @@ class Window {
   /// Where it is now, to be shown there again; nothing where no monitor shows it.
   std::optional<WindowPlace> place() const;
 
+  /// Covers the monitor that it is mostly on, without a frame; back where it was.
+  void setFullScreen(bool on);
+
   /// Until close() is called: waits for events, calls `update` after every wake (it may request frames
   /// through pacer()), and `draw` between an ImGui frame's begin and end whenever a frame is due.
   void run(const std::function<void()>& update, const std::function<void()>& draw);
@@ -90,6 +93,7 @@ class Window {
   void applyLook();
   float displayScale() const;
   void noteRect();
+  bool isFullScreen() const;
   void feedShortPresses();
 
   GLFWwindow* window_ = nullptr;
@@ -104,6 +108,7 @@ class Window {
   std::string missingFont_;
   std::string title_;
   std::vector<std::filesystem::path> dropped_;
+  bool maximised_ = false;  ///< before it covered the monitor
   bool closing_ = false;
   bool closeRequested_ = false;
   bool captured_ = false;

@@ -13,7 +13,7 @@ bool canMeasure(const ActionContext& c) {
 }
 
 void measure(ActionContext& c, bool again) {
-  c.state.centreView = CentreView::accuracy;
+  c.state.centreView = View::accuracy;
   SweepRequest request = c.state.accuracy.request;
   request.again = again;
   if (const Status started = c.session.sweeping().start(request); !started)

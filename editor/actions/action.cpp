@@ -41,9 +41,11 @@ void beginAfresh(ActionContext& context) {
   state.recorder = {};
   state.replay = {};
   state.goTo.reset();
+  state.fullScreen = false;
+  state.whole = WholeView::none;
   state.planTool.setMode(context.session.shippedWalk() ? PlanMode::eye : PlanMode::cells);
   if (!context.session.shippedWalk()) return;
-  state.centreView = CentreView::plan;
+  state.centreView = View::plan;
   if (state.overlay != PlanOverlay::bake && state.overlay != PlanOverlay::bytes)
     state.overlay = PlanOverlay::none;
   if (compares(state.walkLook)) state.walkLook = WalkLook::picture;

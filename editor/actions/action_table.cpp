@@ -11,7 +11,7 @@ namespace acentric::editor {
 namespace {
 
 /// What can be done with a walk too; "x." stands for all that begin so. All others need a project.
-constexpr std::array<std::string_view, 35> kOfWalks{"file.new",
+constexpr std::array<std::string_view, 36> kOfWalks{"file.new",
                                                     "file.open",
                                                     "file.reimportAutomatically",
                                                     "file.close",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 35> kOfWalks{"file.new",
                                                     "tool.eye",
                                                     "tool.measure",
                                                     "view.plan",
+                                                    "view.walk",
                                                     "view.cameras",
                                                     "view.fit",
                                                     "view.paths",
@@ -74,6 +75,7 @@ std::vector<Action> makeActionTable() {
   std::vector<Action> table;
   addFileActions(table);
   addEditActions(table);
+  addArrangementActions(table);
   addScene3dActions(table);
   addPlanActions(table);
   addLayoutActions(table);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "editor/actions/action.h"
+#include "editor/session/pane_sizes.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
@@ -19,7 +20,13 @@ inline bool withBuilt(const ActionContext& c) {
   return c.session.hasProject() && c.session.built() != nullptr;
 }
 
+/// Four views in place of panels, which only a project has.
+bool fourViews(const ActionContext& c);
+Arrangement arrangementOf(const ActionContext& c);
+
 void addFileActions(std::vector<Action>& table);
+/// Which views the window shows, and which alone.
+void addArrangementActions(std::vector<Action>& table);
 void addEditActions(std::vector<Action>& table);
 /// What is selected, and copies and moves of it: part of the Edit menu.
 void addSelectionActions(std::vector<Action>& table);
@@ -34,7 +41,7 @@ void addWalkActions(std::vector<Action>& table);
 void addPreferenceActions(std::vector<Action>& table);
 /// In no menu: size of the interface, and the menus themselves.
 void addWindowActions(std::vector<Action>& table);
-/// Plan or 3D, and what the 3D view shows.
+/// What the 3D view shows.
 void addScene3dActions(std::vector<Action>& table);
 /// What the walk shows of its frames, and over them.
 void addWalkViewActions(std::vector<Action>& table);

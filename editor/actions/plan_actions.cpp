@@ -136,7 +136,7 @@ void addPlanActions(std::vector<Action>& table) {
                    true,
                    withProject,
                    [](ActionContext& c) {
-                     const bool plan = c.state.centreView == CentreView::plan;
+                     const bool plan = c.state.centreView == View::plan;
                      (plan ? c.state.fitPlan : c.state.scene3d.frame) = true;
                    },
                    {}});

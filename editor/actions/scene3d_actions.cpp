@@ -3,7 +3,7 @@
 namespace acentric::editor {
 namespace {
 
-bool inScene3d(const ActionContext& c) { return withBuilt(c) && c.state.centreView == CentreView::scene3d; }
+bool inScene3d(const ActionContext& c) { return withBuilt(c) && c.state.centreView == View::scene3d; }
 
 bool lookingThrough(const ActionContext& c) {
   return inScene3d(c) && c.state.scene3d.lookThrough &&
@@ -16,25 +16,6 @@ std::optional<CameraPlace> selectedCamera(const ActionContext& c) {
   for (const CellId& cell : c.state.selection)
     if (const auto place = firstPlace(*c.session.built()->layout, cell)) return place;
   return std::nullopt;
-}
-
-void addTabs(std::vector<Action>& table) {
-  const auto tab = [&table](const char* id, const char* label, int code, const char* help, CentreView view) {
-    table.push_back({id,
-                     "View",
-                     label,
-                     {code, 0},
-                     {},
-                     help,
-                     false,
-                     withProject,
-                     [view](ActionContext& c) { c.state.centreView = view; },
-                     [view](const ActionContext& c) { return c.state.centreView == view; }});
-  };
-  tab("view.plan", "Plan", key::f2, "The layout from above", CentreView::plan);
-  tab("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", CentreView::scene3d);
-  tab("view.accuracy", "Accuracy", key::f6,
-      "How near settings come to the truth, and what they cost in time and bytes", CentreView::accuracy);
 }
 
 void addSwitches(std::vector<Action>& table) {
@@ -133,7 +114,6 @@ void addCameraSteps(std::vector<Action>& table) {
 }  // namespace
 
 void addScene3dActions(std::vector<Action>& table) {
-  addTabs(table);
   addSwitches(table);
   addCameraSteps(table);
 }

@@ -1,60 +1,42 @@
 #include "editor/panels/centre_pane.h"
 
-#include "ui/colour.h"
+#include <array>
+
+#include "editor/panels/view_strip.h"
 
 namespace acentric::editor {
 namespace {
 
-constexpr float kTabHeight = 30;
+constexpr std::array<ViewTab, 3> kTabs{
+    {{"view.plan", "Plan"}, {"view.scene3d", "3D"}, {"view.accuracy", "Accuracy"}}};
 
-void tab(PanelContext& context, const char* id, const char* label) {
-  const Action& action = *findAction(context.table, std::string(id));
-  const bool on = action.checked(context.actions);
-  const std::string why = whyDisabled(action, context.actions);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 text = ImGui::CalcTextSize(label);
-  const ImVec2 size(text.x + 32, kTabHeight);
-  if (ImGui::InvisibleButton(id, size)) runAction(context, action);
-  context.log.item(id);
-  const bool hovered = ImGui::IsItemHovered();
-  ui::tooltip(action.help + "  [" + describe(action.shortcut) + "]" +
-              (why.empty() ? "" : "\nNot now: " + why));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 end(at.x + size.x, at.y + size.y);
-  if (on || (hovered && why.empty()))
-    list.AddRectFilled(at, end, (on ? ui::palette::panel : ui::palette::raised).packed());
-  if (on) list.AddRectFilled(at, {end.x, at.y + 2}, ui::palette::accent.packed());
-  const ui::Colour& ink = !why.empty() ? ui::palette::faint : on ? ui::palette::text : ui::palette::muted;
-  list.AddText({at.x + 16, at.y + (size.y - text.y) / 2}, ink.packed(), label);
-}
+const ViewTab& tabOf(View view) { return kTabs[std::size_t(view)]; }
+static_assert(View::plan == View(0) && View::scene3d == View(1) && View::accuracy == View(2));
 
 }  // namespace
 
-void CentrePane::draw(PanelContext& context) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + kTabHeight},
-                                            ui::palette::backdrop.packed());
-  tab(context, "view.plan", "Plan");
-  ImGui::SameLine(0, 0);
-  tab(context, "view.scene3d", "3D");
-  ImGui::SameLine(0, 0);
-  tab(context, "view.accuracy", "Accuracy");
-  ImGui::SetCursorScreenPos({at.x, at.y + kTabHeight});
+void CentrePane::drawView(PanelContext& context, View view) {
   if (beginPane("##centreView", {0, 0}, false)) {
-    switch (context.state().centreView) {
-      case CentreView::plan:
-        plan_.draw(context);
-        break;
-      case CentreView::scene3d:
-        scene_.draw(context);
-        break;
-      case CentreView::accuracy:
-        accuracy_.draw(context);
-        break;
-    }
+    if (view == View::plan) plan_.draw(context);
+    if (view == View::scene3d) scene_.draw(context);
+    if (view == View::accuracy) accuracy_.draw(context);
   }
   endPane();
+}
+
+void CentrePane::draw(PanelContext& context) {
+  const View view = context.state().centreView;
+  drawViewStrip(context, kTabs, tabOf(view).id, true);
+  drawView(context, view);
+}
+
+void CentrePane::drawAlone(PanelContext& context, View view) {
+  View& active = context.state().centreView;
+  // Not in the middle of a drag that began in another.
+  const bool pointed = ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && !ImGui::IsAnyMouseDown();
+  if (pointed) active = view;
+  drawViewStrip(context, {&tabOf(view), 1}, tabOf(view).id, active == view);
+  drawView(context, view);
 }
 
 }  // namespace acentric::editor

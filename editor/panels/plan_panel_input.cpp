@@ -122,7 +122,8 @@ void PlanPanel::handleEvents(PanelContext& context) {
   for (const ui::InputEvent& event : context.events) {
     const bool inside = contains(event.position) && !context.inputBlocked;
     if (event.kind == Kind::scroll && inside) view_.zoomAt(event.position, std::pow(1.18, event.scroll.y));
-    if (event.kind == Kind::keyPress && !context.inputBlocked) handleKey(context, event);
+    const bool ours = context.state().centreView == View::plan && !context.inputBlocked;
+    if (event.kind == Kind::keyPress && ours) handleKey(context, event);
     PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
                          view_.worldFromScreen(event.position)};
     if (event.kind == Kind::buttonPress && inside)

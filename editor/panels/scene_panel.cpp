@@ -97,7 +97,7 @@ bool ScenePanel::pointing(const PanelContext& context) const {
 
 void ScenePanel::handleKey(PanelContext& context, int code) {
   EditorState& state = context.state();
-  if (code != ui::key::escape) return;
+  if (code != ui::key::escape || state.centreView != View::scene3d) return;
   if (state.scene3d.lookThrough)
     state.scene3d.lookThrough.reset();
   else if (state.scene3d.picked)

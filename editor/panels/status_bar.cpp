@@ -119,9 +119,9 @@ void drawStatusBar(PanelContext& context) {
   drawProblemCount(context);
   ImGui::SameLine(0, 2 * margin);
   // What has no room is left out: the file first, then the hint.
-  const CentreView view = context.state().centreView;
-  const char* hint = view == CentreView::scene3d ? kSceneHint
-                     : view == CentreView::accuracy
+  const View view = context.state().centreView;
+  const char* hint = view == View::scene3d ? kSceneHint
+                     : view == View::accuracy
                          ? kAccuracyHint
                          : hintOf(context.state().planTool.mode(), !context.state().selection.empty());
   const float from = std::max(ImGui::GetCursorPosX(), ui::scaled(324));

@@ -7,6 +7,7 @@
 
 #include "editor/actions/path_walk.h"
 #include "editor/panels/toolbar_flow.h"
+#include "editor/panels/view_strip.h"
 #include "editor/panels/walk_settings.h"
 #include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
@@ -100,6 +101,15 @@ void WalkPanel::walk(PanelContext& context) {
 }
 
 void WalkPanel::drawToolbar(PanelContext& context) {
+  const ImVec2 at = ImGui::GetCursorPos(), margin = ui::scaled(ImVec2(8, 7));
+  ImGui::SetCursorPos({at.x + margin.x, at.y + margin.y});
+  ImGui::BeginGroup();
+  drawButtons(context);
+  ImGui::EndGroup();
+  ImGui::SetCursorPos({at.x, at.y + ImGui::GetItemRectSize().y + 2 * margin.y});
+}
+
+void WalkPanel::drawButtons(PanelContext& context) {
   static constexpr std::array<ToolbarEntry, 11> kEntries{
       {{"view.holes", "Holes", 0},
        {"view.sources", "Sources", kNear},
@@ -160,12 +170,11 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
 }
 
 void WalkPanel::draw(PanelContext& context) {
-  ImGui::SetCursorPos(ui::scaled(ImVec2(8, 7)));
-  ImGui::BeginGroup();
-  if (context.session().hasProject()) drawToolbar(context);
-  ImGui::EndGroup();
-  const float top = ImGui::GetItemRectSize().y + ui::scaled(14);
-  ImGui::SetCursorPos({0, top});
+  if (!context.state().fullScreen) {
+    static constexpr ViewTab kTab{"view.walk", "Walk"};
+    drawViewStrip(context, {&kTab, 1}, kTab.id, true);
+    drawToolbar(context);
+  }
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
   if (size.x < 40 || size.y < 40) return;
@@ -187,7 +196,8 @@ void WalkPanel::draw(PanelContext& context) {
   drawPicture(low, size);
   compare_.draw(context, *ImGui::GetWindowDrawList(), place_, rested_);
   nameSource(ui::fromIm(ImGui::GetMousePos()));
-  drawStatistics(context, low, {size.x, size.y - overlays_.graphHeight(context, size.y)});
+  if (!context.state().fullScreen)
+    drawStatistics(context, low, {size.x, size.y - overlays_.graphHeight(context, size.y)});
   drawOverlays(context, low, size);
   drawNotice(context, low, size);
 }

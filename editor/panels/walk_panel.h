@@ -37,6 +37,7 @@ class WalkPanel {
   };
   void followProject(PanelContext& context);
   void drawToolbar(PanelContext& context);
+  void drawButtons(PanelContext& context);
   void look(PanelContext& context, const ImVec2& low, const ImVec2& high);
   PerspectiveView viewAt(PanelContext& context, double scale) const;
   bool stale(const PanelContext& context, const PerspectiveView& full) const;

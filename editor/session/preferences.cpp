@@ -65,17 +65,21 @@ void Preferences::resetSettings() {
   fresh.recent = std::move(recent);
   fresh.lastFolder = std::move(lastFolder);
   fresh.guideSeen = guideSeen;
-  fresh.settingsWidth = settingsWidth;
-  fresh.walkWidth = walkWidth;
-  fresh.bottomHeight = bottomHeight;
+  fresh.keepLayoutOf(*this);
   *this = std::move(fresh);
 }
 
-void Preferences::resetLayout() {
-  const Preferences fresh;
-  settingsWidth = fresh.settingsWidth;
-  walkWidth = fresh.walkWidth;
-  bottomHeight = fresh.bottomHeight;
+void Preferences::resetLayout() { keepLayoutOf(Preferences()); }
+
+void Preferences::keepLayoutOf(const Preferences& other) {
+  settingsWidth = other.settingsWidth;
+  walkWidth = other.walkWidth;
+  bottomHeight = other.bottomHeight;
+  showSettings = other.showSettings;
+  showBottom = other.showBottom;
+  fourViews = other.fourViews;
+  fourColumn = other.fourColumn;
+  fourRow = other.fourRow;
 }
 
 fs::path startUpFile(const Preferences& preferences, const fs::path& sample) {
@@ -142,6 +146,11 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
   readLength(json, "settingsWidth", preferences.settingsWidth);
   readLength(json, "walkWidth", preferences.walkWidth);
   readLength(json, "bottomHeight", preferences.bottomHeight);
+  readFlag(json, "showSettings", preferences.showSettings);
+  readFlag(json, "showBottom", preferences.showBottom);
+  readFlag(json, "fourViews", preferences.fourViews);
+  readNumber(json, "fourColumn", preferences.fourColumn, P::kLeastShare, 1 - P::kLeastShare);
+  readNumber(json, "fourRow", preferences.fourRow, P::kLeastShare, 1 - P::kLeastShare);
   return preferences;
 }
 
@@ -166,7 +175,12 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"guideSeen", preferences.guideSeen},
                      {"settingsWidth", preferences.settingsWidth},
                      {"walkWidth", preferences.walkWidth},
-                     {"bottomHeight", preferences.bottomHeight}};
+                     {"bottomHeight", preferences.bottomHeight},
+                     {"showSettings", preferences.showSettings},
+                     {"showBottom", preferences.showBottom},
+                     {"fourViews", preferences.fourViews},
+                     {"fourColumn", preferences.fourColumn},
+                     {"fourRow", preferences.fourRow}};
   return saveSettings(json, file);
 }
 

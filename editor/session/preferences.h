@@ -19,6 +19,7 @@ struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
   static constexpr int kLeastScalePercent = 75, kMostScalePercent = 200;
   static constexpr double kLeastAutosaveSeconds = 5, kMostAutosaveSeconds = 3600;
+  static constexpr float kLeastShare = 0.2F;  ///< of the window, that one of four views keeps
   static constexpr double kLeastLookSensitivity = 0.1, kMostLookSensitivity = 5;
 
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
@@ -39,11 +40,17 @@ struct Preferences {
   float settingsWidth = 324;  ///< pixels of a display with 96 dpi, as the two below
   float walkWidth = 600;
   float bottomHeight = 214;
+  bool showSettings = true;  ///< beside the plan and the walk
+  bool showBottom = true;    ///< below them: bake, scene, messages
+  bool fourViews = false;    ///< plan, walk, 3D and accuracy at once, in place of panels
+  float fourColumn = 0.5F;   ///< share of the left views
+  float fourRow = 0.5F;      ///< of the upper ones
 
   void addRecent(const std::filesystem::path& file);
   /// All that the preferences dialog shows, as it was at first; files and the window's layout stay.
   void resetSettings();
   void resetLayout();
+  void keepLayoutOf(const Preferences& other);
 };
 
 /// What to open when no file is named; empty = nothing. `sample` may be empty: there is none.

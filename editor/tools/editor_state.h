@@ -80,8 +80,10 @@ enum class PlanOverlay {
 /// Cells to be selected as soon as the layout is inspected.
 enum class SelectionWish { none, overBudget, withWarnings };
 
-/// What fills the middle of the window.
-enum class CentreView { plan, scene3d, accuracy };
+/// Plan, 3D and accuracy share the middle of the window, beside the walk.
+enum class View { plan, scene3d, accuracy, walk };
+/// Which fills the window alone; `centre`: the middle, with its tabs.
+enum class WholeView { none, centre, walk };
 
 /// What the user wanted when a question came in between.
 struct Continuation {
@@ -108,7 +110,9 @@ struct EditorState {
   std::optional<WalkPose> goTo;      ///< where the eye goes as soon as the current storey is laid out
   unsigned long picturesShown = 0;   ///< of the walk; the walk counts
 
-  CentreView centreView = CentreView::plan;
+  View centreView = View::plan;  ///< never the walk; of four views the one that keys go to
+  WholeView whole = WholeView::none;
+  bool fullScreen = false;  ///< the walk alone, without menus and tools
   Scene3dState scene3d;
   AccuracyState accuracy;
   bool showBackdrop = true;

@@ -254,11 +254,11 @@ TEST_F(ShippedWalkTest, ActionsThatNeedAProjectSaySo) {
   openWhole(session, room / "small.acentric");
   state.overlay = PlanOverlay::coverage;
   state.walkLook = WalkLook::split;
-  state.centreView = CentreView::scene3d;
+  state.centreView = View::scene3d;
   beginAfresh(context);
   EXPECT_EQ(state.overlay, PlanOverlay::none);
   EXPECT_EQ(state.walkLook, WalkLook::picture);
-  EXPECT_EQ(state.centreView, CentreView::plan);
+  EXPECT_EQ(state.centreView, View::plan);
   EXPECT_EQ(state.planTool.mode(), PlanMode::eye);
   const std::vector<Action> table = makeActionTable();
   const auto action = [&](const char* id) -> const Action& { return *findAction(table, std::string(id)); };

@@ -61,7 +61,7 @@ TEST(PaneSizes, FillTheWindowExactlyAndGoOneAfterTheOther) {
   const float bar = 5;
   int shownBefore = 100;
   for (float width = 1600; width >= 0; width -= 1) {
-    const PaneSizes p = paneSizes(width, 850, bar, wanted, 1);
+    const PaneSizes p = paneSizes(Arrangement::panels, width, 850, bar, wanted, 1);
     const float bars = bar * float(int(p.settings > 0) + int(p.walk > 0));
     EXPECT_NEAR(p.settings + p.plan + p.walk + bars, width, 1e-3) << width;
     for (const float size : {p.settings, p.plan, p.walk, p.bake, p.report, p.messages})
@@ -77,13 +77,14 @@ TEST(PaneSizes, FillTheWindowExactlyAndGoOneAfterTheOther) {
 
 TEST(PaneSizes, TheBottomGoesWhenTheWindowIsLow) {
   const Preferences wanted;
-  const PaneSizes high = paneSizes(1600, 850, 5, wanted, 1), low = paneSizes(1600, 300, 5, wanted, 1);
+  const PaneSizes high = paneSizes(Arrangement::panels, 1600, 850, 5, wanted, 1),
+                  low = paneSizes(Arrangement::panels, 1600, 300, 5, wanted, 1);
   EXPECT_EQ(high.bottom, wanted.bottomHeight);
   EXPECT_NEAR(high.upper + high.bottom + 5, 850, 1e-3);
   EXPECT_EQ(low.bottom, 0);
   EXPECT_EQ(low.upper, 300);
   for (const float size : {0.0F, 1.0F, -3.0F}) {
-    const PaneSizes none = paneSizes(size, size, 5, wanted, 2);
+    const PaneSizes none = paneSizes(Arrangement::panels, size, size, 5, wanted, 2);
     EXPECT_GE(none.plan, 0);
     EXPECT_GE(none.upper, 0);
   }
@@ -91,10 +92,43 @@ TEST(PaneSizes, TheBottomGoesWhenTheWindowIsLow) {
 
 TEST(PaneSizes, ScaleTogether) {
   const Preferences wanted;
-  const PaneSizes once = paneSizes(1600, 850, 5, wanted, 1), twice = paneSizes(3200, 1700, 10, wanted, 2);
+  const PaneSizes once = paneSizes(Arrangement::panels, 1600, 850, 5, wanted, 1),
+                  twice = paneSizes(Arrangement::panels, 3200, 1700, 10, wanted, 2);
   EXPECT_NEAR(twice.settings, 2 * once.settings, 1);
   EXPECT_NEAR(twice.plan, 2 * once.plan, 1);
   EXPECT_NEAR(twice.bottom, 2 * once.bottom, 1);
+}
+
+TEST(PaneSizes, FourViewsShareTheWindowAndOneHasItAlone) {
+  Preferences wanted;
+  const float bar = 5;
+  for (const float column : {Preferences::kLeastShare, 0.5F, 1 - Preferences::kLeastShare})
+    for (float side = 1600; side >= 0; side -= 7) {
+      wanted.fourColumn = wanted.fourRow = column;
+      const PaneSizes p = paneSizes(Arrangement::four, side, side / 2, bar, wanted, 1);
+      EXPECT_NEAR(p.plan + p.walk + (p.walk > 0 ? bar : 0), side, 1e-3) << side;
+      EXPECT_NEAR(p.upper + p.lower + (p.lower > 0 ? bar : 0), side / 2, 1e-3) << side;
+      EXPECT_EQ(p.walk > 0, side >= 405) << "two views beside each other are 200 wide at least; " << side;
+      EXPECT_EQ(p.settings + p.bottom, 0);
+    }
+  const PaneSizes even = paneSizes(Arrangement::four, 1605, 805, bar, Preferences(), 1);
+  EXPECT_EQ(even.plan, 800);
+  EXPECT_EQ(even.lower, 400);
+  const PaneSizes walk = paneSizes(Arrangement::walk, 1600, 850, bar, wanted, 1);
+  EXPECT_EQ(walk.walk, 1600);
+  EXPECT_EQ(walk.upper, 850);
+  EXPECT_EQ(walk.plan + walk.settings + walk.bottom + walk.lower, 0);
+  EXPECT_EQ(paneSizes(Arrangement::centre, 1600, 850, bar, wanted, 1).plan, 1600);
+}
+
+TEST(PaneSizes, PanesThatAreHiddenLeaveTheirRoom) {
+  Preferences wanted;
+  wanted.showSettings = wanted.showBottom = false;
+  const PaneSizes p = paneSizes(Arrangement::panels, 1600, 850, 5, wanted, 1);
+  EXPECT_EQ(p.settings, 0);
+  EXPECT_EQ(p.bottom, 0);
+  EXPECT_EQ(p.upper, 850);
+  EXPECT_NEAR(p.plan + p.walk + 5, 1600, 1e-3);
 }
 
 class PreferencesTest : public testing::Test {

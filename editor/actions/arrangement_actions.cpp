@@ -1,0 +1,109 @@
+#include "editor/actions/menu_actions.h"
+
+namespace acentric::editor {
+namespace {
+
+WholeView wholeOf(View view) { return view == View::walk ? WholeView::walk : WholeView::centre; }
+
+bool shows(const ActionContext& c, View view) {
+  const bool inFront = view == View::walk || c.state.centreView == view;
+  if (c.state.whole != WholeView::none) return c.state.whole == wholeOf(view) && inFront;
+  return inFront || fourViews(c);
+}
+
+/// Shows it; where it is shown already it fills the window, and again makes room for the others.
+void showOrEnlarge(ActionContext& c, View view) {
+  WholeView& whole = c.state.whole;
+  const bool shown = shows(c, view);
+  if (view != View::walk) c.state.centreView = view;
+  if (shown)
+    whole = whole == WholeView::none ? wholeOf(view) : WholeView::none;
+  else if (whole != WholeView::none)
+    whole = wholeOf(view);
+}
+
+void addViews(std::vector<Action>& table) {
+  const auto view = [&table](const char* id, const char* label, int code, const std::string& help,
+                             View view) {
+    table.push_back({id,
+                     "View",
+                     label,
+                     {code, 0},
+                     {},
+                     help + ". Again: it fills the window; once more: back.",
+                     false,
+                     withProject,
+                     [view](ActionContext& c) { showOrEnlarge(c, view); },
+                     [view](const ActionContext& c) { return shows(c, view); }});
+  };
+  view("view.plan", "Plan", key::f2, "The layout from above", View::plan);
+  view("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", View::scene3d);
+  view("view.accuracy", "Accuracy", key::f6,
+       "How near settings come to the truth, and what they cost in time and bytes", View::accuracy);
+  view("view.walk", "Walk", key::f7, "The walk", View::walk);
+}
+
+void addPane(std::vector<Action>& table, const char* id, const char* label, const char* help,
+             bool Preferences::*shown) {
+  table.push_back({id,
+                   "View",
+                   label,
+                   {},
+                   {},
+                   help,
+                   false,
+                   withProject,
+                   [shown](ActionContext& c) {
+                     Preferences& preferences = c.session.preferences();
+                     preferences.*shown = !(preferences.*shown);
+                     c.session.savePreferencesNow();
+                   },
+                   [shown](const ActionContext& c) { return c.session.preferences().*shown; }});
+}
+
+}  // namespace
+
+bool fourViews(const ActionContext& c) {
+  return c.session.preferences().fourViews && !c.session.shippedWalk();
+}
+
+Arrangement arrangementOf(const ActionContext& c) {
+  if (!c.session.hasProject()) return Arrangement::panels;
+  if (c.state.fullScreen || c.state.whole == WholeView::walk) return Arrangement::walk;
+  if (c.state.whole == WholeView::centre) return Arrangement::centre;
+  return fourViews(c) ? Arrangement::four : Arrangement::panels;
+}
+
+void addArrangementActions(std::vector<Action>& table) {
+  addViews(table);
+  table.push_back({"view.four",
+                   "View",
+                   "Four views",
+                   {key::f8, 0},
+                   {},
+                   "Plan, walk, 3D and accuracy at once; again: back to panels",
+                   true,
+                   withProject,
+                   [](ActionContext& c) {
+                     Preferences& preferences = c.session.preferences();
+                     preferences.fourViews = !(fourViews(c) && c.state.whole == WholeView::none);
+                     c.state.whole = WholeView::none;
+                     c.session.savePreferencesNow();
+                   },
+                   [](const ActionContext& c) { return arrangementOf(c) == Arrangement::four; }});
+  table.push_back({"window.fullScreen",
+                   "View",
+                   "Full-screen walk",
+                   {key::f11, 0},
+                   {},
+                   "The walk alone on the whole screen; F11 or Esc leaves",
+                   false,
+                   withProject,
+                   [](ActionContext& c) { c.state.fullScreen = !c.state.fullScreen; },
+                   [](const ActionContext& c) { return c.state.fullScreen; }});
+  addPane(table, "window.settings", "Settings pane", "At the left of the window", &Preferences::showSettings);
+  addPane(table, "window.bottom", "Bake and messages pane", "At the bottom of the window",
+          &Preferences::showBottom);
+}
+
+}  // namespace acentric::editor
