@@ -81,6 +81,16 @@ void drawWalk(PanelContext& context) {
                         "Moving the mouse up looks down, as in aircraft."),
          "preferences.invert");
   walkMemoryField(context, kPreferencesLabelWidth);
+  static const std::array<ui::Choice, 3> kChoices = {
+      ui::Choice{"Graphics card, if it does well", "", true, ""}, ui::Choice{"Processor", "", true, ""},
+      ui::Choice{"Graphics card", "", true, ""}};
+  int graphics = int(preferences.graphics);
+  const ui::FieldEdit drawn = ui::choiceField("Drawn by", kChoices, graphics, kPreferencesLabelWidth,
+                                              "Walks with list priority. The card does well if it draws a "
+                                              "frame of the walk as the processor does, and "
+                                              "in less time; that is tried for each project.");
+  if (drawn.changed) preferences.graphics = Graphics(graphics);
+  saveIf(context, drawn, "preferences.graphics");
   ImGui::PopID();
 }
 

@@ -69,6 +69,7 @@ void WalkPanel::followProject(PanelContext& context) {
     generation_ = session.generation();
     shown_ = {};
     problem_.clear();
+    trial_ = {};
     beginAfresh(context.actions);
   }
   // Cells may have gone from under the eye, or the eye height changed.

@@ -8,6 +8,7 @@
 #include "editor/panels/walk_compare.h"
 #include "editor/panels/walk_overlays.h"
 #include "editor/session/adaptive_resolution.h"
+#include "editor/session/graphics_trial.h"
 #include "editor/session/walk_renderer.h"
 #include "engine/view_gl/gl_renderer.h"
 
@@ -48,6 +49,7 @@ class WalkPanel {
   /// As the project says, on the processor where OpenGL cannot be had.
   ViewSettings settingsOf(const Session& session) const;
   void drawWithGl(PanelContext& context);
+  void tryGraphics(PanelContext& context);
   /// Captures and meshes readied in the background; true if there is one that the picture lacks.
   bool receive(PanelContext& context);
   /// The frame as `shown_.look` says, without the truth.
@@ -72,6 +74,7 @@ class WalkPanel {
   AdaptiveResolution resolution_;
   std::unique_ptr<GlRenderer> gl_;
   std::string glProblem_;
+  GraphicsTrial trial_;
   bool showingGl_ = false;
   std::uint32_t glPictures_ = 0;  ///< drawn so far
 

@@ -40,6 +40,8 @@ ViewSettings WalkPanel::settingsOf(const Session& session) const {
   ViewSettings settings = session.project().view;
   if (!glProblem_.empty() || settings.reconstruction != Reconstruction::patches)
     settings.renderer = withoutOpenGl(settings.renderer);
+  else if (settings.renderer == Renderer::list && trial_.passed(session.preferences().graphics))
+    settings.renderer = Renderer::gl;
   return settings;
 }
 
@@ -63,9 +65,10 @@ void WalkPanel::requestFrame(PanelContext& context) {
     shown_.loaded = session.walk();
   if (onOpenGl(session.project().view.renderer)) openGl(session);
   if (onOpenGl(settingsOf(session).renderer)) return drawWithGl(context);
-  if (gl_) gl_->stopSending();
   const PerspectiveView full = viewAt(context, 1);
-  if (requested_ || !stale(context, full)) return;
+  if (!requested_ && !stale(context, full)) return tryGraphics(context);
+  if (gl_) gl_->stopSending();
+  if (requested_) return;
   const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
   const double scale = moving ? resolution_.movingScale() : 1.0;
   renderer_.request({session.walk(), viewAt(context, scale), settingsOf(session), scale});
@@ -200,59 +203,6 @@ void WalkPanel::takePicture(PanelContext& context) {
   }
 }
 
-void WalkPanel::openGl(Session& session) {
-  if (gl_ || !glProblem_.empty()) return;
-  auto created = GlRenderer::create({.waitForCaptures = false});
-  if (created) {
-    gl_ = std::move(*created);
-    return;
-  }
-  glProblem_ = created.error().message;
-  session.messages().add(MessageLevel::warning,
-                         fmt::format("{}. Until then the walk is drawn with \"{}\".", glProblem_,
-                                     nameOf(settingsOf(session).renderer)));
-}
-
-bool WalkPanel::receive(PanelContext& context) {
-  const Result<bool> ready = gl_->receive();
-  if (gl_->anyToReceive()) context.window.pacer().request(1);
-  if (!ready) problem_ = ready.error().describe();
-  return ready && *ready;
-}
-
-void WalkPanel::drawWithGl(PanelContext& context) {
-  Session& session = context.session();
-  const PerspectiveView full = viewAt(context, 1);
-  const WalkLook look = context.state().walkLook;
-  const bool plain = look == WalkLook::picture || compares(look);
-  const bool news = receive(context);
-  if (!news && !stale(context, full) && shown_.look == look && showingGl_ == plain) return;
-  const bool moving = context.state().walker.moving() || looking_ || !samePlace(shown_.view, full);
-  const double scale = moving ? resolution_.movingScale() : 1.0;
-  const PerspectiveView view = viewAt(context, scale);
-  const auto stats = gl_->draw(session.walk()->walk, view, session.project().view);
-  if (gl_->anyToReceive()) context.window.pacer().request(1);
-  rested_.reset();
-  shown_ = {session.walk(), view, session.project().view, look, stats ? *stats : FrameStats{}, -1, true};
-  if (stats) resolution_.measured(scale, stats->totalSeconds);
-  if (stats) times_.add(*stats);
-  if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
-  problem_ = stats ? "" : stats.error().describe();
-  if (!stats) return;
-  ++context.state().picturesShown;
-  if (context.log.on())
-    context.log.event("glframe",
-                      fmt::format("{}x{} images {} captures {} missing {}", view.width, view.height,
-                                  stats->images, stats->capturesAwaited, stats->missingImages));
-  showingGl_ = true;
-  ++glPictures_;
-  if (plain) return;
-  lastFrame_ = gl_->readBack();
-  shown_.holeShare =
-      double(lastFrame_.holeCount()) / double(std::max<std::size_t>(1, lastFrame_.source.pixels.size()));
-  show(lastFrame_);
-}
-
 void WalkPanel::drawPicture(const ImVec2& low, const ImVec2& size) {
   const bool picture = shown_.valid && (showingGl_ ? gl_ != nullptr : !texture_.empty());
   if (picture)
@@ -311,6 +261,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     text += shown_.holeShare >= 0 ? fmt::format("   holes {}", ui::formatPercent(shown_.holeShare)) : "";
     text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
                         shown_.stats.totalSeconds * 1000);
+    if (showingGl_) text += "   OpenGL";
   }
   ImFont* small = context.window.fonts().small;
   float y = low.y + size.y - ui::scaled(11);  // lines go upwards from here

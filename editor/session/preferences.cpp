@@ -43,6 +43,7 @@ void readName(const Json& json, const char* name, Enum& value, std::span<const c
 }
 
 constexpr std::array<const char*, 2> kThemes = {"dark", "light"};
+constexpr std::array<const char*, 3> kGraphics = {"automatic", "processor", "card"};
 constexpr std::array<const char*, 3> kStartUps = {"sample", "lastProject", "nothing"};
 
 /// A splitter that was dragged off the window is of no use: such a length is left at its default.
@@ -132,6 +133,7 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
   readNumber(json, "walkMetresPerSecond", preferences.walkMetresPerSecond, 0.1, 20);
   readNumber(json, "historyMegabytes", preferences.historyMegabytes, 1, 1'000'000);
   readFlag(json, "reimportAutomatically", preferences.reimportAutomatically);
+  readName(json, "graphics", preferences.graphics, kGraphics);
   readNumber(json, "lookSensitivity", preferences.lookSensitivity, P::kLeastLookSensitivity,
              P::kMostLookSensitivity);
   readFlag(json, "invertLook", preferences.invertLook);
@@ -166,6 +168,7 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"walkMetresPerSecond", preferences.walkMetresPerSecond},
                      {"historyMegabytes", preferences.historyMegabytes},
                      {"reimportAutomatically", preferences.reimportAutomatically},
+                     {"graphics", kGraphics[std::size_t(preferences.graphics)]},
                      {"lookSensitivity", preferences.lookSensitivity},
                      {"invertLook", preferences.invertLook},
                      {"autosaveSeconds", preferences.autosaveSeconds},

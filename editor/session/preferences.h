@@ -15,6 +15,13 @@ enum class Theme { dark, light };
 /// What the editor opens when no file is named.
 enum class StartUp { sample, lastProject, nothing };
 
+/// What draws walks whose project says list priority.
+enum class Graphics {
+  automatic,  ///< the graphics card where it draws the same in less time (graphics_trial.h)
+  processor,
+  card,  ///< also a slow one
+};
+
 struct Preferences {
   static constexpr std::size_t kMostRecent = 10;
   static constexpr int kLeastScalePercent = 75, kMostScalePercent = 200;
@@ -30,8 +37,9 @@ struct Preferences {
   double walkMetresPerSecond = 1.4;
   int historyMegabytes = 256;          ///< for what can be undone
   bool reimportAutomatically = false;  ///< a model that changed on disk, without being asked
-  double lookSensitivity = 1;          ///< of the mouse; 1 turns 0.2° a pixel
-  bool invertLook = false;             ///< moving the mouse up looks down
+  Graphics graphics = Graphics::automatic;
+  double lookSensitivity = 1;  ///< of the mouse; 1 turns 0.2° a pixel
+  bool invertLook = false;     ///< moving the mouse up looks down
   double autosaveSeconds = 20;
   Theme theme = Theme::dark;
   int scalePercent = 0;  ///< of the interface; 0 = as the display asks
