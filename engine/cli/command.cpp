@@ -183,8 +183,7 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
     return frame;
   }
   if (Status there = load(view); !there) return tl::unexpected(there.error());
-  const auto loaded =
-      shows_ == Shows::polygons ? nullptr : shared_->walks[storeyAt(storeys_, view.eye)]->walk();
+  const auto loaded = walkAt(view.eye);
   const WalkScene& walk = loaded ? loaded->walk : *shared_->polygons;
   if (!onOpenGl(settings.renderer)) return renderFrame(walk, view, settings, runner_, memory_);
   auto stats = shared_->gl->draw(walk, view, settings);
@@ -192,6 +191,12 @@ Result<Frame> FrameMaker::render(const PerspectiveView& view) {
   Frame frame = shared_->gl->readBack();
   frame.stats = *stats;
   return frame;
+}
+
+std::shared_ptr<const LoadedWalk> FrameMaker::walkAt(const glm::dvec3& eye) const {
+  if (shows_ != Shows::captures) return nullptr;
+  const auto& walk = shared_->walks[storeyAt(storeys_, eye)];
+  return walk ? walk->walk() : nullptr;
 }
 
 std::vector<std::string> FrameMaker::warnings() const {

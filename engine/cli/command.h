@@ -97,6 +97,8 @@ class FrameMaker {
   /// Loads what a frame needs and opens OpenGL if it is to be used; render() does so too.
   Status load(const PerspectiveView& view);
   Result<Frame> render(const PerspectiveView& view);
+  /// What the last frame from there was drawn from; null before it, and of the truth and polygons.
+  std::shared_ptr<const LoadedWalk> walkAt(const glm::dvec3& eye) const;
   /// The next frame is made in the memory of one that is no longer needed.
   void recycle(Frame frame) { memory_.frame = std::move(frame); }
   /// Of the last frame that was not drawn by OpenGL, 1/m along the view's axis.

@@ -11,14 +11,14 @@
 #include "engine/geometry/conventions.h"
 
 namespace acentric::cli {
-namespace {
 
-/// Where the eye is and where it looks.
-Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProject& open) {
+Result<PerspectiveView> chosenView(const ViewChoice& options, const OpenProject& open) {
+  const auto size = parseSize(options.size);
+  if (!size) return tl::unexpected(size.error());
   if (!options.bookmark.empty()) {
     const auto bookmark = bookmarkOf(open.project, options.bookmark);
     if (!bookmark) return tl::unexpected(bookmark.error());
-    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, {});
+    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, *size);
   }
   PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
                 options.yawDegrees    ? radians(*options.yawDegrees)
@@ -30,10 +30,15 @@ Result<PerspectiveView> chosenView(const RenderOptions& options, const OpenProje
     if (!eye) return tl::unexpected(eye.error());
     pose.eye = *eye;
   }
-  return viewAt(pose, options.fovDegrees, {});
+  return viewAt(pose, options.fovDegrees, *size);
 }
 
-}  // namespace
+Result<std::vector<OpenProject>> storeysFor(const ViewChoice& choice, const OpenProject& current,
+                                            const Common& common) {
+  if (!common.storey.empty() || (choice.eye.empty() && choice.bookmark.empty()))
+    return std::vector<OpenProject>{current};
+  return acentric::openStoreys(current, common.host, common.progress, common.stop);
+}
 
 Result<glm::dvec3> parseEye(const std::string& text, double eyeZ) {
   glm::dvec3 eye(0, 0, eyeZ);
@@ -72,8 +77,6 @@ Result<PictureSize> parseSize(const std::string& text) {
 
 Result<Report> runRender(const RenderOptions& options, const Common& common) {
   if (isBundle(options.project)) return renderBundle(options, common);
-  const auto size = parseSize(options.size);
-  if (!size) return tl::unexpected(size.error());
   const PictureMode mode = pictureModes({{options.mode}}).front();
   if (options.renderer == "truth" && mode != PictureMode::picture)
     return fail(ErrorKind::invalidArgument,
@@ -83,17 +86,12 @@ Result<Report> runRender(const RenderOptions& options, const Common& common) {
 
   const auto chosen = chosenView(options, *current);
   if (!chosen) return tl::unexpected(chosen.error());
-  PerspectiveView view = *chosen;
-  view.width = size->width;
-  view.height = size->height;
+  const PerspectiveView& view = *chosen;
 
   const auto runner = common.runner();
-  std::vector<OpenProject> storeys{*current};
-  if (common.storey.empty() && !(options.eye.empty() && options.bookmark.empty())) {
-    auto all = acentric::openStoreys(*current, common.host, common.progress, common.stop);
-    if (!all) return tl::unexpected(all.error());
-    storeys = std::move(*all);
-  }
+  const auto opened = storeysFor(options, *current, common);
+  if (!opened) return tl::unexpected(opened.error());
+  const std::vector<OpenProject>& storeys = *opened;
   auto maker = FrameMaker::create(storeys, options.renderer, common, *runner, options.look);
   if (!maker) return tl::unexpected(maker.error());
   if (Status loaded = (*maker)->load(view); !loaded) return tl::unexpected(loaded.error());

@@ -158,20 +158,36 @@ Result<Report> runExportImages(const ExportOptions& options, const Common& commo
 Result<Report> runExportGltf(const ExportOptions& options, const Common& common);
 Result<Report> runExportExr(const ExportOptions& options, const Common& common);
 
-struct RenderOptions {
-  std::filesystem::path project, output, holes;
+/// Where the eye is and where it looks.
+struct ViewChoice {
   std::string bookmark;  ///< of the project; empty = eye and angles below
-  std::string eye, size = "960x540";
-  std::string renderer;  ///< empty = the project's
-  Look look;
-  std::string mode = "picture";      ///< frame_pictures.h
+  std::string eye;
   std::optional<double> yawDegrees;  ///< none = as the walk begins; with an eye of its own, 0
   double pitchDegrees = 0, fovDegrees = 60;
+  std::string size = "960x540";
+};
+Result<PerspectiveView> chosenView(const ViewChoice& choice, const OpenProject& open);
+/// The storey that was opened; all of them where an eye was given and no storey.
+Result<std::vector<OpenProject>> storeysFor(const ViewChoice& choice, const OpenProject& current,
+                                            const Common& common);
+
+struct RenderOptions : ViewChoice {
+  std::filesystem::path project, output, holes;
+  std::string renderer;  ///< empty = the project's
+  Look look;
+  std::string mode = "picture";  ///< frame_pictures.h
   int truthSamples = 4;
   int gain = kDifferenceGain;
   bool stats = false;
 };
 Result<Report> runRender(const RenderOptions& options, const Common& common);
+
+struct AskOptions : ViewChoice {
+  std::filesystem::path project;
+  std::string pixel;  ///< empty = the middle
+  bool improvements = true;
+};
+Result<Report> runAsk(const AskOptions& options, const Common& common);
 
 struct WalkOptions {
   std::filesystem::path project, path, output;

@@ -47,6 +47,39 @@ void addMemory(CLI::App& command, Chosen& chosen) {
       ->check(CLI::Range(1.0, 1e9));
 }
 
+void addView(CLI::App& command, ViewChoice& view) {
+  auto* eye =
+      command.add_option("--eye", view.eye, "x,y or x,y,z in metres (default: where the walk begins)");
+  auto* yaw = command.add_option("--yaw", view.yawDegrees,
+                                 "Degrees counter-clockwise from +x (default: as the walk begins)");
+  auto* pitch = command.add_option("--pitch", view.pitchDegrees, "Degrees upwards")->capture_default_str();
+  auto* fov = command.add_option("--fov", view.fovDegrees, "Horizontal field of view in degrees")
+                  ->capture_default_str();
+  command
+      .add_option("--bookmark", view.bookmark,
+                  "The view of one of the project's bookmarks (`info` lists them)")
+      ->excludes(eye)
+      ->excludes(yaw)
+      ->excludes(pitch)
+      ->excludes(fov);
+  command.add_option("--size", view.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+}
+
+void addAsk(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "ask",
+                    "Ask what painted a pixel, how far it is from the truth, and what would improve it",
+                    "  acentric ask kitchen.acentric.json --eye 1,2 --yaw 90 --pixel 480,270\n"
+                    "  acentric ask kitchen.acentric.json --bookmark door --no-improvements --json",
+                    runAsk);
+  c->add_option("project", o.project, "Project file")->required();
+  addStoreyOption(*c, chosen, "the one at the eye");
+  addPresetOption(*c, chosen);
+  addMemory(*c, chosen);
+  addView(*c, o);
+  c->add_option("--pixel", o.pixel, "column,row from the upper left corner (default: the middle)");
+  c->add_flag("!--no-improvements", o.improvements, "Leave out what would improve it, which takes longest");
+}
+
 void addRender(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(
       app, chosen, "render", "Render one picture",
@@ -59,18 +92,7 @@ void addRender(CLI::App& app, Chosen& chosen) {
   addStoreyOption(*c, chosen, "the one at the eye");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);
-  auto* eye = c->add_option("--eye", o.eye, "x,y or x,y,z in metres (default: where the walk begins)");
-  auto* yaw =
-      c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x (default: as the walk begins)");
-  auto* pitch = c->add_option("--pitch", o.pitchDegrees, "Degrees upwards")->capture_default_str();
-  auto* fov =
-      c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees")->capture_default_str();
-  c->add_option("--bookmark", o.bookmark, "The view of one of the project's bookmarks (`info` lists them)")
-      ->excludes(eye)
-      ->excludes(yaw)
-      ->excludes(pitch)
-      ->excludes(fov);
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addView(*c, o);
   addRenderer(*c, o.renderer, true);
   addLook(*c, o.look);
   c->add_option(
@@ -306,6 +328,7 @@ void addBench(CLI::App& app, Chosen& chosen) {
 
 void addWalkCommands(CLI::App& app, Chosen& chosen) {
   addRender(app, chosen);
+  addAsk(app, chosen);
   addTour(app, chosen);
   addWalk(app, chosen);
   addMeasure(app, chosen);
