@@ -83,6 +83,10 @@ void addWalkViewActions(std::vector<Action>& table) {
   flag("view.images", "List images in use", {key::m, ui::modifier::shift},
        "In the order in which they are painted; point at one to see what it paints", &EditorState::showImages,
        false);
+  flag("walk.ask", "Ask the picture", {key::j, 0},
+       "A click on the walk tells what painted it, how far it is from the truth, and what would improve it; "
+       "Alt+click does so at any time",
+       &EditorState::asking, true);
   flag("view.frameTimes", "Graph frame times", {key::f3, 0},
        "What the newest frames of the walk took, part by part", &EditorState::showFrameTimes, false);
   table.push_back({"walk.screenshot",

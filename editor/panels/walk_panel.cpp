@@ -17,6 +17,7 @@ namespace acentric::editor {
 namespace {
 
 constexpr double kRadiansPerPixel = 0.0035;
+constexpr double kClickPixels = 4;  ///< a press and a release so near to each other are a click
 
 WalkKeys keysHeld(const PanelContext& context) {
   namespace key = ui::key;
@@ -70,6 +71,7 @@ void WalkPanel::followProject(PanelContext& context) {
     shown_ = {};
     problem_.clear();
     trial_ = {};
+    askAt_.reset();
     beginAfresh(context.actions);
   }
   // Cells may have gone from under the eye, or the eye height changed.
@@ -151,8 +153,17 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
     if (!looking_ && compare_.handle(context, event)) continue;
     const bool inside = event.position.x >= double(low.x) && event.position.y >= double(low.y) &&
                         event.position.x < double(high.x) && event.position.y < double(high.y) &&
-                        !overlays_.cover(event.position);
+                        !overlays_.cover(event.position) && !onAnswer(event.position);
+    if (event.kind == Kind::buttonRelease && pressedAt_) {
+      if (glm::distance(event.position, *pressedAt_) < kClickPixels) askAt_ = *pressedAt_;
+      pressedAt_.reset();
+    }
+    if (event.kind == Kind::keyPress && event.code == ui::key::escape && !context.inputBlocked)
+      context.session().asking().clear();
     if (event.kind == Kind::buttonPress && inside && !context.inputBlocked) {
+      const bool alt = (event.modifiers & ui::modifier::alt) != 0;
+      if (alt || (context.state().asking && event.code == ui::mouse::left)) pressedAt_ = event.position;
+      if (alt) continue;
       looking_ = true;
       lookFrom_ = event.position;
       context.window.capturePointer(true);
@@ -194,12 +205,14 @@ void WalkPanel::draw(PanelContext& context) {
   keepRested(context);
   askForTruth(context);
   savePicture(context);
+  askThePicture(context);
   drawPicture(low, size);
   compare_.draw(context, *ImGui::GetWindowDrawList(), place_, rested_);
   nameSource(ui::fromIm(ImGui::GetMousePos()));
   if (!context.state().fullScreen)
     drawStatistics(context, low, {size.x, size.y - overlays_.graphHeight(context, size.y)});
   drawOverlays(context, low, size);
+  drawAnswer(context, low, size);
   drawNotice(context, low, size);
 }
 

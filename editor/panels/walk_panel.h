@@ -58,6 +58,9 @@ class WalkPanel {
   /// Keeps the frame that is shown where something else needs to know its pixels.
   void keepRested(PanelContext& context);
   void askForTruth(PanelContext& context);
+  bool onAnswer(const glm::dvec2& at) const;
+  void askThePicture(PanelContext& context);
+  void drawAnswer(PanelContext& context, const ImVec2& low, const ImVec2& size);
   void savePicture(PanelContext& context);
   const SourceColours& coloursOf(const std::shared_ptr<const Layout>& layout);
   /// The name of the camera that painted what the pointer is at.
@@ -96,6 +99,9 @@ class WalkPanel {
   bool looking_ = false;
   bool requested_ = false;
   glm::dvec2 lookFrom_{0};
+  std::optional<glm::dvec2> pressedAt_;  ///< a click there asks, if it is one
+  std::optional<glm::dvec2> askAt_;      ///< window pixels; as soon as the picture rests
+  glm::dvec2 answerLow_{0}, answerHigh_{0};
   WalkPose loggedPose_;
   std::shared_ptr<const Compared> loggedCompared_;
 };

@@ -106,7 +106,7 @@ void WalkPanel::show(const Frame& frame) {
 
 void WalkPanel::keepRested(PanelContext& context) {
   const EditorState& state = context.state();
-  const bool wanted = compares(state.walkLook) || state.showImages || state.takePicture;
+  const bool wanted = compares(state.walkLook) || state.showImages || state.takePicture || askAt_;
   if (!wanted || !context.session().walk() || !problem_.empty() || stale(context, viewAt(context, 1)))
     return rested_.reset();
   if (rested_) return;

@@ -23,6 +23,7 @@
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
+#include "editor/session/picture_ask.h"
 #include "editor/session/problems.h"
 #include "editor/session/scene_pick.h"
 #include "editor/session/session_options.h"
@@ -226,6 +227,7 @@ class Session {
 
   /// The walk against ray-traced truth.
   TruthCompare& comparing() { return comparing_; }
+  PictureAsk& asking() { return asking_; }
   /// What accuracy costs in time.
   SweepWatch& sweeping() { return sweeping_; }
   const SweepWatch& sweeping() const { return sweeping_; }
@@ -453,6 +455,7 @@ class Session {
   Job estimating_{inbox_};
   Job savingPicture_{inbox_};
   TruthCompare comparing_{inbox_, processors_};
+  PictureAsk asking_{inbox_, processors_, options_.importHost};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -129,6 +129,7 @@ void Session::close() {
   estimating_.abandon();
   watching_.abandon();
   comparing_.follow(std::nullopt);
+  asking_.clear();
   sweeping_.watch({});
   estimate_.reset();
   inspection_.reset();

@@ -129,6 +129,7 @@ struct EditorState {
   bool showFrameTimes = false;  ///< over the walk
   bool showMinimap = false;
   bool showImages = false;             ///< beside the minimap: those that the picture is painted from
+  bool asking = false;                 ///< a click on the walk asks what is there
   bool takePicture = false;            ///< asked for; the walk clears it
   bool fitPlan = true;                 ///< asked for; the plan clears it
   std::optional<PlanFrame> framePlan;  ///< the same

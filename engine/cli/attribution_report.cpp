@@ -10,14 +10,6 @@
 #include "engine/measure/statistics.h"
 
 namespace acentric::cli {
-namespace {
-
-constexpr std::array<const char*, kErrorSources> kWords{
-    "holes, filled or not", "silhouettes",     "border of local polygons", "metals, mirrors, glass",
-    "local polygons",       "sky, background", "captured surfaces"};
-
-}  // namespace
-
 void AttributionReport::add(const Frame& frame, const TruthFrame& truth,
                             const Image<std::uint8_t>& viewDependent, const PerspectiveView& view) {
   sums_ += attribute(frame, truth.colour, truth.rayDistance, viewDependent);
@@ -57,7 +49,7 @@ std::string AttributionReport::text() const {
   for (std::size_t s = 0; s < kErrorSources; ++s) {
     const auto source = ErrorSource(s);
     if (sums_.of(source).pixels == 0) continue;
-    text += fmt::format("    {:<46} {:6.2f} % {:6.2f} %  {:6.2f} %   {:6.2f} dB\n", kWords[s],
+    text += fmt::format("    {:<46} {:6.2f} % {:6.2f} %  {:6.2f} %   {:6.2f} dB\n", wordsFor(source),
                         100 * double(sums_.of(source).pixels) / double(sums_.pixels()),
                         100 * sums_.share(source), 100 * shareAtLimit(source), sums_.psnrWithout(source));
   }

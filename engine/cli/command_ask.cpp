@@ -39,7 +39,7 @@ std::string errorText(const Attribution& errors) {
   std::string text = fmt::format("{:.1f} dB", errors.psnr());
   for (std::size_t s = 0; s < kErrorSources; ++s)
     if (const double share = errors.share(ErrorSource(s)); share >= 0.005)
-      text += fmt::format(", {} {:.0f} %", nameOf(ErrorSource(s)), 100 * share);
+      text += fmt::format("; {} {:.0f} %", wordsFor(ErrorSource(s)), 100 * share);
   return text;
 }
 

@@ -132,6 +132,13 @@ const char* nameOf(ErrorSource source) {
   return kNames[std::size_t(source)];
 }
 
+const char* wordsFor(ErrorSource source) {
+  constexpr std::array<const char*, kErrorSources> kWords{
+      "holes, filled or not", "silhouettes",     "border of local polygons", "metals, mirrors, glass",
+      "local polygons",       "sky, background", "captured surfaces"};
+  return kWords[std::size_t(source)];
+}
+
 std::size_t Attribution::pixels() const {
   std::size_t sum = 0;
   for (const Part& part : parts) sum += part.pixels;

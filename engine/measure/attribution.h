@@ -24,6 +24,7 @@ enum class ErrorSource : std::uint8_t {
 };
 inline constexpr std::size_t kErrorSources = 7;
 const char* nameOf(ErrorSource source);
+const char* wordsFor(ErrorSource source);  ///< for people: "captured surfaces"
 
 /// Sums over a frame, or over many.
 struct Attribution {

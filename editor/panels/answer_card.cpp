@@ -1,0 +1,166 @@
+#include "editor/panels/answer_card.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/geometry/conventions.h"
+#include "engine/measure/source_colours.h"
+#include "ui/text_format.h"
+
+namespace acentric::editor {
+namespace {
+
+constexpr float kWidth = 390, kMargin = 12, kLabel = 84, kHeight = 452;
+
+void heading(PanelContext& context, const char* text) {
+  ImGui::Dummy({0, ui::scaled(2)});
+  ImGui::PushFont(context.window.fonts().bold);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+std::string errorsText(const Attribution& errors) {
+  std::string text = fmt::format("{:.1f} dB", errors.psnr());
+  constexpr double kWorthTelling = 0.05;
+  for (std::size_t s = 0; s < kErrorSources; ++s)
+    if (const double share = errors.share(ErrorSource(s)); share >= kWorthTelling)
+      text += fmt::format("\n{:.0f} % {}", 100 * share, wordsFor(ErrorSource(s)));
+  return text;
+}
+
+void swatch(const Rgba8& colour) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                            IM_COL32(colour.r, colour.g, colour.b, 255), ui::scaled(2));
+  ImGui::Dummy({side, side});
+}
+
+void drawColours(const PictureAnswer& answer) {
+  ui::mutedText("Colour");
+  ImGui::SameLine(ui::scaled(kLabel));
+  swatch(answer.shown);
+  ImGui::SameLine(0, ui::scaled(6));
+  ImGui::TextUnformatted("here");
+  ImGui::SameLine(0, ui::scaled(14));
+  swatch(answer.truth);
+  ImGui::SameLine(0, ui::scaled(6));
+  ImGui::TextUnformatted("truth");
+}
+
+void drawPainter(const PixelPainter& painter) {
+  std::string from =
+      fmt::format("{:.2f} m away, {:.1f}° beside the eye", painter.metres, degrees(painter.radians));
+  if (painter.layer > 0) from = fmt::format("layer {}, ", painter.layer) + from;
+  ui::keyValue("Captured", from, kLabel);
+  const bool few = painter.samplesPerPixel < 1;
+  ui::keyValue("Sampling",
+               fmt::format("{:.2f} samples per pixel{}", painter.samplesPerPixel, few ? ": too few" : ""),
+               kLabel);
+  ui::tooltip(
+      "In the direction on the surface in which there are fewest. Below 1 the capture is coarser than "
+      "the screen.");
+}
+
+void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
+  const OpenProject& open = *question.open;
+  if (answer.surface) {
+    const Mesh& mesh = open.scene->meshOf(answer.surface->mesh);
+    const glm::dvec3& at = answer.surface->position;
+    ui::keyValue("Surface", mesh.name.empty() ? "without a name" : ui::shortenPath(mesh.name, 34), kLabel);
+    ui::keyValue("", fmt::format("x {:.2f}  y {:.2f}  z {:.2f} m", at.x, at.y, at.z), kLabel);
+  }
+  if (answer.painter) drawPainter(*answer.painter);
+  drawColours(answer);
+  if (answer.region >= 0) {
+    const Region& region = open.layout->regions[std::size_t(answer.region)];
+    const int most = open.project.budget.trianglesPerRegion;
+    std::string triangles = ui::formatCount(answer.triangles);
+    if (most > 0) triangles += fmt::format(" of {}", ui::formatCount(std::size_t(most)));
+    ui::keyValue("Region", fmt::format("({}, {}), {} triangles", region.id.i, region.id.j, triangles),
+                 kLabel);
+  }
+  ui::keyValue("Error here", errorsText(answer.here), kLabel);
+  ui::tooltip(
+      fmt::format("Against 4 rays per pixel, within {} pixels: how near, and what keeps it from the truth",
+                  kAskedPixels));
+  ui::keyValue("Frame", fmt::format("{:.1f} dB", answer.frame.psnr()), kLabel);
+}
+
+std::string costText(const BakeForecast& bake) {
+  if (bake.nothing()) return "is baked already";
+  return fmt::format("bakes {} cameras: {}, {}", bake.cameras, ui::formatDuration(bake.seconds()),
+                     ui::formatBytes(std::uint64_t(bake.bytes())));
+}
+
+void apply(PanelContext& context, const PictureQuestion& question, const Improvement& improvement) {
+  Session& session = context.session();
+  if (session.project() == question.open->project)
+    session.apply({improvement.project, "Improve: " + improvement.what});
+  else
+    session.messages().add(MessageLevel::warning, "The project has changed since: ask the picture again");
+}
+
+void drawImprovements(PanelContext& context, const PictureQuestion& question,
+                      const std::vector<Improvement>& improvements) {
+  heading(context, "What would improve it, at best");
+  if (improvements.empty())
+    return ui::wrappedText(ui::palette::muted, "Nothing that can be set promises more here.");
+  for (std::size_t i = 0; i < improvements.size(); ++i) {
+    const Improvement& each = improvements[i];
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("%.1f dB", each.psnrHere);
+    ImGui::SameLine(ui::scaled(kLabel));
+    ImGui::TextUnformatted(each.what.c_str());
+    ui::tooltip(each.why);
+    const float width = ui::scaled(64);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    if (ui::button(fmt::format("Apply##{}", i).c_str(), {width, 0})) apply(context, question, each);
+    context.log.item(fmt::format("answer.apply.{}", i));
+    ui::tooltip("Changes the project so; undo takes it back. It is seen once it is baked.");
+    ImGui::SetCursorPosX(ui::scaled(kLabel));
+    ui::mutedText(costText(each.bake));
+  }
+}
+
+}  // namespace
+
+std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& areaMin,
+                                         const ImVec2& areaMax) {
+  PictureAsk& asked = context.session().asking();
+  if (!asked.question()) return {};
+  const float margin = ui::scaled(kMargin);
+  const ImVec2 low(areaMin.x + margin, areaMin.y + margin);
+  const ImVec2 size(std::min(ui::scaled(kWidth), areaMax.x - low.x - margin),
+                    std::min(ui::scaled(kHeight), areaMax.y - low.y - margin));
+  if (size.x < ui::scaled(120) || size.y < ui::scaled(60)) return {};
+  ImGui::SetCursorScreenPos(low);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ui::palette::panel.withOpacity(0.94F).vec());
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(12, 9)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, ui::scaled(5));
+  ImGui::BeginChild("##answer", size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::PopStyleVar(2);
+  bool close = false;
+  if (const PictureQuestion question = *asked.question(); asked.answer()) {
+    heading(context, sourceName(*question.open->layout, asked.answer()->source).c_str());
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ui::scaled(64));
+    close = ui::button("Close", {ui::scaled(64), 0});
+    context.log.item("answer.close");
+    drawAnswer(question, *asked.answer());
+    if (asked.improvements())
+      drawImprovements(context, question, *asked.improvements());
+    else if (asked.problem().empty())
+      ui::mutedText("Looking for what would improve it…");
+  } else if (asked.problem().empty()) {
+    ui::mutedText("Asking the picture…");
+  }
+  if (!asked.problem().empty()) ui::wrappedText(ui::palette::danger, asked.problem());
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+  context.log.item("answer");
+  if (close) asked.clear();
+  return {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
+}
+
+}  // namespace acentric::editor

@@ -1,0 +1,15 @@
+#pragma once
+/// What a pixel of the walk that was asked about is, and the changes that would improve it, each to be had by
+/// a click.
+
+#include <utility>
+
+#include "editor/panels/panel_context.h"
+
+namespace acentric::editor {
+
+/// In the upper left corner of an area of the current window (screen pixels); where it lies is returned: min
+/// and max. Nothing is drawn, and both are (0, 0), where nothing was asked.
+std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& areaMin, const ImVec2& areaMax);
+
+}  // namespace acentric::editor
