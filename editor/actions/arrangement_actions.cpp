@@ -23,8 +23,7 @@ void showOrEnlarge(ActionContext& c, View view) {
 }
 
 void addViews(std::vector<Action>& table) {
-  const auto view = [&table](const char* id, const char* label, int code, const std::string& help,
-                             View view) {
+  const auto add = [&table](const char* id, const char* label, int code, const std::string& help, View view) {
     table.push_back({id,
                      "View",
                      label,
@@ -36,11 +35,11 @@ void addViews(std::vector<Action>& table) {
                      [view](ActionContext& c) { showOrEnlarge(c, view); },
                      [view](const ActionContext& c) { return shows(c, view); }});
   };
-  view("view.plan", "Plan", key::f2, "The layout from above", View::plan);
-  view("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", View::scene3d);
-  view("view.accuracy", "Accuracy", key::f6,
-       "How near settings come to the truth, and what they cost in time and bytes", View::accuracy);
-  view("view.walk", "Walk", key::f7, "The walk", View::walk);
+  add("view.plan", "Plan", key::f2, "The layout from above", View::plan);
+  add("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", View::scene3d);
+  add("view.accuracy", "Accuracy", key::f6,
+      "How near settings come to the truth, and what they cost in time and bytes", View::accuracy);
+  add("view.walk", "Walk", key::f7, "The walk", View::walk);
 }
 
 void addPane(std::vector<Action>& table, const char* id, const char* label, const char* help,

@@ -16,7 +16,7 @@ namespace {
 
 namespace palette = ui::palette;
 
-constexpr float kNear = 4, kApart = 14, kCard = 290;
+constexpr float kButtonGap = 4, kApart = 14, kCard = 290;
 constexpr std::array<std::pair<const char*, const char*>, 3> kPresets{
     {{"preset.fast", "Fast"}, {"preset.balanced", "Balanced"}, {"preset.accurate", "Accurate"}}};
 
@@ -58,13 +58,13 @@ void drawToolbar(PanelContext& context) {
     actionButton(context, "sweep.stop", ButtonLook::plain, {}, watch.stopping() ? "Stopping" : "Stop");
   else
     actionButton(context, "sweep.start", ButtonLook::primary, {}, watch.sweep() ? "Go on" : "Measure");
-  ImGui::SameLine(0, ui::scaled(kNear));
+  ImGui::SameLine(0, ui::scaled(kButtonGap));
   actionButton(context, "sweep.again", ButtonLook::plain, {}, "Anew");
   ImGui::SameLine(0, ui::scaled(kApart));
   drawNumber(context, "sweep.minutes", "%d minutes",
              "How long it may take. What does not fit is left for another time.", 1, 24 * 60,
              state.request.minutes);
-  ImGui::SameLine(0, ui::scaled(kNear));
+  ImGui::SameLine(0, ui::scaled(kButtonGap));
   drawNumber(context, "sweep.frames", "%d frames",
              "Of the walk, evenly chosen, that settings are compared in.", 1, 1000, state.request.frames);
   ImGui::SameLine(0, ui::scaled(kApart));

@@ -13,7 +13,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kNear = 4;
+constexpr float kPathGap = 4;
 constexpr std::array<double, 5> kSpeeds{0.25, 0.5, 1, 2, 4};
 
 /// Buttons in a row, and in the next where the pane ends.
@@ -22,7 +22,7 @@ void buttons(PanelContext& context, std::initializer_list<std::pair<const char*,
   for (const auto& [id, label] : entries) {
     const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (!std::exchange(first, false)) {
-      ImGui::SameLine(0, kNear);
+      ImGui::SameLine(0, kPathGap);
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
     actionButton(context, id, ButtonLook::plain, {}, label);
@@ -32,7 +32,7 @@ void buttons(PanelContext& context, std::initializer_list<std::pair<const char*,
 void drawRecording(PanelContext& context) {
   const WalkRecorder& recorder = context.state().recorder;
   actionButton(context, "walk.record", ButtonLook::toggle, {}, recorder.recording() ? "Stop" : "Record walk");
-  ImGui::SameLine(0, kNear);
+  ImGui::SameLine(0, kPathGap);
   actionButton(context, "bookmark.add", ButtonLook::plain, {}, "Bookmark here");
   if (!recorder.recording()) return;
   ImGui::SameLine(0, 12);
@@ -133,11 +133,11 @@ void drawSpeed(PanelContext& context) {
 void drawTransport(PanelContext& context, const WalkPath& path) {
   const WalkReplay& replay = context.state().replay;
   actionButton(context, "path.play", ButtonLook::primary, {56, 0}, replay.playing() ? "Pause" : "Play");
-  ImGui::SameLine(0, kNear);
+  ImGui::SameLine(0, kPathGap);
   actionButton(context, "path.stop", ButtonLook::plain, {}, "Stop");
-  ImGui::SameLine(0, kNear);
+  ImGui::SameLine(0, kPathGap);
   actionButton(context, "path.loop", ButtonLook::toggle, {}, "Loop");
-  ImGui::SameLine(0, kNear);
+  ImGui::SameLine(0, kPathGap);
   drawSpeed(context);
   float seconds = float(replay.at());
   ImGui::SetNextItemWidth(-1);

@@ -249,6 +249,7 @@ class Session {
 
   Messages& messages() { return messages_; }
   Preferences& preferences() { return preferences_; }
+  const Preferences& preferences() const { return preferences_; }
   void savePreferencesNow();
 
  private:

@@ -98,7 +98,7 @@ Status addPlan(const std::vector<OpenProject>& storeys, const std::optional<Resu
       known ? *known : glanceAtBake(storeys, kPlanningSeconds, *runner, common.progress, common.stop);
   if (common.stop.stop_requested())
     return fail(ErrorKind::cancelled, "stopped; the project is made", project.string());
-  if (plan) report.json["plan"].update(toJson(*plan));
+  if (plan) report.json["plan"].update(cli::toJson(*plan));
   std::string text;
   if (plan)
     text = describe(*plan);

@@ -18,7 +18,8 @@ Result<PerspectiveView> chosenView(const ViewChoice& options, const OpenProject&
   if (!options.bookmark.empty()) {
     const auto bookmark = bookmarkOf(open.project, options.bookmark);
     if (!bookmark) return tl::unexpected(bookmark.error());
-    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees, *size);
+    return viewAt({bookmark->eye, bookmark->yawRadians, bookmark->pitchRadians}, bookmark->fovDegrees,
+                  {size->width, size->height});
   }
   PathPose pose{{open.project.spawn().position, open.layout->eyeZ()},
                 options.yawDegrees    ? radians(*options.yawDegrees)
@@ -30,7 +31,7 @@ Result<PerspectiveView> chosenView(const ViewChoice& options, const OpenProject&
     if (!eye) return tl::unexpected(eye.error());
     pose.eye = *eye;
   }
-  return viewAt(pose, options.fovDegrees, *size);
+  return viewAt(pose, options.fovDegrees, {size->width, size->height});
 }
 
 Result<std::vector<OpenProject>> storeysFor(const ViewChoice& choice, const OpenProject& current,

@@ -53,29 +53,35 @@ PixelPainter paintingBy(int camera, const OpenProject& open, const PerspectiveVi
 }
 
 /// Of the samples in the point's pixel of the capture, from the camera outwards, the place of the one that is
-/// nearest to the point; 0 where that pixel has none.
+/// nearest to the point. A patch reaches past its outermost samples: where that pixel has none, those around
+/// it are asked. 0 where there is none either.
 int layerOf(const DisplayCapture& capture, const glm::dvec3& point) {
   const ColumnCamera& camera = capture.camera;
   const glm::dvec3 offset = point - camera.centreOfProjection;
   const double horizontal = glm::length(glm::dvec2(offset));
   if (horizontal <= 0) return 0;
-  const double azimuth =
-      wrapAngle(std::atan2(offset.y, offset.x) - camera.lowAzimuth - camera.fovRadians / 2);
-  const int column = int(std::floor((azimuth + camera.fovRadians / 2) / camera.columnPitch()));
+  const double fromMiddle =
+      std::remainder(std::atan2(offset.y, offset.x) - camera.lowAzimuth - camera.fovRadians / 2, kTwoPi);
+  const int column = int(std::floor((fromMiddle + camera.fovRadians / 2) / camera.columnPitch()));
   const int row =
       int(std::floor((camera.topElevation - std::atan2(offset.z, horizontal)) / camera.rowPitch()));
-  if (column < 0 || column >= camera.columns || row < 0 || row >= camera.rows) return 0;
-  std::vector<double> inverse;
-  for (std::size_t i = capture.columnStart[std::size_t(column)];
-       i < capture.columnStart[std::size_t(column) + 1]; ++i)
-    if (capture.samples[i].row == std::uint32_t(row))
-      inverse.push_back(inverseDistanceOf(capture.samples[i]));
-  if (inverse.empty()) return 0;
-  std::ranges::sort(inverse, std::greater());
-  const double own = 1 / horizontal;
-  const auto nearest =
-      std::ranges::min_element(inverse, {}, [own](double each) { return std::abs(each - own); });
-  return int(nearest - inverse.begin()) + 1;
+  const auto layerIn = [&](int c, int r) {
+    if (c < 0 || c >= camera.columns || r < 0 || r >= camera.rows) return 0;
+    std::vector<double> inverse;
+    for (std::size_t i = capture.columnStart[std::size_t(c)]; i < capture.columnStart[std::size_t(c) + 1];
+         ++i)
+      if (capture.samples[i].row == std::uint32_t(r))
+        inverse.push_back(inverseDistanceOf(capture.samples[i]));
+    if (inverse.empty()) return 0;
+    std::ranges::sort(inverse, std::greater());
+    const auto away = [own = 1 / horizontal](double each) { return std::abs(each - own); };
+    return int(std::ranges::min_element(inverse, {}, away) - inverse.begin()) + 1;
+  };
+  if (const int layer = layerIn(column, row); layer > 0) return layer;
+  for (int c = column - 1; c <= column + 1; ++c)
+    for (int r = row - 1; r <= row + 1; ++r)
+      if (const int layer = layerIn(c, r); layer > 0) return layer;
+  return 0;
 }
 
 double squaresOf(const ColourImage& a, const ColourImage& b) {

@@ -10,7 +10,7 @@ namespace acentric {
 namespace {
 
 /// 6 x 4 m with a pillar in it and a wall of 5 cm that ends 1 m before the far side.
-Layout room(Configuration configuration = Configuration::b) {
+Layout roomWithPillar(Configuration configuration = Configuration::b) {
   LayoutSpec spec;
   spec.configuration = configuration;
   spec.cellSize = 1;
@@ -21,7 +21,7 @@ Layout room(Configuration configuration = Configuration::b) {
 }
 
 TEST(WalkGround, OneStandsWithinTheOutlineOrInACellAddedBeyondIt) {
-  Layout layout = room();
+  Layout layout = roomWithPillar();
   EXPECT_TRUE(mayStand(layout, {3, 3}));
   EXPECT_FALSE(mayStand(layout, {1.5, 1.5})) << "in the pillar";
   EXPECT_FALSE(mayStand(layout, {-0.05, 2})) << "the region reaches beyond the outline";
@@ -54,7 +54,7 @@ TEST(WalkGround, APlaceThatIsToldInCentimetresIsOneToStand) {
 }
 
 TEST(WalkGround, TheNearestPlaceIsAsNearAsAnyOfAFineGrid) {
-  const Layout layout = room();
+  const Layout layout = roomWithPillar();
   test::Random random(3);
   for (int n = 0; n < 60; ++n) {
     const glm::dvec2 point(random(-2, 8), random(-2, 6));
@@ -72,12 +72,12 @@ TEST(WalkGround, TheNearestPlaceIsAsNearAsAnyOfAFineGrid) {
 }
 
 TEST(WalkGround, AStraightWayThatIsFreeIsWalkedToItsEnd) {
-  const glm::dvec2 end = walkTo(room(), {0.5, 3}, {3.5, 3.5});
+  const glm::dvec2 end = walkTo(roomWithPillar(), {0.5, 3}, {3.5, 3.5});
   EXPECT_NEAR(glm::distance(end, {3.5, 3.5}), 0, 1e-9);
 }
 
 TEST(WalkGround, AgainstAWallOneSlidesAlongIt) {
-  const Layout layout = room();
+  const Layout layout = roomWithPillar();
   glm::dvec2 at(2.5, 3.5);
   for (int i = 0; i < 60; ++i) {
     const glm::dvec2 next = walkTo(layout, at, at + glm::dvec2(0.01, 0.02));
@@ -89,7 +89,7 @@ TEST(WalkGround, AgainstAWallOneSlidesAlongIt) {
 }
 
 TEST(WalkGround, HeadOnOneStopsAndAConvexCornerDoesNotHoldOne) {
-  const Layout layout = room();
+  const Layout layout = roomWithPillar();
   const glm::dvec2 stopped = walkTo(layout, {0.5, 1.5}, {1.5, 1.5});
   EXPECT_LT(stopped.x, 1.0);
   EXPECT_NEAR(stopped.y, 1.5, 0.05);
@@ -99,7 +99,7 @@ TEST(WalkGround, HeadOnOneStopsAndAConvexCornerDoesNotHoldOne) {
 }
 
 TEST(WalkGround, NoWallIsWalkedThroughHoweverFastAndWhicheverWay) {
-  const Layout layout = room();
+  const Layout layout = roomWithPillar();
   test::Random random(11);
   for (int walk = 0; walk < 10; ++walk) {
     glm::dvec2 at(random(2.2, 3.9), random(0.1, 2.5));
@@ -116,7 +116,7 @@ TEST(WalkGround, NoWallIsWalkedThroughHoweverFastAndWhicheverWay) {
 
 TEST(WalkGround, RandomWalksNeverLeaveTheGroundNorGetStuck) {
   for (const Configuration configuration : test::kAllConfigurations) {
-    const Layout layout = room(configuration);
+    const Layout layout = roomWithPillar(configuration);
     test::Random random(unsigned(configuration) + 1);
     glm::dvec2 at = nearestStanding(layout, {3, 3});
     for (int i = 0; i < 300; ++i) {
