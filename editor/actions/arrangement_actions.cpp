@@ -5,12 +5,6 @@ namespace {
 
 WholeView wholeOf(View view) { return view == View::walk ? WholeView::walk : WholeView::centre; }
 
-bool shows(const ActionContext& c, View view) {
-  const bool inFront = view == View::walk || c.state.centreView == view;
-  if (c.state.whole != WholeView::none) return c.state.whole == wholeOf(view) && inFront;
-  return inFront || fourViews(c);
-}
-
 /// Shows it; where it is shown already it fills the window, and again makes room for the others.
 void showOrEnlarge(ActionContext& c, View view) {
   WholeView& whole = c.state.whole;
@@ -61,6 +55,12 @@ void addPane(std::vector<Action>& table, const char* id, const char* label, cons
 }
 
 }  // namespace
+
+bool shows(const ActionContext& c, View view) {
+  const bool inFront = view == View::walk || c.state.centreView == view;
+  if (c.state.whole != WholeView::none) return c.state.whole == wholeOf(view) && inFront;
+  return inFront || fourViews(c);
+}
 
 bool fourViews(const ActionContext& c) {
   return c.session.preferences().fourViews && !c.session.shippedWalk();

@@ -23,6 +23,8 @@ inline bool withBuilt(const ActionContext& c) {
 /// Four views in place of panels, which only a project has.
 bool fourViews(const ActionContext& c);
 Arrangement arrangementOf(const ActionContext& c);
+/// Does the window show it, alone or with others?
+bool shows(const ActionContext& c, View view);
 
 void addFileActions(std::vector<Action>& table);
 /// Which views the window shows, and which alone.

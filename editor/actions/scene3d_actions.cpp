@@ -3,7 +3,7 @@
 namespace acentric::editor {
 namespace {
 
-bool inScene3d(const ActionContext& c) { return withBuilt(c) && c.state.centreView == View::scene3d; }
+bool inScene3d(const ActionContext& c) { return withBuilt(c) && shows(c, View::scene3d); }
 
 bool lookingThrough(const ActionContext& c) {
   return inScene3d(c) && c.state.scene3d.lookThrough &&

@@ -66,8 +66,14 @@ shown menu.File "after the full screen"
 press F8
 shown bake.start "back to panels"
 leave_editor
-
-
 remembered() { grep -o '"fourViews": *[a-z]*' "$WORK/config/acentric/editor.json"; }
 remembered | grep -q false || fail "the window's layout is not remembered: $(remembered)"
+
+# Drawn by the graphics card, once it has drawn a frame as the processor did.
+sed -i 's/"graphics": *"automatic"/"graphics": "card"/' "$WORK/config/acentric/editor.json"
+start_editor "$PROJECT"
+wait_for '^event graphics card' 60
+wait_for '^event glframe' 60
+grep -q 'draws this walk differently' "$WORK/ui.log" && fail "the trial says that the frames differ"
+leave_editor
 echo "passed"
