@@ -29,6 +29,28 @@ void addLooks(std::vector<Action>& table) {
        "The walk left, the ray-traced truth right of a border that can be dragged", WalkLook::split);
   look("view.difference", "Difference from the truth", {key::k, ui::modifier::shift},
        "How far each pixel is from the ray-traced truth, amplified", WalkLook::difference);
+  table.push_back(
+      {"variant.keep",
+       "Walk",
+       "Keep as variant",
+       {},
+       {},
+       "Keeps the project as it is now, to be compared with what it becomes; its captures have to "
+       "stay on disk",
+       false,
+       withBuilt,
+       [](ActionContext& c) {
+         c.session.variants().keep(c.session.built());
+         c.session.messages().add(MessageLevel::info,
+                                  "Kept. Change the project, bake, and press N to compare.");
+       },
+       {}});
+  look("view.variant", "Compare with the kept variant", {key::n, 0},
+       "The kept variant left, the project as it is now right of a border that can be dragged",
+       WalkLook::variant);
+  Action& compare = table.back();
+  compare.enabled = [](const ActionContext& c) { return withProject(c) && c.session.variants().kept(); };
+  compare.needs = "a variant that was kept";
 }
 
 /// Shown beside the picture where they matter, not in a menu.

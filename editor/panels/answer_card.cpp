@@ -11,7 +11,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kWidth = 390, kMargin = 12, kLabel = 84, kHeight = 452;
+constexpr float kWidth = 390, kMargin = 12, kLabel = 84;
 
 void heading(PanelContext& context, const char* text) {
   ImGui::Dummy({0, ui::scaled(2)});
@@ -126,15 +126,15 @@ void drawImprovements(PanelContext& context, const PictureQuestion& question,
 
 }  // namespace
 
-std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& areaMin,
-                                         const ImVec2& areaMax) {
+std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& areaMin, const ImVec2& areaMax,
+                                         float& contentHeight) {
   PictureAsk& asked = context.session().asking();
   if (!asked.question()) return {};
   const float margin = ui::scaled(kMargin);
   const ImVec2 low(areaMin.x + margin, areaMin.y + margin);
   const ImVec2 size(std::min(ui::scaled(kWidth), areaMax.x - low.x - margin),
-                    std::min(ui::scaled(kHeight), areaMax.y - low.y - margin));
-  if (size.x < ui::scaled(120) || size.y < ui::scaled(60)) return {};
+                    std::min(contentHeight, areaMax.y - low.y - margin));
+  if (size.x < ui::scaled(120) || size.y < ui::scaled(36)) return {};
   ImGui::SetCursorScreenPos(low);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ui::palette::panel.withOpacity(0.94F).vec());
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(12, 9)));
@@ -156,9 +156,12 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
     ui::mutedText("Asking the picture…");
   }
   if (!asked.problem().empty()) ui::wrappedText(ui::palette::danger, asked.problem());
+  const float content = ImGui::GetCursorPosY() + ui::scaled(4);
   ImGui::EndChild();
   ImGui::PopStyleColor();
   context.log.item("answer");
+  if (content != contentHeight) context.window.pacer().request();
+  contentHeight = content;
   if (close) asked.clear();
   return {ImGui::GetItemRectMin(), ImGui::GetItemRectMax()};
 }

@@ -39,7 +39,7 @@ void WalkPanel::drawAnswer(PanelContext& context, const ImVec2& low, const ImVec
     frame(0, ui::palette::text);
     frame(1, ui::palette::backdrop);
   }
-  const auto [min, max] = drawAnswerCard(context, low, {low.x + size.x, low.y + size.y});
+  const auto [min, max] = drawAnswerCard(context, low, {low.x + size.x, low.y + size.y}, answerHeight_);
   answerLow_ = ui::fromIm(min);
   answerHigh_ = ui::fromIm(max);
 }

@@ -29,7 +29,7 @@ float widthOf(ImFont* font, const std::string& text) {
 bool WalkCompare::onBorder(const PanelContext& context, const glm::dvec2& position) const {
   const EditorState& state = context.actions.state;
   const glm::dvec2 inside = position - place_.min;
-  return state.walkLook == WalkLook::split && inside.y >= 0 && inside.y < place_.size.y &&
+  return isSplit(state.walkLook) && inside.y >= 0 && inside.y < place_.size.y &&
          std::abs(inside.x - state.splitAt * place_.size.x) <= kGripPixels;
 }
 
@@ -46,14 +46,32 @@ bool WalkCompare::handle(PanelContext& context, const ui::InputEvent& event) {
   return true;
 }
 
-void WalkCompare::drawSplit(PanelContext& context, ImDrawList& list, const Truth* truth) {
+WalkCompare::Sides WalkCompare::sidesOf(PanelContext& context, const Truth* truth) const {
+  if (context.state().walkLook == WalkLook::variant) {
+    const VariantCompare& variants = context.session().variants();
+    const bool there = variants.frame() != nullptr;
+    const std::string waiting =
+        variants.problem().empty() ? "the kept variant is drawn once the eye rests" : variants.problem();
+    return {there, true, there ? "kept" : waiting, "now", "now"};
+  }
+  const bool there = truth != nullptr;
+  const bool tracing = context.session().comparing().tracing();
+  return {there, false, "walk",
+          there     ? describe(*truth)
+          : tracing ? "tracing the truth"
+                    : "the truth is traced once the eye rests",
+          "truth"};
+}
+
+void WalkCompare::drawSplit(PanelContext& context, ImDrawList& list, const Sides& sides) {
   const auto share = float(context.state().splitAt);
   const ImVec2 low = ui::imVec(place_.min), high = ui::imVec(place_.min + place_.size);
   const float x = low.x + share * (high.x - low.x);
-  if (truth != nullptr && !texture_.empty())
-    list.AddImage(texture_.imguiId(), {x, low.y}, high, {share, 0}, {1, 1});
+  const ImVec2 from(sides.left ? low.x : x, low.y), to(sides.left ? x : high.x, high.y);
+  if (sides.there && !texture_.empty())
+    list.AddImage(texture_.imguiId(), from, to, {sides.left ? 0 : share, 0}, {sides.left ? share : 1, 1});
   else
-    list.AddRectFilled({x, low.y}, high, palette::backdrop.withOpacity(0.45F).packed());
+    list.AddRectFilled(from, to, palette::backdrop.withOpacity(0.45F).packed());
   const bool held =
       dragging_ || (!context.inputBlocked && onBorder(context, ui::fromIm(ImGui::GetMousePos())));
   const ImU32 colour = (held ? palette::accent : palette::text).packed();
@@ -69,17 +87,15 @@ void WalkCompare::drawSplit(PanelContext& context, ImDrawList& list, const Truth
 
   ImFont* font = context.window.fonts().small;
   list.PushClipRect(low, {x - 2, high.y}, true);
-  ui::drawLabel(list, font, {low.x + kLabelX, low.y + kLabelY}, palette::text, "walk");
+  ui::drawLabel(list, font, {low.x + kLabelX, low.y + kLabelY},
+                (sides.there || !sides.left ? palette::text : palette::muted), sides.leftName.c_str());
   list.PopClipRect();
-  const std::string name = truth != nullptr ? describe(*truth)
-                           : context.session().comparing().tracing()
-                               ? "tracing the truth"
-                               : "the truth is traced once the eye rests";
   const float room = high.x - x - 2 * kLabelX;
-  const float width = widthOf(font, name);
+  const float width = widthOf(font, sides.rightName);
   list.PushClipRect({x + 2, low.y}, high, true);
   ui::drawLabel(list, font, {width > room ? x + kLabelX : high.x - kLabelX - width, low.y + kLabelY},
-                truth != nullptr ? palette::text : palette::muted, width > room ? "truth" : name.c_str());
+                sides.there || sides.left ? palette::text : palette::muted,
+                width > room ? sides.shortName : sides.rightName.c_str());
   list.PopClipRect();
 }
 
@@ -95,31 +111,41 @@ void WalkCompare::drawDifference(PanelContext& context, ImDrawList& list,
                 there ? palette::text : palette::muted, name.c_str());
 }
 
+/// What is to be shown goes to the graphics card when it is another.
+void WalkCompare::follow(PanelContext& context, const std::shared_ptr<const Truth>& truth,
+                         const std::shared_ptr<const Frame>& frame) {
+  const EditorState& state = context.state();
+  const bool difference = state.walkLook == WalkLook::difference;
+  const std::shared_ptr<const Frame>& kept = context.session().variants().frame();
+  const bool variant = state.walkLook == WalkLook::variant;
+  const std::shared_ptr<const void> other =
+      variant ? std::shared_ptr<const void>(kept) : std::shared_ptr<const void>(truth);
+  const std::shared_ptr<const Frame> of = difference ? frame : nullptr;
+  const int gain = difference ? state.differenceGain : 0;
+  if (!other || (difference && !frame)) return;
+  if (other == shownOther_ && of == shownFrame_ && gain == shownGain_) return;
+  upload(texture_, variant      ? kept->colour
+                   : difference ? differenceImage(frame->colour, truth->frame.colour, gain)
+                                : truth->frame.colour);
+  shownOther_ = other;
+  shownFrame_ = of;
+  shownGain_ = gain;
+}
+
 void WalkCompare::draw(PanelContext& context, ImDrawList& list, const ui::FittedImage& place,
                        const std::shared_ptr<const Frame>& frame) {
   place_ = place;
-  const EditorState& state = context.state();
-  if (!compares(state.walkLook)) {
-    shownTruth_.reset();
+  if (!compares(context.state().walkLook)) {
+    shownOther_.reset();
     shownFrame_.reset();
     dragging_ = false;
     return;
   }
   const std::shared_ptr<const Truth> truth = context.session().comparing().truth();
-  const bool difference = state.walkLook == WalkLook::difference && truth && frame;
-  const std::shared_ptr<const Frame> of = difference ? frame : nullptr;
-  const int gain = difference ? state.differenceGain : 0;
-  if (truth && (difference || state.walkLook == WalkLook::split) &&
-      (truth != shownTruth_ || of != shownFrame_ || gain != shownGain_)) {
-    upload(texture_,
-           difference ? differenceImage(frame->colour, truth->frame.colour, gain) : truth->frame.colour);
-    shownTruth_ = truth;
-    shownFrame_ = of;
-    shownGain_ = gain;
-  }
+  follow(context, truth, frame);
   list.PushClipRect(ui::imVec(place.min), ui::imVec(place.min + place.size), true);
-  if (state.walkLook == WalkLook::split)
-    drawSplit(context, list, truth.get());
+  if (isSplit(context.state().walkLook))
+    drawSplit(context, list, sidesOf(context, truth.get()));
   else
     drawDifference(context, list, truth, frame);
   list.PopClipRect();

@@ -132,7 +132,7 @@ void WalkPanel::drawButtons(PanelContext& context) {
     else
       actionButton(context, entry.id, entry.look, {}, entry.label);
   }
-  if (!compares(context.state().walkLook)) return;
+  if (!needsTruth(context.state().walkLook)) return;
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Rays per pixel");
   for (const int rays : kTruthRays) {

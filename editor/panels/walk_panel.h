@@ -102,8 +102,10 @@ class WalkPanel {
   std::optional<glm::dvec2> pressedAt_;  ///< a click there asks, if it is one
   std::optional<glm::dvec2> askAt_;      ///< window pixels; as soon as the picture rests
   glm::dvec2 answerLow_{0}, answerHigh_{0};
+  float answerHeight_ = 60;  ///< pixels
   WalkPose loggedPose_;
   std::shared_ptr<const Compared> loggedCompared_;
+  std::shared_ptr<const VariantFigures> loggedVariants_;
 };
 
 }  // namespace acentric::editor

@@ -121,9 +121,17 @@ void WalkPanel::askForTruth(PanelContext& context) {
   Session& session = context.session();
   const EditorState& state = context.state();
   const PerspectiveView full = viewAt(context, 1);
-  const bool rests = compares(state.walkLook) && session.walk() && !state.walker.moving() && shown_.valid &&
+  const bool rests = session.walk() && !state.walker.moving() && shown_.valid &&
                      samePlace(shown_.view, full) && full.check();
-  if (!rests) return session.comparing().follow(std::nullopt);
+  if (rests && state.walkLook == WalkLook::variant)
+    session.variants().follow(VariantRequest{session.built(), full, rested_, session.walkBytes()});
+  else
+    session.variants().follow(std::nullopt);
+  if (const auto& figures = session.variants().figures(); figures != loggedVariants_) {
+    loggedVariants_ = figures;
+    if (figures) context.log.event("variants", keptText(*figures) + " " + nowText(*figures));
+  }
+  if (!rests || !needsTruth(state.walkLook)) return session.comparing().follow(std::nullopt);
   session.comparing().follow(
       CompareRequest{session.built(), full, session.walk()->walk.exposure, state.truthRays, rested_});
   const std::shared_ptr<const Compared>& compared = session.comparing().compared();
@@ -140,7 +148,9 @@ void WalkPanel::savePicture(PanelContext& context) {
   if (!rested_)
     return session.messages().add(MessageLevel::warning, "There is no picture to save: " + problem_);
   ColourImage picture = pictureOf(*rested_);
-  if (const auto& truth = session.comparing().truth(); truth && compares(state.walkLook))
+  if (const auto& kept = session.variants().frame(); kept && state.walkLook == WalkLook::variant)
+    picture = splitPicture(kept->colour, picture, state.splitAt);
+  if (const auto& truth = session.comparing().truth(); truth && needsTruth(state.walkLook))
     picture = state.walkLook == WalkLook::split
                   ? splitPicture(picture, truth->frame.colour, state.splitAt)
                   : differenceImage(picture, truth->frame.colour, state.differenceGain);
@@ -272,6 +282,11 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     y -= ui::scaled(8);
   };
   line(text);
+  if (const auto& figures = session.variants().figures()) {
+    line(fmt::format("against {} rays per pixel", VariantCompare::kTruthRays));
+    line(nowText(*figures));
+    line(keptText(*figures));
+  }
   if (const auto& compared = session.comparing().compared()) {
     line(againstText(*compared) + (session.comparing().tracing() ? ", more on the way" : ""));
     line(figuresText(*compared));

@@ -227,8 +227,7 @@ void Session::loadCaptures() {
     before = {stream_->walk(), stream_->held()};
   dropStream();
   WalkStreamOptions streaming;
-  if (preferences_.walkMegabytes > 0)
-    streaming.memoryBytes = std::size_t(preferences_.walkMegabytes) * 1'000'000;
+  streaming.memoryBytes = walkBytes();
   streaming.panoramas = project().view.secondaryCover;
   streaming.where = where_;
   streaming.wake = options_.wake;
@@ -245,6 +244,11 @@ void Session::loadCaptures() {
     const auto stream = std::make_shared<WalkStream>(std::move(*start), streaming);
     context.post([this, open, stream] { loaded(stream, *open); });
   });
+}
+
+std::size_t Session::walkBytes() const {
+  return preferences_.walkMegabytes > 0 ? std::size_t(preferences_.walkMegabytes) * 1'000'000
+                                        : usualWalkMemory();
 }
 
 void Session::countCaptures() {

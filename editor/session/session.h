@@ -22,14 +22,15 @@
 #include "editor/session/inspection.h"
 #include "editor/session/job.h"
 #include "editor/session/messages.h"
-#include "editor/session/preferences.h"
 #include "editor/session/picture_ask.h"
+#include "editor/session/preferences.h"
 #include "editor/session/problems.h"
 #include "editor/session/scene_pick.h"
 #include "editor/session/session_options.h"
 #include "editor/session/sweep_watch.h"
 #include "editor/session/truth_compare.h"
 #include "editor/session/unsaved_work.h"
+#include "editor/session/variant_compare.h"
 #include "engine/bake/effect_costs.h"
 #include "engine/base/gate.h"
 #include "engine/inspect/estimates.h"
@@ -157,6 +158,7 @@ class Session {
   /// Where the eye is: what it needs next is read first. Called each frame.
   void walkAt(const Whereabouts& where);
   /// Are captures being read that the eye may need, or is one that was not in walk() yet?
+  std::size_t walkBytes() const;  ///< for captures of the walk in memory
   bool streaming() const { return stream_ && (stream_->busy() || stream_->walk() != walk_); }
   /// The preference for the walk's memory was changed.
   void walkMemoryChanged();
@@ -227,6 +229,8 @@ class Session {
 
   /// The walk against ray-traced truth.
   TruthCompare& comparing() { return comparing_; }
+  VariantCompare& variants() { return variants_; }
+  const VariantCompare& variants() const { return variants_; }
   PictureAsk& asking() { return asking_; }
   /// What accuracy costs in time.
   SweepWatch& sweeping() { return sweeping_; }
@@ -456,6 +460,7 @@ class Session {
   Job estimating_{inbox_};
   Job savingPicture_{inbox_};
   TruthCompare comparing_{inbox_, processors_};
+  VariantCompare variants_{inbox_, processors_};
   PictureAsk asking_{inbox_, processors_, options_.importHost};
 };
 

@@ -130,6 +130,7 @@ void Session::close() {
   watching_.abandon();
   comparing_.follow(std::nullopt);
   asking_.clear();
+  variants_.forget();
   sweeping_.watch({});
   estimate_.reset();
   inspection_.reset();

@@ -61,9 +61,13 @@ enum class WalkLook {
   sources,     ///< which camera painted what
   split,       ///< beside the ray-traced truth, in one picture
   difference,  ///< from the truth, amplified
+  variant,     ///< beside the variant that was kept, in one picture
 };
-/// Does it need the truth?
-constexpr bool compares(WalkLook look) { return look == WalkLook::split || look == WalkLook::difference; }
+constexpr bool needsTruth(WalkLook look) { return look == WalkLook::split || look == WalkLook::difference; }
+/// Is there something else over the picture?
+constexpr bool compares(WalkLook look) { return needsTruth(look) || look == WalkLook::variant; }
+/// Is there a border that can be dragged?
+constexpr bool isSplit(WalkLook look) { return look == WalkLook::split || look == WalkLook::variant; }
 
 inline constexpr int kDifferenceGains[] = {1, 2, 4, 8, 16};
 

@@ -221,11 +221,14 @@ double promiseOf(const OpenProject& open, const PictureAnswer& answer, const Can
     times(ErrorSource::resampling, 0);
     times(ErrorSource::silhouettes, 0);
   } else if (const auto painter = paintingIn(open, answer)) {
+    const double captured =
+        after.of(ErrorSource::resampling).squares + after.of(ErrorSource::silhouettes).squares;
     const double now = lostAt(answer.truthHere, answer.painter->samplesPerPixel);
-    const double then = lostAt(answer.truthHere, painter->samplesPerPixel);
-    const double share = now > 0 ? std::min(1.0, then / now) : 1;
-    times(ErrorSource::resampling, share);
-    times(ErrorSource::silhouettes, share);
+    const double gained = std::max(0.0, now - lostAt(answer.truthHere, painter->samplesPerPixel));
+    // No more than there is: what is wrong beside the sampling stays so.
+    const double stays = captured > 0 ? 1 - std::min(1.0, gained / std::max(now, captured)) : 1;
+    times(ErrorSource::resampling, stays);
+    times(ErrorSource::silhouettes, stays);
     const double angle = answer.painter->radians > 0 ? painter->radians / answer.painter->radians : 1;
     times(ErrorSource::viewDependent, std::min(1.0, angle * angle));
   }

@@ -54,8 +54,8 @@ struct Improvement {
 };
 
 /// The changes, at most `most`, that promise the most around the pixel, the best first; none that promises
-/// less than a tenth of a dB. What they promise: errors of captured surfaces become as small as the finer
-/// sampling allows (the truth itself, sampled so), those of surfaces that look different from elsewhere fall
+/// less than a tenth of a dB. What they promise: errors of captured surfaces fall by what the truth
+/// itself, sampled more finely, loses less, those of surfaces that look different from elsewhere fall
 /// with the square of the angle between camera and eye, holes close, and errors of baked light fall with the
 /// texel's area.
 Result<std::vector<Improvement>> improvementsOf(const OpenProject& open, const PictureAnswer& answer,
