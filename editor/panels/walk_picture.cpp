@@ -127,9 +127,10 @@ void WalkPanel::askForTruth(PanelContext& context) {
     session.variants().follow(VariantRequest{session.built(), full, rested_, session.walkBytes()});
   else
     session.variants().follow(std::nullopt);
-  if (const auto& figures = session.variants().figures(); figures != loggedVariants_) {
+  if (const auto& figures = session.variants().figures(); figures != loggedVariants_ && session.captures()) {
     loggedVariants_ = figures;
-    if (figures) context.log.event("variants", keptText(*figures) + " " + nowText(*figures));
+    if (figures)
+      context.log.event("variants", keptText(*figures) + " " + nowText(*figures, session.captures()->bytes));
   }
   if (!rests || !needsTruth(state.walkLook)) return session.comparing().follow(std::nullopt);
   session.comparing().follow(
@@ -282,9 +283,9 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
     y -= ui::scaled(8);
   };
   line(text);
-  if (const auto& figures = session.variants().figures()) {
+  if (const auto& figures = session.variants().figures(); figures && session.captures()) {
     line(fmt::format("against {} rays per pixel", VariantCompare::kTruthRays));
-    line(nowText(*figures));
+    line(nowText(*figures, session.captures()->bytes));
     line(keptText(*figures));
   }
   if (const auto& compared = session.comparing().compared()) {

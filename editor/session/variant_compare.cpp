@@ -13,11 +13,6 @@
 namespace acentric::editor {
 namespace {
 
-std::uint64_t bytesOnDisk(const OpenProject& open) {
-  const std::vector<std::uint64_t> bytes = capturesOnDisk(open).bytes;
-  return std::accumulate(bytes.begin(), bytes.end(), std::uint64_t(0));
-}
-
 Result<std::shared_ptr<WalkStream>> streamOf(const OpenProject& open, std::size_t memoryBytes) {
   auto start = startWalk(open, nullptr);
   if (!start) return tl::unexpected(start.error());
@@ -41,16 +36,21 @@ Result<Frame> frameOf(const OpenProject& open, WalkStream& stream, const Perspec
   return frame;
 }
 
-std::string figuresText(const char* name, const Comparison& figures, std::uint64_t bytes, int cameras) {
-  return fmt::format("{} {:.1f} dB   {}   {} cameras", name, figures.psnr, ui::formatBytes(bytes), cameras);
+std::string figuresText(const char* name, const Comparison& figures, std::span<const std::uint64_t> bytes) {
+  return fmt::format("{} {:.1f} dB   {}   {} cameras", name, figures.psnr,
+                     ui::formatBytes(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t(0))),
+                     bytes.size());
 }
 
 }  // namespace
 
-std::string keptText(const VariantFigures& f) {
-  return figuresText("kept", f.kept, f.keptBytes, f.keptCameras);
+std::string keptText(const VariantFigures& figures) {
+  return figuresText("kept", figures.kept, figures.keptBytes);
 }
-std::string nowText(const VariantFigures& f) { return figuresText("now", f.now, f.nowBytes, f.nowCameras); }
+
+std::string nowText(const VariantFigures& figures, std::span<const std::uint64_t> bytes) {
+  return figuresText("now", figures.now, bytes);
+}
 
 bool VariantCompare::Key::operator==(const Key& other) const {
   return kept == other.kept && samePlace(view, other.view) && sameSize(view, other.view);
@@ -124,9 +124,8 @@ void VariantCompare::compare(const VariantRequest& wanted) {
     const auto before = acentric::compare(*frame, truth.colour, truth.rayDistance);
     const auto now = acentric::compare(*wanted.frame, truth.colour, truth.rayDistance);
     if (!before || !now) return;  // of another size: the next frame is not
-    const auto figures = std::make_shared<const VariantFigures>(VariantFigures{
-        *before, *now, int(kept->layout->cameras.size()), int(wanted.now->layout->cameras.size()),
-        bytesOnDisk(*kept), bytesOnDisk(*wanted.now)});
+    const auto figures =
+        std::make_shared<const VariantFigures>(VariantFigures{*before, *now, capturesOnDisk(*kept).bytes});
     context.post([this, figures] { figures_ = figures; });
   });
 }

@@ -5,7 +5,9 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "editor/session/job.h"
 #include "engine/measure/compare.h"
@@ -15,9 +17,8 @@
 namespace acentric::editor {
 
 struct VariantFigures {
-  Comparison kept, now;  ///< against the truth
-  int keptCameras = 0, nowCameras = 0;
-  std::uint64_t keptBytes = 0, nowBytes = 0;  ///< of captures on disk
+  Comparison kept, now;                  ///< against the truth
+  std::vector<std::uint64_t> keptBytes;  ///< on disk, by camera
 };
 
 struct VariantRequest {
@@ -67,6 +68,7 @@ class VariantCompare {
 
 /// "kept 31.2 dB   58 MB   168 cameras"
 std::string keptText(const VariantFigures& figures);
-std::string nowText(const VariantFigures& figures);
+/// `bytes`: on disk by now, by camera.
+std::string nowText(const VariantFigures& figures, std::span<const std::uint64_t> bytes);
 
 }  // namespace acentric::editor
