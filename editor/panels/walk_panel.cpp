@@ -190,7 +190,8 @@ void WalkPanel::draw(PanelContext& context) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::GetContentRegionAvail();
   if (size.x < 40 || size.y < 40) return;
-  area_ = {int(size.x), int(size.y)};
+  const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;  // pixels of the screen; above 1 on Wayland
+  area_ = {int(size.x * density.x), int(size.y * density.y)};
   ImGui::InvisibleButton("##walk", size);
   context.log.item("walk");
   if (!context.session().built()) {
