@@ -52,7 +52,8 @@ WalkPanel::WalkPanel(int threads, std::function<void()> wake)
         news_ = true;
         if (wake) wake();
       }),
-      renderer_(threads, wake_) {}
+      renderer_(threads, wake_),
+      preview_(threads, wake_) {}
 
 void WalkPanel::followProject(PanelContext& context) {
   Session& session = context.session();
@@ -69,6 +70,7 @@ void WalkPanel::followProject(PanelContext& context) {
   if (fresh) {
     generation_ = session.generation();
     shown_ = {};
+    preview_.clear();
     problem_.clear();
     trial_ = {};
     askAt_.reset();
@@ -207,7 +209,7 @@ void WalkPanel::draw(PanelContext& context) {
   askForTruth(context);
   savePicture(context);
   askThePicture(context);
-  drawPicture(low, size);
+  drawPicture(context, low, size);
   compare_.draw(context, *ImGui::GetWindowDrawList(), place_, rested_);
   nameSource(ui::fromIm(ImGui::GetMousePos()));
   if (!context.state().fullScreen)

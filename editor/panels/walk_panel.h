@@ -7,6 +7,7 @@
 
 #include "editor/panels/walk_compare.h"
 #include "editor/panels/walk_overlays.h"
+#include "editor/panels/walk_preview.h"
 #include "editor/session/adaptive_resolution.h"
 #include "editor/session/graphics_trial.h"
 #include "editor/session/walk_renderer.h"
@@ -66,7 +67,8 @@ class WalkPanel {
   /// The name of the camera that painted what the pointer is at.
   void nameSource(const glm::dvec2& pointer) const;
   void drawOverlays(PanelContext& context, const ImVec2& low, const ImVec2& size);
-  void drawPicture(const ImVec2& low, const ImVec2& size);
+  void drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size);
+  bool worthPreview(const PanelContext& context) const;
   void drawNotice(const PanelContext& context, const ImVec2& low, const ImVec2& size) const;
   void drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const;
 
@@ -92,6 +94,8 @@ class WalkPanel {
   FrameTimes times_;
   WalkCompare compare_;
   WalkOverlays overlays_;
+  WalkPreview preview_;
+  bool previewing_ = false;  ///< the quick picture is shown
   std::string problem_;
   glm::ivec2 area_{0};
   int generation_ = -1;

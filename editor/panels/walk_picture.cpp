@@ -214,7 +214,21 @@ void WalkPanel::takePicture(PanelContext& context) {
   }
 }
 
-void WalkPanel::drawPicture(const ImVec2& low, const ImVec2& size) {
+/// Is the place so little baked that a quick picture of it tells more?
+bool WalkPanel::worthPreview(const PanelContext& context) const {
+  const Session& session = context.actions.session;
+  if (session.shippedWalk() || context.actions.state.walkLook != WalkLook::picture) return false;
+  if (session.built()->layout->regions.empty()) return false;
+  constexpr double kMostHoles = 0.5;
+  return nothingBaked(session) || (shown_.valid && !session.streaming() && shown_.stats.missingImages > 0 &&
+                                   shown_.holeShare > kMostHoles);
+}
+
+void WalkPanel::drawPicture(PanelContext& context, const ImVec2& low, const ImVec2& size) {
+  previewing_ = worthPreview(context) &&
+                preview_.draw(context, viewAt(context, 1), low, {low.x + size.x, low.y + size.y});
+  if (previewing_) return;
+  if (!worthPreview(context)) preview_.clear();
   const bool picture = shown_.valid && (showingGl_ ? gl_ != nullptr : !texture_.empty());
   if (picture)
     place_ = ui::fitImage(ui::fromIm(low), ui::fromIm(size), double(shown_.view.width) / shown_.view.height);
@@ -248,7 +262,7 @@ void WalkPanel::drawNotice(const PanelContext& context, const ImVec2& low, const
     say(ui::palette::danger, problem_);
   else if (nothingBaked(session) && session.shippedWalk())
     say(ui::palette::text, "This walk has no captures: it was exported before anything was baked.");
-  else if (nothingBaked(session))
+  else if (nothingBaked(session) && !previewing_)
     say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
   else if (!session.walk())
     say(ui::palette::muted, "Loading captures…");
@@ -266,7 +280,7 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
                                   : fmt::format("{} ({}, {})", kind, r.id.i, r.id.j);
   }
   std::string text = where;
-  if (shown_.valid && problem_.empty()) {
+  if (shown_.valid && problem_.empty() && !previewing_) {
     text += fmt::format("   {} images", shown_.stats.images);
     if (shown_.stats.missingImages > 0) text += fmt::format(" (+{} missing)", shown_.stats.missingImages);
     text += shown_.holeShare >= 0 ? fmt::format("   holes {}", ui::formatPercent(shown_.holeShare)) : "";
