@@ -104,7 +104,7 @@ void apply(PanelContext& context, const PictureQuestion& question, const Improve
 
 void drawImprovements(PanelContext& context, const PictureQuestion& question,
                       const std::vector<Improvement>& improvements) {
-  heading(context, "What would improve it, at best");
+  heading(context, "What would improve it, as predicted");
   if (improvements.empty())
     return ui::wrappedText(ui::palette::muted, "Nothing that can be set promises more here.");
   for (std::size_t i = 0; i < improvements.size(); ++i) {

@@ -105,7 +105,7 @@ Json jsonOf(const PictureAnswer& answer, const OpenProject& open) {
 void addImprovements(const std::vector<Improvement>& improvements, Report& report) {
   Json list = Json::array();
   report.text += improvements.empty() ? "nothing that can be set promises more around it\n"
-                                      : "what would improve it, at best:\n";
+                                      : "what would improve it, as predicted:\n";
   for (const Improvement& each : improvements) {
     list.push_back(
         {{"change", each.what}, {"why", each.why}, {"psnr", each.psnrHere}, {"bake", toJson(each.bake)}});

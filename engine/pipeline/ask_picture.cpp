@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/bake/preview.h"
@@ -221,14 +222,15 @@ double promiseOf(const OpenProject& open, const PictureAnswer& answer, const Can
     times(ErrorSource::resampling, 0);
     times(ErrorSource::silhouettes, 0);
   } else if (const auto painter = paintingIn(open, answer)) {
-    const double captured =
-        after.of(ErrorSource::resampling).squares + after.of(ErrorSource::silhouettes).squares;
+    constexpr std::array kCaptured{ErrorSource::resampling, ErrorSource::silhouettes,
+                                   ErrorSource::viewDependent};
+    double captured = 0;
+    for (const ErrorSource source : kCaptured) captured += after.of(source).squares;
     const double now = lostAt(answer.truthHere, answer.painter->samplesPerPixel);
     const double gained = std::max(0.0, now - lostAt(answer.truthHere, painter->samplesPerPixel));
     // No more than there is: what is wrong beside the sampling stays so.
     const double stays = captured > 0 ? 1 - std::min(1.0, gained / std::max(now, captured)) : 1;
-    times(ErrorSource::resampling, stays);
-    times(ErrorSource::silhouettes, stays);
+    for (const ErrorSource source : kCaptured) times(source, stays);
     const double angle = answer.painter->radians > 0 ? painter->radians / answer.painter->radians : 1;
     times(ErrorSource::viewDependent, std::min(1.0, angle * angle));
   }

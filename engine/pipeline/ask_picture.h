@@ -48,15 +48,15 @@ Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk,
 struct Improvement {
   std::string what;     ///< "samples per degree 8 to 12"
   std::string why;      ///< what it is good for, in a few words
-  double psnrHere = 0;  ///< dB around the pixel that it may reach at best, predicted
+  double psnrHere = 0;  ///< dB around the pixel, predicted
   Project project;      ///< with the change
   BakeForecast bake;    ///< of what is not on disk with it
 };
 
 /// The changes, at most `most`, that promise the most around the pixel, the best first; none that promises
-/// less than a tenth of a dB. What they promise: errors of captured surfaces fall by what the truth
-/// itself, sampled more finely, loses less, those of surfaces that look different from elsewhere fall
-/// with the square of the angle between camera and eye, holes close, and errors of baked light fall with the
+/// less than a tenth of a dB. Predicted is that errors of captured surfaces fall by what the truth itself,
+/// sampled more finely, loses less, those of surfaces that look different from elsewhere moreover with the
+/// square of the angle between camera and eye, that holes close, and that errors of baked light fall with the
 /// texel's area.
 Result<std::vector<Improvement>> improvementsOf(const OpenProject& open, const PictureAnswer& answer,
                                                 std::size_t most, const ImportHost& host, TaskRunner& runner,
