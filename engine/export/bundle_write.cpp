@@ -10,7 +10,9 @@
 
 #include "engine/base/file.h"
 #include "engine/base/folder.h"
+#include "engine/base/link_file.h"
 #include "engine/export/bundle_materials.h"
+#include "engine/export/bundle_read.h"
 #include "engine/export/crop_light.h"
 #include "engine/export/export_target.h"
 #include "engine/export/local_file.h"
@@ -29,6 +31,8 @@ constexpr int kBundleCoarseFactor = 8;
 constexpr int kCoarseColourQuality = 85;
 /// Of light on near surfaces: what is left is true to 1/64 of it, three quarters of a code as it is shown.
 constexpr int kShippedUnusedBits = 5;
+/// Of how captures are made from those of the store: part of their names.
+constexpr int kCaptureRecipe = 1;
 
 namespace fs = std::filesystem;
 
@@ -40,6 +44,7 @@ class BundleWriter {
 
   Result<BundleReport> write() {
     describe();
+    lookAtFormer();
     for (const BundleStoreyInput& storey : input_.storeys) addStorey(storey);
     for (const auto& step : {&BundleWriter::writeCaptures, &BundleWriter::writeLocals,
                              &BundleWriter::writeTextures, &BundleWriter::writeIndex})
@@ -162,6 +167,42 @@ class BundleWriter {
       roundPlanes(*list, capture.camera, capture.distanceStep);
   }
 
+  /// Of all that the files of a camera are made of.
+  std::string nameOf(const ContentKey& key, std::uint8_t roles) const {
+    Hasher hasher;
+    hasher.value(kCaptureRecipe).value(kBundleVersion).value(key.high).value(key.low);
+    hasher.value(input_.colourQuality);
+    if (input_.colourQuality < kLosslessColours) hasher.value(roles).value(input_.exposure);
+    return hasher.finish().toHex();
+  }
+
+  /// Names of its captures say what they are made of. Without a bundle that can be read, all are written.
+  void lookAtFormer() {
+    if (input_.former.empty()) return;
+    const auto former = readBundle(input_.former);
+    if (!former) return;
+    for (const BundleStorey& storey : former->storeys)
+      for (const BundleCamera& camera : storey.cameras)
+        for (const auto* capture : {&camera.full, &camera.coarse})
+          if (*capture) former_.emplace((*capture)->file.path, **capture);
+  }
+
+  /// The former bundle's file, if it has it and that is whole.
+  bool takeFormer(const std::string& path, std::optional<BundleCapture>& into) const {
+    const auto found = former_.find(path);
+    if (found == former_.end()) return false;
+    std::error_code error;
+    fs::create_directories((folder_ / path).parent_path(), error);
+    if (!linkOrCopyFile(input_.former / path, folder_ / path)) return false;
+    const auto file = fileOf(path);
+    if (!file || *file != found->second.file) {
+      fs::remove(folder_ / path, error);
+      return false;
+    }
+    into = found->second;
+    return true;
+  }
+
   Status writeCamera(const CameraPlace& place) {
     const BundleStoreyInput& storey = input_.storeys[place.storey];
     BundleCamera& camera = bundle_.storeys[place.storey].cameras[place.camera];
@@ -174,13 +215,20 @@ class BundleWriter {
     note(*capture);
     camera.topElevation = capture->camera.topElevation;
     camera.bottomElevation = capture->camera.bottomElevation;
-    const std::string coarsePath = fmt::format("coarse/{}.pack", key->toHex());
+    const std::string name = nameOf(*key, place.roles);
+    const std::string coarsePath = fmt::format("coarse/{}.pack", name);
     if (!full) {
+      if (takeFormer(coarsePath, camera.coarse)) return {};
       if (Status written = writePack(*capture, *key, coarsePath, input_.colourQuality); !written)
         return written;
       return describeInto(*capture, coarsePath, camera.coarse);
     }
-    const std::string path = fmt::format("captures/{}.pack", key->toHex());
+    const std::string path = fmt::format("captures/{}.pack", name);
+    if (takeFormer(path, camera.full) && takeFormer(coarsePath, camera.coarse)) {
+      const std::lock_guard lock(mutex_);
+      ++report_.reused;
+      return {};
+    }
     if (Status written = writePack(*capture, *key, path, input_.colourQuality); !written) return written;
     if (Status described = describeInto(*capture, path, camera.full); !described) return described;
     const Capture coarse = coarsened(*capture, kBundleCoarseFactor);
@@ -331,6 +379,7 @@ class BundleWriter {
   std::mutex mutex_;  ///< of features, materials and progress
   Bundle bundle_;
   BundleReport report_;
+  std::map<std::string, BundleCapture> former_;  ///< by path
   std::vector<CameraPlace> cameras_;
   std::vector<RegionPlace> regions_;  ///< their place here names their files
   std::set<int> usedMaterials_;
