@@ -15,17 +15,30 @@ enum class Theme { dark, light };
 /// What the editor opens when no file is named.
 enum class StartUp { sample, lastProject, nothing };
 
+/// Where a project is published, and how.
+struct PublishPlace {
+  std::filesystem::path folder;
+  bool oneFile = false;     ///< a walk's file, in place of a bundle's many
+  bool openBrowser = true;  ///< once it is published
+  bool operator==(const PublishPlace&) const = default;
+};
+struct RememberedPlace {
+  std::filesystem::path project;
+  PublishPlace place;
+};
+
 struct Preferences {
-  static constexpr std::size_t kMostRecent = 10;
+  static constexpr std::size_t kMostRecent = 10, kMostPublished = 50;
   static constexpr int kLeastScalePercent = 75, kMostScalePercent = 200;
   static constexpr double kLeastAutosaveSeconds = 5, kMostAutosaveSeconds = 3600;
   static constexpr double kLeastLookSensitivity = 0.1, kMostLookSensitivity = 5;
 
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
   std::filesystem::path lastFolder;
-  int bakeThreads = 0;       ///< 0 = all but one
-  int bakeMegabytes = 1536;  ///< that what is baked may take until it is written
-  int walkMegabytes = 0;     ///< for captures of the walk in memory; 0 = half of the machine's
+  std::vector<RememberedPlace> published;  ///< newest first; by project, where that is not the usual place
+  int bakeThreads = 0;                     ///< 0 = all but one
+  int bakeMegabytes = 1536;                ///< that what is baked may take until it is written
+  int walkMegabytes = 0;                   ///< for captures of the walk in memory; 0 = half of the machine's
   double walkMetresPerSecond = 1.4;
   int historyMegabytes = 256;          ///< for what can be undone
   bool reimportAutomatically = false;  ///< a model that changed on disk, without being asked
@@ -41,6 +54,7 @@ struct Preferences {
   float bottomHeight = 214;
 
   void addRecent(const std::filesystem::path& file);
+  void rememberPublished(const std::filesystem::path& project, const PublishPlace& place);
   /// All that the preferences dialog shows, as it was at first; files and the window's layout stay.
   void resetSettings();
   void resetLayout();

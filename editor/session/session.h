@@ -24,6 +24,7 @@
 #include "editor/session/messages.h"
 #include "editor/session/preferences.h"
 #include "editor/session/problems.h"
+#include "editor/session/publish.h"
 #include "editor/session/scene_pick.h"
 #include "editor/session/session_options.h"
 #include "editor/session/sweep_watch.h"
@@ -229,6 +230,13 @@ class Session {
   /// What accuracy costs in time.
   SweepWatch& sweeping() { return sweeping_; }
   const SweepWatch& sweeping() const { return sweeping_; }
+  /// For browsers: what is written, served and shown of the project. publish() begins it.
+  Publisher& publishing() { return publishing_; }
+  const Publisher& publishing() const { return publishing_; }
+  /// Where it was published last, or would be.
+  PublishPlace publishPlace() const;
+  /// What is open, as it is; remembers the place.
+  void publish(const PublishPlace& place, bool allowMissing);
   /// Writes what the walk shows beside the project, under a new name, and tells where.
   void savePicture(ColourImage picture);
   const Job& savingPicture() const { return savingPicture_; }
@@ -453,6 +461,7 @@ class Session {
   Job estimating_{inbox_};
   Job savingPicture_{inbox_};
   TruthCompare comparing_{inbox_, processors_};
+  Publisher publishing_{inbox_, messages_, options_.page};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -130,6 +130,7 @@ void Session::close() {
   watching_.abandon();
   comparing_.follow(std::nullopt);
   sweeping_.watch({});
+  publishing_.close();
   estimate_.reset();
   inspection_.reset();
   inspected_.reset();

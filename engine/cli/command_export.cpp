@@ -12,25 +12,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All storeys of the project.
-Result<std::vector<OpenProject>> storeysOf(const ExportOptions& options, const Common& common) {
+/// All storeys of a project, and the one where its walk begins.
+struct ToExport {
+  std::vector<OpenProject> storeys;
+  ExportBundleOptions bundle;
+};
+
+Result<ToExport> openToExport(const ExportOptions& options, const Common& common) {
   const auto current = openChosen(options.project, common);
   if (!current) return tl::unexpected(current.error());
-  return acentric::openStoreys(*current, common.host, common.progress, common.stop);
-}
-
-ExportBundleOptions bundleOptions(const ExportOptions& options) {
-  return {options.allowMissing, "Acentric " ACENTRIC_VERSION, options.colourQuality};
+  auto storeys = acentric::openStoreys(*current, common.host, common.progress, common.stop);
+  if (!storeys) return tl::unexpected(storeys.error());
+  ExportBundleOptions bundle{options.allowMissing, "Acentric " ACENTRIC_VERSION, options.colourQuality};
+  bundle.storey = current->project.storey;
+  return ToExport{std::move(*storeys), std::move(bundle)};
 }
 
 Result<BundleReport> writeBundleOf(const ExportOptions& options, const fs::path& folder,
                                    const Common& common) {
   // Before a model is imported for nothing.
   if (Status free = checkBundleTarget(folder); !free) return tl::unexpected(free.error());
-  const auto storeys = storeysOf(options, common);
-  if (!storeys) return tl::unexpected(storeys.error());
+  const auto open = openToExport(options, common);
+  if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
-  auto done = exportBundle(*storeys, folder, bundleOptions(options), *runner, common.progress, common.stop);
+  auto done = exportBundle(open->storeys, folder, open->bundle, *runner, common.progress, common.stop);
   if (!done) return done;
   if (Status there = mustExist(folder / kBundleIndex); !there) return tl::unexpected(there.error());
   return done;
@@ -38,13 +43,14 @@ Result<BundleReport> writeBundleOf(const ExportOptions& options, const fs::path&
 
 Result<BundleReport> publishTo(const ExportOptions& options, const fs::path& page, const Common& common) {
   if (Status free = checkPublishTarget(options.output); !free) return tl::unexpected(free.error());
-  const auto storeys = storeysOf(options, common);
-  if (!storeys) return tl::unexpected(storeys.error());
+  const auto open = openToExport(options, common);
+  if (!open) return tl::unexpected(open.error());
   PublishOptions publishing;
   publishing.page = page;
-  publishing.bundle = bundleOptions(options);
+  publishing.bundle = open->bundle;
   const auto runner = common.runner();
-  const auto done = publishWalk(*storeys, options.output, publishing, *runner, common.progress, common.stop);
+  const auto done =
+      publishWalk(open->storeys, options.output, publishing, *runner, common.progress, common.stop);
   if (!done) return tl::unexpected(done.error());
   if (Status there = mustExist(options.output / "index.html"); !there) return tl::unexpected(there.error());
   return done->bundle;

@@ -116,7 +116,7 @@ Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const st
     for (const PathPose& pose : path.path.poses) out.poses.push_back(poseOf(pose));
     input.paths.push_back(std::move(out));
   }
-  input.storey = project.storey;
+  input.storey = options.storey;
   input.former = options.former;
   return writeBundle(input, folder, runner, progress, stop);
 }

@@ -13,6 +13,7 @@ struct ExportBundleOptions {
   std::string generator;      ///< program and version, for the index
   std::optional<int> colourQuality;   ///< 0..100 (colour_quality.h); none: the project's
   std::filesystem::path former = {};  ///< as in BundleInput
+  int storey = 0;                     ///< where the walk begins
 };
 
 /// What is not baked of a project.
