@@ -18,6 +18,7 @@ PublishPlace placeOf(const PublishDraft& draft) { return {draft.folder, draft.on
 
 void drawPlace(PanelContext& context) {
   PublishDraft& draft = context.state().publishDraft;
+  ImGui::AlignTextToFramePadding();
   ui::mutedText("Folder");
   ImGui::SameLine(ui::scaled(kPublishLabelWidth));
   ImGui::SetNextItemWidth(-1);
@@ -157,8 +158,11 @@ void drawPublishDialog(PanelContext& context, const DialogKeys& keys) {
   } else {
     const bool ready = std::filesystem::path(context.state().publishDraft.folder).is_absolute() &&
                        !session.rebuilding().running();
-    const bool begin = ui::primaryButton(publishing.published() ? "Publish again" : "Publish",
-                                         {dialogButtonWidth(), 0}, ready);
+    const char* const label = publishing.published() ? "Publish again" : "Publish";
+    const ImVec2 size = {dialogButtonWidth(), 0};
+    // While it asks, the answer is what the dialog is for.
+    const bool begin =
+        publishing.gaps() ? ui::button(label, size, ready) : ui::primaryButton(label, size, ready);
     context.log.item("publish.begin");
     if (begin || (ready && keys.enter)) session.publish(placeOf(context.state().publishDraft), false);
   }

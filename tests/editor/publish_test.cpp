@@ -186,11 +186,11 @@ TEST_F(PublishTest, ThatIsCancelledLeavesNothingHalfWritten) {
 TEST_F(PublishTest, ThatFailsSaysWhyAndTheWayOut) {
   bake();
   write(folder_ / "mine/letter.txt", "dear");
-  publish({folder_ / "mine", false, false}, false, "letter.txt");
+  publish({folder_ / "mine", false, false}, false, "Publishing failed");
   EXPECT_THAT(publishing().trouble(), HasSubstr("letter.txt"));
   EXPECT_EQ(*readText(folder_ / "mine/letter.txt"), "dear");
   fs::remove(folder_ / "page/viewer.js");
-  publish(place(), false, "viewer.js");
+  publish(place(), false, "Publishing failed");
   EXPECT_THAT(publishing().trouble(), HasSubstr("viewer.js"));
   EXPECT_FALSE(publishing().published());
   EXPECT_FALSE(publishing().serving());
