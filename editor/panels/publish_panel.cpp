@@ -14,17 +14,29 @@ constexpr float kPublishLabelWidth = 150;
 /// Of files, which are looked at more closely than a disk.
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.2f} MB", double(bytes) / 1e6); }
 
-PublishPlace placeOf(const PublishDraft& draft) { return {draft.folder, draft.oneFile, draft.openBrowser}; }
+PublishPlace placeOf(const PublishDraft& draft) {
+  return {draft.folder, draft.oneFile, draft.openBrowser,
+          checkPublicAddress(draft.publicAddress).value_or(std::string())};
+}
+
+/// True once the text was changed and is left.
+bool textField(PanelContext& context, const char* label, const char* hint, std::string& text,
+               const char* name, const char* help) {
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText(label);
+  ImGui::SameLine(ui::scaled(kPublishLabelWidth));
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint((std::string("##") + name).c_str(), hint, &text);
+  const bool changed = ImGui::IsItemDeactivatedAfterEdit();
+  context.log.item(name);
+  ui::tooltip(help);
+  return changed;
+}
 
 void drawPlace(PanelContext& context) {
   PublishDraft& draft = context.state().publishDraft;
-  ImGui::AlignTextToFramePadding();
-  ui::mutedText("Folder");
-  ImGui::SameLine(ui::scaled(kPublishLabelWidth));
-  ImGui::SetNextItemWidth(-1);
-  ImGui::InputText("##folder", &draft.folder);
-  context.log.item("publish.folder");
-  ui::tooltip("It is made, or replaced as a whole if it holds nothing but what was published before.");
+  textField(context, "Folder", "", draft.folder, "publish.folder",
+            "It is made, or replaced as a whole if it holds nothing but what was published before.");
   ui::checkField("One file", draft.oneFile, kPublishLabelWidth,
                  "The walk as one file beside the page, read by ranges, in place of hundreds of files.");
   context.log.item("publish.oneFile");
@@ -89,6 +101,25 @@ void drawSizes(const Published& published) {
                  kPublishLabelWidth);
 }
 
+/// Kept as soon as it is typed: links begin with it.
+void drawLinks(PanelContext& context) {
+  PublishDraft& draft = context.state().publishDraft;
+  const bool typed =
+      textField(context, "Public address", "https://…, where you copy the folder to; optional",
+                draft.publicAddress, "publish.publicAddress",
+                "Links that are copied here begin with it, in place of this machine's address.");
+  const auto checked = checkPublicAddress(draft.publicAddress);
+  if (!checked) ui::wrappedText(ui::palette::danger, checked.error().describe());
+  if (typed && checked) {
+    PublishPlace place = context.session().publishPlace();
+    place.publicAddress = *checked;
+    context.session().keepPublishPlace(place);
+  }
+  actionButton(context, "publish.copyView", ButtonLook::plain, {}, "Copy link to this view");
+  ImGui::SameLine();
+  actionButton(context, "publish.copyStart", ButtonLook::plain, {}, "Copy link to the start");
+}
+
 void drawServer(PanelContext& context) {
   Publisher& publishing = context.session().publishing();
   if (!publishing.serving()) {
@@ -109,10 +140,6 @@ void drawServer(PanelContext& context) {
   ui::tooltip("Of the page that was opened from here last; text is sent compressed.");
   context.log.item(load ? "publish.loaded" : "publish.notLoaded");
   actionButton(context, "publish.open", ButtonLook::plain, {}, "Open in browser");
-  ImGui::SameLine();
-  actionButton(context, "publish.copyView", ButtonLook::plain, {}, "Copy link to this view");
-  ImGui::SameLine();
-  actionButton(context, "publish.copyStart", ButtonLook::plain, {}, "Copy link to the start");
   ImGui::SameLine();
   actionButton(context, "publish.stop", ButtonLook::plain, {}, "Stop serving");
 }
@@ -147,6 +174,7 @@ void drawPublishDialog(PanelContext& context, const DialogKeys& keys) {
     ImGui::Separator();
     drawSizes(*publishing.published());
     drawServer(context);
+    drawLinks(context);
   }
   alignButtons(2);
   close = ui::button("Close", {dialogButtonWidth(), 0}) || close;

@@ -53,6 +53,7 @@ void readPublished(const Json& json, std::vector<RememberedPlace>& published) {
   for (const Json& entry : *list) {
     if (!entry.is_object() || published.size() == Preferences::kMostPublished) continue;
     RememberedPlace known{textOf(entry, "project"), {textOf(entry, "folder")}};
+    known.place.publicAddress = textOf(entry, "publicAddress");
     readFlag(entry, "oneFile", known.place.oneFile);
     readFlag(entry, "openBrowser", known.place.openBrowser);
     if (!known.project.empty() && known.place.folder.is_absolute()) published.push_back(std::move(known));
@@ -178,7 +179,8 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
     published.push_back({{"project", known.project.string()},
                          {"folder", known.place.folder.string()},
                          {"oneFile", known.place.oneFile},
-                         {"openBrowser", known.place.openBrowser}});
+                         {"openBrowser", known.place.openBrowser},
+                         {"publicAddress", known.place.publicAddress}});
   const Json json = {{"recent", std::move(recent)},
                      {"published", std::move(published)},
                      {"lastFolder", preferences.lastFolder.string()},

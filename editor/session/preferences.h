@@ -20,6 +20,8 @@ struct PublishPlace {
   std::filesystem::path folder;
   bool oneFile = false;     ///< a walk's file, in place of a bundle's many
   bool openBrowser = true;  ///< once it is published
+  /// Where the folder is put for others, which links begin with; empty: this machine's server.
+  std::string publicAddress = {};
   bool operator==(const PublishPlace&) const = default;
 };
 struct RememberedPlace {

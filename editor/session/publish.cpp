@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "editor/session/project_files.h"
@@ -23,6 +24,16 @@ std::string viewAddress(const glm::dvec3& eye, double yawRadians, double pitchRa
   constexpr double kDegrees = 180 / std::numbers::pi;
   return fmt::format("#at={:.2f},{:.2f},{:.1f},{:.1f}&storey={}", eye.x, eye.y, yawRadians * kDegrees,
                      pitchRadians * kDegrees, storey);
+}
+
+Result<std::string> checkPublicAddress(const std::string& typed) {
+  std::string address = typed.substr(0, typed.find('#'));
+  const bool plain = std::ranges::all_of(address, [](unsigned char c) { return c > ' ' && c != 0x7f; });
+  const std::size_t scheme = address.find("://");
+  const bool web = address.starts_with("http://") || address.starts_with("https://");
+  if (address.empty() || (web && plain && address.size() > scheme + 3)) return address;
+  return fail(ErrorKind::invalidArgument, "is no address of a page: it begins with https:// or http://",
+              typed);
 }
 
 Publisher::Publisher(Inbox& inbox, Messages& messages, fs::path page)

@@ -21,6 +21,9 @@ namespace acentric::editor {
 /// "kitchen.acentric.json" -> "kitchen-web" beside it.
 std::filesystem::path suggestedPublishFolder(const std::filesystem::path& project);
 
+/// As it is typed, without a view; fails for anything but http and https.
+Result<std::string> checkPublicAddress(const std::string& typed);
+
 /// A view of the walk as the page's address has it: "#at=x,y,yaw,pitch", metres and degrees, and "&storey=".
 std::string viewAddress(const glm::dvec3& eye, double yawRadians, double pitchRadians, int storey);
 

@@ -235,7 +235,11 @@ class Session {
   const Publisher& publishing() const { return publishing_; }
   /// Where it was published last, or would be.
   PublishPlace publishPlace() const;
-  /// What is open, as it is; remembers the place.
+  void keepPublishPlace(const PublishPlace& place);
+  /// The published page, where the walk begins: its public address, else this machine's; empty: there is
+  /// none.
+  std::string linkToWalk() const;
+  /// What is open, as it is; keeps the place.
   void publish(const PublishPlace& place, bool allowMissing);
   /// Writes what the walk shows beside the project, under a new name, and tells where.
   void savePicture(ColourImage picture);

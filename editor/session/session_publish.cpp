@@ -11,12 +11,20 @@ PublishPlace Session::publishPlace() const {
   return known != preferences_.published.end() ? known->place : PublishPlace{suggestedPublishFolder(file_)};
 }
 
+void Session::keepPublishPlace(const PublishPlace& place) {
+  if (!hasProject() || shipped_ || place == publishPlace()) return;
+  preferences_.rememberPublished(file_, place);
+  savePreferencesNow();
+}
+
+std::string Session::linkToWalk() const {
+  const std::string address = hasProject() ? publishPlace().publicAddress : std::string();
+  return address.empty() ? publishing_.address() : address;
+}
+
 void Session::publish(const PublishPlace& place, bool allowMissing) {
   if (!built_ || rebuilding_.running() || walkRefuses("Publishing")) return;
-  if (place != publishPlace()) {
-    preferences_.rememberPublished(file_, place);
-    savePreferencesNow();
-  }
+  keepPublishPlace(place);
   publishing_.publish(built_, place, allowMissing, options_.importHost, bakeThreads());
 }
 

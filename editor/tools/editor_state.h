@@ -52,7 +52,7 @@ struct NewProjectDraft {
 
 /// What the dialog for publishing is being told.
 struct PublishDraft {
-  std::string folder;
+  std::string folder, publicAddress;
   bool oneFile = false, openBrowser = true;
 };
 

@@ -94,8 +94,9 @@ Result<fs::path> findWebPage(const fs::path& program) {
   }
   return fail(
       ErrorKind::notFound,
-      "the viewer's page is not built: run `npm ci && npm run build` in the folder web of the sources "
-      "(./run web does so)",
+      fmt::format("the viewer's page is not built: run `npm ci && npm run build` in the folder web of the "
+                  "sources (./run web does so), or install it to {}",
+                  (folder / "../share/acentric/web").lexically_normal().string()),
       (folder / "../../../web/dist").lexically_normal().string());
 }
 

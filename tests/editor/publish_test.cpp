@@ -238,8 +238,23 @@ TEST_F(PublishTest, TellsThePagesFirstFrameAndGivesLinks) {
   EXPECT_EQ(state.toClipboard, publishing().address() + "#at=1.23,-0.50,90.0,-5.7&storey=0");
   run("publish.copyStart");
   EXPECT_EQ(state.toClipboard, publishing().address());
+  PublishPlace known = session_->publishPlace();
+  known.publicAddress = "https://example.org/walk/";
+  session_->keepPublishPlace(known);
+  run("publish.copyView");
+  EXPECT_EQ(state.toClipboard, "https://example.org/walk/#at=1.23,-0.50,90.0,-5.7&storey=0");
+  session_->keepPublishPlace(place());
   run("publish.stop");
   EXPECT_FALSE(findAction(table, std::string("publish.copyView"))->enabled(context));
+}
+
+TEST(PublicAddress, IsThatOfAPage) {
+  EXPECT_EQ(checkPublicAddress("").value(), "");
+  EXPECT_EQ(checkPublicAddress("https://example.org/a/#at=1,2,3,4").value(), "https://example.org/a/");
+  EXPECT_EQ(checkPublicAddress("http://a/index.html?walk=b.acentric").value(),
+            "http://a/index.html?walk=b.acentric");
+  for (const char* wrong : {"example.org", "https://", "javascript:alert(1)", "https://a b/", "file:///etc"})
+    EXPECT_FALSE(checkPublicAddress(wrong)) << wrong;
 }
 
 TEST_F(PublishTest, RemembersWhereAProjectIsPublished) {

@@ -140,7 +140,7 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
   preferences.walkWidth = 512;
   for (int i = 0; i < 15; ++i) preferences.addRecent("/p/" + std::to_string(i));
   preferences.addRecent("/p/9");
-  const PublishPlace first{"/srv/a", true, false};
+  const PublishPlace first{"/srv/a", true, false, "https://example.org/"};
   for (std::size_t i = 0; i < Preferences::kMostPublished; ++i)
     preferences.rememberPublished("/p/" + std::to_string(i), {"/srv/" + std::to_string(i)});
   preferences.rememberPublished("/p/9", first);
