@@ -10,11 +10,10 @@
 
 #include "engine/base/file.h"
 #include "engine/base/folder.h"
-#include "engine/base/link_file.h"
 #include "engine/export/bundle_materials.h"
-#include "engine/export/bundle_read.h"
 #include "engine/export/crop_light.h"
 #include "engine/export/export_target.h"
+#include "engine/export/former_bundle.h"
 #include "engine/export/local_file.h"
 #include "engine/export/png.h"
 #include "engine/export/region_order.h"
@@ -31,8 +30,6 @@ constexpr int kBundleCoarseFactor = 8;
 constexpr int kCoarseColourQuality = 85;
 /// Of light on near surfaces: what is left is true to 1/64 of it, three quarters of a code as it is shown.
 constexpr int kShippedUnusedBits = 5;
-/// Of how captures are made from those of the store: part of their names.
-constexpr int kCaptureRecipe = 1;
 
 namespace fs = std::filesystem;
 
@@ -40,14 +37,19 @@ class BundleWriter {
  public:
   BundleWriter(const BundleInput& input, fs::path folder, TaskRunner& runner, const Progress& progress,
                const std::stop_token& stop)
-      : input_(input), folder_(std::move(folder)), runner_(runner), progress_(progress), stop_(stop) {}
+      : input_(input),
+        folder_(std::move(folder)),
+        runner_(runner),
+        progress_(progress),
+        stop_(stop),
+        former_(input.former) {}
 
   Result<BundleReport> write() {
     describe();
-    lookAtFormer();
     for (const BundleStoreyInput& storey : input_.storeys) addStorey(storey);
-    for (const auto& step : {&BundleWriter::writeCaptures, &BundleWriter::writeLocals,
-                             &BundleWriter::writeTextures, &BundleWriter::writeIndex})
+    for (const auto& step :
+         {&BundleWriter::writeCaptures, &BundleWriter::writeLocals, &BundleWriter::writeTextures,
+          &BundleWriter::lookForFeatures, &BundleWriter::writeIndex})
       if (Status done = (this->*step)(); !done) return tl::unexpected(done.error());
     return report_;
   }
@@ -56,6 +58,7 @@ class BundleWriter {
   struct CameraPlace {
     std::size_t storey, camera;
     std::uint8_t roles;  ///< that regions of the bundle draw
+    bool taken = false;  ///< from the former bundle
   };
   struct RegionPlace {
     std::size_t storey, region;  ///< of the bundle
@@ -167,67 +170,54 @@ class BundleWriter {
       roundPlanes(*list, capture.camera, capture.distanceStep);
   }
 
-  /// Of all that the files of a camera are made of.
-  std::string nameOf(const ContentKey& key, std::uint8_t roles) const {
-    Hasher hasher;
-    hasher.value(kCaptureRecipe).value(kBundleVersion).value(key.high).value(key.low);
-    hasher.value(input_.colourQuality);
-    if (input_.colourQuality < kLosslessColours) hasher.value(roles).value(input_.exposure);
-    return hasher.finish().toHex();
-  }
-
-  /// Names of its captures say what they are made of. Without a bundle that can be read, all are written.
-  void lookAtFormer() {
-    if (input_.former.empty()) return;
-    const auto former = readBundle(input_.former);
-    if (!former) return;
-    for (const BundleStorey& storey : former->storeys)
-      for (const BundleCamera& camera : storey.cameras)
-        for (const auto* capture : {&camera.full, &camera.coarse})
-          if (*capture) former_.emplace((*capture)->file.path, **capture);
-  }
-
-  /// The former bundle's file, if it has it and that is whole.
-  bool takeFormer(const std::string& path, std::optional<BundleCapture>& into) const {
-    const auto found = former_.find(path);
-    if (found == former_.end()) return false;
-    std::error_code error;
-    fs::create_directories((folder_ / path).parent_path(), error);
-    if (!linkOrCopyFile(input_.former / path, folder_ / path)) return false;
-    const auto file = fileOf(path);
-    if (!file || *file != found->second.file) {
-      fs::remove(folder_ / path, error);
-      return false;
+  /// Of captures that were taken over it is not known which of them has what the former bundle's had.
+  Status lookForFeatures() {
+    constexpr bool BundleFeatures::*kOfCaptures[] = {&BundleFeatures::layered, &BundleFeatures::blended,
+                                                     &BundleFeatures::mirrors, &BundleFeatures::background};
+    for (const CameraPlace& place : cameras_) {
+      if (!place.taken) continue;
+      if (std::ranges::none_of(kOfCaptures, [&](bool BundleFeatures::*feature) {
+            return former_.features().*feature && !(bundle_.features.*feature);
+          }))
+        break;
+      if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "writing the bundle was stopped");
+      const auto capture = readCapture(place);
+      if (!capture) return tl::unexpected(capture.error());
+      note(*capture);
     }
-    into = found->second;
-    return true;
+    return {};
   }
 
-  Status writeCamera(const CameraPlace& place) {
+  /// From the store, as it is written; of a camera that has one.
+  Result<Capture> readCapture(const CameraPlace& place) const {
+    const BundleStoreyInput& storey = input_.storeys[place.storey];
+    const std::optional<ContentKey>& full = storey.full[place.camera];
+    auto capture =
+        input_.store->get(full ? *full : *storey.coarse[place.camera]);  // as a whole: nothing damaged
+    if (capture && input_.colourQuality < kLosslessColours) shrink(*capture, place.roles);
+    return capture;
+  }
+
+  Status writeCamera(CameraPlace& place) {
     const BundleStoreyInput& storey = input_.storeys[place.storey];
     BundleCamera& camera = bundle_.storeys[place.storey].cameras[place.camera];
     const std::optional<ContentKey>& full = storey.full[place.camera];
     const std::optional<ContentKey>& key = full ? full : storey.coarse[place.camera];
     if (!key) return {};
-    auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
+    const std::string name = captureName(*key, place.roles, input_.colourQuality, input_.exposure);
+    const std::string path = fmt::format("captures/{}.pack", name),
+                      coarsePath = fmt::format("coarse/{}.pack", name);
+    place.taken = former_.give(full ? path : coarsePath, folder_, camera);
+    if (place.taken) return {};
+    const auto capture = readCapture(place);
     if (!capture) return tl::unexpected(capture.error());
-    if (input_.colourQuality < kLosslessColours) shrink(*capture, place.roles);
     note(*capture);
     camera.topElevation = capture->camera.topElevation;
     camera.bottomElevation = capture->camera.bottomElevation;
-    const std::string name = nameOf(*key, place.roles);
-    const std::string coarsePath = fmt::format("coarse/{}.pack", name);
     if (!full) {
-      if (takeFormer(coarsePath, camera.coarse)) return {};
       if (Status written = writePack(*capture, *key, coarsePath, input_.colourQuality); !written)
         return written;
       return describeInto(*capture, coarsePath, camera.coarse);
-    }
-    const std::string path = fmt::format("captures/{}.pack", name);
-    if (takeFormer(path, camera.full) && takeFormer(coarsePath, camera.coarse)) {
-      const std::lock_guard lock(mutex_);
-      ++report_.reused;
-      return {};
     }
     if (Status written = writePack(*capture, *key, path, input_.colourQuality); !written) return written;
     if (Status described = describeInto(*capture, path, camera.full); !described) return described;
@@ -249,6 +239,7 @@ class BundleWriter {
                              [&](std::size_t i) { return writeCamera(cameras_[i]); });
         !done)
       return done;
+    report_.reused = std::size_t(std::ranges::count(cameras_, true, &CameraPlace::taken));
     for (const BundleStorey& storey : bundle_.storeys)
       for (const BundleCamera& camera : storey.cameras) {
         ++report_.cameras;
@@ -379,7 +370,7 @@ class BundleWriter {
   std::mutex mutex_;  ///< of features, materials and progress
   Bundle bundle_;
   BundleReport report_;
-  std::map<std::string, BundleCapture> former_;  ///< by path
+  const FormerBundle former_;
   std::vector<CameraPlace> cameras_;
   std::vector<RegionPlace> regions_;  ///< their place here names their files
   std::set<int> usedMaterials_;
