@@ -58,16 +58,16 @@ void Publisher::publish(std::shared_ptr<const OpenProject> open, const PublishPl
                               threads](const Job::Context& context) {
     lowerThreadPriority();  // the window comes first
     TaskRunner runner(threads - 1);
-    BakeGaps gaps;
-    const Outcome outcome = write(*open, place, allowMissing, page, host, runner, context, gaps);
-    context.post([this, outcome, gaps] { ended(outcome, gaps); });
+    std::optional<BakeGaps> asked;
+    const Outcome outcome = write(*open, place, allowMissing, page, host, runner, context, asked);
+    context.post([this, outcome, asked] { ended(outcome, asked); });
   });
 }
 
-/// Where `gaps` has any and they may not be missing, the error is of no account.
+/// Where it asks, it says so in `asked`, and fails.
 Publisher::Outcome Publisher::write(const OpenProject& open, const PublishPlace& place, bool allowMissing,
                                     const fs::path& page, const ImportHost& host, TaskRunner& runner,
-                                    const Job::Context& context, BakeGaps& gaps) {
+                                    const Job::Context& context, std::optional<BakeGaps>& asked) {
   const Stopwatch watch;
   PublishOptions options;
   options.page = page;
@@ -82,9 +82,12 @@ Publisher::Outcome Publisher::write(const OpenProject& open, const PublishPlace&
   if (!storeys) return tl::unexpected(storeys.error());
   const auto missing = bakeGaps(*storeys);
   if (!missing) return tl::unexpected(missing.error());
-  gaps = *missing;
-  if (gaps.all() || (gaps.any() && !allowMissing))
-    return fail(ErrorKind::notFound, gaps.describe(), open.file.string());
+  if (missing->cameras == 0)
+    return fail(ErrorKind::invalidArgument, "there are no cells, so there is nothing to publish");
+  if (missing->all() || (missing->any() && !allowMissing)) {
+    asked = *missing;
+    return fail(ErrorKind::notFound, missing->describe());
+  }
   options.oneFile = place.oneFile;
   options.bundle.allowMissing = allowMissing;
   options.bundle.storey = open.project.storey;
@@ -97,15 +100,13 @@ Publisher::Outcome Publisher::write(const OpenProject& open, const PublishPlace&
   return published;
 }
 
-void Publisher::ended(const Outcome& outcome, const BakeGaps& gaps) {
+void Publisher::ended(const Outcome& outcome, const std::optional<BakeGaps>& asked) {
+  gaps_ = asked;
+  if (asked) return;
   if (!outcome) {
     const Error& error = outcome.error();
     if (error.kind == ErrorKind::cancelled)
       return messages_.add(MessageLevel::info, "Publishing was cancelled; what was published before stays");
-    if (gaps.any() && error.message == gaps.describe()) {
-      gaps_ = gaps;
-      return;
-    }
     trouble_ = error.describe();
     return messages_.add(MessageLevel::error, "Publishing failed. " + trouble_);
   }

@@ -74,8 +74,8 @@ class Publisher {
   using Outcome = Result<Published>;
   static Outcome write(const OpenProject& open, const PublishPlace& place, bool allowMissing,
                        const std::filesystem::path& page, const ImportHost& host, TaskRunner& runner,
-                       const Job::Context& context, BakeGaps& gaps);
-  void ended(const Outcome& outcome, const BakeGaps& gaps);
+                       const Job::Context& context, std::optional<BakeGaps>& asked);
+  void ended(const Outcome& outcome, const std::optional<BakeGaps>& asked);
 
   Inbox& inbox_;
   Messages& messages_;
