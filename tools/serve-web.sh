@@ -17,5 +17,5 @@ serveWeb() {
   fi
   "$bin/acentric" bake "$project" || die "the bake did not finish (above is why); what is done is kept, so run this again."
   "$bin/acentric" export "$project" "$site" --to web || die "the walk was not exported (above is why)."
-  exec node "$root/web/serve.mjs" "$site" "${PORT:-8000}"
+  exec "$bin/acentric" serve "$site" ${PORT:+--port "$PORT"}
 }

@@ -105,6 +105,7 @@ void addFileActions(std::vector<Action>& table) {
                      c.state.dialog = Dialog::saveAs;
                    },
                    {}});
+  addPublishActions(table);
   addOutsideActions(table);
   table.push_back({"file.close",
                    "File",

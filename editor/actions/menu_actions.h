@@ -39,6 +39,8 @@ void addLayoutActions(std::vector<Action>& table);
 /// Of the walkable area.
 void addOutlineActions(std::vector<Action>& table);
 void addWalkActions(std::vector<Action>& table);
+/// In the File menu, after saving: the walk in browsers.
+void addPublishActions(std::vector<Action>& table);
 /// In the File menu, after closing: preferences and the window's layout.
 void addPreferenceActions(std::vector<Action>& table);
 /// In no menu: size of the interface, and the menus themselves.

@@ -219,6 +219,8 @@ void drawBakePanel(PanelContext& context) {
     actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
   }
   ImGui::SameLine();
+  actionButton(context, "file.publish");
+  ImGui::SameLine();
   drawProgress(context);
   const auto view = [&](const char* label, const char* help, bool cameras) {
     bool& shown = context.state().showBakeCameras;

@@ -6,6 +6,7 @@
 #include "editor/panels/dialog_frame.h"
 #include "editor/panels/document_dialogs.h"
 #include "editor/panels/preferences_dialog.h"
+#include "editor/panels/publish_panel.h"
 #include "editor/session/project_files.h"
 #include "engine/export/bundle.h"
 #include "ui/keys.h"
@@ -21,6 +22,14 @@ std::vector<std::string> allEndings() {
   std::vector<std::string> endings = modelEndings();
   endings.insert(endings.begin(), {kProjectEnding, kWalkEnding, kBundleIndex});
   return endings;
+}
+
+void giveClipboard(PanelContext& context) {
+  const std::string text = std::exchange(context.state().toClipboard, {});
+  if (text.empty()) return;
+  ImGui::SetClipboardText(text.c_str());
+  context.log.event("clipboard", text);
+  context.session().messages().add(MessageLevel::info, "Copied " + text);
 }
 
 }  // namespace
@@ -173,6 +182,7 @@ void Dialogs::drawAbout(PanelContext& context) {
 }
 
 void Dialogs::draw(PanelContext& context) {
+  giveClipboard(context);
   openFileDialogs(context);
   open_ = false;
   if (browser_.isOpen()) return browser_.draw(context.log);
@@ -193,6 +203,8 @@ void Dialogs::draw(PanelContext& context) {
       return drawUnsavedChanges(context);
     case Dialog::preferences:
       return drawPreferencesDialog(context);
+    case Dialog::publish:
+      return drawPublishDialog(context, keys);
     case Dialog::about:
       return drawAbout(context);
     case Dialog::none:

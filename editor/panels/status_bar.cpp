@@ -53,7 +53,8 @@ constexpr const char* kSceneHint =
 const Job* workOf(const Session& session) {
   const Job* jobs[] = {&session.opening(),         &session.rebuilding(),        &session.baking(),
                        &session.estimating(),      &session.searching(),         &session.loading(),
-                       &session.drawingBackdrop(), &session.measuringCoverage(), &session.inspecting()};
+                       &session.drawingBackdrop(), &session.measuringCoverage(), &session.inspecting(),
+                       &session.publishing().job()};
   for (const Job* job : jobs)
     if (job->running()) return job;
   return nullptr;

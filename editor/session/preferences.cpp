@@ -42,6 +42,24 @@ void readName(const Json& json, const char* name, Enum& value, std::span<const c
     if (found->get<std::string>() == names[i]) value = Enum(i);
 }
 
+std::string textOf(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+void readPublished(const Json& json, std::vector<RememberedPlace>& published) {
+  const auto list = json.find("published");
+  if (list == json.end() || !list->is_array()) return;
+  for (const Json& entry : *list) {
+    if (!entry.is_object() || published.size() == Preferences::kMostPublished) continue;
+    RememberedPlace known{textOf(entry, "project"), {textOf(entry, "folder")}};
+    known.place.publicAddress = textOf(entry, "publicAddress");
+    readFlag(entry, "oneFile", known.place.oneFile);
+    readFlag(entry, "openBrowser", known.place.openBrowser);
+    if (!known.project.empty() && known.place.folder.is_absolute()) published.push_back(std::move(known));
+  }
+}
+
 constexpr std::array<const char*, 2> kThemes = {"dark", "light"};
 constexpr std::array<const char*, 3> kGraphics = {"automatic", "processor", "card"};
 constexpr std::array<const char*, 3> kStartUps = {"sample", "lastProject", "nothing"};
@@ -61,9 +79,16 @@ void Preferences::addRecent(const fs::path& file) {
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);
 }
 
+void Preferences::rememberPublished(const fs::path& project, const PublishPlace& place) {
+  std::erase_if(published, [&](const RememberedPlace& known) { return known.project == project; });
+  published.insert(published.begin(), {project, place});
+  if (published.size() > kMostPublished) published.resize(kMostPublished);
+}
+
 void Preferences::resetSettings() {
   Preferences fresh;
   fresh.recent = std::move(recent);
+  fresh.published = std::move(published);
   fresh.lastFolder = std::move(lastFolder);
   fresh.guideSeen = guideSeen;
   fresh.keepLayoutOf(*this);
@@ -124,8 +149,8 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
     for (const Json& entry : *recent)
       if (entry.is_string() && preferences.recent.size() < Preferences::kMostRecent)
         preferences.recent.emplace_back(entry.get<std::string>());
-  if (const auto folder = json.find("lastFolder"); folder != json.end() && folder->is_string())
-    preferences.lastFolder = folder->get<std::string>();
+  preferences.lastFolder = textOf(json, "lastFolder");
+  readPublished(json, preferences.published);
   using P = Preferences;
   readNumber(json, "bakeThreads", preferences.bakeThreads, 0, 256);
   readNumber(json, "bakeMegabytes", preferences.bakeMegabytes, 16, 1'000'000);
@@ -160,7 +185,15 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
   if (file.empty()) return {};
   Json recent = Json::array();
   for (const fs::path& path : preferences.recent) recent.push_back(path.string());
+  Json published = Json::array();
+  for (const RememberedPlace& known : preferences.published)
+    published.push_back({{"project", known.project.string()},
+                         {"folder", known.place.folder.string()},
+                         {"oneFile", known.place.oneFile},
+                         {"openBrowser", known.place.openBrowser},
+                         {"publicAddress", known.place.publicAddress}});
   const Json json = {{"recent", std::move(recent)},
+                     {"published", std::move(published)},
                      {"lastFolder", preferences.lastFolder.string()},
                      {"bakeThreads", preferences.bakeThreads},
                      {"bakeMegabytes", preferences.bakeMegabytes},

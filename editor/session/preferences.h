@@ -22,8 +22,22 @@ enum class Graphics {
   card,  ///< also a slow one
 };
 
+/// Where a project is published, and how.
+struct PublishPlace {
+  std::filesystem::path folder;
+  bool oneFile = false;     ///< a walk's file, in place of a bundle's many
+  bool openBrowser = true;  ///< once it is published
+  /// Where the folder is put for others, which links begin with; empty: this machine's server.
+  std::string publicAddress = {};
+  bool operator==(const PublishPlace&) const = default;
+};
+struct RememberedPlace {
+  std::filesystem::path project;
+  PublishPlace place;
+};
+
 struct Preferences {
-  static constexpr std::size_t kMostRecent = 10;
+  static constexpr std::size_t kMostRecent = 10, kMostPublished = 50;
   static constexpr int kLeastScalePercent = 75, kMostScalePercent = 200;
   static constexpr double kLeastAutosaveSeconds = 5, kMostAutosaveSeconds = 3600;
   static constexpr float kLeastShare = 0.2F;  ///< of the window, that one of four views keeps
@@ -31,9 +45,10 @@ struct Preferences {
 
   std::vector<std::filesystem::path> recent;  ///< projects, newest first
   std::filesystem::path lastFolder;
-  int bakeThreads = 0;       ///< 0 = all but one
-  int bakeMegabytes = 1536;  ///< that what is baked may take until it is written
-  int walkMegabytes = 0;     ///< for captures of the walk in memory; 0 = half of the machine's
+  std::vector<RememberedPlace> published;  ///< newest first; by project, where that is not the usual place
+  int bakeThreads = 0;                     ///< 0 = all but one
+  int bakeMegabytes = 1536;                ///< that what is baked may take until it is written
+  int walkMegabytes = 0;                   ///< for captures of the walk in memory; 0 = half of the machine's
   double walkMetresPerSecond = 1.4;
   int historyMegabytes = 256;          ///< for what can be undone
   bool reimportAutomatically = false;  ///< a model that changed on disk, without being asked
@@ -55,6 +70,7 @@ struct Preferences {
   float fourRow = 0.5F;      ///< of the upper ones
 
   void addRecent(const std::filesystem::path& file);
+  void rememberPublished(const std::filesystem::path& project, const PublishPlace& place);
   /// All that the preferences dialog shows, as it was at first; files and the window's layout stay.
   void resetSettings();
   void resetLayout();

@@ -71,6 +71,7 @@ bool Session::poll(double now) {
   lookAround(now);
   inspectWhenStill(now);
   const bool measured = sweeping_.poll(now);
+  publishing_.poll();
   return refreshProblems() || delivered || measured;
 }
 
@@ -78,7 +79,7 @@ bool Session::working() const {
   return opening_.running() || rebuilding_.running() || baking_.running() || loading_.running() ||
          streaming() || drawingBackdrop_.running() || inspecting_.running() || measuringCoverage_.running() ||
          picking_.running() || searching_.running() || estimating_.running() || savingPicture_.running() ||
-         reading_.running();
+         reading_.running() || publishing_.job().running();
 }
 
 bool Session::apply(Edit edit) {

@@ -25,6 +25,7 @@
 #include "editor/session/picture_ask.h"
 #include "editor/session/preferences.h"
 #include "editor/session/problems.h"
+#include "editor/session/publish.h"
 #include "editor/session/scene_pick.h"
 #include "editor/session/session_options.h"
 #include "editor/session/sweep_watch.h"
@@ -235,6 +236,17 @@ class Session {
   /// What accuracy costs in time.
   SweepWatch& sweeping() { return sweeping_; }
   const SweepWatch& sweeping() const { return sweeping_; }
+  /// For browsers: what is written, served and shown of the project. publish() begins it.
+  Publisher& publishing() { return publishing_; }
+  const Publisher& publishing() const { return publishing_; }
+  /// Where it was published last, or would be.
+  PublishPlace publishPlace() const;
+  void keepPublishPlace(const PublishPlace& place);
+  /// The published page, where the walk begins: its public address, else this machine's; empty: there is
+  /// none.
+  std::string linkToWalk() const;
+  /// What is open, as it is; keeps the place.
+  void publish(const PublishPlace& place, bool allowMissing);
   /// Writes what the walk shows beside the project, under a new name, and tells where.
   void savePicture(ColourImage picture);
   const Job& savingPicture() const { return savingPicture_; }
@@ -462,6 +474,7 @@ class Session {
   TruthCompare comparing_{inbox_, processors_};
   VariantCompare variants_{inbox_, processors_};
   PictureAsk asking_{inbox_, processors_, options_.importHost};
+  Publisher publishing_{inbox_, messages_, options_.page};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -132,6 +132,7 @@ void Session::close() {
   asking_.clear();
   variants_.forget();
   sweeping_.watch({});
+  publishing_.close();
   estimate_.reset();
   inspection_.reset();
   inspected_.reset();

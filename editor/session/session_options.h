@@ -15,8 +15,9 @@ struct SessionOptions {
   int processors = 0;                     ///< 0 = what the machine has
   std::optional<double> autosaveSeconds;  ///< instead of the preference
   std::filesystem::path program;          ///< `acentric`; empty = beside the running program
-  std::filesystem::path unsavedFolder;    ///< for autosaves of work that has no file yet; empty = it has none
-  double watchSeconds = 2;                ///< between looks at files that others may change
+  std::filesystem::path page;  ///< folder of the page for browsers; empty = where it is installed or built
+  std::filesystem::path unsavedFolder;  ///< for autosaves of work that has no file yet; empty = it has none
+  double watchSeconds = 2;              ///< between looks at files that others may change
   /// Inspects each layout soon after an edit for the list of problems, also while the plan does not show it.
   bool inspectAlways = false;
   std::uint64_t regionsAtOnce = kRegionsAtOnce;  ///< walks of more are read page by page

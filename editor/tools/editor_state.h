@@ -32,6 +32,7 @@ enum class Dialog {
   commands,
   shortcuts,
   preferences,
+  publish,
   about
 };
 
@@ -47,6 +48,12 @@ struct NewProjectDraft {
   double eyeHeight = 1.6;
   bool everyStorey = false;
   int generation = -1;  ///< of the session, that it was filled from
+};
+
+/// What the dialog for publishing is being told.
+struct PublishDraft {
+  std::string folder, publicAddress;
+  bool oneFile = false, openBrowser = true;
 };
 
 /// A part of the plan, metres.
@@ -150,6 +157,8 @@ struct EditorState {
   Dialog dialog = Dialog::none;
   Continuation continuation;
   NewProjectDraft draft;
+  PublishDraft publishDraft;
+  std::string toClipboard;  ///< asked for; the dialogs clear it
   bool quit = false;
 };
 

@@ -1,19 +1,10 @@
 #pragma once
 /// Frames of bundles and walks, which need no project.
 
-#include <filesystem>
-
 #include "engine/cli/commands.h"
-#include "engine/export/bundle_player.h"
+#include "engine/export/bundle_frame.h"
 
 namespace acentric::cli {
-
-/// Of a bundle's folder, or of a walk, whose index is read page by page.
-Result<std::unique_ptr<BundlePlayer>> playerFor(const std::filesystem::path& bundle, int threads);
-/// The view that the walk begins with.
-PerspectiveView startOf(const Bundle& bundle);
-/// Full captures, or coarse ones where there are no others; loads what is missing.
-Result<Frame> bundleFrame(BundlePlayer& player, const PerspectiveView& view, const ViewSettings& settings);
 
 /// `acentric render` of a bundle or a walk.
 Result<Report> renderBundle(const RenderOptions& options, const Common& common);

@@ -3,34 +3,57 @@
 #include <optional>
 
 #include "engine/base/file.h"
-#include "engine/cli/bundle_picture.h"
 #include "engine/cli/commands.h"
 #include "engine/export/walk_write.h"
-#include "engine/export/web_page.h"
-#include "engine/pipeline/export_bundle.h"
+#include "engine/pipeline/publish_walk.h"
 
 namespace acentric::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
+/// All storeys of a project, and the one where its walk begins.
+struct ToExport {
+  std::vector<OpenProject> storeys;
+  ExportBundleOptions bundle;
+};
+
+Result<ToExport> openToExport(const ExportOptions& options, const Common& common) {
+  const auto current = openChosen(options.project, common);
+  if (!current) return tl::unexpected(current.error());
+  auto storeys = acentric::openStoreys(*current, common.host, common.progress, common.stop);
+  if (!storeys) return tl::unexpected(storeys.error());
+  ExportBundleOptions bundle{options.allowMissing, "Acentric " ACENTRIC_VERSION, options.colourQuality};
+  bundle.storey = current->project.storey;
+  return ToExport{std::move(*storeys), std::move(bundle)};
+}
+
 Result<BundleReport> writeBundleOf(const ExportOptions& options, const fs::path& folder,
                                    const Common& common) {
   // Before a model is imported for nothing.
   if (Status free = checkBundleTarget(folder); !free) return tl::unexpected(free.error());
-  const auto current = openChosen(options.project, common);
-  if (!current) return tl::unexpected(current.error());
-  const auto storeys = acentric::openStoreys(*current, common.host, common.progress, common.stop);
-  if (!storeys) return tl::unexpected(storeys.error());
+  const auto open = openToExport(options, common);
+  if (!open) return tl::unexpected(open.error());
   const auto runner = common.runner();
-  ExportBundleOptions bundle;
-  bundle.allowMissing = options.allowMissing;
-  bundle.colourQuality = options.colourQuality;
-  bundle.generator = "Acentric " ACENTRIC_VERSION;
-  auto done = exportBundle(*storeys, folder, bundle, *runner, common.progress, common.stop);
+  auto done = exportBundle(open->storeys, folder, open->bundle, *runner, common.progress, common.stop);
   if (!done) return done;
   if (Status there = mustExist(folder / kBundleIndex); !there) return tl::unexpected(there.error());
   return done;
+}
+
+Result<BundleReport> publishTo(const ExportOptions& options, const fs::path& page, const Common& common) {
+  if (Status free = checkPublishTarget(options.output); !free) return tl::unexpected(free.error());
+  const auto open = openToExport(options, common);
+  if (!open) return tl::unexpected(open.error());
+  PublishOptions publishing;
+  publishing.page = page;
+  publishing.bundle = open->bundle;
+  const auto runner = common.runner();
+  const auto done =
+      publishWalk(open->storeys, options.output, publishing, *runner, common.progress, common.stop);
+  if (!done) return tl::unexpected(done.error());
+  if (Status there = mustExist(options.output / "index.html"); !there) return tl::unexpected(there.error());
+  return done->bundle;
 }
 
 /// A bundle for a single file, beside it while that is made.
@@ -46,29 +69,6 @@ class TemporaryBundle {
   TemporaryBundle& operator=(const TemporaryBundle&) = delete;
   const fs::path folder;
 };
-
-/// As large as those want it who show addresses.
-constexpr int kPosterWidth = 1200, kPosterHeight = 630;
-
-/// Of a page for the bundle in a folder; its poster, of a page that is not alone, is put there: what the walk
-/// begins with.
-Result<PageTitle> titleOf(const fs::path& folder, bool alone, const Common& common) {
-  const auto player = playerFor(folder, common.runner()->threads());
-  if (!player) return tl::unexpected(player.error());
-  const Bundle& bundle = (*player)->bundle();
-  PageTitle title{bundle.name, {}};
-  if (alone) return title;
-  PerspectiveView view = startOf(bundle);
-  view.width = kPosterWidth, view.height = kPosterHeight;
-  ViewSettings settings = bundle.view;
-  settings.renderer = withoutOpenGl(settings.renderer);
-  const auto frame = bundleFrame(**player, view, settings);
-  if (!frame) return title;  // nothing is baked there yet: a page without a poster
-  title.poster = "poster.jpg";
-  if (Status written = writeColourImage(frame->colour, folder / title.poster); !written)
-    return tl::unexpected(written.error());
-  return title;
-}
 
 /// What the page is, and whether it is handy.
 void addSingleFile(const fs::path& file, std::uint64_t size, Report& report) {
@@ -108,32 +108,27 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
   std::optional<TemporaryBundle> temporary;
   if (options.singleFile || walk) temporary.emplace(fs::absolute(options.output));
   const fs::path folder = temporary ? temporary->folder : options.output;
-  const auto done = writeBundleOf(options, folder, common);
+  const auto done =
+      web && !temporary ? publishTo(options, page, common) : writeBundleOf(options, folder, common);
   if (!done) return tl::unexpected(done.error());
-  std::uint64_t pageBytes = 0;
-  PageTitle title;
-  if (web) {
-    auto made = titleOf(folder, options.singleFile, common);
-    if (!made) return tl::unexpected(made.error());
-    title = std::move(*made);
-  }
-  std::uint64_t walkBytes = 0;
+  std::uint64_t pageBytes = 0, walkBytes = 0;
   if (walk) {
     const auto written = writeWalk(folder, options.output, {options.regionsPerPage}, common.stop);
     if (!written) return tl::unexpected(written.error());
     walkBytes = *written;
   } else if (temporary) {
-    const auto written = writeSingleFile(page, folder, options.output, title);
+    const auto title = pageTitle(folder, {}, common.runner()->threads());
+    if (!title) return tl::unexpected(title.error());
+    const auto written = writeSingleFile(page, folder, options.output, *title);
     if (!written) return tl::unexpected(written.error());
     pageBytes = *written;
-  } else if (web) {
-    if (Status added = addWebPage(page, folder, title); !added) return tl::unexpected(added.error());
   }
 
   Report report;
   report.json = {{"folder", options.output.string()},
                  {"cameras", done->cameras},
                  {"missing", done->missing},
+                 {"reused", done->reused},
                  {"regions", done->regions},
                  {"textures", done->textures},
                  {"samples", done->samples},
@@ -160,7 +155,9 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
     addSingleFile(options.output, pageBytes, report);
   }
   if (web && !temporary)
-    report.text += "  any web server can serve it, such as `node web/serve.mjs` (docs/web.md)\n";
+    report.text += fmt::format(
+        "  any web server can serve it; `acentric serve {}` does so on this machine (docs/web.md)\n",
+        options.output.string());
   if (done->missing > 0)
     report.text += fmt::format("warning: {} of {} captures are missing; `acentric bake {}` makes them\n",
                                done->missing, done->cameras, options.project.string());

@@ -46,6 +46,8 @@ void addInspectionCommands(CLI::App& app, Chosen& chosen);
 void addWalkCommands(CLI::App& app, Chosen& chosen);
 /// Bundles for other programs.
 void addExportCommand(CLI::App& app, Chosen& chosen);
+/// Of published walks.
+void addServeCommand(CLI::App& app, Chosen& chosen);
 /// What accuracy costs, and settings chosen by it.
 void addSweepCommands(CLI::App& app, Chosen& chosen);
 /// Of those of `acentric bench`.

@@ -158,6 +158,14 @@ Result<Report> runExportImages(const ExportOptions& options, const Common& commo
 Result<Report> runExportGltf(const ExportOptions& options, const Common& common);
 Result<Report> runExportExr(const ExportOptions& options, const Common& common);
 
+/// Serves a published folder, a bundle or a walk to browsers on this machine, until it is stopped.
+struct ServeCommandOptions {
+  std::filesystem::path subject;
+  std::optional<int> port;  ///< none: the usual one, or another that is free
+  bool open = false;        ///< in the browser
+};
+Result<Report> runServe(const ServeCommandOptions& options, const Common& common);
+
 /// Where the eye is and where it looks.
 struct ViewChoice {
   std::string bookmark;  ///< of the project; empty = eye and angles below

@@ -62,4 +62,19 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
               "Write what there is though captures or light are not baked yet");
 }
 
+void addServeCommand(CLI::App& app, Chosen& chosen) {
+  auto [c, o] = add(app, chosen, "serve", "Serve a published walk to browsers on this machine",
+                    "  acentric serve kitchen-web --open\n"
+                    "  acentric serve kitchen.acentric --port 8080",
+                    runServe);
+  c->add_option("subject", o.subject,
+                "Folder to serve, as `export --to web` writes one, or a walk's file; what a bundle or a walk "
+                "lacks of the page is taken from where it is installed or built")
+      ->required();
+  c->add_option("--port", o.port,
+                "Port on 127.0.0.1; 0 is any that is free (default: 8000, or one that is free)")
+      ->check(CLI::Range(0, 65535));
+  c->add_flag("--open", o.open, "Open it in the browser, and tell how long its first frame took");
+}
+
 }  // namespace acentric::cli

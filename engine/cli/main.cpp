@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   addInspectionCommands(app, chosen);
   addWalkCommands(app, chosen);
   addExportCommand(app, chosen);
+  addServeCommand(app, chosen);
   addSweepCommands(app, chosen);
   addPackCommand(*app.get_subcommand("bench"), chosen);
   addRepresentationsCommand(*app.get_subcommand("bench"), chosen);

@@ -13,6 +13,7 @@
 #include "engine/export/bundle_materials.h"
 #include "engine/export/crop_light.h"
 #include "engine/export/export_target.h"
+#include "engine/export/former_bundle.h"
 #include "engine/export/local_file.h"
 #include "engine/export/png.h"
 #include "engine/export/region_order.h"
@@ -36,13 +37,19 @@ class BundleWriter {
  public:
   BundleWriter(const BundleInput& input, fs::path folder, TaskRunner& runner, const Progress& progress,
                const std::stop_token& stop)
-      : input_(input), folder_(std::move(folder)), runner_(runner), progress_(progress), stop_(stop) {}
+      : input_(input),
+        folder_(std::move(folder)),
+        runner_(runner),
+        progress_(progress),
+        stop_(stop),
+        former_(input.former) {}
 
   Result<BundleReport> write() {
     describe();
     for (const BundleStoreyInput& storey : input_.storeys) addStorey(storey);
-    for (const auto& step : {&BundleWriter::writeCaptures, &BundleWriter::writeLocals,
-                             &BundleWriter::writeTextures, &BundleWriter::writeIndex})
+    for (const auto& step :
+         {&BundleWriter::writeCaptures, &BundleWriter::writeLocals, &BundleWriter::writeTextures,
+          &BundleWriter::lookForFeatures, &BundleWriter::writeIndex})
       if (Status done = (this->*step)(); !done) return tl::unexpected(done.error());
     return report_;
   }
@@ -51,6 +58,7 @@ class BundleWriter {
   struct CameraPlace {
     std::size_t storey, camera;
     std::uint8_t roles;  ///< that regions of the bundle draw
+    bool taken = false;  ///< from the former bundle
   };
   struct RegionPlace {
     std::size_t storey, region;  ///< of the bundle
@@ -162,25 +170,55 @@ class BundleWriter {
       roundPlanes(*list, capture.camera, capture.distanceStep);
   }
 
-  Status writeCamera(const CameraPlace& place) {
+  /// Of captures that were taken over it is not known which of them has what the former bundle's had.
+  Status lookForFeatures() {
+    constexpr bool BundleFeatures::*kOfCaptures[] = {&BundleFeatures::layered, &BundleFeatures::blended,
+                                                     &BundleFeatures::mirrors, &BundleFeatures::background};
+    for (const CameraPlace& place : cameras_) {
+      if (!place.taken) continue;
+      if (std::ranges::none_of(kOfCaptures, [&](bool BundleFeatures::*feature) {
+            return former_.features().*feature && !(bundle_.features.*feature);
+          }))
+        break;
+      if (stop_.stop_requested()) return fail(ErrorKind::cancelled, "writing the bundle was stopped");
+      const auto capture = readCapture(place);
+      if (!capture) return tl::unexpected(capture.error());
+      note(*capture);
+    }
+    return {};
+  }
+
+  /// From the store, as it is written; of a camera that has one.
+  Result<Capture> readCapture(const CameraPlace& place) const {
+    const BundleStoreyInput& storey = input_.storeys[place.storey];
+    const std::optional<ContentKey>& full = storey.full[place.camera];
+    auto capture =
+        input_.store->get(full ? *full : *storey.coarse[place.camera]);  // as a whole: nothing damaged
+    if (capture && input_.colourQuality < kLosslessColours) shrink(*capture, place.roles);
+    return capture;
+  }
+
+  Status writeCamera(CameraPlace& place) {
     const BundleStoreyInput& storey = input_.storeys[place.storey];
     BundleCamera& camera = bundle_.storeys[place.storey].cameras[place.camera];
     const std::optional<ContentKey>& full = storey.full[place.camera];
     const std::optional<ContentKey>& key = full ? full : storey.coarse[place.camera];
     if (!key) return {};
-    auto capture = input_.store->get(*key);  // as a whole: nothing damaged is passed on
+    const std::string name = captureName(*key, place.roles, input_.colourQuality, input_.exposure);
+    const std::string path = fmt::format("captures/{}.pack", name),
+                      coarsePath = fmt::format("coarse/{}.pack", name);
+    place.taken = former_.give(full ? path : coarsePath, folder_, camera);
+    if (place.taken) return {};
+    const auto capture = readCapture(place);
     if (!capture) return tl::unexpected(capture.error());
-    if (input_.colourQuality < kLosslessColours) shrink(*capture, place.roles);
     note(*capture);
     camera.topElevation = capture->camera.topElevation;
     camera.bottomElevation = capture->camera.bottomElevation;
-    const std::string coarsePath = fmt::format("coarse/{}.pack", key->toHex());
     if (!full) {
       if (Status written = writePack(*capture, *key, coarsePath, input_.colourQuality); !written)
         return written;
       return describeInto(*capture, coarsePath, camera.coarse);
     }
-    const std::string path = fmt::format("captures/{}.pack", key->toHex());
     if (Status written = writePack(*capture, *key, path, input_.colourQuality); !written) return written;
     if (Status described = describeInto(*capture, path, camera.full); !described) return described;
     const Capture coarse = coarsened(*capture, kBundleCoarseFactor);
@@ -201,6 +239,7 @@ class BundleWriter {
                              [&](std::size_t i) { return writeCamera(cameras_[i]); });
         !done)
       return done;
+    report_.reused = std::size_t(std::ranges::count(cameras_, true, &CameraPlace::taken));
     for (const BundleStorey& storey : bundle_.storeys)
       for (const BundleCamera& camera : storey.cameras) {
         ++report_.cameras;
@@ -331,6 +370,7 @@ class BundleWriter {
   std::mutex mutex_;  ///< of features, materials and progress
   Bundle bundle_;
   BundleReport report_;
+  const FormerBundle former_;
   std::vector<CameraPlace> cameras_;
   std::vector<RegionPlace> regions_;  ///< their place here names their files
   std::set<int> usedMaterials_;

@@ -42,10 +42,13 @@ struct BundleInput {
   int storey = 0;
   std::vector<BundleBookmark> bookmarks;
   std::vector<BundlePath> paths;
+  std::filesystem::path
+      former;  ///< a bundle's folder whose captures are taken where they are the same; may be empty
 };
 
 struct BundleReport {
   std::size_t cameras = 0, missing = 0;  ///< missing: without full captures
+  std::size_t reused = 0;                ///< of the cameras: their files are those of the former bundle
   std::size_t regions = 0, textures = 0;
   std::uint64_t fullBytes = 0, coarseBytes = 0, localBytes = 0, textureBytes = 0, indexBytes = 0;
   std::uint64_t samples = 0, triangles = 0;  ///< of full captures; of local geometry

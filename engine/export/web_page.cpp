@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The entry comes last: a page without the others must not open.
-constexpr std::array kPageFiles = {"viewer.css", "viewer.js", "index.html"};
 constexpr std::string_view kScript = R"(<script defer src="./viewer.js"></script>)";
 constexpr std::string_view kStyle = R"(<link rel="stylesheet" href="./viewer.css">)";
 constexpr std::string_view kEnd = "</main>";
@@ -79,6 +76,8 @@ Status setTitle(std::string& html, const PageTitle& title, const fs::path& file)
       name);
   if (!title.poster.empty())
     head += fmt::format("\n    <meta property=\"og:image\" content=\"{}\" />", htmlText(title.poster));
+  if (!title.walk.empty())
+    head += fmt::format("\n    <meta name=\"acentric-walk\" content=\"{}\" />", htmlText(title.walk));
   return replaceOnce(html, kTitle, head, file);
 }
 
@@ -95,8 +94,9 @@ Result<fs::path> findWebPage(const fs::path& program) {
   }
   return fail(
       ErrorKind::notFound,
-      "the viewer's page is not built: run `npm ci && npm run build` in the folder web of the sources "
-      "(./run web does so)",
+      fmt::format("the viewer's page is not built: run `npm ci && npm run build` in the folder web of the "
+                  "sources (./run web does so), or install it to {}",
+                  (folder / "../share/acentric/web").lexically_normal().string()),
       (folder / "../../../web/dist").lexically_normal().string());
 }
 

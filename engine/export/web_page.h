@@ -2,6 +2,7 @@
 /// The page that walks through a bundle in a browser: its files, as web/ builds them, put beside a bundle, or
 /// both as one HTML file.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -10,14 +11,18 @@
 
 namespace acentric {
 
+/// Its files. The entry comes last: a page without the others must not open.
+inline constexpr std::array kPageFiles = {"viewer.css", "viewer.js", "index.html"};
+
 /// Where the built page is, seen from a program of ours: share/acentric/web beside an installed one's folder,
 /// or web/dist of the sources that it was built from. Fails with how to make it.
 Result<std::filesystem::path> findWebPage(const std::filesystem::path& program);
 
 /// What those see who are sent the page's address.
 struct PageTitle {
-  std::string name;    ///< of the walk
-  std::string poster;  ///< a picture beside the page; none: empty
+  std::string name;       ///< of the walk
+  std::string poster;     ///< a picture beside the page; none: empty
+  std::string walk = {};  ///< a walk's file beside the page, which it opens unless its address names another
 };
 
 /// Copies the page into the folder of a bundle, index.html last.

@@ -13,11 +13,6 @@ BundlePose poseOf(const PathPose& pose) {
   return {pose.eye, pose.yawRadians, pose.pitchRadians, pose.seconds};
 }
 
-struct Missing {
-  std::size_t captures = 0, cameras = 0;
-  bool light = false;
-};
-
 /// "kitchen.acentric.json" -> "kitchen".
 std::string nameOf(const std::filesystem::path& project) {
   std::string name = project.filename().string();
@@ -27,7 +22,7 @@ std::string nameOf(const std::filesystem::path& project) {
 }
 
 Result<BundleStoreyInput> storeyInput(const OpenProject& open, const CaptureStore& store,
-                                      const std::stop_token& stop, Missing& missing) {
+                                      const std::stop_token& stop) {
   auto start = startWalk(open, nullptr);
   if (!start) return tl::unexpected(start.error());
   BundleStoreyInput input;
@@ -40,10 +35,7 @@ Result<BundleStoreyInput> storeyInput(const OpenProject& open, const CaptureStor
     const bool full = best[c] && *best[c] == open.keys[c];
     input.full.push_back(full ? best[c] : std::nullopt);
     input.coarse.push_back(full ? std::nullopt : best[c]);
-    ++missing.cameras;
-    missing.captures += full ? 0 : 1;
   }
-  missing.light |= input.light == nullptr;
   input.local = [source = start->source, stop,
                  &open](int region) -> Result<std::shared_ptr<const LocalGeometry>> {
     const LocalPart part = source->local(region, stop);
@@ -53,22 +45,38 @@ Result<BundleStoreyInput> storeyInput(const OpenProject& open, const CaptureStor
   return input;
 }
 
-Status refuseMissing(const Missing& missing, const std::filesystem::path& project) {
-  if (missing.captures == 0 && !missing.light) return {};
-  std::string what = missing.captures > 0
-                         ? fmt::format("{} of {} captures", missing.captures, missing.cameras)
-                         : std::string();
-  if (missing.light) what += what.empty() ? "the light of near surfaces" : " and the light of near surfaces";
-  return fail(
-      ErrorKind::notFound,
-      fmt::format("{} {} not baked yet: run `acentric bake {}` first, or export what there is with "
-                  "--allow-missing",
-                  what, missing.captures > 1 || (missing.captures > 0 && missing.light) ? "are" : "is",
-                  project.string()),
-      project.string());
+tl::unexpected<Error> refuse(const BakeGaps& gaps, const std::filesystem::path& project) {
+  return fail(ErrorKind::notFound,
+              fmt::format("{}: run `acentric bake {}` first, or export what there is with --allow-missing",
+                          gaps.describe(), project.string()),
+              project.string());
 }
 
 }  // namespace
+
+std::string BakeGaps::describe() const {
+  if (!any()) return {};
+  std::string what = missing > 0 ? fmt::format("{} of {} captures", missing, cameras) : std::string();
+  if (light) what += what.empty() ? "the light of near surfaces" : " and the light of near surfaces";
+  return fmt::format("{} {} not baked yet", what, missing > 1 || (missing > 0 && light) ? "are" : "is");
+}
+
+Result<BakeGaps> bakeGaps(std::span<const OpenProject> storeys) {
+  require(!storeys.empty(), "a project has a storey");
+  const auto store = openCaptures(storeys.front().file);
+  if (!store) return tl::unexpected(store.error());
+  BakeGaps gaps;
+  for (const OpenProject& open : storeys) {
+    const auto best = bestKeys(open, *store);
+    gaps.cameras += best.size();
+    for (std::size_t c = 0; c < best.size(); ++c) {
+      gaps.missing += best[c] && *best[c] == open.keys[c] ? 0 : 1;
+      gaps.empty += best[c] ? 0 : 1;
+    }
+    gaps.light |= !store->hasSurfaceLight(open.surfaceLightKey);
+  }
+  return gaps;
+}
 
 Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const std::filesystem::path& folder,
                                   const ExportBundleOptions& options, TaskRunner& runner,
@@ -77,16 +85,19 @@ Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const st
   const OpenProject& open = storeys.front();
   const auto store = openCaptures(open.file);
   if (!store) return tl::unexpected(store.error());
+  if (!options.allowMissing) {
+    const auto gaps = bakeGaps(storeys);
+    if (!gaps) return tl::unexpected(gaps.error());
+    if (gaps->any()) return refuse(*gaps, open.file);
+  }
   BundleInput input;
-  Missing missing;
   for (const OpenProject& storey : storeys) {
-    auto part = storeyInput(storey, *store, stop, missing);
+    auto part = storeyInput(storey, *store, stop);
     if (!part) return tl::unexpected(part.error());
+    if (!options.allowMissing && part->light == nullptr)  // it is there, and damaged
+      return refuse({.light = true}, open.file);
     input.storeys.push_back(std::move(*part));
   }
-  if (!options.allowMissing)
-    if (Status complete = refuseMissing(missing, open.file); !complete)
-      return tl::unexpected(complete.error());
 
   const Project& project = open.project;
   input.generator = options.generator, input.name = nameOf(open.file);
@@ -105,7 +116,8 @@ Result<BundleReport> exportBundle(std::span<const OpenProject> storeys, const st
     for (const PathPose& pose : path.path.poses) out.poses.push_back(poseOf(pose));
     input.paths.push_back(std::move(out));
   }
-  input.storey = project.storey;
+  input.storey = options.storey;
+  input.former = options.former;
   return writeBundle(input, folder, runner, progress, stop);
 }
 

@@ -140,8 +140,17 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
   preferences.walkWidth = 512;
   for (int i = 0; i < 15; ++i) preferences.addRecent("/p/" + std::to_string(i));
   preferences.addRecent("/p/9");
+  const PublishPlace first{"/srv/a", true, false, "https://example.org/"};
+  for (std::size_t i = 0; i < Preferences::kMostPublished; ++i)
+    preferences.rememberPublished("/p/" + std::to_string(i), {"/srv/" + std::to_string(i)});
+  preferences.rememberPublished("/p/9", first);
+  preferences.rememberPublished("/p/more", {"/srv/more"});
   ASSERT_TRUE(savePreferences(preferences, file));
   const Preferences read = loadPreferences(file);
+  ASSERT_EQ(read.published.size(), Preferences::kMostPublished);
+  EXPECT_EQ(read.published[0].project, "/p/more");
+  EXPECT_EQ(read.published[1].project, "/p/9");
+  EXPECT_EQ(read.published[1].place, first);
   EXPECT_EQ(read.bakeThreads, 3);
   EXPECT_EQ(read.walkMegabytes, 700);
   EXPECT_EQ(read.walkMetresPerSecond, 2.5);
@@ -149,8 +158,10 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
   EXPECT_EQ(read.recent, preferences.recent);
   EXPECT_EQ(read.recent.size(), Preferences::kMostRecent);
   EXPECT_EQ(read.recent.front(), "/p/9");
-  for (const char* damage :
-       {"", "{", "[1,2]", R"({"recent":7,"walkWidth":"x","bakeThreads":-5,"settingsWidth":1e99})"}) {
+  for (
+      const char* damage :
+      {"", "{", "[1,2]",
+       R"({"recent":7,"walkWidth":"x","bakeThreads":-5,"settingsWidth":1e99,"published":[3,{"project":"/p","folder":"web"}]})"}) {
     std::ofstream(file, std::ios::trunc) << damage;
     std::string problem;
     const Preferences fallback = loadPreferences(file, &problem);
@@ -159,6 +170,7 @@ TEST_F(FilesTest, PreferencesSurviveARoundTripAndADamagedFile) {
     EXPECT_EQ(fs::exists(file.string() + ".damaged"), unusable) << "kept, not written over";
     fs::remove(file.string() + ".damaged");
     EXPECT_TRUE(fallback.recent.empty()) << damage;
+    EXPECT_TRUE(fallback.published.empty()) << damage;
     EXPECT_EQ(fallback.settingsWidth, Preferences().settingsWidth) << damage;
     EXPECT_EQ(fallback.bakeThreads, 0) << damage;
   }

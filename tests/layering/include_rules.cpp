@@ -39,6 +39,7 @@ const std::vector<Home>& homes() {
       {"TBB", {"tbb/", "oneapi/tbb"}, {}},  // stays inside Embree
       {"CGAL", {"CGAL/"}, {"engine/geometry/predicates/"}},
       {"xxHash", {"xxhash"}, {"engine/base/"}},
+      {"cpp-httplib", {"httplib"}, {"engine/serve/"}},
       {"spdlog", {"spdlog/"}, {"engine/base/"}},
       {"valijson", {"valijson/"}, {"engine/pipeline/"}},
       {"CLI11", {"CLI/"}, {"engine/cli/", "editor/main.cpp"}},

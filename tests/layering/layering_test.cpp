@@ -140,6 +140,7 @@ TEST_F(PlantedTree, ALibraryAwayFromHomeIsSeen) {
                                                   {"engine/view/f.cpp", "<assimp/scene.h>"},
                                                   {"engine/view/g.cpp", "<epoxy/gl.h>"},
                                                   {"editor/session/h.cpp", "<imgui.h>"},
+                                                  {"editor/session/p.cpp", "<httplib.h>"},
                                                   {"editor/panels/i.cpp", "<GLFW/glfw3.h>"},
                                                   {"engine/view/j.cpp", "<tbb/parallel_for.h>"},
                                                   {"engine/view/k.cpp", "<zstd.h>"},

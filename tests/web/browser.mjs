@@ -7,12 +7,12 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { testModels } from './models.mjs';
 import { blackShare, pngReader, psnr, ssim } from './pictures.mjs';
+import { serve } from './serve.mjs';
 import { threeTests } from './three.mjs';
 
 const [program, project, web, work, executablePath, only = ''] = process.argv.slice(2);
 const packages = createRequire(join(web, 'package.json'));
 const { chromium } = packages('playwright-core');
-const { serve } = await import(pathToFileURL(join(web, 'serve.mjs')));
 const readPng = pngReader(web);
 const acentric = (...options) => execFileSync(program, options, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'] });
 const index = JSON.parse(readFileSync(join(work, 'site', 'bundle.json'), 'utf8'));

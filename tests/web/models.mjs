@@ -2,15 +2,15 @@
 import { readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { extname, join } from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { fileURLToPath } from 'node:url';
 import { blackShare, psnr, ssim } from './pictures.mjs';
+import { serve } from './serve.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json' };
 
 /** `name` (gltf.html) of this folder in a page of its own, with packages below /web/, examples, and the folders of `places` ({ '/gltf/': FOLDER }). */
 export async function openModels(browser, web, name, places) {
-  const { serve } = await import(pathToFileURL(join(web, 'serve.mjs')));
   const all = { '/web/': join(web, 'node_modules'), '/examples/': join(here, '..', '..', 'examples'), '/tests/': here, ...places };
   const requests = [], problems = [];
   const server = await serve(here, 0, (request, response) => {

@@ -53,7 +53,7 @@ TEST_F(WebPageTest, IsFoundInTheInstallTreeAndInTheBuildTree) {
 }
 
 TEST_F(WebPageTest, LiesBesideTheBundle) {
-  ASSERT_TRUE(addWebPage(folder_ / "page", folder_ / "bundle", {"House <\"A & B\">", "poster.jpg"}));
+  ASSERT_TRUE(addWebPage(folder_ / "page", folder_ / "bundle", {"House <\"A & B\">", "poster.jpg", {}}));
   for (const char* file : {"viewer.js", "viewer.css"})
     EXPECT_EQ(read(folder_ / "bundle" / file), read(folder_ / "page" / file));
   const std::string html = read(folder_ / "bundle" / "index.html");
@@ -63,9 +63,16 @@ TEST_F(WebPageTest, LiesBesideTheBundle) {
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
+TEST_F(WebPageTest, NamesTheWalkThatItOpens) {
+  ASSERT_TRUE(addWebPage(folder_ / "page", folder_ / "bundle", {"walk", {}, "a & b.acentric"}));
+  EXPECT_NE(read(folder_ / "bundle" / "index.html")
+                .find("<meta name=\"acentric-walk\" content=\"a &amp; b.acentric\" />"),
+            std::string::npos);
+}
+
 TEST_F(WebPageTest, HoldsTheBundleAsOneFile) {
   const fs::path file = folder_ / "walk.html";
-  const auto size = writeSingleFile(folder_ / "page", folder_ / "bundle", file, {"walk", {}});
+  const auto size = writeSingleFile(folder_ / "page", folder_ / "bundle", file, {"walk", {}, {}});
   ASSERT_TRUE(size) << size.error().describe();
   EXPECT_EQ(*size, fs::file_size(file));
   EXPECT_EQ(
@@ -82,7 +89,7 @@ TEST_F(WebPageTest, HoldsTheBundleAsOneFile) {
 TEST_F(WebPageTest, OfAnotherMakeIsRefused) {
   write("page/index.html", "<title>Acentric walk</title><main></main>");
   const auto written =
-      writeSingleFile(folder_ / "page", folder_ / "bundle", folder_ / "walk.html", {"walk", {}});
+      writeSingleFile(folder_ / "page", folder_ / "bundle", folder_ / "walk.html", {"walk", {}, {}});
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().describe().find("npm run build"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "walk.html"));

@@ -3,6 +3,7 @@
 import { addressOf, parseAddress } from './address';
 import { kIndexName } from './bundle/read_index';
 import { threadsOfDevice } from './device';
+import { reportOfFirstFrame } from './first_frame';
 import { openWalk, type OpenWalk } from './open_walk';
 import { sourceFor } from './page_source';
 import { keepSettings, loadSettings, type Settings } from './settings';
@@ -31,6 +32,7 @@ class Page {
   private readonly panel: SettingsPanel;
   private readonly embedding: Embedding;
   private unbakedTold = 0;
+  private reported = false;
   private readonly map = new Minimap(element('plan'), element('legend'));
 
   constructor(opened: OpenWalk, settings: Settings, gl: WebGL2RenderingContext) {
@@ -149,8 +151,17 @@ class Page {
       });
     }
     this.tellUnbaked();
+    this.reportFirstFrame();
     this.embedding.drawn();
     this.panel.show();
+  }
+
+  private reportFirstFrame(): void {
+    const { firstPicture } = this.walk;
+    if (this.reported || firstPicture === undefined) return;
+    this.reported = true;
+    const report = reportOfFirstFrame(location.search, firstPicture);
+    if (report) void fetch(report).catch(() => undefined);
   }
 
   private tellUnbaked(): void {

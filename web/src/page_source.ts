@@ -1,4 +1,4 @@
-/** Where the page's bundle is: beside it, within it (export --single-file), or in a walk that its address names. */
+/** Where the page's bundle is: beside it, within it (export --single-file), or in a walk that its address or the page names. */
 
 import { decodedBase64, FolderSource, WalkSource, type Source } from './stream/source';
 
@@ -15,9 +15,12 @@ class WithinPage implements Source {
   }
 }
 
-/** The walk that the page's address names (?walk=FILE), or the bundle within the page or beside it. */
+/** Of a page that was published with a walk beside it. */
+const walkOfPage = () => document.querySelector<HTMLMetaElement>('meta[name="acentric-walk"]')?.content;
+
+/** The walk that the page's address names (?walk=FILE), or else the page; or the bundle within the page or beside it. */
 export async function sourceFor(index: string): Promise<Source> {
-  const walk = new URLSearchParams(location.search).get('walk');
-  if (walk !== null) return WalkSource.open(new URL(walk, document.baseURI).href);
+  const walk = new URLSearchParams(location.search).get('walk') ?? walkOfPage();
+  if (walk !== undefined) return WalkSource.open(new URL(walk, document.baseURI).href);
   return elementOf(index) ? new WithinPage() : new FolderSource(document.baseURI);
 }

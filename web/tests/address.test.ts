@@ -14,6 +14,10 @@ describe('an address', () => {
     }
   });
 
+  it('leads to a view as the editor writes it', () => {
+    expect(parseAddress('#at=1.25,-3.50,-0.0,-5.0&storey=0', 1, 0)).toEqual({ eye: [1.25, -3.5], yaw: -0, pitch: (-5 * Math.PI) / 180, storey: 0 });
+  });
+
   it.each(['', '#at=1,2,3', '#at=1,2,3,4,5', '#at=1,2,3,4&storey=3', '#at=1,2,3,4&storey=-1', '#at=1.2.3,2,3,4', '#at=1,2,3,x'])(
     'that tells none is none: "%s"', (hash) => expect(parseAddress(hash, 3, 0)).toBeUndefined(),
   );

@@ -5,8 +5,6 @@ import { contentHash } from '../src/bundle/file';
 import { defaultMemory } from '../src/device';
 import { FrameTimes } from '../src/ui/frame_times';
 import { isStill, movementOf } from '../src/ui/controls';
-// @ts-expect-error a script without types
-import { fileOf } from '../serve.mjs';
 
 const file = (name: string) => ({ file: name, bytes: 10, hash: 'ab'.repeat(16) });
 function sound() {
@@ -106,12 +104,6 @@ describe('files', () => {
     await expect(checkedBytes(bytes, { file: 'a.pack', bytes: 3, hash })).resolves.toBe(bytes);
     await expect(checkedBytes(bytes, { file: 'a.pack', bytes: 4, hash })).rejects.toThrow('3 bytes instead of 4');
     await expect(checkedBytes(new Uint8Array([1, 2, 4]), { file: 'a.pack', bytes: 3, hash })).rejects.toThrow('damaged');
-  });
-  it('are served from the folder alone', () => {
-    expect(fileOf('/srv', '/captures/a.pack')).toBe('/srv/captures/a.pack');
-    expect(fileOf('/srv', '/')).toBe('/srv/index.html');
-    expect(fileOf('/srv', '/../etc/passwd') ?? '/srv/').toMatch(/^\/srv\//);
-    expect(fileOf('/srv', '/%2e%2e%2f%2e%2e/etc/passwd')).toBeUndefined();
   });
 });
 
