@@ -216,20 +216,26 @@ void drawBakePanel(PanelContext& context) {
   } else {
     actionButton(context, "bake.start", ButtonLook::primary, {buttonWidth, 0});
     ImGui::SameLine();
-    actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
+    actionIcon(context, "bake.estimate", ui::Icon::calculator, ButtonLook::plain, "Estimate");
   }
   ImGui::SameLine();
   drawProgress(context);
-  const auto view = [&](const char* label, const char* help, bool cameras) {
+  const auto view = [&](const char* label, const char* help, ui::Icon icon, bool cameras) {
     bool& shown = context.state().showBakeCameras;
-    if (ui::toggleButton(label, shown == cameras)) shown = cameras;
+    const bool on = shown == cameras;
+    ImFont* icons = context.window.fonts().icons;
+    const bool clicked = icons != nullptr ? ui::iconButton(icons, (std::string("##view") + label).c_str(),
+                                                           icon, on ? ui::Pressed::chosen : ui::Pressed::no)
+                                          : ui::toggleButton(label, on);
+    if (clicked) shown = cameras;
     context.log.item(cameras ? "bake.cameras" : "bake.overview");
-    ui::tooltip(help);
+    ui::tooltip(std::string(label) + "\n" + help);
   };
-  view("Overview", "Pace, disk, settings", false);
+  view("Overview", "Pace, disk, settings", ui::Icon::listing, false);
   ImGui::SameLine(0, ui::scaled(3));
-  view("Cameras", "What became of each camera", true);
+  view("Cameras", "What became of each camera", ui::Icon::videoCamera, true);
   ImGui::SameLine(0, ui::scaled(14));
+  ImGui::AlignTextToFramePadding();
   drawLegend();
   if (context.state().showBakeCameras) return drawBakeCameras(context);
   ImGui::BeginChild("##facts");

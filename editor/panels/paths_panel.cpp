@@ -132,11 +132,12 @@ void drawSpeed(PanelContext& context) {
 
 void drawTransport(PanelContext& context, const WalkPath& path) {
   const WalkReplay& replay = context.state().replay;
-  actionButton(context, "path.play", ButtonLook::primary, {56, 0}, replay.playing() ? "Pause" : "Play");
+  actionIcon(context, "path.play", replay.playing() ? ui::Icon::pause : ui::Icon::play, ButtonLook::plain,
+             replay.playing() ? "Pause" : "Play");
   ImGui::SameLine(0, kNear);
-  actionButton(context, "path.stop", ButtonLook::plain, {}, "Stop");
+  actionIcon(context, "path.stop", ui::Icon::stop, ButtonLook::plain, "Stop");
   ImGui::SameLine(0, kNear);
-  actionButton(context, "path.loop", ButtonLook::toggle, {}, "Loop");
+  actionIcon(context, "path.loop", ui::Icon::repeat, ButtonLook::toggle, "Loop");
   ImGui::SameLine(0, kNear);
   drawSpeed(context);
   float seconds = float(replay.at());

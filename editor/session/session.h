@@ -12,6 +12,7 @@
 
 #include "editor/commands/edit.h"
 #include "editor/session/backdrop.h"
+#include "editor/session/bake_costs.h"
 #include "editor/session/bake_queue.h"
 #include "editor/session/capture_status.h"
 #include "editor/session/coverage.h"
@@ -209,6 +210,12 @@ class Session {
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
+  /// What baking all of it takes, with each preset and as it is set, while somebody looks.
+  const BakeCosts& bakeCosts() const { return bakeCosts_; }
+  /// Does anybody? Called each frame.
+  void askForBakeCosts(bool wanted) { bakeCostsWanted_ = wanted; }
+  /// The resolution at which the whole of it takes so many bytes: bakeCosts().proposal().
+  void proposeSize(double bytes) { bakeCosts_.propose(bytes); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
   int bakeThreads() const;
   int processors() const { return processors_; }
@@ -301,6 +308,7 @@ class Session {
                                         const ImportHost& host, const BakeGuard& guard, TaskRunner& runner,
                                         const Job::Context& context);
   void lookAtDisk();
+  void followBakeCosts();
   /// As an edit, unless the layout is no longer what was searched with.
   void offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
                    const std::string& found);
@@ -426,6 +434,7 @@ class Session {
   std::optional<double> neededBytes_;
   double nextLookAtDisk_ = 0, now_ = 0;
   Gate bakeGate_;  // outlives the job
+  bool bakeCostsWanted_ = false;
   std::optional<ProjectBakeReport> lastBake_;
   int bakedSeen_ = 0;
   double nextLoad_ = 0;
@@ -453,6 +462,7 @@ class Session {
   Job estimating_{inbox_};
   Job savingPicture_{inbox_};
   TruthCompare comparing_{inbox_, processors_};
+  BakeCosts bakeCosts_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

@@ -163,6 +163,15 @@ void Session::lookAtDisk() {
   freeBytes_ = free ? std::optional(*free) : std::nullopt;
 }
 
+void Session::followBakeCosts() {
+  const bool still = built_ && !shipped_ && !rebuilding_.running() && !opening_.running() &&
+                     !baking_.running() && !estimating_.running() && !history_->previewing();
+  if (!bakeCostsWanted_ || !still) return bakeCosts_.follow(std::nullopt, now_);
+  bakeCosts_.follow(BakeCostRequest{built_, options_.importHost, bakeThreads(),
+                                    std::size_t(preferences_.bakeMegabytes) * 1'000'000},
+                    now_);
+}
+
 void Session::pauseBake(bool paused) {
   if (!baking_.running() || baking_.cancelling()) return;
   bakeQueue_.pause();
