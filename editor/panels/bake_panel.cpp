@@ -7,6 +7,7 @@
 
 #include "editor/panels/bake_cameras.h"
 #include "editor/panels/preference_fields.h"
+#include "editor/panels/toolbar_flow.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -185,28 +186,9 @@ void drawLegend() {
   ImGui::NewLine();
 }
 
-}  // namespace
-
-std::string progressText(const Job& job) {
-  const ProgressState& progress = job.progress();
-  std::string text = progress.stage.empty() ? job.label() : progress.stage;
-  // Some stages count for themselves.
-  if (progress.total > 1 && text.find(" of ") == std::string::npos)
-    text += fmt::format(", {:.0f} of {:.0f}", progress.done, progress.total);
-  return text;
-}
-
-double progressFraction(const Job& job) {
-  const ProgressState& progress = job.progress();
-  return progress.total > 0 ? progress.done / progress.total : -1;
-}
-
-void drawBakePanel(PanelContext& context) {
-  ui::panelTitle(context.window.fonts().bold, "Bake");
-  if (!context.session().built()) {
-    ui::wrappedText(ui::palette::faint, "Nothing to bake: no project is open.");
-    return;
-  }
+/// What can be done, how far it is, and which of the two lists is shown.
+void drawHead(PanelContext& context) {
+  const AsTallAsIcons tall(context);
   const float buttonWidth = ui::scaled(104);
   if (context.session().baking().running()) {
     actionButton(context, "bake.cancel", ButtonLook::plain, {buttonWidth, 0}, "Cancel");
@@ -235,8 +217,32 @@ void drawBakePanel(PanelContext& context) {
   ImGui::SameLine(0, ui::scaled(3));
   view("Cameras", "What became of each camera", ui::Icon::videoCamera, true);
   ImGui::SameLine(0, ui::scaled(14));
-  ImGui::AlignTextToFramePadding();
   drawLegend();
+}
+
+}  // namespace
+
+std::string progressText(const Job& job) {
+  const ProgressState& progress = job.progress();
+  std::string text = progress.stage.empty() ? job.label() : progress.stage;
+  // Some stages count for themselves.
+  if (progress.total > 1 && text.find(" of ") == std::string::npos)
+    text += fmt::format(", {:.0f} of {:.0f}", progress.done, progress.total);
+  return text;
+}
+
+double progressFraction(const Job& job) {
+  const ProgressState& progress = job.progress();
+  return progress.total > 0 ? progress.done / progress.total : -1;
+}
+
+void drawBakePanel(PanelContext& context) {
+  ui::panelTitle(context.window.fonts().bold, "Bake");
+  if (!context.session().built()) {
+    ui::wrappedText(ui::palette::faint, "Nothing to bake: no project is open.");
+    return;
+  }
+  drawHead(context);
   if (context.state().showBakeCameras) return drawBakeCameras(context);
   ImGui::BeginChild("##facts");
   drawFacts(context);

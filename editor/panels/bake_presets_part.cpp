@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "editor/commands/setting_edits.h"
 #include "editor/panels/bake_section.h"
@@ -16,9 +19,10 @@ constexpr float kName = 78, kTime = 88, kSize = 168;
 constexpr double kMegabyte = 1e6, kMostMegabytes = 1e7;
 
 struct Row {
-  const char* id;     ///< of the action; nullptr: the project's own settings
-  const char* label;  ///< of the button
+  std::optional<BakePreset> preset;  ///< nothing: the project's own settings
+  const char* label;
   BakeSettings bake;
+  std::string id() const { return std::string("quality.") + (preset ? nameOf(*preset) : "own"); }
 };
 
 std::string shortDuration(double seconds) {
@@ -28,80 +32,75 @@ std::string shortDuration(double seconds) {
                       : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
 /// Why a sweep left the preset out; empty where it did not.
 std::string leftOut(const Session& session, const Row& row) {
   const auto& sweep = session.sweeping().sweep();
-  if (!sweep) return {};
-  Project wanted = session.project();
-  wanted.bake = row.bake;
-  for (const BakePreset preset : kBakePresets) {
-    if (presetInForce(row.bake) != preset) continue;
-    const SweepPoint* point = sweep->find(settingOf(session.project(), preset));
-    if (point != nullptr && !point->measured()) return point->skipped;
-  }
-  return {};
+  if (!sweep || !row.preset) return {};
+  const SweepPoint* point = sweep->find(settingOf(session.project(), *row.preset));
+  return point != nullptr ? point->skipped : std::string();
 }
 
-void drawAccuracyOf(const Session& session, const Row& row, const BakeCost* cost) {
+/// False where it is not measured.
+bool drawAccuracyOf(const Session& session, const Row& row, const BakeCost* cost) {
   const auto& sweep = session.sweeping().sweep();
   const SweepPoint* point = sweep && cost != nullptr ? measuredWith(*sweep, *cost) : nullptr;
-  if (point != nullptr && (*point)[Measure::psnr].count > 0) {
-    ImGui::Text("%.1f dB", (*point)[Measure::psnr].median);
-    return ui::tooltip(
-        fmt::format("PSNR against the ray-traced truth: the median of {} frames along {}, as "
-                    "measured (Accuracy)",
-                    sweep->frames, sweep->path));
+  if (point == nullptr || (*point)[Measure::psnr].count == 0) {
+    ui::mutedText("– dB");
+    const std::string why = leftOut(session, row);
+    ui::tooltip("Not yet measured: Measure in the tab Accuracy (F6) tries the presets" +
+                (why.empty() ? "." : ", and left this one out: it " + why + "."));
+    return false;
   }
-  ui::mutedText("– dB");
-  const std::string why = leftOut(session, row);
-  ui::tooltip("Not yet measured: Measure in the tab Accuracy (F6) tries the presets" +
-              (why.empty() ? std::string(".") : ", and left this one out: it " + why + "."));
+  ImGui::Text("%.1f dB", (*point)[Measure::psnr].median);
+  ui::tooltip(fmt::format("PSNR against the ray-traced truth, measured: the median of {} frames along {}",
+                          sweep->frames, sweep->path));
+  return true;
 }
 
-void drawCost(PanelContext& context, const Row& row) {
+void drawBakeOf(PanelContext& context, const Row& row, const BakeForecast& forecast) {
+  if (forecast.nothing()) return ui::mutedText("nothing to bake");
+  ImGui::TextUnformatted(shortDuration(forecast.seconds()).c_str());
+  ImGui::SameLine(ui::scaled(kSize));
+  ImGui::TextUnformatted(ui::formatBytes(std::uint64_t(forecast.bytes())).c_str());
+  context.log.item(row.id() + ".cost");
+  ui::tooltip(
+      fmt::format("Predicted for {} cameras with {} {} (±{:.0f} %): {} for captures, {} for light on near "
+                  "geometry. All of it, whatever is baked already.",
+                  forecast.cameras, forecast.threads, forecast.threads == 1 ? "thread" : "threads",
+                  100 * forecast.relativeError, ui::formatDuration(forecast.captureSeconds),
+                  ui::formatDuration(forecast.lightSeconds)));
+}
+
+/// False where its accuracy is not measured.
+bool drawRow(PanelContext& context, const Row& row) {
   const Session& session = context.session();
-  const BakeCost* cost = session.bakeCosts().of(row.bake);
-  ImGui::SameLine(ui::scaled(kTime));
-  if (cost == nullptr) {
-    ui::mutedText(session.bakeCosts().trouble().empty() ? "not known yet" : "not known");
-    ui::tooltip(session.baking().running() ? "Predicted when no bake runs"
-                                           : "Predicted in the background by baking a little");
-  } else if (cost->forecast.nothing()) {
-    ui::mutedText("nothing to bake");
-  } else {
-    const BakeForecast& forecast = cost->forecast;
-    ImGui::TextUnformatted(shortDuration(forecast.seconds()).c_str());
-    ImGui::SameLine(ui::scaled(kSize));
-    ImGui::TextUnformatted(ui::formatBytes(std::uint64_t(forecast.bytes())).c_str());
-    context.log.item(std::string(row.id != nullptr ? row.id : "quality.own") + ".cost");
-    ui::tooltip(
-        fmt::format("Predicted for {} cameras with {} {} (±{:.0f} %): {} for captures, {} for light on near "
-                    "geometry; all of it, "
-                    "whatever is baked already.",
-                    forecast.cameras, forecast.threads, forecast.threads == 1 ? "thread" : "threads",
-                    100 * forecast.relativeError, ui::formatDuration(forecast.captureSeconds),
-                    ui::formatDuration(forecast.lightSeconds)));
-  }
-  const std::string accuracy = "00.0 dB";
-  ImGui::SameLine(std::max(ui::scaled(kSize + 58),
-                           ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(accuracy.c_str()).x));
-  drawAccuracyOf(session, row, cost);
-}
-
-void drawRow(PanelContext& context, const Row& row) {
-  if (row.id != nullptr) {
-    actionButton(context, row.id, ButtonLook::toggle, {ui::scaled(kName), 0}, row.label);
+  if (row.preset) {
+    actionButton(context, row.id().c_str(), ButtonLook::toggle, {ui::scaled(kName), 0}, row.label);
   } else {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label);
     const BakePreset nearest = nearestPreset(row.bake);
-    std::string all;
-    for (const std::string& each : differencesFrom(row.bake, nearest))
-      all += (all.empty() ? "" : ", ") + each;
-    ui::tooltip(fmt::format("The project's own settings: as {}, but for {}", nameOf(nearest), all));
-    context.log.item("quality.own");
+    ui::tooltip(fmt::format("The project's own settings: as {}, but for {}", nameOf(nearest),
+                            joined(differencesFrom(row.bake, nearest))));
+    context.log.item(row.id());
   }
-  drawCost(context, row);
+  ImGui::SameLine(ui::scaled(kTime));
+  const BakeCost* cost = session.bakeCosts().of(row.bake);
+  if (cost != nullptr) {
+    drawBakeOf(context, row, cost->forecast);
+  } else {
+    ui::mutedText(session.bakeCosts().foretelling() ? "predicting…" : "not yet predicted");
+    ui::tooltip("In the background, by baking a little, while no bake runs");
+  }
+  ImGui::SameLine(
+      std::max(ui::scaled(kSize + 58), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
+  return drawAccuracyOf(session, row, cost);
 }
 
 void drawProposal(PanelContext& context, const SizeProposal& proposal) {
@@ -156,16 +155,20 @@ void drawSize(PanelContext& context) {
 void drawBakePresets(PanelContext& context) {
   Session& session = context.session();
   const BakeSettings own = session.project().bake;
-  const std::optional<BakePreset> inForce = presetInForce(own);
-  const Row rows[] = {{"quality.draft", "Draft", withPreset(own, BakePreset::draft)},
-                      {"quality.balanced", "Balanced", withPreset(own, BakePreset::balanced)},
-                      {"quality.fine", "Fine", withPreset(own, BakePreset::fine)},
-                      {nullptr, "Own", own}};
+  const auto rowOf = [&](BakePreset preset, const char* label) {
+    return Row{preset, label, withPreset(own, preset)};
+  };
+  std::vector<Row> rows{rowOf(BakePreset::draft, "Draft"), rowOf(BakePreset::balanced, "Balanced"),
+                        rowOf(BakePreset::fine, "Fine")};
+  if (!presetInForce(own)) rows.push_back({{}, "Own", own});
   ImGui::BeginGroup();
-  for (const Row& row : rows)
-    if (row.id != nullptr || !inForce) drawRow(context, row);
+  bool measured = true;
+  for (const Row& row : rows) measured = drawRow(context, row) && measured;
   ImGui::EndGroup();
   session.askForBakeCosts(ImGui::IsItemVisible());
+  if (!measured)
+    ui::wrappedText(ui::palette::faint,
+                    "– dB: not yet measured. Measure in the tab Accuracy (F6) tells the PSNR.");
   if (!session.bakeCosts().trouble().empty())
     ui::wrappedText(ui::palette::warning, "Not predicted: " + session.bakeCosts().trouble());
   drawSize(context);

@@ -40,13 +40,11 @@ void drawOverlayMenu(PanelContext& context) {
   const float comboWidth = ui::scaled(176);
   flow(comboWidth, kApart);
   ImGui::SetNextItemWidth(comboWidth);
-  const bool pictures = context.window.fonts().icons != nullptr;
-  const float taller = pictures ? (ui::iconButtonSize().y - ImGui::GetFontSize()) / 2 : 0;
   const std::string shown = fmt::format("Overlay: {}", nameOf(state.overlay));
-  const ImVec2 padding = ImGui::GetStyle().FramePadding;
-  if (pictures) ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {padding.x, taller});  // as tall as icons
-  const bool open = ImGui::BeginCombo("##overlay", shown.c_str(), ImGuiComboFlags_HeightLarge);
-  if (pictures) ImGui::PopStyleVar();
+  const bool open = [&] {
+    const AsTallAsIcons tall(context);
+    return ImGui::BeginCombo("##overlay", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  }();
   context.log.item("overlay");
   if (!open)
     return ui::tooltip("What the colours of the cells tell. One at a time; T, P and V are keys for it.");

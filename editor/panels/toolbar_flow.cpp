@@ -6,6 +6,14 @@
 
 namespace acentric::editor {
 
+AsTallAsIcons::AsTallAsIcons(PanelContext& context) {
+  ImVec2 padding = ImGui::GetStyle().FramePadding;
+  if (context.window.fonts().icons != nullptr)
+    padding.y = (ui::iconButtonSize().y - ImGui::GetFontSize()) / 2;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+}
+AsTallAsIcons::~AsTallAsIcons() { ImGui::PopStyleVar(); }
+
 void flow(float width, float gap) {
   if (gap <= 0) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

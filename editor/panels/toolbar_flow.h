@@ -19,6 +19,15 @@ struct ToolbarEntry {
   ButtonLook look = ButtonLook::toggle;
 };
 
+/// While it lives, other widgets are as tall as icons, where there are any.
+class AsTallAsIcons {
+ public:
+  explicit AsTallAsIcons(PanelContext& context);
+  ~AsTallAsIcons();
+  AsTallAsIcons(const AsTallAsIcons&) = delete;
+  AsTallAsIcons& operator=(const AsTallAsIcons&) = delete;
+};
+
 /// The next item, `width` pixels wide, comes on this line if there is room for it, else on the next. Groups,
 /// which are kApart, have a thin line between them.
 void flow(float width, float gap);
