@@ -26,8 +26,8 @@ struct Row {
 };
 
 std::string shortDuration(double seconds) {
-  if (seconds < 60) return ui::formatDuration(seconds);
-  const auto minutes = (long long)(std::llround(seconds / 60));
+  if (seconds < 59.5) return ui::formatDuration(seconds);
+  const auto minutes = std::llround(seconds / 60);
   return minutes < 60 ? fmt::format("{} min", minutes)
                       : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
@@ -167,8 +167,7 @@ void drawBakePresets(PanelContext& context) {
   ImGui::EndGroup();
   session.askForBakeCosts(ImGui::IsItemVisible());
   if (!measured)
-    ui::wrappedText(ui::palette::faint,
-                    "– dB: not yet measured. Measure in the tab Accuracy (F6) tells the PSNR.");
+    ui::wrappedText(ui::palette::faint, "– dB: not yet measured; the tab Accuracy (F6) measures it.");
   if (!session.bakeCosts().trouble().empty())
     ui::wrappedText(ui::palette::warning, "Not predicted: " + session.bakeCosts().trouble());
   drawSize(context);

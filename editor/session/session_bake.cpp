@@ -163,8 +163,10 @@ void Session::lookAtDisk() {
   freeBytes_ = free ? std::optional(*free) : std::nullopt;
 }
 
+/// Without the scene there is nothing to foretell from.
 void Session::followBakeCosts() {
-  const bool still = built_ && !shipped_ && !rebuilding_.running() && !opening_.running() &&
+  const bool scene = sceneFiles_.state != SceneFiles::State::missing || sceneFiles_.fromCache;
+  const bool still = built_ && !shipped_ && !rebuilding_.running() && scene && !opening_.running() &&
                      !baking_.running() && !estimating_.running() && !history_->previewing();
   if (!bakeCostsWanted_ || !still) return bakeCosts_.follow(std::nullopt, now_);
   bakeCosts_.follow(BakeCostRequest{built_, options_.importHost, bakeThreads(),

@@ -36,6 +36,7 @@ TEST(BakePresets, OneChangedSettingIsNamedAgainstTheNearest) {
 TEST(BakePresets, EverySettingThatTheyDifferInIsNamed) {
   const BakeSettings balanced, fine = withPreset({}, BakePreset::fine);
   Project project;
+  project.scene = "room.obj";
   EXPECT_EQ(differencesFrom(fine, BakePreset::balanced).size(), settingOf(project, BakePreset::fine).size());
   EXPECT_TRUE(settingOf(project, BakePreset::balanced).empty());
   for (const BakePreset preset : kBakePresets) {
@@ -67,13 +68,11 @@ class BakeCostsTest : public OpenSessionTest {
     return session_->bakeCosts().of(withPreset(session_->project().bake, preset));
   }
   const BakeCost* ownCost() { return session_->bakeCosts().of(session_->project().bake); }
-  /// Asks as a panel does, and waits until all is foretold.
+  /// Asks as a panel does, and waits until what the project takes as it is set is foretold, which comes
+  /// first.
   void look() {
     session_->askForBakeCosts(true);
-    waitFor([&] {
-      return ownCost() && costOf(BakePreset::draft) && costOf(BakePreset::balanced) &&
-             costOf(BakePreset::fine);
-    });
+    waitFor([&] { return ownCost() != nullptr; });
     EXPECT_EQ(session_->bakeCosts().trouble(), "");
   }
 
@@ -99,6 +98,8 @@ TEST_F(BakeCostsTest, APresetIsOneEditThatIsShownAsInForce) {
 
 TEST_F(BakeCostsTest, EveryPresetIsForetoldOfTheWholeProject) {
   look();
+  waitFor(
+      [&] { return costOf(BakePreset::draft) && costOf(BakePreset::balanced) && costOf(BakePreset::fine); });
   const auto cameras = int(session_->built()->layout->cameras.size());
   for (const BakePreset preset : kBakePresets) EXPECT_EQ(costOf(preset)->forecast.cameras, cameras);
   const auto bytes = [&](BakePreset preset) { return costOf(preset)->forecast.bytes(); };
@@ -110,6 +111,7 @@ TEST_F(BakeCostsTest, EveryPresetIsForetoldOfTheWholeProject) {
 
 TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
   look();
+  waitFor([&] { return costOf(BakePreset::draft) != nullptr; });
   const double draft = costOf(BakePreset::draft)->forecast.seconds();
   run("quality.draft");
   session_->apply(setFieldOfView(session_->project(), 80));
@@ -124,7 +126,7 @@ TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
   EXPECT_EQ(costOf(BakePreset::draft), nullptr);
   EXPECT_FALSE(session_->bakeCosts().foretelling()) << "it waits until the project keeps still";
   look();
-  EXPECT_EQ(costOf(BakePreset::draft)->forecast.cameras, int(session_->built()->layout->cameras.size()));
+  EXPECT_EQ(ownCost()->forecast.cameras, int(session_->built()->layout->cameras.size()));
 }
 
 TEST_F(BakeCostsTest, NothingIsForetoldWhileNobodyLooks) {
@@ -141,8 +143,7 @@ TEST_F(BakeCostsTest, ASizeBecomesAResolutionThatFitsIt) {
   const SizeProposal proposal = *session_->bakeCosts().proposal();
   EXPECT_FALSE(proposal.far());
   EXPECT_NEAR(proposal.forecast.bytes() / wanted, 1, 0.1);
-  EXPECT_GT(proposal.bake.samplesPerDegree, 1.0);
-  EXPECT_LT(proposal.bake.samplesPerDegree, 2.5) << "bytes grow about as its square";
+  EXPECT_GT(proposal.bake.samplesPerDegree, 2 * session_->project().bake.samplesPerDegree);
   BakeSettings same = proposal.bake;
   same.samplesPerDegree = session_->project().bake.samplesPerDegree;
   EXPECT_EQ(same, session_->project().bake) << "all else stays";
@@ -168,20 +169,19 @@ TEST_F(BakeCostsTest, ASizeThatLightAloneExceedsIsRefused) {
 
 TEST_F(BakeCostsTest, AccuracyIsThatOfTheSameCapturesDrawnAsTheProjectIs) {
   look();
-  EXPECT_EQ(ownCost()->bakeKeys, std::vector{bakeKeyOf(*session_->built())});
-  const BakeCost& fine = *costOf(BakePreset::fine);
-  EXPECT_NE(fine.bakeKeys, ownCost()->bakeKeys);
+  const BakeCost& cost = *ownCost();
+  EXPECT_EQ(cost.bakeKeys, std::vector{bakeKeyOf(*session_->built())});
   Sweep sweep;
   sweep.points.resize(3);
-  sweep.points[0].bakeKey = ownCost()->bakeKeys[0];
-  sweep.points[1].bakeKey = fine.bakeKeys[0];
-  sweep.points[1].setting = {{"renderer", "zbuffer"}, {"samples-per-degree", "32"}};
-  EXPECT_EQ(measuredWith(sweep, fine), nullptr) << "drawn otherwise";
-  sweep.points[2].bakeKey = fine.bakeKeys[0];
-  sweep.points[2].setting = {{"samples-per-degree", "32"}};
-  EXPECT_EQ(measuredWith(sweep, fine), &sweep.points[2]);
+  sweep.points[0].bakeKey = "another";
+  sweep.points[1].bakeKey = cost.bakeKeys[0];
+  sweep.points[1].setting = {{"renderer", "zbuffer"}, {"samples-per-degree", "0.5"}};
+  EXPECT_EQ(measuredWith(sweep, cost), nullptr) << "drawn otherwise";
+  sweep.points[2].bakeKey = cost.bakeKeys[0];
+  sweep.points[2].setting = {{"samples-per-degree", "0.5"}};
+  EXPECT_EQ(measuredWith(sweep, cost), &sweep.points[2]);
   sweep.points[2].skipped = "would take about 3 h, of 10 min that were left";
-  EXPECT_EQ(measuredWith(sweep, fine), nullptr);
+  EXPECT_EQ(measuredWith(sweep, cost), nullptr);
 }
 
 }  // namespace
