@@ -15,7 +15,7 @@ namespace acentric::editor {
 namespace {
 
 /// Of the columns, unscaled.
-constexpr float kName = 78, kTime = 88, kSize = 168;
+constexpr float kName = 76, kTime = 84, kSize = 140, kAccuracy = 194;
 constexpr double kMegabyte = 1e6, kMostMegabytes = 1e7;
 
 struct Row {
@@ -27,9 +27,9 @@ struct Row {
 
 std::string shortDuration(double seconds) {
   if (seconds < 59.5) return ui::formatDuration(seconds);
-  const auto minutes = std::llround(seconds / 60);
-  return minutes < 60 ? fmt::format("{} min", minutes)
-                      : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  const double minutes = seconds / 60;
+  if (minutes < 59.5) return fmt::format("{:.0f} min", minutes);
+  return fmt::format("{:.{}f} h", minutes / 60, minutes < 600 ? 1 : 0);
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -96,10 +96,13 @@ bool drawRow(PanelContext& context, const Row& row) {
     drawBakeOf(context, row, cost->forecast);
   } else {
     ui::mutedText(session.bakeCosts().foretelling() ? "predicting…" : "not yet predicted");
-    ui::tooltip("In the background, by baking a little, while no bake runs");
+    ui::tooltip(
+        "Predicted in the background by baking a little, while no bake runs: once for a project as it is "
+        "opened, "
+        "after changes when these are pointed at");
   }
   ImGui::SameLine(
-      std::max(ui::scaled(kSize + 58), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
+      std::max(ui::scaled(kAccuracy), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
   return drawAccuracyOf(session, row, cost);
 }
 
@@ -110,8 +113,8 @@ void drawProposal(PanelContext& context, const SizeProposal& proposal) {
   ui::wrappedText(proposal.far() ? ui::palette::warning : ui::palette::text,
                   fmt::format("{}{:.4g} samples per degree: about {}, {}",
                               proposal.far() ? "The nearest that captures come: " : "", samples,
-                              ui::formatBytes(std::uint64_t(proposal.forecast.bytes())),
-                              shortDuration(proposal.forecast.seconds())));
+                              ui::formatBytes(std::uint64_t(proposal.cost.forecast.bytes())),
+                              shortDuration(proposal.cost.forecast.seconds())));
   const bool apply = ui::button("Apply##size");
   context.log.item("quality.applySize");
   ui::tooltip("Sets the samples per degree; all else stays. Undo takes it back.");
@@ -165,7 +168,9 @@ void drawBakePresets(PanelContext& context) {
   bool measured = true;
   for (const Row& row : rows) measured = drawRow(context, row) && measured;
   ImGui::EndGroup();
-  session.askForBakeCosts(ImGui::IsItemVisible());
+  session.lookAtBakeCosts(ImGui::IsItemHovered(ImGuiHoveredFlags_RectOnly) ? CostLook::pointedAt
+                          : ImGui::IsItemVisible()                         ? CostLook::shown
+                                                                           : CostLook::away);
   if (!measured)
     ui::wrappedText(ui::palette::faint, "– dB: not yet measured; the tab Accuracy (F6) measures it.");
   if (!session.bakeCosts().trouble().empty())

@@ -99,7 +99,7 @@ void drawAdvancedBake(PanelContext& context) {
 }  // namespace
 
 void drawBakeSection(PanelContext& context) {
-  if (!askedSection(context, "Bake quality")) return context.session().askForBakeCosts(false);
+  if (!askedSection(context, "Bake quality")) return context.session().lookAtBakeCosts(CostLook::away);
   drawBakePresets(context);
   bakeNumber(context, "samplesPerDegree",
              {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,

@@ -56,18 +56,20 @@ Result<BakeCost> foretell(const BakeCostRequest& request, const BakeSettings& ba
 Result<SizeProposal> fitSize(const BakeCostRequest& request, double bytes, TaskRunner& runner,
                              const Job::Context& context) {
   const BakeSettings& own = request.open->project.bake;
-  std::map<double, BakeForecast> tried;  // by samples per degree
-  const auto captureBytes = [&](double samplesPerDegree, bool glance) -> Result<double> {
+  const auto settingsAt = [&](double samplesPerDegree) {
     BakeSettings bake = own;
-    bake.samplesPerDegree = samplesPerDegree;
-    const auto cost = foretell(request, bake, glance, runner, context);
+    bake.samplesPerDegree = std::round(samplesPerDegree * 100) / 100;
+    return bake;
+  };
+  std::map<double, BakeCost> tried;  // by samples per degree
+  const auto captureBytes = [&](double samplesPerDegree, bool glance) -> Result<double> {
+    auto cost = foretell(request, settingsAt(samplesPerDegree), glance, runner, context);
     if (!cost) return tl::unexpected(cost.error());
-    tried[samplesPerDegree] = cost->forecast;
-    return cost->forecast.captureBytes;
+    return (tried[samplesPerDegree] = std::move(*cost)).forecast.captureBytes;
   };
   if (const auto first = captureBytes(own.samplesPerDegree, true); !first)
     return tl::unexpected(first.error());
-  const BakeForecast& asItIs = tried[own.samplesPerDegree];
+  const BakeForecast asItIs = tried[own.samplesPerDegree].forecast;
   if (asItIs.cameras == 0) return fail(ErrorKind::invalidArgument, "there are no cells, so nothing to bake");
   if (bytes <= asItIs.lightBytes)
     return fail(ErrorKind::invalidArgument,
@@ -79,23 +81,23 @@ Result<SizeProposal> fitSize(const BakeCostRequest& request, double bytes, TaskR
       [&](double samples) { return captureBytes(samples, true); },
       [&](double samples) { return captureBytes(samples, false); });
   if (!fitted) return tl::unexpected(fitted.error());
-  SizeProposal proposal{bytes, own, tried[*fitted]};
-  proposal.bake.samplesPerDegree = std::round(*fitted * 100) / 100;
-  return proposal;
+  return SizeProposal{bytes, settingsAt(*fitted), tried[*fitted]};
 }
 
 }  // namespace
 
-bool SizeProposal::far() const { return std::abs(forecast.bytes() / askedBytes - 1) > kFar; }
+bool SizeProposal::far() const { return std::abs(cost.forecast.bytes() / askedBytes - 1) > kFar; }
 
-void BakeCosts::follow(const std::optional<BakeCostRequest>& wanted, double now) {
-  wanted_ = wanted.has_value();
-  if (!wanted) {
+void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook look, double now) {
+  still_ = project.has_value();
+  if (!project) {
     if (foretelling_.running()) foretelling_.abandon();
     if (sizing_.running()) sizing_.abandon();
     return;
   }
-  if (!request_ || !sameBasis(*request_, *wanted)) {
+  if (!request_ || !sameBasis(*request_, *project)) {
+    fresh_ = !request_ || request_->open->file != project->open->file;
+    wanted_ = false;
     known_.clear();
     proposal_.reset();
     trouble_.clear();
@@ -103,11 +105,12 @@ void BakeCosts::follow(const std::optional<BakeCostRequest>& wanted, double now)
     foretelling_.abandon();
     sizing_.abandon();
     beginAt_ = now + kStill;
-  } else if (request_->open->project.bake != wanted->open->project.bake) {
+  } else if (request_->open->project.bake != project->open->project.bake) {
     beginAt_ = now + kStill;
   }
-  request_ = wanted;
-  if (now >= beginAt_ && !foretelling_.running() && !sizing_.running()) foretellNext();
+  request_ = project;
+  wanted_ = wanted_ || look == CostLook::pointedAt || (fresh_ && look == CostLook::shown);
+  if (wanted_ && now >= beginAt_ && !foretelling_.running() && !sizing_.running()) foretellNext();
 }
 
 const BakeCost* BakeCosts::of(const BakeSettings& bake) const {
@@ -138,8 +141,15 @@ void BakeCosts::foretellNext() {
                        });
 }
 
+/// The newest holds.
+void BakeCosts::remember(const BakeSettings& bake, const BakeCost& cost) {
+  std::erase_if(known_, [&](const auto& each) { return each.first == bake; });
+  if (known_.size() >= kMostKnown) known_.erase(known_.begin());
+  known_.emplace_back(bake, cost);
+}
+
 void BakeCosts::propose(double bytes) {
-  if (!wanted_ || !(bytes > 0)) return;
+  if (!still_ || !(bytes > 0)) return;
   foretelling_.abandon();  // it would compete, and goes on afterwards
   proposal_.reset();
   sizeTrouble_.clear();
@@ -149,7 +159,7 @@ void BakeCosts::propose(double bytes) {
                     TaskRunner runner(request.threads - 1);
                     const auto fitted = fitSize(request, bytes, runner, context);
                     context.post([this, fitted] {
-                      if (fitted) proposal_ = *fitted;
+                      if (fitted) proposal_ = *fitted, remember(fitted->bake, fitted->cost);
                       if (!fitted && fitted.error().kind != ErrorKind::cancelled)
                         sizeTrouble_ = fitted.error().message;
                     });

@@ -1,7 +1,9 @@
 #pragma once
 /// What baking the whole of the open project takes: with each preset (engine/pipeline/bake_presets.h), as it
 /// is set, and at which resolution it takes a given size. Foretold in the background by baking a little, one
-/// after another, and remembered until the layout or the scene is another. Main thread only.
+/// after another, and remembered until the layout or the scene is another. That takes from seconds to a minute
+/// or two of a processor: it is done by itself where the costs of a project as it was opened are shown, after
+/// changes once they are pointed at. Main thread only.
 
 #include <memory>
 #include <optional>
@@ -23,6 +25,9 @@ struct BakeCostRequest {
   std::size_t memoryBytes = 0;
 };
 
+/// Does somebody want to know?
+enum class CostLook { away, shown, pointedAt };
+
 /// Of all storeys, whatever is on disk already.
 struct BakeCost {
   BakeForecast forecast;
@@ -33,7 +38,7 @@ struct BakeCost {
 struct SizeProposal {
   double askedBytes = 0;
   BakeSettings bake;  ///< those of the project but for samplesPerDegree
-  BakeForecast forecast;
+  BakeCost cost;
   /// As near as it comes, though it is not near: captures cannot be as small or as large.
   bool far() const;
 };
@@ -42,9 +47,9 @@ class BakeCosts {
  public:
   explicit BakeCosts(Inbox& inbox) : foretelling_(inbox), sizing_(inbox) {}
 
-  /// What is looked at, told often; nothing: nobody looks, the project is being changed, or a bake runs.
-  /// `now` in seconds. Work begins once the project has kept still for a moment.
-  void follow(const std::optional<BakeCostRequest>& wanted, double now);
+  /// The project, told often; nothing: it is being changed, or a bake runs. `now` in seconds. Work begins
+  /// once the project has kept still for a moment.
+  void follow(const std::optional<BakeCostRequest>& project, CostLook look, double now);
   /// Null: not known (yet).
   const BakeCost* of(const BakeSettings& bake) const;
   bool foretelling() const { return foretelling_.running() && !foretelling_.cancelling(); }
@@ -61,9 +66,12 @@ class BakeCosts {
 
  private:
   void foretellNext();
+  void remember(const BakeSettings& bake, const BakeCost& cost);
 
-  std::optional<BakeCostRequest> request_;  ///< that is looked at now, or was last
-  bool wanted_ = false;
+  std::optional<BakeCostRequest> request_;  ///< the newest
+  bool still_ = false;                      ///< it is the project as it is now
+  bool fresh_ = true;                       ///< as it was opened
+  bool wanted_ = false;                     ///< as it is now
   double beginAt_ = 0;
   std::vector<std::pair<BakeSettings, BakeCost>> known_;
   std::optional<SizeProposal> proposal_;

@@ -210,10 +210,10 @@ class Session {
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
-  /// What baking all of it takes, with each preset and as it is set, while somebody looks.
+  /// What baking all of it takes, with each preset and as it is set.
   const BakeCosts& bakeCosts() const { return bakeCosts_; }
-  /// Does anybody? Called each frame.
-  void askForBakeCosts(bool wanted) { bakeCostsWanted_ = wanted; }
+  /// Called each frame.
+  void lookAtBakeCosts(CostLook look) { costLook_ = look; }
   /// The resolution at which the whole of it takes so many bytes: bakeCosts().proposal().
   void proposeSize(double bytes) { bakeCosts_.propose(bytes); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
@@ -434,7 +434,7 @@ class Session {
   std::optional<double> neededBytes_;
   double nextLookAtDisk_ = 0, now_ = 0;
   Gate bakeGate_;  // outlives the job
-  bool bakeCostsWanted_ = false;
+  CostLook costLook_ = CostLook::away;
   std::optional<ProjectBakeReport> lastBake_;
   int bakedSeen_ = 0;
   double nextLoad_ = 0;

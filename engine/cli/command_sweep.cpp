@@ -21,6 +21,8 @@ namespace {
 
 /// Of the time, kept for combinations while choices are tried one at a time.
 constexpr double kSearchShare = 0.3;
+/// That the qualities of a bake may take of it, at most.
+constexpr double kPresetShare = 0.3;
 
 /// All that figures may only be compared within.
 std::string fingerprintOf(const Sweep& sweep, const PathWalk& walk, const BakeSettings& truthBake) {
@@ -99,10 +101,11 @@ class Sweeping {
 
   /// What the editor offers as qualities of a bake.
   Status tryPresets() {
+    const double until = std::max(0.0, secondsLeft() - kPresetShare * 60 * options_.budgetMinutes);
     for (const BakePreset preset : kBakePresets) {
       const SweepSetting setting = settingOf(project_, preset);
       if (setting.empty()) continue;
-      if (const auto point = measure(setting, secondsLeft() - keptForSearch()); !point)
+      if (const auto point = measure(setting, secondsLeft() - until); !point)
         return tl::unexpected(point.error());
     }
     return {};

@@ -68,10 +68,10 @@ class BakeCostsTest : public OpenSessionTest {
     return session_->bakeCosts().of(withPreset(session_->project().bake, preset));
   }
   const BakeCost* ownCost() { return session_->bakeCosts().of(session_->project().bake); }
-  /// Asks as a panel does, and waits until what the project takes as it is set is foretold, which comes
-  /// first.
+  /// As a panel does that is pointed at; waits until what the project takes as it is set is foretold, which
+  /// comes first.
   void look() {
-    session_->askForBakeCosts(true);
+    session_->lookAtBakeCosts(CostLook::pointedAt);
     waitFor([&] { return ownCost() != nullptr; });
     EXPECT_EQ(session_->bakeCosts().trouble(), "");
   }
@@ -118,10 +118,10 @@ TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
   settle();
   ASSERT_NE(costOf(BakePreset::draft), nullptr) << "neither a preset nor the view changes what others take";
   EXPECT_EQ(costOf(BakePreset::draft)->forecast.seconds(), draft);
-  session_->askForBakeCosts(false);
+  session_->lookAtBakeCosts(CostLook::away);
   session_->apply(setCellSize(session_->project(), 1.7));
   settle();
-  session_->askForBakeCosts(true);
+  session_->lookAtBakeCosts(CostLook::pointedAt);
   session_->poll(now_ += 0.05);
   EXPECT_EQ(costOf(BakePreset::draft), nullptr);
   EXPECT_FALSE(session_->bakeCosts().foretelling()) << "it waits until the project keeps still";
@@ -129,10 +129,22 @@ TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
   EXPECT_EQ(ownCost()->forecast.cameras, int(session_->built()->layout->cameras.size()));
 }
 
-TEST_F(BakeCostsTest, NothingIsForetoldWhileNobodyLooks) {
+TEST_F(BakeCostsTest, AfterChangesNothingIsForetoldUntilItIsPointedAt) {
+  session_->lookAtBakeCosts(CostLook::shown);
   for (int i = 0; i < 60; ++i) session_->poll(now_ += 0.1);
   EXPECT_FALSE(session_->bakeCosts().foretelling());
   EXPECT_EQ(ownCost(), nullptr);
+}
+
+using ShownCostsTest = SessionTest;
+
+TEST_F(ShownCostsTest, WhatAProjectTakesAsItIsOpenedIsForetoldByItselfWhereItIsShown) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  for (int i = 0; i < 60; ++i) session.poll(now_ += 0.1);
+  EXPECT_FALSE(session.bakeCosts().foretelling()) << "it is shown nowhere";
+  session.lookAtBakeCosts(CostLook::shown);
+  waitFor(session, [&] { return session.bakeCosts().of(session.project().bake) != nullptr; });
 }
 
 TEST_F(BakeCostsTest, ASizeBecomesAResolutionThatFitsIt) {
@@ -142,7 +154,7 @@ TEST_F(BakeCostsTest, ASizeBecomesAResolutionThatFitsIt) {
   waitFor([&] { return session_->bakeCosts().proposal() != nullptr; });
   const SizeProposal proposal = *session_->bakeCosts().proposal();
   EXPECT_FALSE(proposal.far());
-  EXPECT_NEAR(proposal.forecast.bytes() / wanted, 1, 0.1);
+  EXPECT_NEAR(proposal.cost.forecast.bytes() / wanted, 1, 0.1);
   EXPECT_GT(proposal.bake.samplesPerDegree, 2 * session_->project().bake.samplesPerDegree);
   BakeSettings same = proposal.bake;
   same.samplesPerDegree = session_->project().bake.samplesPerDegree;
@@ -150,6 +162,8 @@ TEST_F(BakeCostsTest, ASizeBecomesAResolutionThatFitsIt) {
   session_->apply(setBakeSettings(session_->project(), proposal.bake, "size"));
   settle();
   EXPECT_EQ(session_->history().cursor(), began_ + 1);
+  ASSERT_NE(ownCost(), nullptr) << "what was found of it is remembered";
+  EXPECT_EQ(ownCost()->forecast.bytes(), proposal.cost.forecast.bytes());
   BakeSettings other = proposal.bake;
   other.colourQuality = 50;
   session_->apply(setBakeSettings(session_->project(), other, "colour quality"));
