@@ -15,7 +15,7 @@ namespace acentric::editor {
 namespace {
 
 /// Of the columns, unscaled.
-constexpr float kName = 76, kTime = 84, kSize = 140, kAccuracy = 194;
+constexpr float kName = 76, kTime = 96, kSize = 150, kAccuracy = 204;
 constexpr double kMegabyte = 1e6, kMostMegabytes = 1e7;
 
 struct Row {
@@ -164,13 +164,14 @@ void drawBakePresets(PanelContext& context) {
   std::vector<Row> rows{rowOf(BakePreset::draft, "Draft"), rowOf(BakePreset::balanced, "Balanced"),
                         rowOf(BakePreset::fine, "Fine")};
   if (!presetInForce(own)) rows.push_back({{}, "Own", own});
-  ImGui::BeginGroup();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
   bool measured = true;
   for (const Row& row : rows) measured = drawRow(context, row) && measured;
-  ImGui::EndGroup();
-  session.lookAtBakeCosts(ImGui::IsItemHovered(ImGuiHoveredFlags_RectOnly) ? CostLook::pointedAt
-                          : ImGui::IsItemVisible()                         ? CostLook::shown
-                                                                           : CostLook::away);
+  const ImVec2 high(low.x + ImGui::GetContentRegionAvail().x, ImGui::GetCursorScreenPos().y);
+  const bool pointedAt = !context.inputBlocked && ImGui::IsMouseHoveringRect(low, high);
+  session.lookAtBakeCosts(pointedAt                         ? CostLook::pointedAt
+                          : ImGui::IsRectVisible(low, high) ? CostLook::shown
+                                                            : CostLook::away);
   if (!measured)
     ui::wrappedText(ui::palette::faint, "– dB: not yet measured; the tab Accuracy (F6) measures it.");
   if (!session.bakeCosts().trouble().empty())
