@@ -1,9 +1,9 @@
 #pragma once
 /// What baking the whole of the open project takes: with each preset (engine/pipeline/bake_presets.h), as it
 /// is set, and at which resolution it takes a given size. Foretold in the background by baking a little, one
-/// after another, and remembered until the layout or the scene is another. That takes from seconds to a minute
-/// or two of a processor: it is done by itself where the costs of a project as it was opened are shown, after
-/// changes once they are pointed at. Main thread only.
+/// after another, and remembered until the layout or the scene is another. That takes from seconds to a
+/// minute or two of a processor: it is done by itself where the costs of a project as it was opened are
+/// shown, after changes once they are pointed at. Main thread only.
 
 #include <memory>
 #include <optional>
