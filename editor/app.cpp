@@ -76,10 +76,8 @@ tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& op
       std::fflush(file.get());
     });
   }
-  if (!app->window_->missingFont().empty())
-    app->session_.messages().add(MessageLevel::warning,
-                                 "The font " + app->window_->missingFont() +
-                                     " is missing; install fonts-dejavu-core for a better look.");
+  for (const std::string& missing : app->window_->missingFonts())
+    app->session_.messages().add(MessageLevel::warning, missing);
   const Preferences& preferences = app->session_.preferences();
   app->window_->show(loadWindowPlaces(windowPlacesFile()), options.size);
   // Work that was not saved comes before what is opened by itself: the welcome offers it.

@@ -5,25 +5,31 @@
 #include <filesystem>
 
 #include "ui/colour.h"
+#include "ui/icons.h"
 
 namespace acentric::ui {
 namespace {
-
-constexpr const char* kRegularFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr const char* kBoldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
 // Latin, dashes and ellipsis, arrows, mathematical signs, geometric shapes, check marks.
 constexpr std::array<ImWchar, 13> kGlyphs = {0x0020, 0x00ff, 0x2010, 0x2027, 0x2190, 0x21ff, 0x2212,
                                              0x2265, 0x25a0, 0x25ff, 0x2713, 0x2718, 0};
 
-ImFont* loadFont(const char* file, float size) {
+/// Each icon as a range of its own, as ImGui takes them.
+constexpr std::array<ImWchar, 2 * std::size(kIcons) + 1> iconRanges() {
+  std::array<ImWchar, 2 * std::size(kIcons) + 1> ranges{};
+  for (std::size_t i = 0; i < std::size(kIcons); ++i) ranges[2 * i] = ranges[2 * i + 1] = ImWchar(kIcons[i]);
+  return ranges;
+}
+constexpr auto kIconGlyphs = iconRanges();
+
+ImFont* loadFont(const char* file, float size, const ImWchar* glyphs = kGlyphs.data()) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) return nullptr;
+  if (!std::filesystem::is_regular_file(file, error)) return nullptr;
   ImFontConfig config;
   config.OversampleH = 2;
   config.OversampleV = 1;
   config.PixelSnapH = true;
-  return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, kGlyphs.data());
+  return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, glyphs);
 }
 
 void setSizes(ImGuiStyle& style) {
@@ -106,7 +112,7 @@ void setColours(ImGuiStyle& style) {
 
 }  // namespace
 
-Fonts applyTheme(const Look& look, std::string& missingFont) {
+Fonts applyTheme(const Look& look, std::vector<std::string>& missingFonts, const FontFiles& files) {
   ImGuiIO& io = ImGui::GetIO();
   io.UserData = const_cast<Look*>(&look);  // ImGui's slot for the program; read by currentLook() alone
   ImGuiStyle& style = ImGui::GetStyle();
@@ -116,17 +122,24 @@ Fonts applyTheme(const Look& look, std::string& missingFont) {
   style.ScaleAllSizes(look.scale);
 
   io.Fonts->Clear();
+  missingFonts.clear();
+  const auto missing = [&](const char* file, const char* package) {
+    missingFonts.push_back(std::string("The font ") + file + " is missing; install " + package);
+  };
   Fonts fonts;
-  fonts.regular = loadFont(kRegularFont, std::round(14.0F * look.scale));
-  fonts.bold = loadFont(kBoldFont, std::round(14.0F * look.scale));
-  fonts.small = loadFont(kRegularFont, 11.5F * look.scale);
-  fonts.title = loadFont(kRegularFont, std::round(24.0F * look.scale));
+  fonts.regular = loadFont(files.regular, std::round(14.0F * look.scale));
+  fonts.bold = loadFont(files.bold, std::round(14.0F * look.scale));
+  fonts.small = loadFont(files.regular, 11.5F * look.scale);
+  fonts.title = loadFont(files.regular, std::round(24.0F * look.scale));
+  fonts.icons = loadFont(files.icons, std::round(17.0F * look.scale), kIconGlyphs.data());
   if (fonts.regular == nullptr) {
-    missingFont = kRegularFont;
+    missing(files.regular, "fonts-dejavu-core for a better look.");
     ImFontConfig config;
     config.SizePixels = std::round(13.0F * look.scale);
     fonts.regular = io.Fonts->AddFontDefault(&config);
   }
+  io.FontDefault = fonts.regular;  // else the first in the atlas, which the icons may be
+  if (fonts.icons == nullptr) missing(files.icons, "fonts-fork-awesome for icons in place of words.");
   if (fonts.bold == nullptr) fonts.bold = fonts.regular;
   if (fonts.small == nullptr) fonts.small = fonts.regular;
   if (fonts.title == nullptr) fonts.title = fonts.regular;

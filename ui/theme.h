@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <string>
+#include <vector>
 
 namespace acentric::ui {
 
@@ -13,6 +14,14 @@ struct Fonts {
   ImFont* bold = nullptr;
   ImFont* small = nullptr;  ///< rulers, captions
   ImFont* title = nullptr;  ///< empty states
+  ImFont* icons = nullptr;  ///< ui/icons.h; null: they are not on the machine, and words stand in their place
+};
+
+/// Where Debian puts them.
+struct FontFiles {
+  const char* regular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  const char* bold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+  const char* icons = "/usr/share/fonts/truetype/fork-awesome/forkawesome-webfont.ttf";
 };
 
 /// What the user chose of the look, or the display asks for.
@@ -23,8 +32,9 @@ struct Look {
 };
 
 /// Sets style and fonts of the current ImGui context, anew at any time between two frames; `look` must live
-/// as long as the context. `missingFont` is set to what was not found, if anything.
-Fonts applyTheme(const Look& look, std::string& missingFont);
+/// as long as the context. `missingFonts`: a sentence for each that is not there, with the package to
+/// install.
+Fonts applyTheme(const Look& look, std::vector<std::string>& missingFonts, const FontFiles& files = {});
 /// The one that was applied last; null without a window.
 const Look* currentLook();
 /// Of the look that was applied last; 1 without a window.

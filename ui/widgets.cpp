@@ -40,6 +40,27 @@ bool toggleButton(const char* label, bool on, const ImVec2& size) {
   return on ? primaryButton(label, size) : button(label, size);
 }
 
+ImVec2 iconButtonSize() { return scaled(ImVec2(30, 28)); }
+
+bool iconButton(ImFont* icons, const char* id, Icon icon, Pressed pressed, bool enabled) {
+  const bool chosen = pressed == Pressed::chosen, shown = pressed == Pressed::shown;
+  const Colour& fill = chosen ? palette::accentDeep : palette::selected;
+  const Colour& hover = chosen ? palette::accentHover : palette::hovered;
+  const bool clicked =
+      colouredButton(id, iconButtonSize(), enabled, pressed == Pressed::no ? fill.withOpacity(0) : fill,
+                     hover, chosen ? palette::accentDeep : palette::pressed);
+  const ImFontGlyph* glyph = icons->FindGlyph(ImWchar(icon));
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ImVec4 ink = (chosen ? palette::onAccent : shown ? palette::accent : palette::text).vec();
+  if (!enabled) ink.w *= ImGui::GetStyle().DisabledAlpha;
+  // By what is seen of it: the glyphs lie differently in their boxes.
+  icons->RenderChar(
+      ImGui::GetWindowDrawList(), icons->FontSize,
+      {(low.x + high.x - glyph->X0 - glyph->X1) / 2, (low.y + high.y - glyph->Y0 - glyph->Y1) / 2},
+      ImGui::GetColorU32(ink), ImWchar(icon));
+  return clicked;
+}
+
 bool checkBox(const char* label, bool* value) {
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, scaled(1));
   ImGui::PushStyleColor(ImGuiCol_Border, palette::faint.vec());

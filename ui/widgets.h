@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ui/colour.h"
+#include "ui/icons.h"
 
 namespace acentric::ui {
 
@@ -14,6 +15,14 @@ bool primaryButton(const char* label, const ImVec2& size = {0, 0}, bool enabled 
 bool button(const char* label, const ImVec2& size = {0, 0}, bool enabled = true);
 /// A button that stays down while `on`.
 bool toggleButton(const char* label, bool on, const ImVec2& size = {0, 0});
+
+/// How an icon's button stands.
+enum class Pressed { no, shown, chosen };
+/// A square button with a picture, quiet until it is pointed at; `shown`: what it stands for is on, among
+/// others that may be; `chosen`: the one of a row. `icons`: of Fonts.
+bool iconButton(ImFont* icons, const char* id, Icon icon, Pressed pressed = Pressed::no, bool enabled = true);
+/// Its sides in pixels.
+ImVec2 iconButtonSize();
 
 /// A check box whose border shows on any ground; true if it was clicked.
 bool checkBox(const char* label, bool* value);

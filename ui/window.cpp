@@ -123,7 +123,7 @@ tl::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowOpti
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
   window->look_ = {options.light, options.scale > 0 ? options.scale : window->displayScale()};
   window->wantedLook_ = {options.light, options.scale};
-  window->fonts_ = applyTheme(window->look_, window->missingFont_);
+  window->fonts_ = applyTheme(window->look_, window->missingFonts_);
   // Chains to our callbacks, which therefore must be installed already.
   if (!ImGui_ImplGlfw_InitForOpenGL(window->window_, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
     return tl::unexpected(std::string("the interface could not be set up on this OpenGL context"));
@@ -263,7 +263,7 @@ void Window::applyLook() {
   const Look look{wantedLook_.light, wantedLook_.scale > 0 ? wantedLook_.scale : displayScale()};
   if (look == look_) return;
   look_ = look;
-  fonts_ = applyTheme(look_, missingFont_);
+  fonts_ = applyTheme(look_, missingFonts_);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
   picture_->forget();

@@ -79,7 +79,8 @@ class Window {
   /// Hides the pointer and lets it move without bounds (mouse look); the position is restored afterwards.
   void capturePointer(bool captured);
   std::string graphicsDescription() const;
-  const std::string& missingFont() const { return missingFont_; }
+  /// Of each a sentence.
+  const std::vector<std::string>& missingFonts() const { return missingFonts_; }
   glm::ivec2 size() const;
   unsigned long framesDrawn() const { return frames_; }
   const FrameTime& lastFrame() const { return lastFrame_; }
@@ -105,7 +106,7 @@ class Window {
   Look look_, wantedLook_;  // wanted: its scale may be 0
   Fonts fonts_;
   std::vector<int> tapped_;  // keys shown to ImGui for this frame though they are up again
-  std::string missingFont_;
+  std::vector<std::string> missingFonts_;
   std::string title_;
   std::vector<std::filesystem::path> dropped_;
   bool maximised_ = false;  ///< before it covered the monitor

@@ -53,6 +53,8 @@ void addWalkViewActions(std::vector<Action>& table);
 void addPathActions(std::vector<Action>& table);
 /// What accuracy costs in time, and presets of it: part of the Walk menu.
 void addAccuracyActions(std::vector<Action>& table);
+/// Presets of the bake's settings, in the Walk menu, and the ways to settings that are folded away.
+void addQualityActions(std::vector<Action>& table);
 void addHelpActions(std::vector<Action>& table);
 /// Which tab the pane at the lower right shows.
 void addTabActions(std::vector<Action>& table);

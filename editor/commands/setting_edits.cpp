@@ -12,6 +12,12 @@ Edit setBakeSettings(const Project& project, const BakeSettings& bake, const cha
   return edit;
 }
 
+Edit setBakePreset(const Project& project, BakePreset preset) {
+  Edit edit{project, fmt::format("Bake quality: {}", nameOf(preset))};
+  edit.project.bake = withPreset(project.bake, preset);
+  return edit;
+}
+
 Edit setBudget(const Project& project, const TriangleBudget& budget, const char* field) {
   Edit edit{project, fmt::format("Budget: {}", field)};
   edit.project.budget = budget;

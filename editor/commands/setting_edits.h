@@ -4,11 +4,14 @@
 #include <optional>
 
 #include "editor/commands/edit.h"
+#include "engine/pipeline/bake_presets.h"
 
 namespace acentric::editor {
 
 /// Any change of bake or view settings, named by the field that changed.
 Edit setBakeSettings(const Project& project, const BakeSettings& bake, const char* field);
+/// All of the bake's settings that trade accuracy for time and bytes.
+Edit setBakePreset(const Project& project, BakePreset preset);
 Edit setBudget(const Project& project, const TriangleBudget& budget, const char* field);
 Edit setViewSettings(const Project& project, const ViewSettings& view, const char* field);
 Edit setFieldOfView(const Project& project, double degreesValue);

@@ -7,6 +7,7 @@
 
 #include "editor/panels/bake_cameras.h"
 #include "editor/panels/preference_fields.h"
+#include "editor/panels/toolbar_flow.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
@@ -185,6 +186,42 @@ void drawLegend() {
   ImGui::NewLine();
 }
 
+/// What can be done, how far it is, and which of the two lists is shown.
+void drawHead(PanelContext& context) {
+  const AsTallAsIcons tall(context);
+  const float buttonWidth = ui::scaled(104);
+  if (context.session().baking().running()) {
+    actionButton(context, "bake.cancel", ButtonLook::plain, {buttonWidth, 0}, "Cancel");
+    ImGui::SameLine();
+    actionButton(context, "bake.pause", ButtonLook::plain, {},
+                 context.session().bakePaused() ? "Go on" : "Pause");
+  } else {
+    actionButton(context, "bake.start", ButtonLook::primary, {buttonWidth, 0});
+    ImGui::SameLine();
+    actionIcon(context, "bake.estimate", ui::Icon::calculator, ButtonLook::plain, "Estimate");
+  }
+  ImGui::SameLine();
+  actionIcon(context, "file.publish", ui::Icon::share, ButtonLook::plain, "Publish…");
+  ImGui::SameLine();
+  drawProgress(context);
+  const auto view = [&](const char* label, const char* help, ui::Icon icon, bool cameras) {
+    bool& shown = context.state().showBakeCameras;
+    const bool on = shown == cameras;
+    ImFont* icons = context.window.fonts().icons;
+    const bool clicked = icons != nullptr ? ui::iconButton(icons, (std::string("##view") + label).c_str(),
+                                                           icon, on ? ui::Pressed::chosen : ui::Pressed::no)
+                                          : ui::toggleButton(label, on);
+    if (clicked) shown = cameras;
+    context.log.item(cameras ? "bake.cameras" : "bake.overview");
+    ui::tooltip(std::string(label) + "\n" + help);
+  };
+  view("Overview", "Pace, disk, settings", ui::Icon::listing, false);
+  ImGui::SameLine(0, ui::scaled(3));
+  view("Cameras", "What became of each camera", ui::Icon::videoCamera, true);
+  ImGui::SameLine(0, ui::scaled(14));
+  drawLegend();
+}
+
 }  // namespace
 
 std::string progressText(const Job& job) {
@@ -207,32 +244,7 @@ void drawBakePanel(PanelContext& context) {
     ui::wrappedText(ui::palette::faint, "Nothing to bake: no project is open.");
     return;
   }
-  const float buttonWidth = ui::scaled(104);
-  if (context.session().baking().running()) {
-    actionButton(context, "bake.cancel", ButtonLook::plain, {buttonWidth, 0}, "Cancel");
-    ImGui::SameLine();
-    actionButton(context, "bake.pause", ButtonLook::plain, {},
-                 context.session().bakePaused() ? "Go on" : "Pause");
-  } else {
-    actionButton(context, "bake.start", ButtonLook::primary, {buttonWidth, 0});
-    ImGui::SameLine();
-    actionButton(context, "bake.estimate", ButtonLook::plain, {}, "Estimate");
-  }
-  ImGui::SameLine();
-  actionButton(context, "file.publish");
-  ImGui::SameLine();
-  drawProgress(context);
-  const auto view = [&](const char* label, const char* help, bool cameras) {
-    bool& shown = context.state().showBakeCameras;
-    if (ui::toggleButton(label, shown == cameras)) shown = cameras;
-    context.log.item(cameras ? "bake.cameras" : "bake.overview");
-    ui::tooltip(help);
-  };
-  view("Overview", "Pace, disk, settings", false);
-  ImGui::SameLine(0, ui::scaled(3));
-  view("Cameras", "What became of each camera", true);
-  ImGui::SameLine(0, ui::scaled(14));
-  drawLegend();
+  drawHead(context);
   if (context.state().showBakeCameras) return drawBakeCameras(context);
   ImGui::BeginChild("##facts");
   drawFacts(context);

@@ -174,6 +174,8 @@ void Dialogs::drawAbout(PanelContext& context) {
                   "Acentric: walkthroughs made of acentric panorama views. Lay a tessellation, bake, walk.");
   ImGui::Dummy({0, 2});
   ui::wrappedText(ui::palette::faint, context.window.graphicsDescription());
+  if (context.window.fonts().icons != nullptr)
+    ui::wrappedText(ui::palette::faint, "Icons: Fork Awesome, forkaweso.me, SIL Open Font License 1.1.");
   alignButtons(1);
   const bool done = ui::primaryButton("Close", {dialogButtonWidth(), 0}) || enter_ || escape_;
   context.log.item("dialog.ok");

@@ -14,29 +14,65 @@ void runAction(PanelContext& context, const Action& action) {
   context.window.pacer().request();
 }
 
-void actionButton(PanelContext& context, const char* id, ButtonLook look, const ImVec2& size,
-                  const char* label) {
+namespace {
+
+const Action& actionOf(const PanelContext& context, const char* id) {
   const Action* action = findAction(context.table, std::string(id));
   require(action != nullptr, "a button names an action of the table");
-  const std::string text = std::string(label != nullptr ? label : action->label.c_str()) + "##" + id;
-  const bool enabled = action->enabled(context.actions);
+  return *action;
+}
+
+bool isOn(const PanelContext& context, const Action& action) {
+  return action.checked && action.checked(context.actions);
+}
+
+/// What it is called and which key does it, then what it does, then why it cannot be done now.
+std::string tooltipOf(const PanelContext& context, const Action& action) {
+  std::string text = action.label;
+  if (const std::string key = describe(action.shortcut); !key.empty()) text += fmt::format("  [{}]", key);
+  if (!action.help.empty()) text += "\n" + action.help;
+  if (const std::string why = whyDisabled(action, context.actions); !why.empty()) text += "\nNot now: " + why;
+  return text;
+}
+
+/// After the button.
+void endButton(PanelContext& context, const Action& action, bool clicked) {
+  context.log.item(action.id);
+  ui::tooltip(tooltipOf(context, action));
+  if (clicked) runAction(context, action);
+}
+
+}  // namespace
+
+void actionButton(PanelContext& context, const char* id, ButtonLook look, const ImVec2& size,
+                  const char* label) {
+  const Action& action = actionOf(context, id);
+  const std::string text = std::string(label != nullptr ? label : action.label.c_str()) + "##" + id;
+  const bool enabled = action.enabled(context.actions);
   bool clicked = false;
-  if (look == ButtonLook::toggle) {
+  if (look == ButtonLook::toggle || look == ButtonLook::tool) {
     ImGui::BeginDisabled(!enabled);
-    clicked = ui::toggleButton(text.c_str(), action->checked && action->checked(context.actions), size);
+    clicked = ui::toggleButton(text.c_str(), isOn(context, action), size);
     ImGui::EndDisabled();
   } else if (look == ButtonLook::primary) {
     clicked = ui::primaryButton(text.c_str(), size, enabled);
   } else {
     clicked = ui::button(text.c_str(), size, enabled);
   }
-  context.log.item(id);
-  std::string help = action->help.empty() ? action->label : action->help;
-  if (const std::string key = describe(action->shortcut); !key.empty()) help += fmt::format("  [{}]", key);
-  if (const std::string why = whyDisabled(*action, context.actions); !why.empty())
-    help += "\nNot now: " + why;
-  ui::tooltip(help);
-  if (clicked) runAction(context, *action);
+  endButton(context, action, clicked);
+}
+
+void actionIcon(PanelContext& context, const char* id, ui::Icon icon, ButtonLook look, const char* word) {
+  ImFont* icons = context.window.fonts().icons;
+  if (icons == nullptr) return actionButton(context, id, look, {}, word);
+  const Action& action = actionOf(context, id);
+  const bool on = look != ButtonLook::plain && isOn(context, action);
+  const ui::Pressed pressed = !on                          ? ui::Pressed::no
+                              : look == ButtonLook::toggle ? ui::Pressed::shown
+                                                           : ui::Pressed::chosen;
+  const bool clicked =
+      ui::iconButton(icons, (std::string("##") + id).c_str(), icon, pressed, action.enabled(context.actions));
+  endButton(context, action, clicked);
 }
 
 bool beginPane(const char* id, const ImVec2& size, bool padded) {

@@ -27,12 +27,15 @@ struct PanelContext {
   EditorState& state() { return actions.state; }
 };
 
-enum class ButtonLook { plain, primary, toggle };
+/// tool: of a row of which one is chosen; as icons they differ from switches.
+enum class ButtonLook { plain, primary, toggle, tool };
 
 /// A button of an action: its label (or `label`), enabled state, help and shortcut; logged by the action's
 /// id.
 void actionButton(PanelContext& context, const char* id, ButtonLook look = ButtonLook::plain,
                   const ImVec2& size = {0, 0}, const char* label = nullptr);
+/// The same as a picture; as `word` where the machine has no icons.
+void actionIcon(PanelContext& context, const char* id, ui::Icon icon, ButtonLook look, const char* word);
 /// Runs it if it is enabled; logged.
 void runAction(PanelContext& context, const Action& action);
 

@@ -8,12 +8,12 @@
 
 #include "editor/actions/path_walk.h"
 #include "editor/commands/walk_edits.h"
+#include "editor/panels/toolbar_flow.h"
 #include "engine/geometry/conventions.h"
 
 namespace acentric::editor {
 namespace {
 
-constexpr float kPathGap = 4;
 constexpr std::array<double, 5> kSpeeds{0.25, 0.5, 1, 2, 4};
 
 /// Buttons in a row, and in the next where the pane ends.
@@ -132,13 +132,17 @@ void drawSpeed(PanelContext& context) {
 
 void drawTransport(PanelContext& context, const WalkPath& path) {
   const WalkReplay& replay = context.state().replay;
-  actionButton(context, "path.play", ButtonLook::primary, {56, 0}, replay.playing() ? "Pause" : "Play");
-  ImGui::SameLine(0, kPathGap);
-  actionButton(context, "path.stop", ButtonLook::plain, {}, "Stop");
-  ImGui::SameLine(0, kPathGap);
-  actionButton(context, "path.loop", ButtonLook::toggle, {}, "Loop");
-  ImGui::SameLine(0, kPathGap);
-  drawSpeed(context);
+  {
+    const AsTallAsIcons tall(context);
+    actionIcon(context, "path.play", replay.playing() ? ui::Icon::pause : ui::Icon::play, ButtonLook::plain,
+               replay.playing() ? "Pause" : "Play");
+    ImGui::SameLine(0, kNear);
+    actionIcon(context, "path.stop", ui::Icon::stop, ButtonLook::plain, "Stop");
+    ImGui::SameLine(0, kNear);
+    actionIcon(context, "path.loop", ui::Icon::repeat, ButtonLook::toggle, "Loop");
+    ImGui::SameLine(0, kNear);
+    drawSpeed(context);
+  }
   float seconds = float(replay.at());
   ImGui::SetNextItemWidth(-1);
   const std::string format = fmt::format("%.1f of {:.1f} s", path.path.seconds());

@@ -41,7 +41,10 @@ void drawOverlayMenu(PanelContext& context) {
   flow(comboWidth, kApart);
   ImGui::SetNextItemWidth(comboWidth);
   const std::string shown = fmt::format("Overlay: {}", nameOf(state.overlay));
-  const bool open = ImGui::BeginCombo("##overlay", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  const bool open = [&] {
+    const AsTallAsIcons tall(context);
+    return ImGui::BeginCombo("##overlay", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  }();
   context.log.item("overlay");
   if (!open)
     return ui::tooltip("What the colours of the cells tell. One at a time; T, P and V are keys for it.");
@@ -94,25 +97,22 @@ void drawOutlineRow(PanelContext& context) {
 }  // namespace
 
 void drawPlanToolbar(PanelContext& context) {
-  static constexpr std::array<ToolbarEntry, 10> kEntries{{{"tool.cells", "Cells", 0},
-                                                          {"tool.eye", "Eye", kNear},
-                                                          {"tool.outline", "Outline", kNear},
-                                                          {"tool.panorama", "APV", kNear},
-                                                          {"tool.lattice", "Lattice", kNear},
-                                                          {"tool.measure", "Measure", kNear},
-                                                          {"tool.path", "Path", kNear},
-                                                          {"view.backdrop", "Scene", kApart},
-                                                          {"view.lattice", "Free cells", kNear},
-                                                          {"view.cameras", "Cameras", kNear}}};
-  for (const ToolbarEntry& entry : kEntries) {
-    flowButton(entry.label, entry.gap);
-    actionButton(context, entry.id, entry.look, {}, entry.label);
-  }
+  using enum ButtonLook;
+  static constexpr ToolbarEntry kTools[] = {{"tool.cells", "Cells", ui::Icon::pointer, 0, tool},
+                                            {"tool.eye", "Eye", ui::Icon::person, kNear, tool},
+                                            {"tool.outline", "Outline", ui::Icon::corners, kNear, tool},
+                                            {"tool.panorama", "APV", ui::Icon::bullseye, kNear, tool},
+                                            {"tool.lattice", "Lattice", ui::Icon::arrows, kNear, tool},
+                                            {"tool.measure", "Measure", ui::Icon::arrowsAcross, kNear, tool},
+                                            {"tool.path", "Path", ui::Icon::road, kNear, tool},
+                                            {"view.backdrop", "Scene", ui::Icon::picture, kApart},
+                                            {"view.lattice", "Free cells", ui::Icon::grid, kNear},
+                                            {"view.cameras", "Cameras", ui::Icon::videoCamera, kNear}};
+  static constexpr ToolbarEntry kView[] = {{"view.table", "Regions", ui::Icon::table, kApart},
+                                           {"view.fit", "Fit", ui::Icon::expand, kNear, plain}};
+  toolbar(context, kTools);
   drawOverlayMenu(context);
-  flowButton("Regions", kApart);
-  actionButton(context, "view.table", ButtonLook::toggle, {}, "Regions");
-  flowButton("Fit", kNear);
-  actionButton(context, "view.fit", ButtonLook::plain, {}, "Fit");
+  toolbar(context, kView);
   if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);
   if (context.state().planTool.mode() == PlanMode::outline && context.session().hasProject())
     drawOutlineRow(context);

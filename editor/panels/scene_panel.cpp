@@ -33,16 +33,14 @@ ScenePanel::ScenePanel(int threads, std::function<void()> wake)
       look_(threads, wake_) {}
 
 void ScenePanel::drawToolbar(PanelContext& context) const {
-  static constexpr std::array<ToolbarEntry, 6> kEntries{{{"scene3d.pick", "Pick", 0},
-                                                         {"scene3d.lookThrough", "Look through", kNear},
-                                                         {"scene3d.cut", "Cut ceiling", kApart},
-                                                         {"view.cameras", "Cameras", kNear},
-                                                         {"scene3d.frusta", "All sectors", kNear},
-                                                         {"view.fit", "Frame", kApart, ButtonLook::plain}}};
-  for (const ToolbarEntry& entry : kEntries) {
-    flowButton(entry.label, entry.gap);
-    actionButton(context, entry.id, entry.look, {}, entry.label);
-  }
+  static constexpr ToolbarEntry kEntries[] = {
+      {"scene3d.pick", "Pick", ui::Icon::crosshairs, 0, ButtonLook::tool},
+      {"scene3d.lookThrough", "Look through", ui::Icon::binoculars, kNear, ButtonLook::tool},
+      {"scene3d.cut", "Cut ceiling", ui::Icon::scissors, kApart},
+      {"view.cameras", "Cameras", ui::Icon::videoCamera, kNear},
+      {"scene3d.frusta", "All sectors", ui::Icon::sector, kNear},
+      {"view.fit", "Frame", ui::Icon::expand, kApart, ButtonLook::plain}};
+  toolbar(context, kEntries);
 }
 
 void ScenePanel::followProject(PanelContext& context) {

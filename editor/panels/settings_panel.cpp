@@ -2,35 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
 #include "editor/commands/storey_edits.h"
+#include "editor/panels/bake_section.h"
 #include "editor/panels/pose_section.h"
 #include "editor/panels/project_field.h"
+#include "editor/panels/settings_parts.h"
 #include "engine/geometry/conventions.h"
 #include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace {
-
-/// A section that other parts of the window may ask to be opened (EditorState::openSection).
-bool askedSection(PanelContext& context, const char* label, bool openAtFirst = true) {
-  const bool asked = context.state().openSection == label;
-  if (asked) {
-    context.state().openSection.clear();
-    ImGui::SetNextItemOpen(true);
-  }
-  const bool open = ui::section(label, openAtFirst);
-  std::string name = std::string("section.") + label;
-  std::ranges::replace(name, ' ', '-');
-  context.log.item(name);
-  if (asked) ImGui::SetScrollHereY(0.1F);
-  return open;
-}
 
 void drawStoreyName(PanelContext& context) {
   const Project& project = context.session().project();
@@ -57,18 +43,13 @@ void drawStoreys(PanelContext& context) {
   actionButton(context, "storey.remove", ButtonLook::plain, {}, "Remove");
 }
 
-void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
-  if (!askedSection(context, "Layout")) return;
-  configurations.draw(context, kLabelWidth);
+/// Floor height and origin follow from the model, so that none is the usual one.
+void drawAdvancedLayout(PanelContext& context) {
   const Project& project = context.session().project();
   const LayoutSpec& spec = project.layout();
-  number(context, "cellSize",
-         {"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
-          "Edge length of the polygons. Smaller: nearer sampling, more captures."},
-         spec.cellSize, [&](double v) { return setCellSize(project, v); });
-  number(context, "eyeHeight",
-         {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
-         spec.eyeHeight, [&](double v) { return setEyeHeight(project, v); });
+  std::vector<std::string> changed;
+  if (spec.nearBand != LayoutSpec{}.nearBand) changed.emplace_back("near band");
+  if (!advancedPart(context, "Layout", changed)) return;
   number(context, "floorHeight", {"Floor height", "%.3f m", 0.005, -1e6, 1e6, "Z of the walk plane."},
          spec.floorHeight, [&](double v) { return setFloorHeight(project, v); });
   number(context, "nearBand",
@@ -84,6 +65,20 @@ void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
          spec.latticeOrigin.y, [&](double v) {
            return setLatticeOrigin(project, {spec.latticeOrigin.x, v});
          });
+}
+
+void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
+  if (!askedSection(context, "Layout")) return;
+  configurations.draw(context, kLabelWidth);
+  const Project& project = context.session().project();
+  const LayoutSpec& spec = project.layout();
+  number(context, "cellSize",
+         {"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
+          "Edge length of the polygons. Smaller: nearer sampling, more captures."},
+         spec.cellSize, [&](double v) { return setCellSize(project, v); });
+  number(context, "eyeHeight",
+         {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
+         spec.eyeHeight, [&](double v) { return setEyeHeight(project, v); });
   number(context, "rotation", {"Rotation", "%.1f°", 0.1, -180, 180, "Turns the lattice, counter-clockwise."},
          degrees(spec.rotationRadians), [&](double v) { return setRotation(project, radians(v)); });
   ImGui::AlignTextToFramePadding();
@@ -95,6 +90,7 @@ void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
     ImGui::Text("%.1f m², %zu loop%s", spec.outline.area(), spec.outline.loops.size(),
                 spec.outline.loops.size() == 1 ? "" : "s");
   }
+  drawAdvancedLayout(context);
 }
 
 /// The panorama beside the lattice that alone is selected.
@@ -173,97 +169,6 @@ void drawBudget(PanelContext& context) {
   actionButton(context, "budget.split", ButtonLook::plain, {}, "Split what exceeds");
 }
 
-/// After the field of one of the bake's settings. `what` names its step in the history.
-void applyBakeEdit(PanelContext& context, const char* logName, const ui::FieldEdit& edit,
-                   const BakeSettings& bake, const char* what) {
-  context.log.item(std::string("settings.") + logName);
-  if (edit) applyFieldEdit(context, edit, setBakeSettings(context.session().project(), bake, what));
-}
-
-template <class Value>
-void bakeNumber(PanelContext& context, const char* logName, const ui::NumberField& field,
-                Value BakeSettings::*setting, const char* what) {
-  BakeSettings bake = context.session().project().bake;
-  const ui::FieldEdit edit = ui::numberField(field, bake.*setting, kLabelWidth);
-  applyBakeEdit(context, logName, edit, bake, what);
-}
-
-void bakeCheck(PanelContext& context, const char* name, const char* label, const char* help,
-               bool BakeSettings::*setting) {
-  BakeSettings bake = context.session().project().bake;
-  const ui::FieldEdit edit = ui::checkField(label, bake.*setting, kLabelWidth, help);
-  applyBakeEdit(context, name, edit, bake, name);
-}
-
-void drawPruningLoss(PanelContext& context) {
-  constexpr double kPercent = 100;
-  BakeSettings bake = context.session().project().bake;
-  double percent = kPercent * bake.pruningLoss;
-  const ui::FieldEdit edit = ui::numberField(
-      {"Pruning loss", "%.3f %%", 0.002, 0, kPercent,
-       "Of what is seen from a region, pruning loses no more (with 95 % confidence): test eyes "
-       "are added until then. Less closes finer holes and takes longer. 0: none are added."},
-      percent, kLabelWidth);
-  bake.pruningLoss = percent > 0 ? std::max(percent / kPercent, kLeastPruningLoss) : 0;
-  applyBakeEdit(context, "pruningLoss", edit, bake, "pruning loss");
-}
-
-void drawBake(PanelContext& context) {
-  if (!askedSection(context, "Bake quality")) return;
-  bakeNumber(context, "samplesPerDegree",
-             {"Samples per degree", "%.1f /°", 0.05, 0.5, 64,
-              "Resolution of captures. Time and bytes grow with its square."},
-             &BakeSettings::samplesPerDegree, "samples per degree");
-  bakeNumber(context, "ambientRays",
-             {"Ambient rays", "%.0f", 0.2, 0, 1024,
-              "Per place on a surface, for soft shade in corners and bounced light; 0 to 1024."},
-             &BakeSettings::ambientRays, "ambient rays");
-  bakeNumber(context, "ambientRadius",
-             {"Ambient radius", "%.2f m", 0.01, 0.01, 1000, "Farther surfaces cast no ambient shade."},
-             &BakeSettings::ambientRadius, "ambient radius");
-  bakeNumber(context, "shadowRays",
-             {"Shadow rays", "%.0f", 0.2, 1, 1024, "Per sample towards each light with a size; 1 to 1024."},
-             &BakeSettings::shadowRays, "shadow rays");
-  bakeNumber(
-      context, "bounces",
-      {"Bounces", "%.0f", 0.05, 1, 8, "Of light between surfaces, where interreflection is on; 1 to 8."},
-      &BakeSettings::bounces, "bounces");
-  bakeNumber(context, "surfaceTexel",
-             {"Surface texel", "%.3f m", 0.001, 0.002, 10,
-              "Distance of light samples on near geometry, and of places where light from all around is "
-              "gathered. Edges of strong shadows have samples four times as close."},
-             &BakeSettings::surfaceTexel, "surface texel");
-  bakeNumber(context, "maxLayers",
-             {"Most layers", "%.0f", 0.05, 1, 64,
-              "Surfaces kept behind each other in one pixel: what opens up behind edges. 1 to 64."},
-             &BakeSettings::maxLayers, "most layers");
-  bakeCheck(context, "pruning", "Prune",
-            "Keep only what can be seen from somewhere in a region that the camera serves.",
-            &BakeSettings::pruning);
-  if (context.session().project().bake.pruning) {
-    drawPruningLoss(context);
-    bakeNumber(
-        context, "testEyes",
-        {"Test eyes", "%.0f", 0.05, 1, kMostTestEyes,
-         "Places spread over each region that pruning looks from; where they lose too much, others are "
-         "added. 1 to 64."},
-        &BakeSettings::testEyes, "test eyes");
-  }
-  bakeNumber(context, "eyeRange",
-             {"Eye range", "%.2f m", 0.005, 0, 10, "How far above and below eye height the walk may go."},
-             &BakeSettings::eyeRange, "eye range");
-  bakeNumber(context, "distanceShift",
-             {"Distance shift", "%.3f samples", 0.005, 0, kLargestDistanceShift,
-              "How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16."},
-             &BakeSettings::distanceShift, "distance shift");
-  bakeNumber(
-      context, "colourQuality",
-      {"Colour quality", "%.0f", 0.1, 0, kLosslessColours,
-       "How true captures are to the colours that were baked: less gives smaller files. 100 keeps every "
-       "bit, in files many times as large."},
-      &BakeSettings::colourQuality, "colour quality");
-}
-
 void drawImport(PanelContext& context) {
   if (!askedSection(context, "Scene", false)) return;
   const Project& project = context.session().project();
@@ -327,7 +232,7 @@ void drawSettingsPanel(PanelContext& context, ConfigurationPicker& configuration
   drawLayout(context, configurations);
   drawPanorama(context);
   drawBudget(context);
-  drawBake(context);
+  drawBakeSection(context);
   drawEffects(context);
   drawImport(context);
   ImGui::Dummy({0, 8});

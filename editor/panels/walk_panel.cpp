@@ -115,25 +115,21 @@ void WalkPanel::drawToolbar(PanelContext& context) {
 }
 
 void WalkPanel::drawButtons(PanelContext& context) {
-  static constexpr std::array<ToolbarEntry, 11> kEntries{
-      {{"view.holes", "Holes", 0},
-       {"view.sources", "Sources", kNear},
-       {"view.split", "Split", kNear},
-       {"view.difference", "Difference", kNear},
-       {"view.minimap", "Map", kApart},
-       {"view.images", "Images", kNear},
-       {"view.frameTimes", "Times", kNear},
-       {nullptr, "Settings…", kApart},
-       {"walk.screenshot", "Save picture", kNear, ButtonLook::plain},
-       {"walk.restart", "To start", kApart, ButtonLook::plain},
-       {"walk.setStart", "Start here", kNear, ButtonLook::plain}}};
-  for (const ToolbarEntry& entry : kEntries) {
-    flowButton(entry.label, entry.gap);
-    if (entry.id == nullptr)
-      drawWalkSettingsButton(context, glProblem_);
-    else
-      actionButton(context, entry.id, entry.look, {}, entry.label);
-  }
+  using enum ButtonLook;
+  static constexpr ToolbarEntry kEntries[] = {
+      {"view.holes", "Holes", ui::Icon::eyeSlashed, 0, tool},
+      {"view.sources", "Sources", ui::Icon::brush, kNear, tool},
+      {"view.split", "Split", ui::Icon::columns, kNear, tool},
+      {"view.difference", "Difference", ui::Icon::adjust, kNear, tool},
+      {"view.minimap", "Map", ui::Icon::map, kNear},
+      {"view.images", "Images", ui::Icon::files, kNear},
+      {"view.frameTimes", "Times", ui::Icon::barChart, kNear},
+      {nullptr, "Settings…", ui::Icon::sliders, kApart},
+      {"walk.screenshot", "Save picture", ui::Icon::camera, kNear, plain},
+      {"walk.restart", "To start", ui::Icon::home, kApart, plain},
+      {"walk.setStart", "Start here", ui::Icon::flag, kNear, plain}};
+  toolbar(context, kEntries,
+          [&](const ToolbarEntry& entry) { drawWalkSettingsButton(context, entry, glProblem_); });
   if (!needsTruth(context.state().walkLook)) return;
   ImGui::AlignTextToFramePadding();
   ui::mutedText("Rays per pixel");

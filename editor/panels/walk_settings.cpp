@@ -128,9 +128,9 @@ void drawEyeHeight(PanelContext& context) {
       heights.high > heights.low
           ? fmt::format("Page Up and Page Down too. Captures are baked for {:.2f} to {:.2f} m.",
                         heights.low - floor, heights.high - floor)
-      : context.session().shippedWalk()
-          ? "A walk is looked at from the height of its captures."
-          : "Captures are baked for this height alone: set an eye range under bake quality.";
+      : context.session().shippedWalk() ? "A walk is looked at from the height of its captures."
+                                        : "Captures are baked for this height alone; an eye range (Bake "
+                                          "quality, Advanced) makes it a choice.";
   ImGui::BeginDisabled(heights.high <= heights.low);
   const ui::FieldEdit edit =
       ui::numberField({"Eye above floor", "%.2f m", 0.002, heights.low - floor, heights.high - floor, ""},
@@ -138,6 +138,14 @@ void drawEyeHeight(PanelContext& context) {
   ImGui::EndDisabled();
   context.log.item("walk.eyeHeight");
   ui::tooltip(help);
+  if (heights.high <= heights.low && !context.session().shippedWalk()) {
+    ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
+    if (ui::button("Set an eye range…")) {
+      runAction(context, *findAction(context.table, std::string("settings.advancedBake")));
+      ImGui::CloseCurrentPopup();
+    }
+    context.log.item("walk.eyeRange");
+  }
   if (!edit.changed) return;
   pose.eye.z = floor + height;
   walker.setPose(pose);
@@ -183,10 +191,13 @@ void drawPainting(PanelContext& context) {
 
 }  // namespace
 
-void drawWalkSettingsButton(PanelContext& context, const std::string& glProblem) {
-  if (ui::button("Settings…")) ImGui::OpenPopup(kPopup);
+void drawWalkSettingsButton(PanelContext& context, const ToolbarEntry& entry, const std::string& glProblem) {
+  ImFont* icons = context.window.fonts().icons;
+  const bool clicked =
+      icons != nullptr ? ui::iconButton(icons, "##walkSettingsButton", entry.icon) : ui::button(entry.word);
+  if (clicked) ImGui::OpenPopup(kPopup);
   context.log.item("walk.settings");
-  ui::tooltip("Renderer, field of view, eye height, speed");
+  ui::tooltip("Settings of the walk\nRenderer, field of view, eye height, speed");
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float right = ImGui::GetIO().DisplaySize.x - 8;
   ImGui::SetNextWindowPos({std::min(low.x, right - ui::scaled(kWidth)), high.y + 4});

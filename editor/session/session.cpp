@@ -70,6 +70,7 @@ bool Session::poll(double now) {
   autosave(now);
   lookAround(now);
   inspectWhenStill(now);
+  followBakeCosts();
   const bool measured = sweeping_.poll(now);
   publishing_.poll();
   return refreshProblems() || delivered || measured;

@@ -12,6 +12,7 @@
 
 #include "editor/commands/edit.h"
 #include "editor/session/backdrop.h"
+#include "editor/session/bake_costs.h"
 #include "editor/session/bake_queue.h"
 #include "editor/session/capture_status.h"
 #include "editor/session/coverage.h"
@@ -213,6 +214,12 @@ class Session {
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
+  /// What baking all of it takes, with each preset and as it is set.
+  const BakeCosts& bakeCosts() const { return bakeCosts_; }
+  /// Called each frame.
+  void lookAtBakeCosts(CostLook look) { costLook_ = look; }
+  /// The resolution at which the whole of it takes so many bytes: bakeCosts().proposal().
+  void proposeSize(double bytes) { bakeCosts_.propose(bytes); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
   int bakeThreads() const;
   int processors() const { return processors_; }
@@ -320,6 +327,7 @@ class Session {
                                         const ImportHost& host, const BakeGuard& guard, TaskRunner& runner,
                                         const Job::Context& context);
   void lookAtDisk();
+  void followBakeCosts();
   /// As an edit, unless the layout is no longer what was searched with.
   void offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
                    const std::string& found);
@@ -445,6 +453,7 @@ class Session {
   std::optional<double> neededBytes_;
   double nextLookAtDisk_ = 0, now_ = 0;
   Gate bakeGate_;  // outlives the job
+  CostLook costLook_ = CostLook::away;
   std::optional<ProjectBakeReport> lastBake_;
   int bakedSeen_ = 0;
   double nextLoad_ = 0;
@@ -475,6 +484,7 @@ class Session {
   VariantCompare variants_{inbox_, processors_};
   PictureAsk asking_{inbox_, processors_, options_.importHost};
   Publisher publishing_{inbox_, messages_, options_.page};
+  BakeCosts bakeCosts_{inbox_};
 };
 
 /// Do two projects differ only in how the walk is shown? Then nothing has to be laid or loaded anew.

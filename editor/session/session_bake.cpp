@@ -163,6 +163,17 @@ void Session::lookAtDisk() {
   freeBytes_ = free ? std::optional(*free) : std::nullopt;
 }
 
+/// Without the scene there is nothing to foretell from.
+void Session::followBakeCosts() {
+  const bool scene = sceneFiles_.state != SceneFiles::State::missing || sceneFiles_.fromCache;
+  const bool still = built_ && !shipped_ && !rebuilding_.running() && scene && !opening_.running() &&
+                     !baking_.running() && !estimating_.running() && !history_->previewing();
+  if (!still) return bakeCosts_.follow(std::nullopt, costLook_, now_);
+  bakeCosts_.follow(BakeCostRequest{built_, options_.importHost, bakeThreads(),
+                                    std::size_t(preferences_.bakeMegabytes) * 1'000'000},
+                    costLook_, now_);
+}
+
 void Session::pauseBake(bool paused) {
   if (!baking_.running() || baking_.cancelling()) return;
   bakeQueue_.pause();

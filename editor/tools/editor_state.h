@@ -144,7 +144,9 @@ struct EditorState {
   bool takePicture = false;            ///< asked for; the walk clears it
   bool fitPlan = true;                 ///< asked for; the plan clears it
   std::optional<PlanFrame> framePlan;  ///< the same
-  std::string openSection;             ///< of the settings: asked for; they clear it
+  /// Of the settings: asked for; they clear it. "Layout", "Layout/Advanced".
+  std::string openSection;
+  double wantedMegabytes = 0;  ///< that a bake is to take, as typed; 0: not yet
   BottomTab bottomTab = BottomTab::messages;
   bool restart = false;  ///< the eye goes back to the start of the walk; the walk clears it
 

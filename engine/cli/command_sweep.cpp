@@ -13,6 +13,7 @@
 #include "engine/cli/sweep_run.h"
 #include "engine/measure/sweep_report.h"
 #include "engine/measure/sweep_search.h"
+#include "engine/pipeline/bake_presets.h"
 
 namespace acentric::cli {
 namespace fs = std::filesystem;
@@ -20,6 +21,8 @@ namespace {
 
 /// Of the time, kept for combinations while choices are tried one at a time.
 constexpr double kSearchShare = 0.3;
+/// That the qualities of a bake may take of it, at most.
+constexpr double kPresetShare = 0.3;
 
 /// All that figures may only be compared within.
 std::string fingerprintOf(const Sweep& sweep, const PathWalk& walk, const BakeSettings& truthBake) {
@@ -62,6 +65,7 @@ class Sweeping {
 
   void use(SweepRun& run) { run_ = &run; }
   const Sweep& sweep() const { return sweep_; }
+  double keptForSearch() const { return options_.search ? kSearchShare * 60 * options_.budgetMinutes : 0; }
   double secondsLeft() const { return 60 * options_.budgetMinutes - watch_.seconds(); }
   int measuredNow() const { return measuredNow_; }
 
@@ -95,14 +99,26 @@ class Sweeping {
     return place;
   }
 
+  /// What the editor offers as qualities of a bake.
+  Status tryPresets() {
+    const double until = std::max(0.0, secondsLeft() - kPresetShare * 60 * options_.budgetMinutes);
+    for (const BakePreset preset : kBakePresets) {
+      const SweepSetting setting = settingOf(project_, preset);
+      if (setting.empty()) continue;
+      if (const auto point = measure(setting, secondsLeft() - until); !point)
+        return tl::unexpected(point.error());
+    }
+    return {};
+  }
+
   /// One choice at a time.
   Status trySingles(const std::vector<KnobRange>& ranges) {
-    const double kept = options_.search ? kSearchShare * 60 * options_.budgetMinutes : 0;
     for (const bool bakes : {false, true})
       for (const KnobRange& range : ranges) {
         if (range.knob->bakes != bakes) continue;
         for (const std::string& value : range.values)
-          if (const auto point = measure({{range.knob->name, value}}, secondsLeft() - kept); !point)
+          if (const auto point = measure({{range.knob->name, value}}, secondsLeft() - keptForSearch());
+              !point)
             return tl::unexpected(point.error());
       }
     return {};
@@ -267,6 +283,7 @@ Result<Report> runSweep(const SweepOptions& options, const Common& common) {
   Status done;
   if (const auto base = sweeping.measure({}, 0); !base) done = tl::unexpected(base.error());
   if (done && options.numerics) done = sweeping.measureNumerics();
+  if (done && options.knobs.empty()) done = sweeping.tryPresets();
   if (done) done = sweeping.trySingles(*ranges);
   if (done && options.search) done = sweeping.tryCombinations();
   if (Status written = sweeping.writeAll(); !written) return tl::unexpected(written.error());

@@ -8,6 +8,7 @@
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
+#include "engine/pipeline/bake_plan.h"
 #include "engine/pipeline/bench_numerics.h"
 
 namespace acentric::cli {
@@ -17,12 +18,6 @@ namespace {
 constexpr double kEffort = 0.3;      ///< of an estimate: settings are many
 constexpr int kMostThumbnail = 480;  ///< pixels across
 constexpr double kRounding = 1e-4;   ///< metres by which an eye may stand outside
-
-std::string keyOfBake(const OpenProject& open) {
-  Hasher hasher;
-  hasher.array(std::span<const ContentKey>(open.keys)).value(open.surfaceLightKey.high);
-  return hasher.value(open.surfaceLightKey.low).finish().toHex();
-}
 
 /// Means of squares of pixels, as many as make it no wider than a thumbnail.
 ColourImage thumbnailOf(const ColourImage& picture) {
@@ -115,7 +110,7 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
     prospect.whyNot = fits.error().message;
     return prospect;
   }
-  prospect.bakeKey = keyOfBake(*open);
+  prospect.bakeKey = bakeKeyOf(*open);
   if (original_) {
     std::vector<ContentKey> keys = open->keys;
     keys.push_back(open->surfaceLightKey);

@@ -77,6 +77,12 @@ Result<CaptureState> stateOf(const PlannedCapture& planned, const CaptureStore& 
 
 }  // namespace
 
+std::string bakeKeyOf(const OpenProject& open) {
+  Hasher hasher;
+  hasher.array(std::span<const ContentKey>(open.keys)).value(open.surfaceLightKey.high);
+  return hasher.value(open.surfaceLightKey.low).finish().toHex();
+}
+
 StoreyPlan planStorey(const OpenProject& open) {
   StoreyPlan plan;
   plan.storey = open.project.current().name;

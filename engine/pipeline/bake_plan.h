@@ -34,6 +34,8 @@ struct BakePlan {
 };
 
 StoreyPlan planStorey(const OpenProject& open);
+/// One text for all of a storey's captures and its light (SweepPoint::bakeKey): the same where they are.
+std::string bakeKeyOf(const OpenProject& open);
 
 /// `storey`: only this one (by its place in the project).
 Result<BakePlan> planBake(const std::filesystem::path& file, std::optional<int> storey,

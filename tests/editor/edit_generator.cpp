@@ -168,6 +168,7 @@ const std::vector<GeneratedCommand>& generatedCommands() {
       {"setFloorHeight", [](P p, R r) { return setFloorHeight(p, between(r, -5, 5)); }},
       {"setNearBand", [](P p, R r) { return setNearBand(p, between(r, -0.1, 3)); }},
       {"setBakeSettings", [](P p, R r) { return setBakeSettings(p, bakeSettings(p, r), "one"); }},
+      {"setBakePreset", [](P p, R r) { return setBakePreset(p, kBakePresets[whole(r, 0, 2)]); }},
       {"setBudget", [](P p, R r) { return setBudget(p, budget(r), "all"); }},
       {"setViewSettings", [](P p, R r) { return setViewSettings(p, viewSettings(p, r), "all"); }},
       {"setFieldOfView", [](P p, R r) { return setFieldOfView(p, between(r, 0, 160)); }},

@@ -1,6 +1,6 @@
 #!/bin/bash
-# What the editor looks like, against pictures of it in goldens/: the welcome, the plan with triangles, a bake panel with
-# nothing baked, the preferences, a walk. Parts that tell times, rates, paths or free space are left out; a picture may differ
+# What the editor looks like, against pictures of it in goldens/: the welcome, the toolbars, the plan with triangles, a bake
+# panel with nothing baked, the preferences, a walk. Parts that tell times, rates, paths or free space are left out; a picture may differ
 # in a small share of its pixels. Where one differs more, the picture, the golden and their difference are in the work folder.
 #   goldens.sh EDITOR ACENTRIC WORK_FOLDER
 # After a change that is meant: UPDATE_GOLDENS=1 goldens.sh ... writes them anew; look at them before they are kept.
@@ -75,6 +75,8 @@ wait_for '^event message Opened' 60
 wait_state 'working 0' 60
 set -- $(edges bake.start)
 check bake-panel $(($1 - 12)) $(($2 - 34)) $(($1 + 440)) $(($4 + 50))
+set -- $(edges tool.cells) $(edges walk.setStart)
+check toolbars $(($1 - 8)) $(($6 - 6)) $(($7 + 10)) $(($4 + 6))
 press t
 wait_for '^event action view.triangles' 10
 wait_state 'working 0' 30
