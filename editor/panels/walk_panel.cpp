@@ -121,6 +121,8 @@ void WalkPanel::drawButtons(PanelContext& context) {
       {"view.sources", "Sources", ui::Icon::brush, kNear, tool},
       {"view.split", "Split", ui::Icon::columns, kNear, tool},
       {"view.difference", "Difference", ui::Icon::adjust, kNear, tool},
+      {"view.variant", "Variant", ui::Icon::clone, kNear, tool},
+      {"walk.ask", "Ask", ui::Icon::question, kApart},
       {"view.minimap", "Map", ui::Icon::map, kNear},
       {"view.images", "Images", ui::Icon::files, kNear},
       {"view.frameTimes", "Times", ui::Icon::barChart, kNear},
