@@ -11,9 +11,9 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kWidth = 390, kMargin = 12, kLabel = 84;
+constexpr float kCardWidth = 390, kCardMargin = 12, kCardLabel = 84;
 
-void heading(PanelContext& context, const char* text) {
+void boldLine(PanelContext& context, const char* text) {
   ImGui::Dummy({0, ui::scaled(2)});
   ImGui::PushFont(context.window.fonts().bold);
   ImGui::TextUnformatted(text);
@@ -39,7 +39,7 @@ void swatch(const Rgba8& colour) {
 
 void drawColours(const PictureAnswer& answer) {
   ui::mutedText("Colour");
-  ImGui::SameLine(ui::scaled(kLabel));
+  ImGui::SameLine(ui::scaled(kCardLabel));
   swatch(answer.shown);
   ImGui::SameLine(0, ui::scaled(6));
   ImGui::TextUnformatted("here");
@@ -53,11 +53,11 @@ void drawPainter(const PixelPainter& painter) {
   std::string from =
       fmt::format("{:.2f} m away, {:.1f}° beside the eye", painter.metres, degrees(painter.radians));
   if (painter.layer > 0) from = fmt::format("layer {}, ", painter.layer) + from;
-  ui::keyValue("Captured", from, kLabel);
+  ui::keyValue("Captured", from, kCardLabel);
   const bool few = painter.samplesPerPixel < 1;
   ui::keyValue("Sampling",
                fmt::format("{:.2f} samples per pixel{}", painter.samplesPerPixel, few ? ": too few" : ""),
-               kLabel);
+               kCardLabel);
   ui::tooltip(
       "In the direction on the surface in which there are fewest. Below 1 the capture is coarser than "
       "the screen.");
@@ -68,8 +68,9 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
   if (answer.surface) {
     const Mesh& mesh = open.scene->meshOf(answer.surface->mesh);
     const glm::dvec3& at = answer.surface->position;
-    ui::keyValue("Surface", mesh.name.empty() ? "without a name" : ui::shortenPath(mesh.name, 34), kLabel);
-    ui::keyValue("", fmt::format("x {:.2f}  y {:.2f}  z {:.2f} m", at.x, at.y, at.z), kLabel);
+    ui::keyValue("Surface", mesh.name.empty() ? "without a name" : ui::shortenPath(mesh.name, 34),
+                 kCardLabel);
+    ui::keyValue("", fmt::format("x {:.2f}  y {:.2f}  z {:.2f} m", at.x, at.y, at.z), kCardLabel);
   }
   if (answer.painter) drawPainter(*answer.painter);
   drawColours(answer);
@@ -79,13 +80,13 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
     std::string triangles = ui::formatCount(answer.triangles);
     if (most > 0) triangles += fmt::format(" of {}", ui::formatCount(std::size_t(most)));
     ui::keyValue("Region", fmt::format("({}, {}), {} triangles", region.id.i, region.id.j, triangles),
-                 kLabel);
+                 kCardLabel);
   }
-  ui::keyValue("Error here", errorsText(answer.here), kLabel);
+  ui::keyValue("Error here", errorsText(answer.here), kCardLabel);
   ui::tooltip(
       fmt::format("Against 4 rays per pixel, within {} pixels: how near, and what keeps it from the truth",
                   kAskedPixels));
-  ui::keyValue("Frame", fmt::format("{:.1f} dB", answer.frame.psnr()), kLabel);
+  ui::keyValue("Frame", fmt::format("{:.1f} dB", answer.frame.psnr()), kCardLabel);
 }
 
 std::string costText(const BakeForecast& bake) {
@@ -104,14 +105,14 @@ void apply(PanelContext& context, const PictureQuestion& question, const Improve
 
 void drawImprovements(PanelContext& context, const PictureQuestion& question,
                       const std::vector<Improvement>& improvements) {
-  heading(context, "What would improve it, as predicted");
+  boldLine(context, "What would improve it, as predicted");
   if (improvements.empty())
     return ui::wrappedText(ui::palette::muted, "Nothing that can be set promises more here.");
   for (std::size_t i = 0; i < improvements.size(); ++i) {
     const Improvement& each = improvements[i];
     ImGui::AlignTextToFramePadding();
     ImGui::Text("%.1f dB", each.psnrHere);
-    ImGui::SameLine(ui::scaled(kLabel));
+    ImGui::SameLine(ui::scaled(kCardLabel));
     ImGui::TextUnformatted(each.what.c_str());
     ui::tooltip(each.why);
     const float width = ui::scaled(64);
@@ -119,7 +120,7 @@ void drawImprovements(PanelContext& context, const PictureQuestion& question,
     if (ui::button(fmt::format("Apply##{}", i).c_str(), {width, 0})) apply(context, question, each);
     context.log.item(fmt::format("answer.apply.{}", i));
     ui::tooltip("Changes the project so; undo takes it back. It is seen once it is baked.");
-    ImGui::SetCursorPosX(ui::scaled(kLabel));
+    ImGui::SetCursorPosX(ui::scaled(kCardLabel));
     ui::mutedText(costText(each.bake));
   }
 }
@@ -130,9 +131,9 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
                                          float& contentHeight) {
   PictureAsk& asked = context.session().asking();
   if (!asked.question()) return {};
-  const float margin = ui::scaled(kMargin);
+  const float margin = ui::scaled(kCardMargin);
   const ImVec2 low(areaMin.x + margin, areaMin.y + margin);
-  const ImVec2 size(std::min(ui::scaled(kWidth), areaMax.x - low.x - margin),
+  const ImVec2 size(std::min(ui::scaled(kCardWidth), areaMax.x - low.x - margin),
                     std::min(contentHeight, areaMax.y - low.y - margin));
   if (size.x < ui::scaled(120) || size.y < ui::scaled(36)) return {};
   ImGui::SetCursorScreenPos(low);
@@ -143,7 +144,7 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
   ImGui::PopStyleVar(2);
   bool close = false;
   if (const PictureQuestion question = *asked.question(); asked.answer()) {
-    heading(context, sourceName(*question.open->layout, asked.answer()->source).c_str());
+    boldLine(context, sourceName(*question.open->layout, asked.answer()->source).c_str());
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ui::scaled(64));
     close = ui::button("Close", {ui::scaled(64), 0});
     context.log.item("answer.close");

@@ -7,10 +7,10 @@
 namespace acentric::editor {
 namespace {
 
-constexpr std::array<ViewTab, 3> kTabs{
+constexpr std::array<ViewTab, 3> kViews{
     {{"view.plan", "Plan"}, {"view.scene3d", "3D"}, {"view.accuracy", "Accuracy"}}};
 
-const ViewTab& tabOf(View view) { return kTabs[std::size_t(view)]; }
+const ViewTab& tabOf(View view) { return kViews[std::size_t(view)]; }
 static_assert(View::plan == View(0) && View::scene3d == View(1) && View::accuracy == View(2));
 
 }  // namespace
@@ -26,7 +26,7 @@ void CentrePane::drawView(PanelContext& context, View view) {
 
 void CentrePane::draw(PanelContext& context) {
   const View view = context.state().centreView;
-  drawViewStrip(context, kTabs, tabOf(view).id, true);
+  drawViewStrip(context, kViews, tabOf(view).id, true);
   drawView(context, view);
 }
 

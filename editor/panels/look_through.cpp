@@ -12,7 +12,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kMargin = 12, kPadding = 10, kLeastWidth = 212, kMostWidth = 300, kLeastPicture = 120;
+constexpr float kCardEdge = 12, kPadding = 10, kLeastWidth = 212, kMostWidth = 300, kLeastPicture = 120;
 
 const char* handText(Hand hand) { return hand == Hand::counterClockwise ? "counter-clockwise" : "clockwise"; }
 
@@ -124,7 +124,7 @@ std::pair<ImVec2, ImVec2> LookThrough::draw(PanelContext& context, const Preview
   const float texts = ImGui::GetFrameHeight() +
                       4 * (context.window.fonts().small->FontSize + style.ItemSpacing.y) +
                       ImGui::GetFrameHeight() + 2 * style.ItemSpacing.y + 2 * kPadding;
-  const float tall = std::max(areaMax.y - areaMin.y - 2 * kMargin, texts + kLeastPicture);
+  const float tall = std::max(areaMax.y - areaMin.y - 2 * kCardEdge, texts + kLeastPicture);
   const float aspect = float(baked.columns) / float(baked.rows);
   const float width = std::clamp((tall - texts) * aspect, kLeastWidth, kMostWidth);
   const float height = std::min(width / aspect, tall - texts);
@@ -136,7 +136,7 @@ std::pair<ImVec2, ImVec2> LookThrough::draw(PanelContext& context, const Preview
   columns.rows = std::max(1, int(baked.rows * scale));
   trace(context, tracer, camera, columns);
 
-  ImGui::SetCursorScreenPos({areaMin.x + kMargin, areaMin.y + kMargin});
+  ImGui::SetCursorScreenPos({areaMin.x + kCardEdge, areaMin.y + kCardEdge});
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ui::palette::panel.withOpacity(0.96F).vec());
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPadding, kPadding});
   ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, 5);

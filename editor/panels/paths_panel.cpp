@@ -22,7 +22,7 @@ void buttons(PanelContext& context, std::initializer_list<std::pair<const char*,
   for (const auto& [id, label] : entries) {
     const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
     if (!std::exchange(first, false)) {
-      ImGui::SameLine(0, kPathGap);
+      ImGui::SameLine(0, kNear);
       if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
     }
     actionButton(context, id, ButtonLook::plain, {}, label);
@@ -32,7 +32,7 @@ void buttons(PanelContext& context, std::initializer_list<std::pair<const char*,
 void drawRecording(PanelContext& context) {
   const WalkRecorder& recorder = context.state().recorder;
   actionButton(context, "walk.record", ButtonLook::toggle, {}, recorder.recording() ? "Stop" : "Record walk");
-  ImGui::SameLine(0, kPathGap);
+  ImGui::SameLine(0, kNear);
   actionButton(context, "bookmark.add", ButtonLook::plain, {}, "Bookmark here");
   if (!recorder.recording()) return;
   ImGui::SameLine(0, 12);

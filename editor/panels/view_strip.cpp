@@ -8,7 +8,7 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kHeight = 30, kPadding = 16;
+constexpr float kStripHeight = 30, kTabPadding = 16;
 
 std::string helpOf(const Action& action, const PanelContext& context) {
   const std::string why = whyDisabled(action, context.actions);
@@ -21,7 +21,7 @@ void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active)
   const bool enabled = action.enabled(context.actions);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 text = ImGui::CalcTextSize(tab.label);
-  const ImVec2 size(text.x + ui::scaled(2 * kPadding), ui::scaled(kHeight));
+  const ImVec2 size(text.x + ui::scaled(2 * kTabPadding), ui::scaled(kStripHeight));
   if (ImGui::InvisibleButton(tab.id, size) && !shown) runAction(context, action);
   if (shown && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
     runAction(context, action);
@@ -34,7 +34,7 @@ void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active)
     list.AddRectFilled(at, end, (shown ? ui::palette::panel : ui::palette::raised).packed());
   if (shown && active) list.AddRectFilled(at, {end.x, at.y + ui::scaled(2)}, ui::palette::accent.packed());
   const ui::Colour& ink = !enabled ? ui::palette::faint : shown ? ui::palette::text : ui::palette::muted;
-  list.AddText({at.x + ui::scaled(kPadding), at.y + (size.y - text.y) / 2}, ink.packed(), tab.label);
+  list.AddText({at.x + ui::scaled(kTabPadding), at.y + (size.y - text.y) / 2}, ink.packed(), tab.label);
 }
 
 /// A frame with corners that point outwards, or inwards.
@@ -53,7 +53,7 @@ void drawEnlarge(ImDrawList& list, const ImVec2& centre, bool whole, std::uint32
 
 void drawEnlargeButton(PanelContext& context, const char* id) {
   const Action& action = *findAction(context.table, std::string(id));
-  const float side = ui::scaled(kHeight);
+  const float side = ui::scaled(kStripHeight);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const std::string name = std::string("enlarge.") + id;
   if (ImGui::InvisibleButton(name.c_str(), {side, side})) runAction(context, action);
@@ -72,7 +72,7 @@ void drawEnlargeButton(PanelContext& context, const char* id) {
 
 void drawViewStrip(PanelContext& context, std::span<const ViewTab> tabs, const char* own, bool active) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui::scaled(kHeight);
+  const float width = ImGui::GetContentRegionAvail().x, height = ui::scaled(kStripHeight);
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + height},
                                             ui::palette::backdrop.packed());
   for (const ViewTab& tab : tabs) {
