@@ -132,10 +132,11 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
   PictureAsk& asked = context.session().asking();
   if (!asked.question()) return {};
   const float margin = ui::scaled(kCardMargin);
-  const ImVec2 low(areaMin.x + margin, areaMin.y + margin);
-  const ImVec2 size(std::min(ui::scaled(kCardWidth), areaMax.x - low.x - margin),
-                    std::min(contentHeight, areaMax.y - low.y - margin));
-  if (size.x < ui::scaled(120) || size.y < ui::scaled(36)) return {};
+  const ImVec2 room(areaMax.x - areaMin.x - 2 * margin, areaMax.y - areaMin.y - 2 * margin);
+  if (room.x < ui::scaled(120) || room.y < ui::scaled(60)) return {};
+  const ImVec2 size(std::min(ui::scaled(kCardWidth), room.x), std::min(contentHeight, room.y));
+  const bool left = 2 * asked.question()->pixel.x >= asked.question()->view.width;
+  const ImVec2 low(left ? areaMin.x + margin : areaMax.x - margin - size.x, areaMin.y + margin);
   ImGui::SetCursorScreenPos(low);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ui::palette::panel.withOpacity(0.94F).vec());
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(12, 9)));

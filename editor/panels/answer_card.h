@@ -8,9 +8,9 @@
 
 namespace acentric::editor {
 
-/// In the upper left corner of an area of the current window (screen pixels); where it lies is returned: min
-/// and max. `contentHeight`: kept from frame to frame. Nothing is drawn, and both are (0, 0), where nothing
-/// was asked.
+/// In that upper corner of an area of the current window (screen pixels) which is away from the pixel; where
+/// it lies is returned: min and max. `contentHeight`: kept from frame to frame. Nothing is drawn, and both
+/// are (0, 0), where nothing was asked.
 std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& areaMin, const ImVec2& areaMax,
                                          float& contentHeight);
 

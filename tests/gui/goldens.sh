@@ -76,7 +76,7 @@ wait_state 'working 0' 60
 set -- $(edges bake.start)
 check bake-panel $(($1 - 12)) $(($2 - 34)) $(($1 + 440)) $(($4 + 50))
 set -- $(edges tool.cells) $(edges walk.setStart)
-check toolbars $(($1 - 8)) $(($6 - 6)) $(($7 + 10)) $(($4 + 6))
+check toolbars $(($1 - 8)) $(($2 - 6)) $(($5 + 60)) $(($8 + 6))
 press t
 wait_for '^event action view.triangles' 10
 wait_state 'working 0' 30
