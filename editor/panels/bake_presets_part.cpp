@@ -95,7 +95,7 @@ bool drawRow(PanelContext& context, const Row& row) {
   if (cost != nullptr) {
     drawBakeOf(context, row, cost->forecast);
   } else {
-    ui::mutedText(session.bakeCosts().foretelling() ? "predicting…" : "not yet predicted");
+    ui::mutedText(session.bakeCosts().predicting() ? "predicting…" : "not yet predicted");
     ui::tooltip(
         "Predicted in the background by baking a little, while no bake runs: once for a project as it is "
         "opened, "

@@ -20,7 +20,7 @@ constexpr double kSizeTolerance = 0.03;  ///< of the bytes asked for
 constexpr double kFar = 0.1;
 constexpr std::size_t kMostKnown = 64;  ///< settings that are remembered
 
-/// Does what is foretold of one hold for the other, for the same bake settings?
+/// Does what is predicted of one hold for the other, for the same bake settings?
 bool sameBasis(const BakeCostRequest& a, const BakeCostRequest& b) {
   if (a.threads != b.threads || a.memoryBytes != b.memoryBytes || a.open->rays != b.open->rays) return false;
   if (a.open == b.open) return true;
@@ -30,8 +30,8 @@ bool sameBasis(const BakeCostRequest& a, const BakeCostRequest& b) {
   return onlyViewDiffers(a.open->project, same);
 }
 
-Result<BakeCost> foretell(const BakeCostRequest& request, const BakeSettings& bake, bool glance,
-                          TaskRunner& runner, const Job::Context& context) {
+Result<BakeCost> predict(const BakeCostRequest& request, const BakeSettings& bake, bool glance,
+                         TaskRunner& runner, const Job::Context& context) {
   Project project = request.open->project;
   project.bake = bake;
   const auto open = reopenProject(*request.open, project, request.host, {}, context.stop());
@@ -63,7 +63,7 @@ Result<SizeProposal> fitSize(const BakeCostRequest& request, double bytes, TaskR
   };
   std::map<double, BakeCost> tried;  // by samples per degree
   const auto captureBytes = [&](double samplesPerDegree, bool glance) -> Result<double> {
-    auto cost = foretell(request, settingsAt(samplesPerDegree), glance, runner, context);
+    auto cost = predict(request, settingsAt(samplesPerDegree), glance, runner, context);
     if (!cost) return tl::unexpected(cost.error());
     return (tried[samplesPerDegree] = std::move(*cost)).forecast.captureBytes;
   };
@@ -91,7 +91,7 @@ bool SizeProposal::far() const { return std::abs(cost.forecast.bytes() / askedBy
 void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook look, double now) {
   still_ = project.has_value();
   if (!project) {
-    if (foretelling_.running()) foretelling_.abandon();
+    if (predicting_.running()) predicting_.abandon();
     if (sizing_.running()) sizing_.abandon();
     return;
   }
@@ -102,7 +102,7 @@ void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook l
     proposal_.reset();
     trouble_.clear();
     sizeTrouble_.clear();
-    foretelling_.abandon();
+    predicting_.abandon();
     sizing_.abandon();
     beginAt_ = now + kStill;
   } else if (request_->open->project.bake != project->open->project.bake) {
@@ -110,7 +110,8 @@ void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook l
   }
   request_ = project;
   wanted_ = wanted_ || look == CostLook::pointedAt || (fresh_ && look == CostLook::shown);
-  if (wanted_ && now >= beginAt_ && !foretelling_.running() && !sizing_.running()) foretellNext();
+  if (wanted_ && look != CostLook::away && now >= beginAt_ && !predicting_.running() && !sizing_.running())
+    predictNext();
 }
 
 const BakeCost* BakeCosts::of(const BakeSettings& bake) const {
@@ -119,26 +120,26 @@ const BakeCost* BakeCosts::of(const BakeSettings& bake) const {
 }
 
 /// As it is first: that is what a bake will do now.
-void BakeCosts::foretellNext() {
+void BakeCosts::predictNext() {
   if (!trouble_.empty()) return;
   const BakeSettings& own = request_->open->project.bake;
   std::vector<BakeSettings> all{own};
   for (const BakePreset preset : kBakePresets) all.push_back(withPreset(own, preset));
   const auto next = std::ranges::find_if(all, [&](const BakeSettings& bake) { return of(bake) == nullptr; });
   if (next == all.end()) return;
-  foretelling_.restart("Predicting bakes",
-                       [this, request = *request_, bake = *next](const Job::Context& context) {
-                         lowerThreadPriority();
-                         TaskRunner runner(request.threads - 1);
-                         const auto cost = foretell(request, bake, true, runner, context);
-                         context.post([this, bake, cost] {
-                           if (!cost && cost.error().kind != ErrorKind::cancelled)
-                             trouble_ = cost.error().describe();
-                           if (!cost) return;
-                           if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-                           known_.emplace_back(bake, *cost);
-                         });
-                       });
+  predicting_.restart("Predicting bakes",
+                      [this, request = *request_, bake = *next](const Job::Context& context) {
+                        lowerThreadPriority();
+                        TaskRunner runner(request.threads - 1);
+                        const auto cost = predict(request, bake, true, runner, context);
+                        context.post([this, bake, cost] {
+                          if (!cost && cost.error().kind != ErrorKind::cancelled)
+                            trouble_ = cost.error().describe();
+                          if (!cost) return;
+                          if (known_.size() >= kMostKnown) known_.erase(known_.begin());
+                          known_.emplace_back(bake, *cost);
+                        });
+                      });
 }
 
 /// The newest holds.
@@ -150,7 +151,7 @@ void BakeCosts::remember(const BakeSettings& bake, const BakeCost& cost) {
 
 void BakeCosts::propose(double bytes) {
   if (!still_ || !(bytes > 0)) return;
-  foretelling_.abandon();  // it would compete, and goes on afterwards
+  predicting_.abandon();  // it would compete, and goes on afterwards
   proposal_.reset();
   sizeTrouble_.clear();
   sizing_.restart("Looking for a resolution",

@@ -1,6 +1,6 @@
 #pragma once
 /// What baking the whole of the open project takes: with each preset (engine/pipeline/bake_presets.h), as it
-/// is set, and at which resolution it takes a given size. Foretold in the background by baking a little, one
+/// is set, and at which resolution it takes a given size. Predicted in the background by baking a little, one
 /// after another, and remembered until the layout or the scene is another. That takes from seconds to a
 /// minute or two of a processor: it is done by itself where the costs of a project as it was opened are
 /// shown, after changes once they are pointed at. Main thread only.
@@ -45,14 +45,14 @@ struct SizeProposal {
 
 class BakeCosts {
  public:
-  explicit BakeCosts(Inbox& inbox) : foretelling_(inbox), sizing_(inbox) {}
+  explicit BakeCosts(Inbox& inbox) : predicting_(inbox), sizing_(inbox) {}
 
   /// The project, told often; nothing: it is being changed, or a bake runs. `now` in seconds. Work begins
   /// once the project has kept still for a moment.
   void follow(const std::optional<BakeCostRequest>& project, CostLook look, double now);
   /// Null: not known (yet).
   const BakeCost* of(const BakeSettings& bake) const;
-  bool foretelling() const { return foretelling_.running() && !foretelling_.cancelling(); }
+  bool predicting() const { return predicting_.running() && !predicting_.cancelling(); }
 
   /// Looks for the resolution at which the project that is looked at takes so many bytes.
   void propose(double bytes);
@@ -60,12 +60,12 @@ class BakeCosts {
   /// Of the project as it is; nothing where it was not asked for, or something else has changed since.
   const SizeProposal* proposal() const;
 
-  /// Why costs could not be foretold, and why no resolution was found; empty: nothing failed.
+  /// Why costs could not be predicted, and why no resolution was found; empty: nothing failed.
   const std::string& trouble() const { return trouble_; }
   const std::string& sizeTrouble() const { return sizeTrouble_; }
 
  private:
-  void foretellNext();
+  void predictNext();
   void remember(const BakeSettings& bake, const BakeCost& cost);
 
   std::optional<BakeCostRequest> request_;  ///< the newest
@@ -77,7 +77,7 @@ class BakeCosts {
   std::optional<SizeProposal> proposal_;
   std::string trouble_, sizeTrouble_;
   // Last: they are stopped and joined first.
-  Job foretelling_, sizing_;
+  Job predicting_, sizing_;
 };
 
 /// The point of a sweep that has these captures and was drawn as the project is; null where none was

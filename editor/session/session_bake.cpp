@@ -46,8 +46,8 @@ std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
 }
 
 /// `known`: an estimate of the first storey; it does where that is all there is to bake.
-Result<BakeForecast> foretell(const StoreysToBake& plan, const std::optional<BakeForecast>& known,
-                              std::size_t memoryBytes, TaskRunner& runner, const Job::Context& context) {
+Result<BakeForecast> predict(const StoreysToBake& plan, const std::optional<BakeForecast>& known,
+                             std::size_t memoryBytes, TaskRunner& runner, const Job::Context& context) {
   std::vector<BakeShare> shares;
   for (std::size_t s = 0; s < plan.storeys.size(); ++s) {
     BakeRequest request;
@@ -87,7 +87,7 @@ int Session::bakeThreads() const {
 
 void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
   if (!built_ || baking_.running() || walkRefuses("Baking")) return;
-  estimating_.abandon();  // it would compete; the bake foretells for itself
+  estimating_.abandon();  // it would compete; the bake predicts for itself
   bakeQueue_.begin({});
   bakeForecast_.reset();
   neededBytes_.reset();
@@ -123,7 +123,7 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
   const auto plan = planStoreys(open, from, host, context.stop());
   if (!plan) return tl::unexpected(plan.error());
   context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
-  const auto forecast = foretell(*plan, known, memoryBytes, runner, context);
+  const auto forecast = predict(*plan, known, memoryBytes, runner, context);
   if (!forecast) return tl::unexpected(forecast.error());
   context.post([this, told = *forecast] {
     bakeForecast_ = told;
@@ -163,7 +163,7 @@ void Session::lookAtDisk() {
   freeBytes_ = free ? std::optional(*free) : std::nullopt;
 }
 
-/// Without the scene there is nothing to foretell from.
+/// Without the scene there is nothing to predict from.
 void Session::followBakeCosts() {
   const bool scene = sceneFiles_.state != SceneFiles::State::missing || sceneFiles_.fromCache;
   const bool still = built_ && !shipped_ && !rebuilding_.running() && scene && !opening_.running() &&
@@ -171,7 +171,7 @@ void Session::followBakeCosts() {
   if (!still) return bakeCosts_.follow(std::nullopt, costLook_, now_);
   bakeCosts_.follow(BakeCostRequest{built_, options_.importHost, bakeThreads(),
                                     std::size_t(preferences_.bakeMegabytes) * 1'000'000},
-                    costLook_, now_);
+                    working() ? CostLook::away : costLook_, now_);  // what is waited for comes first
 }
 
 void Session::pauseBake(bool paused) {

@@ -68,7 +68,7 @@ class BakeCostsTest : public OpenSessionTest {
     return session_->bakeCosts().of(withPreset(session_->project().bake, preset));
   }
   const BakeCost* ownCost() { return session_->bakeCosts().of(session_->project().bake); }
-  /// As a panel does that is pointed at; waits until what the project takes as it is set is foretold, which
+  /// As a panel does that is pointed at; waits until what the project takes as it is set is predicted, which
   /// comes first.
   void look() {
     session_->lookAtBakeCosts(CostLook::pointedAt);
@@ -96,7 +96,7 @@ TEST_F(BakeCostsTest, APresetIsOneEditThatIsShownAsInForce) {
   EXPECT_EQ(session_->project(), before);
 }
 
-TEST_F(BakeCostsTest, EveryPresetIsForetoldOfTheWholeProject) {
+TEST_F(BakeCostsTest, EveryPresetIsPredictedOfTheWholeProject) {
   look();
   waitFor(
       [&] { return costOf(BakePreset::draft) && costOf(BakePreset::balanced) && costOf(BakePreset::fine); });
@@ -109,7 +109,7 @@ TEST_F(BakeCostsTest, EveryPresetIsForetoldOfTheWholeProject) {
   EXPECT_GT(costOf(BakePreset::fine)->forecast.seconds(), costOf(BakePreset::draft)->forecast.seconds());
 }
 
-TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
+TEST_F(BakeCostsTest, WhatIsPredictedHoldsUntilTheLayoutChanges) {
   look();
   waitFor([&] { return costOf(BakePreset::draft) != nullptr; });
   const double draft = costOf(BakePreset::draft)->forecast.seconds();
@@ -124,25 +124,25 @@ TEST_F(BakeCostsTest, WhatIsForetoldHoldsUntilTheLayoutChanges) {
   session_->lookAtBakeCosts(CostLook::pointedAt);
   session_->poll(now_ += 0.05);
   EXPECT_EQ(costOf(BakePreset::draft), nullptr);
-  EXPECT_FALSE(session_->bakeCosts().foretelling()) << "it waits until the project keeps still";
+  EXPECT_FALSE(session_->bakeCosts().predicting()) << "it waits until the project keeps still";
   look();
   EXPECT_EQ(ownCost()->forecast.cameras, int(session_->built()->layout->cameras.size()));
 }
 
-TEST_F(BakeCostsTest, AfterChangesNothingIsForetoldUntilItIsPointedAt) {
+TEST_F(BakeCostsTest, AfterChangesNothingIsPredictedUntilItIsPointedAt) {
   session_->lookAtBakeCosts(CostLook::shown);
   for (int i = 0; i < 60; ++i) session_->poll(now_ += 0.1);
-  EXPECT_FALSE(session_->bakeCosts().foretelling());
+  EXPECT_FALSE(session_->bakeCosts().predicting());
   EXPECT_EQ(ownCost(), nullptr);
 }
 
 using ShownCostsTest = SessionTest;
 
-TEST_F(ShownCostsTest, WhatAProjectTakesAsItIsOpenedIsForetoldByItselfWhereItIsShown) {
+TEST_F(ShownCostsTest, WhatAProjectTakesAsItIsOpenedIsPredictedByItselfWhereItIsShown) {
   Session session(options());
   openAndSettle(session, folder_ / "room.obj");
   for (int i = 0; i < 60; ++i) session.poll(now_ += 0.1);
-  EXPECT_FALSE(session.bakeCosts().foretelling()) << "it is shown nowhere";
+  EXPECT_FALSE(session.bakeCosts().predicting()) << "it is shown nowhere";
   session.lookAtBakeCosts(CostLook::shown);
   waitFor(session, [&] { return session.bakeCosts().of(session.project().bake) != nullptr; });
 }

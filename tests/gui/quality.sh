@@ -19,9 +19,9 @@ done
 [ "$(rect tool.cells | awk '{ print $4 }')" = "$(rect view.fit | awk '{ print $4 }')" ] || fail "the plan's toolbar is not one line"
 [ "$(rect view.holes | awk '{ print $4 }')" = "$(rect walk.setStart | awk '{ print $4 }')" ] || fail "the walk's toolbar is not one line"
 
-# What each preset takes is foretold by itself; the room's own 1 sample per degree is none of them.
+# What each preset takes is predicted by itself; the room's own 1 sample per degree is none of them.
 rect quality.own >/dev/null || fail "settings of one's own are not shown"
-wait_until 120 costs_known || fail "the costs are not foretold"
+wait_until 120 costs_known || fail "the costs are not predicted"
 import -window root "$WORK/costs.png"
 click quality.fine
 wait_state 'working 0 dirty 1 undo 1' 30
