@@ -228,8 +228,11 @@ double promiseOf(const OpenProject& open, const PictureAnswer& answer, const Can
     for (const ErrorSource source : kCaptured) captured += after.of(source).squares;
     const double now = lostAt(answer.truthHere, answer.painter->samplesPerPixel);
     const double gained = std::max(0.0, now - lostAt(answer.truthHere, painter->samplesPerPixel));
-    // No more than there is: what is wrong beside the sampling stays so.
-    const double stays = captured > 0 ? 1 - std::min(1.0, gained / std::max(now, captured)) : 1;
+    // No more than there is, what is wrong beside the sampling stays so; and edges, which are most of it, get
+    // no better than with the square of the rate.
+    const double rates = answer.painter->samplesPerPixel / std::max(painter->samplesPerPixel, 1e-9);
+    const double least = std::min(1.0, rates * rates);
+    const double stays = captured > 0 ? std::max(least, 1 - gained / std::max(now, captured)) : 1;
     for (const ErrorSource source : kCaptured) times(source, stays);
     const double angle = answer.painter->radians > 0 ? painter->radians / answer.painter->radians : 1;
     times(ErrorSource::viewDependent, std::min(1.0, angle * angle));

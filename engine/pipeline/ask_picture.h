@@ -55,9 +55,9 @@ struct Improvement {
 
 /// The changes, at most `most`, that promise the most around the pixel, the best first; none that promises
 /// less than a tenth of a dB. Predicted is that errors of captured surfaces fall by what the truth itself,
-/// sampled more finely, loses less, those of surfaces that look different from elsewhere moreover with the
-/// square of the angle between camera and eye, that holes close, and that errors of baked light fall with the
-/// texel's area.
+/// sampled more finely, loses less, and no faster than with the square of the rate, those of surfaces that
+/// look different from elsewhere moreover with the square of the angle between camera and eye, that holes
+/// close, and that errors of baked light fall with the texel's area.
 Result<std::vector<Improvement>> improvementsOf(const OpenProject& open, const PictureAnswer& answer,
                                                 std::size_t most, const ImportHost& host, TaskRunner& runner,
                                                 const std::stop_token& stop = {});
