@@ -47,6 +47,33 @@ TEST_F(WalkTest, BakesEveryCameraOnce) {
   EXPECT_EQ(Json::parse(again.output)["reused"], first["baked"]);
 }
 
+TEST_F(WalkTest, APixelTellsWhatPaintedItAndWhatWouldImproveIt) {
+  const Json answer = jsonOf({"ask", project->file(), "--size", "160x90", "--pixel", "80,40"});
+  EXPECT_EQ(answer["pixel"], Json({80, 40}));
+  ASSERT_TRUE(answer.contains("painter")) << answer.dump();
+  EXPECT_GT(answer["painter"]["metres"].get<double>(), 0);
+  EXPECT_LT(answer["painter"]["samplesPerPixel"].get<double>(), 1) << "1 sample per degree";
+  const double now = answer["around"]["psnr"].get<double>();
+  ASSERT_FALSE(answer["improvements"].empty());
+  EXPECT_LE(answer["improvements"].size(), 3u);
+  double last = 1e9;
+  for (const Json& each : answer["improvements"]) {
+    const double promised = each["psnr"].get<double>();
+    EXPECT_GT(promised, now + 0.09) << each;
+    EXPECT_LE(promised, last) << "the best first";
+    EXPECT_GT(each["bake"]["cameras"].get<int>(), 0) << each;
+    last = promised;
+  }
+  const auto brief = acentric({"ask", project->file(), "--size", "160x90", "--no-improvements"});
+  EXPECT_EQ(brief.exitCode, 0) << brief.errors;
+  EXPECT_EQ(brief.output.rfind("pixel (80, 45): ", 0), 0u) << brief.output;
+  for (const char* pixel : {"160,0", "0,90", "-1,3", "5", "5,", "a,b", "1,2,3"}) {
+    const auto refused = acentric({"ask", project->file(), "--size", "160x90", "--pixel", pixel});
+    EXPECT_NE(refused.exitCode, 0) << pixel;
+    EXPECT_NE(refused.errors.find("give column,row within 160x90"), std::string::npos) << refused.errors;
+  }
+}
+
 TEST_F(WalkTest, ALimitOfMemoryChangesNoPicture) {
   std::vector<std::string> pictures;
   for (const char* megabytes : {"1", "1000"}) {
