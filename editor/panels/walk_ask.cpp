@@ -15,7 +15,7 @@ void WalkPanel::askThePicture(PanelContext& context) {
   // What it says is of a project that is no more.
   if (asking.question() && asking.question()->open != context.session().built()) asking.clear();
   if (context.session().shippedWalk()) askAt_.reset();
-  if (!askAt_ || !rested_) return;
+  if (!askAt_ || !rested_ || shown_.loaded->walk.layout != context.session().built()->layout) return;
   const glm::dvec2 at = (*askAt_ - place_.min) / place_.size;
   askAt_.reset();
   const glm::ivec2 pixel(glm::floor(at * glm::dvec2(shown_.view.width, shown_.view.height)));

@@ -250,6 +250,8 @@ Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk,
   if (!fits || pixel.x < 0 || pixel.y < 0 || pixel.x >= view.width || pixel.y >= view.height)
     return fail(ErrorKind::invalidArgument, fmt::format("({}, {}) is no pixel of a frame of {}x{}", pixel.x,
                                                         pixel.y, view.width, view.height));
+  if (walk.captures.size() != open.layout->cameras.size() || walk.local.size() != open.layout->regions.size())
+    return fail(ErrorKind::invalidArgument, "the frame is of another layout");
   const TruthFrame truth =
       renderTruth(*open.rays, view, open.project.bake, walk.exposure, kTruthRays, runner, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");

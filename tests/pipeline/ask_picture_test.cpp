@@ -95,6 +95,10 @@ TEST_F(AskPictureTest, RefusesPixelsThatAreNone) {
   PerspectiveView larger = view;
   larger.width = 97;
   EXPECT_FALSE(askPicture(room_.open, room_.walk, frame, larger, {0, 0}, runner_));
+  WalkScene other = room_.walk;
+  other.captures.pop_back();
+  EXPECT_EQ(askPicture(room_.open, other, frame, view, {0, 0}, runner_).error().message,
+            "the frame is of another layout");
 }
 
 }  // namespace
