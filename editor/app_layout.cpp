@@ -67,8 +67,8 @@ void App::drawFour(PanelContext& context, const PaneSizes& panes, float width, f
     const float least = Preferences::kLeastShare * whole;
     if (ui::splitter(id, direction, length, size, least, whole - least)) share = size / whole;
   };
-  const auto view = [&](const char* id, View which, float viewHeight) {
-    if (beginPane(id, {panes.plan, viewHeight}, false)) centre_.drawAlone(context, which);
+  const auto view = [&](const char* id, View which, const ImVec2& size) {
+    if (beginPane(id, size, false)) centre_.drawAlone(context, which);
     endPane();
   };
   const auto upright = [&](const char* id, float length) {
@@ -76,19 +76,17 @@ void App::drawFour(PanelContext& context, const PaneSizes& panes, float width, f
     split(id, ui::SplitDirection::horizontal, length, panes.plan, width - bar, wanted.fourColumn);
     ImGui::SameLine(0, 0);
   };
-  view("##planPane", View::plan, panes.upper);
+  view("##planPane", View::plan, {panes.plan, panes.upper});
   if (panes.walk > 0) {
     upright("##split4", panes.upper);
     drawWalk(context, {panes.walk, panes.upper});
   }
   if (panes.lower <= 0) return;
   split("##split5", ui::SplitDirection::vertical, width, panes.upper, height - bar, wanted.fourRow);
-  view("##scenePane", View::scene3d, panes.lower);
+  view("##scenePane", View::scene3d, {panes.plan, panes.lower});
   if (panes.walk <= 0) return;
   upright("##split6", panes.lower);
-  if (beginPane("##accuracyPane", {panes.walk, panes.lower}, false))
-    centre_.drawAlone(context, View::accuracy);
-  endPane();
+  view("##accuracyPane", View::accuracy, {panes.walk, panes.lower});
 }
 
 float App::drawLayout(PanelContext& context, float top) {

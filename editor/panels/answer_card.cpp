@@ -84,8 +84,8 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
   }
   ui::keyValue("Error here", errorsText(answer.here), kCardLabel);
   ui::tooltip(
-      fmt::format("Against 4 rays per pixel, within {} pixels: how near, and what keeps it from the truth",
-                  kAskedPixels));
+      fmt::format("Against {} rays per pixel, within {} pixels: how near, and what keeps it from the truth",
+                  kAskedRays, kAskedPixels));
   ui::keyValue("Frame", fmt::format("{:.1f} dB", answer.frame.psnr()), kCardLabel);
 }
 

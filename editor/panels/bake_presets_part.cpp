@@ -32,12 +32,6 @@ std::string shortDuration(double seconds) {
   return fmt::format("{:.{}f} h", minutes / 60, minutes < 600 ? 1 : 0);
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
-}
-
 /// Why a sweep left the preset out; empty where it did not.
 std::string leftOut(const Session& session, const Row& row) {
   const auto& sweep = session.sweeping().sweep();
@@ -87,7 +81,7 @@ bool drawRow(PanelContext& context, const Row& row) {
     ImGui::TextUnformatted(row.label);
     const BakePreset nearest = nearestPreset(row.bake);
     ui::tooltip(fmt::format("The project's own settings: as {}, but for {}", nameOf(nearest),
-                            joined(differencesFrom(row.bake, nearest))));
+                            fmt::join(differencesFrom(row.bake, nearest), ", ")));
     context.log.item(row.id());
   }
   ImGui::SameLine(ui::scaled(kTime));

@@ -14,25 +14,24 @@ void runAction(PanelContext& context, const Action& action) {
   context.window.pacer().request();
 }
 
-namespace {
-
 const Action& actionOf(const PanelContext& context, const char* id) {
   const Action* action = findAction(context.table, std::string(id));
   require(action != nullptr, "a button names an action of the table");
   return *action;
 }
 
-bool isOn(const PanelContext& context, const Action& action) {
-  return action.checked && action.checked(context.actions);
-}
-
-/// What it is called and which key does it, then what it does, then why it cannot be done now.
 std::string tooltipOf(const PanelContext& context, const Action& action) {
   std::string text = action.label;
   if (const std::string key = describe(action.shortcut); !key.empty()) text += fmt::format("  [{}]", key);
   if (!action.help.empty()) text += "\n" + action.help;
   if (const std::string why = whyDisabled(action, context.actions); !why.empty()) text += "\nNot now: " + why;
   return text;
+}
+
+namespace {
+
+bool isOn(const PanelContext& context, const Action& action) {
+  return action.checked && action.checked(context.actions);
 }
 
 /// After the button.

@@ -36,6 +36,10 @@ void actionButton(PanelContext& context, const char* id, ButtonLook look = Butto
                   const ImVec2& size = {0, 0}, const char* label = nullptr);
 /// The same as a picture; as `word` where the machine has no icons.
 void actionIcon(PanelContext& context, const char* id, ui::Icon icon, ButtonLook look, const char* word);
+/// Of that name, which has to be in the table.
+const Action& actionOf(const PanelContext& context, const char* id);
+/// What it is called and which key does it, then what it does, then why it cannot be done now.
+std::string tooltipOf(const PanelContext& context, const Action& action);
 /// Runs it if it is enabled; logged.
 void runAction(PanelContext& context, const Action& action);
 

@@ -45,12 +45,11 @@ bool advancedPart(PanelContext& context, const char* section, const std::vector<
   logSection(context, name);
   if (asked) ImGui::SetScrollHereY(0.1F);
   if (changed.empty()) return open;
-  std::string all;
-  for (const std::string& each : changed) all += (all.empty() ? "" : ", ") + each;
-  ui::tooltip("Not as usual: " + all);
+  const std::string all = fmt::format("Not as usual: {}", fmt::join(changed, ", "));
+  ui::tooltip(all);
   ImGui::SameLine(ui::scaled(112));
   ui::badge(ui::palette::accent, fmt::format("{} changed", changed.size()));
-  ui::tooltip("Not as usual: " + all);
+  ui::tooltip(all);
   return open;
 }
 

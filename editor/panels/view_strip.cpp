@@ -10,14 +10,9 @@ namespace {
 
 constexpr float kStripHeight = 30, kTabPadding = 16;
 
-std::string helpOf(const Action& action, const PanelContext& context) {
-  const std::string why = whyDisabled(action, context.actions);
-  return action.help + "  [" + describe(action.shortcut) + "]" + (why.empty() ? "" : "\nNot now: " + why);
-}
-
 /// A click shows it, a double click makes it fill the window.
 void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active) {
-  const Action& action = *findAction(context.table, std::string(tab.id));
+  const Action& action = actionOf(context, tab.id);
   const bool enabled = action.enabled(context.actions);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 text = ImGui::CalcTextSize(tab.label);
@@ -27,7 +22,7 @@ void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active)
     runAction(context, action);
   context.log.item(tab.id);
   const bool hovered = ImGui::IsItemHovered();
-  ui::tooltip(helpOf(action, context));
+  ui::tooltip(tooltipOf(context, action));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 end(at.x + size.x, at.y + size.y);
   if (shown || (hovered && enabled))
@@ -52,7 +47,7 @@ void drawEnlarge(ImDrawList& list, const ImVec2& centre, bool whole, std::uint32
 }
 
 void drawEnlargeButton(PanelContext& context, const char* id) {
-  const Action& action = *findAction(context.table, std::string(id));
+  const Action& action = actionOf(context, id);
   const float side = ui::scaled(kStripHeight);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const std::string name = std::string("enlarge.") + id;

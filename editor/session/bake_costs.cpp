@@ -135,9 +135,7 @@ void BakeCosts::predictNext() {
                         context.post([this, bake, cost] {
                           if (!cost && cost.error().kind != ErrorKind::cancelled)
                             trouble_ = cost.error().describe();
-                          if (!cost) return;
-                          if (known_.size() >= kMostKnown) known_.erase(known_.begin());
-                          known_.emplace_back(bake, *cost);
+                          if (cost) remember(bake, *cost);
                         });
                       });
 }

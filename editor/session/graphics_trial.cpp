@@ -37,8 +37,7 @@ std::string GraphicsTrial::judge(const Frame& processor, const Frame& card, Grap
   if (likeness >= kLeastLikeness) return {};
   return fmt::format(
       "The graphics card draws this walk differently than the processor ({:.1f} dB; {:.0f} are expected), "
-      "which "
-      "goes on drawing it. A newer graphics driver may help.",
+      "which goes on drawing it. A newer graphics driver may help.",
       likeness, kLeastLikeness);
 }
 

@@ -159,8 +159,8 @@ class Session {
   const std::shared_ptr<const LoadedWalk>& walk() const { return walk_; }
   /// Where the eye is: what it needs next is read first. Called each frame.
   void walkAt(const Whereabouts& where);
-  /// Are captures being read that the eye may need, or is one that was not in walk() yet?
   std::size_t walkBytes() const;  ///< for captures of the walk in memory
+  /// Are captures being read that the eye may need, or is one that was not in walk() yet?
   bool streaming() const { return stream_ && (stream_->busy() || stream_->walk() != walk_); }
   /// The preference for the walk's memory was changed.
   void walkMemoryChanged();

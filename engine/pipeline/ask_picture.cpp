@@ -14,7 +14,6 @@
 namespace acentric {
 namespace {
 
-constexpr int kTruthRays = 4;
 constexpr double kLeastGain = 0.1;  ///< dB
 
 template <class Pixel>
@@ -253,7 +252,7 @@ Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk,
   if (walk.captures.size() != open.layout->cameras.size() || walk.local.size() != open.layout->regions.size())
     return fail(ErrorKind::invalidArgument, "the frame is of another layout");
   const TruthFrame truth =
-      renderTruth(*open.rays, view, open.project.bake, walk.exposure, kTruthRays, runner, stop);
+      renderTruth(*open.rays, view, open.project.bake, walk.exposure, kAskedRays, runner, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
   const Image<std::uint8_t> viewDependent = viewDependentPixels(*open.rays, view, runner);
 

@@ -16,6 +16,7 @@ namespace acentric {
 
 /// The errors of so many pixels in each direction around the one asked about count as its own.
 inline constexpr int kAskedPixels = 12;
+inline constexpr int kAskedRays = 4;  ///< per pixel of the truth
 
 struct PixelPainter {
   int camera = 0;      ///< into Layout::cameras
@@ -39,7 +40,7 @@ struct PictureAnswer {
 };
 
 /// `frame`: of `view`, from captures as `open` bakes them; `walk` as it was drawn from. Traces the truth of
-/// the whole view with four rays a pixel.
+/// the whole view with kAskedRays.
 Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk, const Frame& frame,
                                  const PerspectiveView& view, const glm::ivec2& pixel, TaskRunner& runner,
                                  const std::stop_token& stop = {});
