@@ -125,7 +125,7 @@ void Publisher::ended(const Outcome& outcome, const std::optional<BakeGaps>& ask
 
 void Publisher::serve() {
   if (!published_ || serving()) return;
-  auto started = FolderServer::start({published_->place.folder, {}, 0, [&inbox = inbox_] {
+  auto started = FolderServer::start({published_->place.folder, {}, 0, [&inbox = inbox_](const PageLoad&) {
                                         inbox.post([] {});  // what is shown of it is drawn anew
                                       }});
   if (started)

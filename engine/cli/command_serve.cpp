@@ -48,14 +48,14 @@ Result<Report> runServe(const ServeCommandOptions& options, const Common& common
 
   std::mutex mutex;
   std::condition_variable_any changed;
-  bool loaded = false;
-  const auto server = startServer(options, {subject, *page, 0, [&] {
-                                              const std::lock_guard lock(mutex);
-                                              loaded = true;
-                                              changed.notify_one();
-                                            }});
+  std::vector<PageLoad> loads;  // not told of yet
+  auto server = startServer(options, {subject, *page, 0, [&](const PageLoad& load) {
+                                        const std::lock_guard lock(mutex);
+                                        loads.push_back(load);
+                                        changed.notify_one();
+                                      }});
   if (!server) return tl::unexpected(server.error());
-  const std::string& address = (*server)->address();
+  const std::string address = (*server)->address();
   common.notice(fmt::format("{} is at {} (stop it with Ctrl+C)", subject.string(), address),
                 {{"event", "serving"}, {"folder", subject.string()}, {"address", address}});
   Browser browser;
@@ -65,21 +65,26 @@ Result<Report> runServe(const ServeCommandOptions& options, const Common& common
 
   Report report;
   report.json = {{"address", address}, {"loads", Json::array()}};
+  const auto tellLoads = [&] {
+    for (const PageLoad& load : std::exchange(loads, {})) {
+      const Json told = {{"seconds", load.seconds}, {"bytes", load.bytes}, {"requests", load.requests}};
+      report.json["loads"].push_back(told);
+      common.notice(fmt::format("first frame after {:.1f} s: {} in {} requests", load.seconds,
+                                bytesText(load.bytes), load.requests),
+                    {{"event", "firstFrame"}, {"load", told}});
+    }
+  };
   std::unique_lock lock(mutex);
   while (!common.stop.stop_requested()) {
     constexpr auto kLook = std::chrono::milliseconds(500);  // at the browser
-    changed.wait_for(lock, common.stop, kLook, [&] { return loaded; });
+    changed.wait_for(lock, common.stop, kLook, [&] { return !loads.empty(); });
     if (const auto trouble = browser.takeTrouble())
       common.notice(trouble->describe(), {{"event", "noBrowser"}, {"address", address}});
-    if (!std::exchange(loaded, false)) continue;
-    const auto load = (*server)->lastLoad();
-    if (!load) continue;
-    const Json told = {{"seconds", load->seconds}, {"bytes", load->bytes}, {"requests", load->requests}};
-    report.json["loads"].push_back(told);
-    common.notice(fmt::format("first frame after {:.1f} s: {} in {} requests", load->seconds,
-                              bytesText(load->bytes), load->requests),
-                  {{"event", "firstFrame"}, {"load", told}});
+    tellLoads();
   }
+  lock.unlock();
+  server->reset();  // whatever it has answered is in `loads` now
+  tellLoads();
   return report;
 }
 

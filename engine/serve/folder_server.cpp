@@ -172,11 +172,12 @@ struct FolderServer::Impl {
   void report(const httplib::Request& request) {
     const double milliseconds = std::strtod(request.get_param_value("ms").c_str(), nullptr);
     if (!(milliseconds >= 0 && milliseconds <= kMostMilliseconds)) return;
+    const PageLoad now{milliseconds / 1000, bytes, requests};
     {
       const std::lock_guard lock(mutex);
-      load = PageLoad{milliseconds / 1000, bytes, requests};
+      load = now;
     }
-    if (options.loaded) options.loaded();
+    if (options.loaded) options.loaded(now);
   }
 
   ServeOptions options;
@@ -219,9 +220,11 @@ Result<std::unique_ptr<FolderServer>> FolderServer::start(ServeOptions options) 
       [impl = impl.get()](const httplib::Request& request, httplib::Response& response) {
         return impl->answer(request, response);
       });
-  server.set_logger([impl = impl.get()](const httplib::Request& request, const httplib::Response& response) {
-    if (request.method != "HEAD") impl->bytes += response.body.size();
-  });
+  // Called once the body is compressed and before it is sent: what a client has got is counted.
+  server.set_post_routing_handler(
+      [impl = impl.get()](const httplib::Request& request, const httplib::Response& response) {
+        if (request.method != "HEAD") impl->bytes += response.body.size();
+      });
   const int wanted = impl->options.port;
   impl->port = wanted == 0                          ? server.bind_to_any_port(kHost)
                : server.bind_to_port(kHost, wanted) ? wanted

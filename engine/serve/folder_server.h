@@ -16,20 +16,19 @@
 
 namespace acentric {
 
-struct ServeOptions {
-  std::filesystem::path subject;  ///< a folder, or a file
-  std::filesystem::path page;     ///< a folder for what the subject lacks; empty: none
-  int port = 0;                   ///< 0: any that is free
-  std::function<void()> loaded;   ///< lastLoad() is another one; from a thread of the server
-};
-
 /// Until a page reported its first frame.
 struct PageLoad {
-  double seconds = 0;  ///< measured by the page, from its beginning
-  std::uint64_t bytes =
-      0;  ///< sent since it was asked for, as they were sent (text is compressed), no headers
+  double seconds = 0;       ///< measured by the page, from its beginning
+  std::uint64_t bytes = 0;  ///< sent since it was asked for, as sent (text is compressed), without headers
   int requests = 0;
   bool operator==(const PageLoad&) const = default;
+};
+
+struct ServeOptions {
+  std::filesystem::path subject;                ///< a folder, or a file
+  std::filesystem::path page;                   ///< a folder for what the subject lacks; empty: none
+  int port = 0;                                 ///< 0: any that is free
+  std::function<void(const PageLoad&)> loaded;  ///< called by a thread of the server
 };
 
 class FolderServer {

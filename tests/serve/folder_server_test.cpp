@@ -42,7 +42,7 @@ class FolderServerTest : public testing::Test {
     ASSERT_TRUE(writeTextAtomically(folder_ / name, text));
   }
   void serve(const std::string& subject, const fs::path& page = {}) {
-    ServeOptions options{folder_ / subject, page, 0, [this] { ++loads_; }};
+    ServeOptions options{folder_ / subject, page, 0, [this](const PageLoad&) { ++loads_; }};
     auto started = FolderServer::start(options);
     ASSERT_TRUE(started) << started.error().describe();
     server_ = std::move(*started);
