@@ -166,10 +166,14 @@ void App::tellNews() {
 /// One line whenever what the session holds changed, for tests to wait on.
 void App::logNews(PanelContext& context) {
   if (!log_.on()) return;
-  const auto& sweep = session_.sweeping().sweep();
-  std::string measured = fmt::format("running {} points {}", int(session_.sweeping().running()),
-                                     sweep ? sweep->points.size() : 0);
-  if (measured != loggedSweep_) log_.event("sweep", loggedSweep_ = std::move(measured));
+  const auto tell = [&](const char* name, const SweepWatch& watch, std::string& logged) {
+    const auto& sweep = watch.sweep();
+    std::string measured =
+        fmt::format("running {} points {}", int(watch.running()), sweep ? sweep->points.size() : 0);
+    if (measured != logged) log_.event(name, logged = std::move(measured));
+  };
+  tell("sweep", session_.sweeping(), loggedSweep_);
+  tell("goals", session_.proposing(), loggedGoals_);
   std::string now = "empty";
   if (session_.built() && session_.captures())
     now = fmt::format("regions {} captures {} baked {} working {} dirty {} undo {} problems {} over {}",
@@ -195,7 +199,8 @@ void App::keepDrawing(PanelContext& context) {
   constexpr double kWorkingInterval = 0.1;  // bars move, times count down
   if (session_.working()) context.window.pacer().requestAt(context.now + kWorkingInterval);
   constexpr double kSweepInterval = 1;
-  if (session_.sweeping().running()) context.window.pacer().requestAt(context.now + kSweepInterval);
+  if (session_.sweeping().running() || session_.proposing().running())
+    context.window.pacer().requestAt(context.now + kSweepInterval);
   if (const auto change = toasts_.nextChange()) context.window.pacer().requestAt(*change);
 }
 

@@ -84,7 +84,7 @@ class App {
   bool guideWanted_ = false;  ///< as soon as a project is there
   std::vector<ui::InputEvent> events_;
   bool ready_ = false;
-  std::string loggedSweep_;
+  std::string loggedSweep_, loggedGoals_;
   std::string loggedState_;
   int loggedFinished_ = 0;
   ui::Look lookAsked_{false, 0};

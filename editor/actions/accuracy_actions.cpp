@@ -8,21 +8,38 @@
 namespace acentric::editor {
 namespace {
 
+const char* kNeeds = "a saved project that is not being measured";
+
 bool canMeasure(const ActionContext& c) {
-  return withBuilt(c) && !c.session.untitled() && !c.session.dirty() && !c.session.sweeping().running();
+  return withBuilt(c) && !c.session.untitled() && !c.session.dirty() && !c.session.sweeping().running() &&
+         !c.session.proposing().running();
+}
+
+void show(ActionContext& c, bool goals) {
+  c.state.centreView = View::accuracy;
+  c.state.accuracy.goals = goals;
+}
+
+void begin(ActionContext& c, SweepWatch& watch, SweepRequest request, bool again, const char* what) {
+  request.again = again;
+  if (const Status started = watch.start(request); !started)
+    c.session.messages().addFailure(what, started.error());
 }
 
 void measure(ActionContext& c, bool again) {
-  c.state.centreView = View::accuracy;
-  SweepRequest request = c.state.accuracy.request;
-  request.again = again;
-  if (const Status started = c.session.sweeping().start(request); !started)
-    c.session.messages().addFailure("Measure accuracy against time", started.error());
+  show(c, false);
+  begin(c, c.session.sweeping(), c.state.accuracy.request, again, "Measure accuracy against time");
+}
+
+void search(ActionContext& c) {
+  show(c, true);
+  begin(c, c.session.proposing(), c.state.accuracy.goalsRequest, false, "Look for what keeps the goals");
 }
 
 /// Of the sweep that there is; nothing where it has none.
-std::optional<SweepSetting> presetNow(const ActionContext& c, const std::string& name) {
-  const auto& sweep = c.session.sweeping().sweep();
+std::optional<SweepSetting> presetNow(const ActionContext& c, const SweepWatch& watch,
+                                      const std::string& name) {
+  const auto& sweep = watch.sweep();
   if (!withBuilt(c) || !sweep) return std::nullopt;
   for (SweepPreset& preset : presetsOf(*sweep))
     if (preset.name == name) return std::move(preset.setting);
@@ -52,7 +69,7 @@ void addAccuracyActions(std::vector<Action>& table) {
        canMeasure,
        [](ActionContext& c) { measure(c, false); },
        {},
-       "a saved project that is not being measured"});
+       kNeeds});
   table.push_back({"sweep.again",
                    "Walk",
                    "Measure it anew",
@@ -63,7 +80,7 @@ void addAccuracyActions(std::vector<Action>& table) {
                    canMeasure,
                    [](ActionContext& c) { measure(c, true); },
                    {},
-                   "a saved project that is not being measured"});
+                   kNeeds});
   table.push_back({"sweep.stop",
                    "Walk",
                    "Stop measuring accuracy",
@@ -78,24 +95,77 @@ void addAccuracyActions(std::vector<Action>& table) {
                    {},
                    "a measurement that runs"});
   const auto preset = [&table](const char* name, const char* help) {
-    table.push_back({std::string("preset.") + name,
-                     "Walk",
-                     fmt::format("Use the {} preset", name),
-                     {},
-                     {},
-                     help,
-                     false,
-                     [name](const ActionContext& c) { return presetNow(c, name).has_value(); },
-                     [name](ActionContext& c) {
-                       applySetting(c, *presetNow(c, name), fmt::format("Use the {} preset", name));
-                     },
-                     {},
-                     "a measurement of accuracy against time"});
+    table.push_back(
+        {std::string("preset.") + name,
+         "Walk",
+         fmt::format("Use the {} preset", name),
+         {},
+         {},
+         help,
+         false,
+         [name](const ActionContext& c) { return presetNow(c, c.session.sweeping(), name).has_value(); },
+         [name](ActionContext& c) {
+           applySetting(c, *presetNow(c, c.session.sweeping(), name), fmt::format("Use the {} preset", name));
+         },
+         {},
+         "a measurement of accuracy against time"});
   };
   preset("fast", "Of what is worth having, the quickest frames with at most three times the least error");
   preset("balanced",
          "Of what is worth having, nearest to least error, quickest frame and fewest bytes at once");
   preset("accurate", "Of what is worth having, the least error");
+  table.push_back({"goals.show",
+                   "Walk",
+                   "Keep to goals",
+                   {},
+                   {},
+                   "Bytes, milliseconds, decibels: looks for the layout and settings that keep to them",
+                   true,
+                   withProject,
+                   [](ActionContext& c) { show(c, true); },
+                   {}});
+  table.push_back(
+      {"goals.start",
+       "Walk",
+       "Look for what keeps the goals",
+       {},
+       {},
+       "Bakes and measures what a few frames need, with one setting after another; goes on where it "
+       "ended",
+       false,
+       [](const ActionContext& c) {
+         return canMeasure(c) && c.state.accuracy.goalsRequest.goals.check().has_value();
+       },
+       [](ActionContext& c) { search(c); },
+       {},
+       "a goal, and a saved project that is not being measured"});
+  table.push_back({"goals.stop",
+                   "Walk",
+                   "Stop looking for what keeps the goals",
+                   {},
+                   {},
+                   "What is measured is kept",
+                   false,
+                   [](const ActionContext& c) {
+                     return c.session.proposing().running() && !c.session.proposing().stopping();
+                   },
+                   [](ActionContext& c) { c.session.proposing().stop(); },
+                   {},
+                   "a search that runs"});
+  table.push_back(
+      {"goals.take",
+       "Walk",
+       "Take what keeps the goals best",
+       {},
+       {},
+       "Sets the project so; undo takes it back",
+       false,
+       [](const ActionContext& c) { return presetNow(c, c.session.proposing(), "proposal").has_value(); },
+       [](ActionContext& c) {
+         applySetting(c, *presetNow(c, c.session.proposing(), "proposal"), "Keep to goals");
+       },
+       {},
+       "a search for what keeps goals"});
 }
 
 }  // namespace acentric::editor

@@ -103,6 +103,7 @@ void addEditActions(std::vector<Action>& table) {
                    {},
                    "a selected cell or key pose"});
   addCellActions(table);
+  addDensityActions(table);
 }
 
 }  // namespace acentric::editor

@@ -32,6 +32,8 @@ void addArrangementActions(std::vector<Action>& table);
 void addEditActions(std::vector<Action>& table);
 /// What is selected, and copies and moves of it: part of the Edit menu.
 void addSelectionActions(std::vector<Action>& table);
+/// How densely cells are sampled: part of the Edit menu.
+void addDensityActions(std::vector<Action>& table);
 /// Tools and what the plan shows.
 void addPlanActions(std::vector<Action>& table);
 /// Storeys, and cells that keep to the triangle budget.

@@ -31,6 +31,8 @@ void addOverlayActions(std::vector<Action>& table) {
           "Where cameras stand badly, and where they would stand free");
   overlay("view.coverage", "Overlay: sampling coverage", key::v, PlanOverlay::coverage,
           "How finely places are sampled");
+  overlay("overlay.density", "Overlay: sampling density", 0, PlanOverlay::density,
+          "Cells with more or fewer samples per degree than the project");
   overlay("overlay.none", "No overlay", 0, PlanOverlay::none, "Borders of cells alone");
 }
 
@@ -87,7 +89,10 @@ void addPlanActions(std::vector<Action>& table) {
                      help,
                      false,
                      withProject,
-                     [mode](ActionContext& c) { c.state.planTool.setMode(mode); },
+                     [mode](ActionContext& c) {
+                       c.state.planTool.setMode(mode);
+                       if (mode == PlanMode::density) c.state.overlay = PlanOverlay::density;
+                     },
                      [mode](const ActionContext& c) { return c.state.planTool.mode() == mode; }});
   };
   tool("tool.cells", "Cells", key::digit1, PlanMode::cells,
@@ -108,6 +113,9 @@ void addPlanActions(std::vector<Action>& table) {
        "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
        "press on "
        "the selected path's line for a new pose. Del removes, Ctrl+click too.");
+  tool("tool.density", "Paint density", key::digit8, PlanMode::density,
+       "Press or drag over cells to give them more or fewer samples per degree than the project; Ctrl takes "
+       "that back.");
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {
     table.push_back({id,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/commands/density_edits.h"
 #include "editor/commands/layout_edits.h"
 #include "engine/base/contract.h"
 #include "engine/layout/placement.h"
@@ -128,6 +129,7 @@ struct GroupEditing {
         continue;
       }
       placeCell(spec, to);
+      giveDensity(spec, to, densityOf(group.spec_, cell));
       placed.insert(to);
     }
     for (const int number : group.apvs_) {
@@ -135,6 +137,7 @@ struct GroupEditing {
       apv.centre += group.metresOf(step);
       const int copy = nextFreeNumber(spec);
       spec.freeApvs[copy] = apv;
+      giveDensity(spec, {copy, 0, kFreeSlot}, densityOf(group.spec_, {number, 0, kFreeSlot}));
       placed.insert({copy, 0, kFreeSlot});
     }
     return skipped;
@@ -142,10 +145,12 @@ struct GroupEditing {
 
   static std::set<CellId> move(const CellGroup& group, LayoutSpec& spec, const LatticeStep& step) {
     std::set<CellId> placed;
-    for (const CellId& cell : group.cells_) takeCell(spec, cell);
+    for (const CellId& cell : group.cells_) takeCell(spec, cell), spec.density.erase(cell);
     for (const CellId& cell : group.cells_) {
-      placeCell(spec, group.shifted(cell, step));
-      placed.insert(group.shifted(cell, step));
+      const CellId to = group.shifted(cell, step);
+      placeCell(spec, to);
+      giveDensity(spec, to, densityOf(group.spec_, cell));
+      placed.insert(to);
     }
     for (const int number : group.apvs_) {
       spec.freeApvs[number].centre += group.metresOf(step);

@@ -17,6 +17,7 @@ void placeCell(LayoutSpec& spec, const CellId& cell) {
 void takeCell(LayoutSpec& spec, const CellId& cell) {
   if (cell.slot == kFreeSlot) {
     spec.freeApvs.erase(cell.i);
+    spec.density.erase(cell);
     return;
   }
   spec.added.erase(cell);
@@ -36,6 +37,9 @@ void join(LayoutSpec& spec, const CellId& whole) {
   for (std::set<CellId>* cells : {&spec.added, &spec.removed, &spec.split})
     std::erase_if(
         *cells, [&](const CellId& cell) { return cell.level > whole.level && isPartOf(spec, cell, whole); });
+  std::erase_if(spec.density, [&](const auto& each) {
+    return each.first.level > whole.level && isPartOf(spec, each.first, whole);
+  });
   spec.split.erase(whole);
 }
 
@@ -110,9 +114,7 @@ Edit setConfiguration(const Project& project, Configuration configuration) {
                 [&](LayoutSpec& spec) {
                   if (spec.configuration == configuration) return;
                   spec.configuration = configuration;
-                  spec.added.clear();
-                  spec.removed.clear();
-                  spec.split.clear();
+                  spec.forgetCells();
                 });
 }
 

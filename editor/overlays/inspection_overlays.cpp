@@ -69,6 +69,14 @@ void drawBytesLegend(ImDrawList& list, const ui::CanvasView& view, std::uint64_t
   drawScaleLegend(list, view, legend, font);
 }
 
+void drawDensityLegend(ImDrawList& list, const ui::CanvasView& view, double samplesPerDegree, ImFont* font) {
+  const auto perDegree = [&](double density) { return fmt::format("{:.3g}", density * samplesPerDegree); };
+  ScaleLegend legend{"Samples per degree", perDegree(kLeastRegionDensity), perDegree(kMostRegionDensity), {}};
+  legend.lines.push_back({fmt::format("cells without colour: {}", perDegree(1)), palette::muted});
+  legend.lines.push_back({"captures of several cells: the most of them", palette::muted});
+  drawScaleLegend(list, view, legend, font);
+}
+
 void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const PlacementReport& report,
                       ImFont* font) {
   ScaleLegend legend{"Where cameras stand", "", "", {}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/commands/density_edits.h"
 #include "editor/overlays/bake_signs.h"
 #include "editor/overlays/scale_colour.h"
 #include "ui/canvas_draw.h"
@@ -73,10 +74,11 @@ void PlanLayers::sendShapes() {
   const Layout& layout = *shown_.layout;
   std::vector<const ConvexPolygon*> polygons;
   polygons.reserve(layout.regions.size());
-  middles_.clear();
+  middles_.clear(), densities_.clear();
   for (const Region& region : layout.regions) {
     polygons.push_back(&region.polygon);
     middles_.push_back(region.polygon.centroid());
+    densities_.push_back(densityOf(layout.spec, region.id));
   }
   setPolygons(regions_, polygons);
   // Cameras at one centre of projection follow one another.
@@ -118,6 +120,13 @@ ui::PolygonStyle PlanLayers::styleOf(std::size_t region, double most) const {
       const ui::Colour colour = scaleColour(std::sqrt(double(bytes_[region]) / most));
       return {colour.withOpacity(0.6F).packed(), colour.withOpacity(0.8F).packed(), 1};
     }
+    case PlanOverlay::density: {
+      const double density = densities_[region];
+      if (density == 1) break;
+      const double from = std::log(kLeastRegionDensity), to = std::log(kMostRegionDensity);
+      const ui::Colour colour = scaleColour((std::log(density) - from) / (to - from));
+      return {colour.withOpacity(0.6F).packed(), colour.withOpacity(0.8F).packed(), 1};
+    }
     case PlanOverlay::coverage:
     case PlanOverlay::none:
       break;
@@ -152,6 +161,17 @@ void PlanLayers::drawSigns(ImDrawList& list, const ui::CanvasView& view) const {
   for (std::size_t r = 0; r < middles_.size(); ++r) {
     const glm::dvec2 at = view.screenFromWorld(middles_[r]);
     if (view.contains(at)) drawBakeSign(list, ui::imVec(at), states_[r], radius);
+  }
+}
+
+void PlanLayers::drawDensities(ImDrawList& list, const ui::CanvasView& view, ImFont* font) const {
+  constexpr double kRoom = 30;  // pixels per cell edge
+  if (!shown_.layout || cellPixels(view) < kRoom) return;
+  for (std::size_t r = 0; r < middles_.size(); ++r) {
+    const glm::dvec2 at = view.screenFromWorld(middles_[r]);
+    if (densities_[r] != 1 && view.contains(at))
+      ui::drawLabel(list, font, ui::imVec(at + glm::dvec2(6, 4)), palette::text,
+                    ("× " + densityText(densities_[r])).c_str());
   }
 }
 

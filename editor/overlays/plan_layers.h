@@ -40,6 +40,8 @@ class PlanLayers {
   const std::vector<BakeState>& states() const { return states_; }
   /// Of the captures that each region shows; empty unless that is the overlay.
   const std::vector<std::uint64_t>& bytes() const { return bytes_; }
+  /// Where a region's density is not 1, by how much, where there is room.
+  void drawDensities(ImDrawList& list, const ui::CanvasView& view, ImFont* font) const;
   void drawSelection(ImDrawList& list, const ui::CanvasView& view, const std::set<CellId>& selection);
   /// Dots at the centres of projection; sectors too where there is room.
   void drawCameras(ImDrawList& list, const ui::CanvasView& view);
@@ -56,6 +58,7 @@ class PlanLayers {
 
   PlanContents shown_;
   std::vector<glm::dvec2> middles_;  ///< of the regions
+  std::vector<double> densities_;    ///< of the regions
   std::vector<BakeState> states_;
   std::vector<std::uint64_t> bytes_;
   ui::PolygonMesh regions_, selected_;

@@ -26,6 +26,8 @@ void drawPending(ImDrawList& list, const ui::CanvasView& view, const LayoutSpec&
 /// What the colours of cells by triangles mean, in the lower left corner.
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
                         std::size_t budget, ImFont* font);
+/// Of the colours of cells by density; `samplesPerDegree`: the project's.
+void drawDensityLegend(ImDrawList& list, const ui::CanvasView& view, double samplesPerDegree, ImFont* font);
 /// The same of signs where cameras stand badly, with how many of each there are.
 void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const PlacementReport& report,
                       ImFont* font);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "editor/actions/accuracy_actions.h"
 #include "editor/panels/accuracy_plot.h"
@@ -51,30 +52,81 @@ void drawNumber(PanelContext& context, const char* id, const char* format, const
   ui::tooltip(help);
 }
 
+/// What the panel is about now.
+const SweepWatch& watchOf(const PanelContext& context) {
+  const Session& session = context.actions.session;
+  return context.actions.state.accuracy.goals ? session.proposing() : session.sweeping();
+}
+
+/// A goal with a tick: unticked, there is none.
+void drawGoal(PanelContext& context, const char* id, const char* label, const char* format, double unit,
+              double usual, std::optional<double>& goal) {
+  bool wanted = goal.has_value();
+  if (ImGui::Checkbox(fmt::format("{}##{}", label, id).c_str(), &wanted))
+    goal = wanted ? std::optional(usual * unit) : std::nullopt;
+  context.log.item(fmt::format("{}.wanted", id));
+  ImGui::SameLine(0, ui::scaled(kButtonGap));
+  constexpr float kLeast = 0.1F, kMost = 1e7F;
+  auto value = float(goal.value_or(usual * unit) / unit);
+  ImGui::BeginDisabled(!wanted);
+  ImGui::SetNextItemWidth(ui::scaled(78));
+  if (ImGui::DragFloat(fmt::format("##{}", id).c_str(), &value, 0.25F, kLeast, kMost, format,
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+    goal = double(value) * unit;
+  context.log.item(id);
+  ImGui::EndDisabled();
+}
+
+void drawGoals(PanelContext& context) {
+  Goals& goals = context.state().accuracy.goalsRequest.goals;
+  drawGoal(context, "goals.bytes", "at most", "%.0f MB", 1e6, 60, goals.mostBytes);
+  ImGui::SameLine(0, ui::scaled(kApart));
+  drawGoal(context, "goals.frame", "at most", "%.1f ms", 1, 16, goals.mostFrameMs);
+  ui::tooltip(fmt::format("Of the median frame of {} by {} pixels",
+                          context.state().accuracy.goalsRequest.width,
+                          context.state().accuracy.goalsRequest.height));
+  ImGui::SameLine(0, ui::scaled(kApart));
+  drawGoal(context, "goals.psnr", "at least", "%.1f dB", 1, 35, goals.leastPsnr);
+}
+
 void drawToolbar(PanelContext& context) {
   AccuracyState& state = context.state().accuracy;
-  const SweepWatch& watch = context.session().sweeping();
+  const SweepWatch& watch = watchOf(context);
+  for (const auto& [id, label, goals] :
+       {std::tuple("accuracy.all", "All settings", false), std::tuple("accuracy.goals", "Goals", true)}) {
+    if (ui::toggleButton(label, state.goals == goals)) state.goals = goals;
+    context.log.item(id);
+    ImGui::SameLine(0, ui::scaled(goals ? kApart : kButtonGap));
+  }
+  SweepRequest& request = state.goals ? state.goalsRequest : state.request;
+  AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  const char* begin = state.goals ? "Find" : "Measure";
   if (watch.running())
-    actionButton(context, "sweep.stop", ButtonLook::plain, {}, watch.stopping() ? "Stopping" : "Stop");
+    actionButton(context, state.goals ? "goals.stop" : "sweep.stop", ButtonLook::plain, {},
+                 watch.stopping() ? "Stopping" : "Stop");
   else
-    actionButton(context, "sweep.start", ButtonLook::primary, {}, watch.sweep() ? "Go on" : "Measure");
-  ImGui::SameLine(0, ui::scaled(kButtonGap));
-  actionButton(context, "sweep.again", ButtonLook::plain, {}, "Anew");
+    actionButton(context, state.goals ? "goals.start" : "sweep.start", ButtonLook::primary, {},
+                 watch.sweep() ? "Go on" : begin);
+  if (!state.goals) {
+    ImGui::SameLine(0, ui::scaled(kButtonGap));
+    actionButton(context, "sweep.again", ButtonLook::plain, {}, "Anew");
+  }
   ImGui::SameLine(0, ui::scaled(kApart));
   drawNumber(context, "sweep.minutes", "%d minutes",
              "How long it may take. What does not fit is left for another time.", 1, 24 * 60,
-             state.request.minutes);
+             request.minutes);
   ImGui::SameLine(0, ui::scaled(kButtonGap));
   drawNumber(context, "sweep.frames", "%d frames",
-             "Of the walk, evenly chosen, that settings are compared in.", 1, 1000, state.request.frames);
+             "Of the walk, evenly chosen, that settings are compared in.", 1, 1000, request.frames);
   ImGui::SameLine(0, ui::scaled(kApart));
   if (ImGui::GetContentRegionAvail().x < ui::scaled(310)) ImGui::NewLine();
   ImGui::AlignTextToFramePadding();
-  chooseMeasure(context, "accuracy.error", true, state.error);
+  chooseMeasure(context, "accuracy.error", true, axes.error);
   ImGui::SameLine(0, ui::scaled(6));
   ui::mutedText("against");
   ImGui::SameLine(0, ui::scaled(6));
-  chooseMeasure(context, "accuracy.cost", false, state.cost);
+  chooseMeasure(context, "accuracy.cost", false, axes.cost);
+  if (state.goals) drawGoals(context);
 }
 
 void drawState(const SweepWatch& watch) {
@@ -114,12 +166,16 @@ void drawEmpty(PanelContext& context) {
   };
   ImGui::SetCursorPosY(ImGui::GetWindowSize().y * 0.28F);
   const ui::Fonts& fonts = context.window.fonts();
-  const bool running = context.session().sweeping().running();
+  const bool running = watchOf(context).running(), goals = context.state().accuracy.goals;
   line(fonts.title, palette::text,
-       running ? "Measuring the project as it is" : "What does accuracy cost here?");
+       running ? "Measuring the project as it is"
+       : goals ? "What keeps to your budgets?"
+               : "What does accuracy cost here?");
   line(fonts.regular, palette::muted,
-       running
-           ? "The first mark appears when its captures are there and its frames are compared."
+       running ? "The first mark appears when its captures are there and its frames are compared."
+       : goals
+           ? "Find tries layouts and settings, the most promising first: it bakes what a few frames need, "
+             "and compares them with ray-traced truth. The one that keeps to the budgets best is proposed."
            : "Measure tries settings of the bake and of the walk one by one, then together: the same frames, "
              "against ray-traced truth, in the background. Marks show error against time; three presets come "
              "out of it.");
@@ -128,16 +184,56 @@ void drawEmpty(PanelContext& context) {
     line(fonts.regular, palette::warning, "Save the project first: it is measured as it is in its file.");
 }
 
+/// In the unit that people see.
+std::optional<double> goalOf(const Goals& goals, const MeasureInfo& info) {
+  const auto shown = [&](const std::optional<double>& goal) {
+    return goal ? std::optional(*goal * info.shown) : std::nullopt;
+  };
+  switch (info.measure) {
+    case Measure::bytes:
+      return shown(goals.mostBytes);
+    case Measure::frameMs:
+      return shown(goals.mostFrameMs);
+    case Measure::psnr:
+      return shown(goals.leastPsnr);
+    default:
+      return std::nullopt;
+  }
+}
+
+void drawPresets(PanelContext& context) {
+  ui::mutedText("Presets");
+  for (const auto& [id, label] : kPresets) {
+    ImGui::SameLine(0, ui::scaled(6));
+    actionButton(context, id, ButtonLook::plain, {}, label);
+  }
+}
+
+/// What keeps the goals best, and whether it does.
+void drawProposal(PanelContext& context, const Sweep& sweep) {
+  if (!sweep.goals) return;
+  const SweepPoint* best = proposalOf(sweep, *sweep.goals);
+  if (best == nullptr) return;
+  const bool kept = missOf(*sweep.goals, figuresOf(*best)) <= 0;
+  actionButton(context, "goals.take", kept ? ButtonLook::primary : ButtonLook::plain, {}, "Take");
+  ImGui::SameLine(0, ui::scaled(6));
+  const std::string text =
+      fmt::format("{} {}: {}", textOf(*sweep.goals), kept ? "is kept by" : "is kept by nothing yet; nearest",
+                  textOf(best->setting));
+  ui::wrappedText(kept ? palette::good : palette::warning, text);
+}
+
 PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
                 const std::vector<SweepPreset>& presets) {
-  const double across = infoOf(state.cost).shown;
-  const Spread& x = point[state.cost];
+  const AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  const double across = infoOf(axes.cost).shown;
+  const Spread& x = point[axes.cost];
   PlotMark mark;
   mark.x = x.median * across, mark.xLow = x.min * across, mark.xHigh = x.max * across;
-  mark.y = mark.yLow = mark.yHigh = point[state.error].median * infoOf(state.error).shown;
+  mark.y = mark.yLow = mark.yHigh = point[axes.error].median * infoOf(axes.error).shown;
   const auto name = [&mark](const std::string& word) { mark.name += (mark.name.empty() ? "" : ", ") + word; };
   for (const SweepPreset& preset : presets)
-    if (preset.setting == point.setting) name(preset.name);
+    if (preset.setting == point.setting && state.goals == (preset.name == "proposal")) name(preset.name);
   if (point.setting.empty()) mark.base = true, name("as it is");
   mark.selected = state.selected == point.setting;
   return mark;
@@ -148,14 +244,15 @@ PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
 void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const ImVec2& low,
                              const ImVec2& high) {
   AccuracyState& state = context.state().accuracy;
-  const MeasureInfo &error = infoOf(state.error), &cost = infoOf(state.cost);
+  const AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  const MeasureInfo &error = infoOf(axes.error), &cost = infoOf(axes.cost);
   const auto presets = presetsOf(sweep);
   std::vector<PlotMark> marks;
   std::vector<std::size_t> points;
   std::vector<Objectives> objectives;
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const SweepPoint& point = sweep.points[i];
-    const Spread &x = point[state.cost], &y = point[state.error];
+    const Spread &x = point[axes.cost], &y = point[axes.error];
     if (!point.measured() || x.count == 0 || y.count == 0 || x.min <= 0) continue;
     points.push_back(i);
     marks.push_back(markOf(point, state, presets));
@@ -166,9 +263,10 @@ void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const Im
     ImGui::SetCursorScreenPos(low);
     return ui::mutedText("Nothing that was measured has both.");
   }
-  const PlotAxis across{labelOf(cost), true};
+  const Goals goals = state.goals ? sweep.goals.value_or(Goals{}) : Goals{};
+  const PlotAxis across{labelOf(cost), true, goalOf(goals, cost)};
   const PlotAxis up{labelOf(error) + (error.moreIsBetter ? "  (more is better)" : "  (less is better)"),
-                    false};
+                    false, goalOf(goals, error)};
   const AccuracyPlot plot = drawAccuracyPlot(low, high, across, up, marks);
   if (context.log.on())
     for (std::size_t i = 0; i < plot.places.size(); ++i) {
@@ -184,7 +282,7 @@ void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const Im
 void AccuracyPanel::drawPicture(PanelContext& context, const SweepPoint& point) {
   if (point.pictures.empty()) return;
   const bool difference = context.state().accuracy.difference;
-  const auto& watch = context.session().sweeping();
+  const auto& watch = watchOf(context);
   const auto file = watch.folder() / (point.pictures + (difference ? "-difference.jpg" : ".jpg"));
   if (file != pictureFile_ || watch.sweep() != pictureOf_) {
     pictureFile_ = file;
@@ -246,7 +344,7 @@ void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const S
 }
 
 void AccuracyPanel::draw(PanelContext& context) {
-  const SweepWatch& watch = context.session().sweeping();
+  const SweepWatch& watch = watchOf(context);
   const auto sweep = watch.sweep();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled({10, 8}));
   const bool open = ImGui::BeginChild("##accuracy", {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
@@ -264,11 +362,10 @@ void AccuracyPanel::draw(PanelContext& context) {
       drawPlot(context, *sweep, at, {at.x + room.x - card - ui::scaled(8), at.y + room.y - foot});
       ImGui::SetCursorScreenPos({at.x, at.y + room.y - foot + ImGui::GetStyle().ItemSpacing.y});
       ImGui::AlignTextToFramePadding();
-      ui::mutedText("Presets");
-      for (const auto& [id, label] : kPresets) {
-        ImGui::SameLine(0, ui::scaled(6));
-        actionButton(context, id, ButtonLook::plain, {}, label);
-      }
+      if (context.state().accuracy.goals)
+        drawProposal(context, *sweep);
+      else
+        drawPresets(context);
       ImGui::SetCursorScreenPos({at.x + room.x - card, at.y});
       if (ImGui::BeginChild("##accuracyPoint", {card, room.y}) && shown && shown->measured())
         drawPoint(context, *sweep, *shown);

@@ -48,13 +48,14 @@ std::string tickText(double value) { return fmt::format("{:.6g}", value); }
 /// A few marks far from all others must not squash these; those on the line, the project and what is selected
 /// are always shown.
 Scale scaleOf(const std::vector<PlotMark>& marks, double PlotMark::*place, float from, float to,
-              bool logarithmic) {
+              const PlotAxis& axis) {
   std::vector<double> values, always;
+  if (axis.goal) always.push_back(*axis.goal);
   for (const PlotMark& mark : marks)
     (mark.front || mark.base || mark.selected ? always : values).push_back(mark.*place);
   values.insert(values.end(), always.begin(), always.end());
-  const PlotRange range = plotRange(values, always, logarithmic);
-  return {range.low, range.high, from, to, logarithmic};
+  const PlotRange range = plotRange(values, always, axis.logarithmic);
+  return {range.low, range.high, from, to, axis.logarithmic};
 }
 
 /// At the border, towards where the mark would be.
@@ -123,9 +124,13 @@ AccuracyPlot drawAccuracyPlot(const ImVec2& low, const ImVec2& high, const PlotA
   const ImVec2 from(low.x + ui::scaled(62), low.y + line + ui::scaled(10));
   const ImVec2 to(high.x - ui::scaled(14), high.y - 2 * line - ui::scaled(14));
   if (marks.empty() || to.x - from.x < ui::scaled(60) || to.y - from.y < ui::scaled(60)) return {};
-  const Scale x = scaleOf(marks, &PlotMark::x, from.x, to.x, across.logarithmic);
-  const Scale y = scaleOf(marks, &PlotMark::y, to.y, from.y, up.logarithmic);
+  const Scale x = scaleOf(marks, &PlotMark::x, from.x, to.x, across);
+  const Scale y = scaleOf(marks, &PlotMark::y, to.y, from.y, up);
   drawAxes(list, from, to, x, y, across, up);
+  const ImU32 goal = palette::good.withOpacity(0.8F).packed();
+  if (across.goal)
+    list.AddLine({x.at(*across.goal), from.y}, {x.at(*across.goal), to.y}, goal, ui::scaled(1.5F));
+  if (up.goal) list.AddLine({from.x, y.at(*up.goal)}, {to.x, y.at(*up.goal)}, goal, ui::scaled(1.5F));
 
   std::vector<ImVec2> front;
   for (const PlotMark& mark : marks)

@@ -10,8 +10,9 @@
 namespace acentric::editor {
 
 struct PlotAxis {
-  std::string label;         ///< with its unit
-  bool logarithmic = false;  ///< all values must be above 0
+  std::string label;                ///< with its unit
+  bool logarithmic = false;         ///< all values must be above 0
+  std::optional<double> goal = {};  ///< drawn as a line across
 };
 
 struct PlotMark {

@@ -147,6 +147,8 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   const bool tried = state.trial || state.planTool.latticeTool().dragging();
   if (state.showCameras && !covered && !tried) layers_.drawCameras(list, view_);
   if (state.overlay == PlanOverlay::bake && !tried) layers_.drawSigns(list, view_);
+  if (state.overlay == PlanOverlay::density && !tried)
+    layers_.drawDensities(list, view_, context.window.fonts().small);
   drawStart(list, view_, session.project().spawn().position, session.project().spawn().yawRadians);
   if (state.showPaths) drawWalks(context, list);
   const WalkPose& pose = state.walker.pose();
@@ -191,6 +193,8 @@ void PlanPanel::drawLegend(PanelContext& context, ImDrawList& list) {
       const auto& bytes = layers_.bytes();
       return drawBytesLegend(list, view_, bytes.empty() ? 0 : std::ranges::max(bytes), all, font);
     }
+    case PlanOverlay::density:
+      return drawDensityLegend(list, view_, session.project().bake.samplesPerDegree, font);
     case PlanOverlay::coverage:
       return coverage_.drawLegend(list, view_, session.coverage().get(), state.coverageKind, font);
     case PlanOverlay::checks:
@@ -237,6 +241,7 @@ void PlanPanel::drawTools(PanelContext& context, ImDrawList& list) {
   array_.draw(list, view_, spec, state.selection, state.array);
   if (const auto box = tool.marquee())
     drawMarquee(list, view_, *box, cellsTouching(*session.built()->layout, box->low, box->high).size(), font);
+  if (tool.mode() == PlanMode::density) layers_.drawSelection(list, view_, tool.densityTool().painted());
   if (tool.mode() == PlanMode::outline) drawOutlineTools(context, list);
   if (tool.mode() == PlanMode::lattice) {
     const PlanSituation now = situation(context);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "editor/actions/path_walk.h"
+#include "editor/commands/density_edits.h"
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/selection.h"
 #include "editor/panels/plan_panel.h"
@@ -64,6 +65,9 @@ void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
     state.walker.setPose(pose);
   } else if (const auto* outline = std::get_if<OutlineIntent>(&intent)) {
     session.applyLive(setOutline(project, outline->outline), outline->finished);
+  } else if (const auto* paint = std::get_if<PaintDensityIntent>(&intent)) {
+    if (!paint->cells.empty())
+      session.apply(setDensity(project, paint->cells, paint->erase ? 1 : state.densityBrush));
   } else if (const auto* path = std::get_if<PathIntent>(&intent)) {
     takePathIntent(context.actions, *path);
   } else if (const auto* apv = std::get_if<FreeApvIntent>(&intent)) {

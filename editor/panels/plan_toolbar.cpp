@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "editor/commands/density_edits.h"
 #include "editor/panels/toolbar_flow.h"
 
 namespace acentric::editor {
@@ -22,6 +23,8 @@ const char* nameOf(PlanOverlay overlay) {
       return "bytes";
     case PlanOverlay::checks:
       return "checks";
+    case PlanOverlay::density:
+      return "density";
     case PlanOverlay::coverage:
       break;
   }
@@ -29,12 +32,13 @@ const char* nameOf(PlanOverlay overlay) {
 }
 
 void drawOverlayMenu(PanelContext& context) {
-  static constexpr std::array<std::pair<const char*, PlanOverlay>, 6> kOverlays{
+  static constexpr std::array<std::pair<const char*, PlanOverlay>, 7> kOverlays{
       {{"overlay.bake", PlanOverlay::bake},
        {"view.triangles", PlanOverlay::triangles},
        {"overlay.bytes", PlanOverlay::bytes},
        {"view.checks", PlanOverlay::checks},
        {"view.coverage", PlanOverlay::coverage},
+       {"overlay.density", PlanOverlay::density},
        {"overlay.none", PlanOverlay::none}}};
   EditorState& state = context.state();
   const float comboWidth = ui::scaled(176);
@@ -74,6 +78,20 @@ void drawCoverageRow(PanelContext& context) {
   }
 }
 
+void drawDensityRow(PanelContext& context) {
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Samples per degree, times the project's");
+  double& chosen = context.state().densityBrush;
+  for (double brush = kLeastRegionDensity;; brush = densityAfter(brush, 1)) {
+    ImGui::SameLine(0, brush == kLeastRegionDensity ? ui::scaled(10) : ui::scaled(kNear));
+    const std::string label = densityText(brush);
+    if (ui::toggleButton(label.c_str(), densityText(chosen) == label)) chosen = brush;
+    context.log.item("density.brush." + label);
+    ui::tooltip(fmt::format("{:.2g} times the bytes", brush * brush));
+    if (brush >= kMostRegionDensity) break;
+  }
+}
+
 void drawOutlineRow(PanelContext& context) {
   const Outline& outline = context.session().project().layout().outline;
   ImGui::AlignTextToFramePadding();
@@ -105,6 +123,7 @@ void drawPlanToolbar(PanelContext& context) {
                                             {"tool.lattice", "Lattice", ui::Icon::arrows, kNear, tool},
                                             {"tool.measure", "Measure", ui::Icon::arrowsAcross, kNear, tool},
                                             {"tool.path", "Path", ui::Icon::road, kNear, tool},
+                                            {"tool.density", "Density", ui::Icon::brush, kNear, tool},
                                             {"view.backdrop", "Scene", ui::Icon::picture, kApart},
                                             {"view.lattice", "Free cells", ui::Icon::grid, kNear},
                                             {"view.cameras", "Cameras", ui::Icon::videoCamera, kNear}};
@@ -116,6 +135,7 @@ void drawPlanToolbar(PanelContext& context) {
   if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);
   if (context.state().planTool.mode() == PlanMode::outline && context.session().hasProject())
     drawOutlineRow(context);
+  if (context.state().planTool.mode() == PlanMode::density) drawDensityRow(context);
 }
 
 }  // namespace acentric::editor

@@ -40,6 +40,9 @@ const char* hintOf(PlanMode mode, bool selected) {
     case PlanMode::path:
       return "Click a path or key pose to select it, drag poses and ticks, press on the line for a new pose, "
              "Del removes";
+    case PlanMode::density:
+      return "Press or drag over cells to paint, Ctrl takes back   ·   ] and [ change the selected cells, or "
+             "the one you stand in";
   }
   return "";
 }

@@ -32,10 +32,8 @@ Layout patchOf(const LayoutSpec& spec, Configuration configuration) {
   constexpr double kReach = 4.2;  // edge lengths: a whole cell and its neighbours in every lattice
   LayoutSpec patch = spec;
   patch.configuration = configuration;
-  patch.added.clear();
-  patch.removed.clear();
-  patch.split.clear();
-  patch.freeApvs.clear();
+  patch.forgetCells();
+  patch.freeApvs.clear(), patch.density.clear();
   const double reach = kReach * spec.cellSize;
   const glm::dvec2 low = spec.latticeOrigin - reach, high = spec.latticeOrigin + reach;
   patch.outline.loops = {{low, {high.x, low.y}, high, {low.x, high.y}}};
@@ -76,9 +74,7 @@ std::optional<LaidCounts> laidCounts(const LayoutSpec& spec, Configuration confi
   LayoutSpec laid = spec;
   if (laid.configuration != configuration) {
     laid.configuration = configuration;
-    laid.added.clear();
-    laid.removed.clear();
-    laid.split.clear();
+    laid.forgetCells();
   }
   const auto layout = buildLayout(laid);
   if (!layout) return std::nullopt;

@@ -19,7 +19,7 @@ std::size_t bytesBehind(const Outline& outline) {
 
 std::size_t bytesBehind(const LayoutSpec& spec) {
   return nodesOf(spec.added) + nodesOf(spec.removed) + nodesOf(spec.split) + nodesOf(spec.freeApvs) +
-         bytesBehind(spec.outline);
+         nodesOf(spec.density) + bytesBehind(spec.outline);
 }
 
 }  // namespace

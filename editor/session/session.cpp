@@ -15,7 +15,8 @@ Session::Session(SessionOptions options)
       processors_(options_.processors > 0 ? options_.processors
                                           : std::max(1, int(std::thread::hardware_concurrency()))),
       inbox_(options_.wake),
-      sweeping_(options_.program) {
+      sweeping_(options_.program),
+      proposing_(options_.program, SweepWatch::Kind::goals) {
   std::string problem;
   preferences_ = loadPreferences(options_.preferencesFile, &problem);
   if (!problem.empty()) messages_.add(MessageLevel::warning, problem);
@@ -71,7 +72,7 @@ bool Session::poll(double now) {
   lookAround(now);
   inspectWhenStill(now);
   followBakeCosts();
-  const bool measured = sweeping_.poll(now);
+  const bool measured = int(sweeping_.poll(now)) + int(proposing_.poll(now)) > 0;
   publishing_.poll();
   return refreshProblems() || delivered || measured;
 }

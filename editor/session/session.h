@@ -243,6 +243,9 @@ class Session {
   /// What accuracy costs in time.
   SweepWatch& sweeping() { return sweeping_; }
   const SweepWatch& sweeping() const { return sweeping_; }
+  /// The search for settings that keep to goals.
+  SweepWatch& proposing() { return proposing_; }
+  const SweepWatch& proposing() const { return proposing_; }
   /// For browsers: what is written, served and shown of the project. publish() begins it.
   Publisher& publishing() { return publishing_; }
   const Publisher& publishing() const { return publishing_; }
@@ -461,7 +464,7 @@ class Session {
   double nextAutosave_ = 0;
   std::optional<Project> autosaved_;
 
-  SweepWatch sweeping_;
+  SweepWatch sweeping_, proposing_;
 
   // Last: they are stopped and joined first.
   Job opening_{inbox_};

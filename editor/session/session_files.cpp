@@ -88,7 +88,8 @@ void Session::opened(Opened opened) {
   file_ = opened.open.file;
   untitled_ = opened.untitled;
   savedStamp_ = opened.saved;
-  sweeping_.watch(untitled_ || shipped_ ? fs::path() : file_);
+  for (SweepWatch* watch : {&sweeping_, &proposing_})
+    watch->watch(untitled_ || shipped_ ? fs::path() : file_);
   recovered_ = opened.recovered;
   history_.emplace(opened.open.project, !untitled_, historyBytes());
   ++generation_;
@@ -131,7 +132,7 @@ void Session::close() {
   comparing_.follow(std::nullopt);
   asking_.clear();
   variants_.forget();
-  sweeping_.watch({});
+  sweeping_.watch({}), proposing_.watch({});
   publishing_.close();
   estimate_.reset();
   inspection_.reset();
@@ -227,7 +228,7 @@ Status Session::saveAs(const fs::path& target) {
   leaveLock();
   file_ = file;
   untitled_ = false;
-  sweeping_.watch(file_);
+  sweeping_.watch(file_), proposing_.watch(file_);
   if (built_) {
     OpenProject open = *built_;
     open.file = file_;

@@ -34,7 +34,7 @@ std::string lastLineOf(const fs::path& log) {
 
 }  // namespace
 
-SweepWatch::SweepWatch(fs::path program) : program_(std::move(program)) {
+SweepWatch::SweepWatch(fs::path program, Kind kind) : program_(std::move(program)), kind_(kind) {
   std::error_code error;
   if (program_.empty()) program_ = fs::read_symlink("/proc/self/exe", error).parent_path() / "acentric";
 }
@@ -61,7 +61,9 @@ void SweepWatch::watch(const fs::path& project) {
   if (project == project_) return;
   forgetProcess();
   project_ = project;
-  folder_ = project.empty() ? fs::path() : sweepFolderFor(project);
+  folder_ = project.empty()        ? fs::path()
+            : kind_ == Kind::sweep ? sweepFolderFor(project)
+                                   : goalsFolderFor(project);
   sweep_.reset();
   runTrouble_.clear();
   fileTrouble_.clear();
@@ -75,7 +77,7 @@ Status SweepWatch::start(const SweepRequest& request) {
   fs::create_directories(folder_, error);
   if (error) return fail(ErrorKind::unreadable, "cannot be made: " + error.message(), folder_.string());
   std::vector<std::string> words{program_.string(),
-                                 "sweep",
+                                 kind_ == Kind::sweep ? "sweep" : "propose",
                                  project_.string(),
                                  "--budget-minutes",
                                  std::to_string(request.minutes),
@@ -83,6 +85,14 @@ Status SweepWatch::start(const SweepRequest& request) {
                                  std::to_string(request.frames),
                                  "--size",
                                  fmt::format("{}x{}", request.width, request.height)};
+  if (kind_ == Kind::goals) {
+    const auto goal = [&words](const char* name, const std::optional<double>& value, double unit) {
+      if (value) words.insert(words.end(), {name, fmt::format("{}", *value / unit)});
+    };
+    goal("--max-mb", request.goals.mostBytes, 1e6);
+    goal("--max-ms", request.goals.mostFrameMs, 1);
+    goal("--min-psnr", request.goals.leastPsnr, 1);
+  }
   if (request.again) words.push_back("--again");
   const auto started = spawnProgram(words, {-1, folder_ / kLogFile});
   if (!started) return tl::unexpected(started.error());

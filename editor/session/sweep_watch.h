@@ -1,7 +1,8 @@
 #pragma once
-/// What accuracy costs in the open project: a sweep of it (`acentric sweep`), run in a process of its own so
-/// that it can neither stop nor slow the window, and what it has measured, read from its file as that grows —
-/// also while somebody else runs it.
+/// What accuracy costs in the open project: a sweep of it (`acentric sweep`) or a search for what keeps to
+/// goals
+/// (`acentric propose`), run in a process of its own so that it can neither stop nor slow the window, and
+/// what it has measured, read from its file as that grows — also while somebody else runs it.
 
 #include <sys/types.h>
 
@@ -19,13 +20,16 @@ struct SweepRequest {
   int frames = 8;
   int width = 640, height = 360;
   bool again = false;  ///< what was measured before is forgotten
+  Goals goals = {};    ///< of a search for them
   bool operator==(const SweepRequest&) const = default;
 };
 
 class SweepWatch {
  public:
+  enum class Kind : std::uint8_t { sweep, goals };
+
   /// `program`: `acentric`; empty = beside the running program.
-  explicit SweepWatch(std::filesystem::path program);
+  explicit SweepWatch(std::filesystem::path program, Kind kind = Kind::sweep);
   /// Ends what it has started.
   ~SweepWatch();
   SweepWatch(const SweepWatch&) = delete;
@@ -55,6 +59,7 @@ class SweepWatch {
   void forgetProcess();
 
   std::filesystem::path program_, project_, folder_;
+  Kind kind_;
   pid_t process_ = 0;
   bool stopping_ = false;
   double nextLook_ = 0;

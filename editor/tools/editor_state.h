@@ -86,6 +86,7 @@ enum class PlanOverlay {
   bytes,      ///< on disk
   checks,     ///< where centres of projection stand badly
   coverage,   ///< how well places are sampled
+  density,    ///< which cells have more or fewer samples per degree than the project
 };
 
 /// Cells to be selected as soon as the layout is inspected.
@@ -130,6 +131,7 @@ struct EditorState {
   bool showLattice = true;
   bool showCameras = true;
   PlanOverlay overlay = PlanOverlay::bake;
+  double densityBrush = 2;  ///< that the tool paints: times the project's samples per degree
   CoverageKind coverageKind = CoverageKind::surfaces;
   bool showBakeCameras = false;  ///< in the bake panel, instead of the overview
   WalkLook walkLook = WalkLook::picture;

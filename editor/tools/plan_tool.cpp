@@ -34,8 +34,9 @@ void PlanTool::setMode(PlanMode mode) {
 
 bool PlanTool::cancel() {
   const bool drawing = outline_.cancel(), placing = panorama_.cancel(), laying = lattice_.cancel(),
-             measuring = measure_.cancel(), changing = path_.cancel();
-  const bool afoot = state_ != State::rest || drawing || placing || laying || measuring || changing;
+             measuring = measure_.cancel(), changing = path_.cancel(), painting = density_.cancel();
+  const bool afoot =
+      state_ != State::rest || drawing || placing || laying || measuring || changing || painting;
   state_ = State::rest;
   drag_.reset();
   return afoot;
@@ -83,6 +84,9 @@ std::optional<PlanIntent> PlanTool::pressTool(const PointerEvent& event, const P
       if (auto intent = path_.press(event, situation.paths, situation.pixelsPerMetre))
         return PlanIntent(std::move(*intent));
       break;
+    case PlanMode::density:
+      density_.press(event, spec);
+      return PlanIntent();
     case PlanMode::cells:
     case PlanMode::eye:
       break;
@@ -133,6 +137,9 @@ PlanIntent PlanTool::moveTool(const PointerEvent& event, const PlanSituation& si
       break;
     case PlanMode::path:
       return asIntent(path_.move(event));
+    case PlanMode::density:
+      density_.move(event, *situation.spec);
+      break;
     case PlanMode::cells:
     case PlanMode::eye:
       break;
@@ -206,6 +213,8 @@ PlanIntent PlanTool::releaseTool(const PointerEvent& event, const PlanSituation&
       break;
     case PlanMode::path:
       return asIntent(path_.release(event));
+    case PlanMode::density:
+      return density_.release();
     case PlanMode::cells:
     case PlanMode::eye:
       break;

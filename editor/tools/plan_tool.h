@@ -9,6 +9,7 @@
 ///   panorama: see panorama_tool.h
 ///   lattice:  see lattice_tool.h
 ///   measure:  see measure_tool.h
+///   density:  see density_tool.h
 ///   path:     see path_tool.h; free ground pans, and selects no key pose
 /// In every mode the middle or right button pans.
 
@@ -19,6 +20,7 @@
 
 #include "editor/commands/group_edits.h"
 #include "editor/commands/selection.h"
+#include "editor/tools/density_tool.h"
 #include "editor/tools/lattice_tool.h"
 #include "editor/tools/measure_tool.h"
 #include "editor/tools/outline_tool.h"
@@ -29,7 +31,7 @@
 
 namespace acentric::editor {
 
-enum class PlanMode { cells, eye, outline, panorama, lattice, measure, path };
+enum class PlanMode { cells, eye, outline, panorama, lattice, measure, path, density };
 
 /// What the tool needs to know at the moment of an event.
 struct PlanSituation {
@@ -71,7 +73,7 @@ struct TurnEyeIntent {
 };
 using PlanIntent = std::variant<std::monostate, AddCellIntent, RemoveCellIntent, SelectIntent, MarqueeIntent,
                                 MoveCellsIntent, PanIntent, PlaceEyeIntent, TurnEyeIntent, OutlineIntent,
-                                FreeApvIntent, LatticeIntent, PathIntent>;
+                                FreeApvIntent, LatticeIntent, PathIntent, PaintDensityIntent>;
 
 class PlanTool {
  public:
@@ -100,6 +102,7 @@ class PlanTool {
   const PanoramaTool& panoramaTool() const { return panorama_; }
   const LatticeTool& latticeTool() const { return lattice_; }
   const MeasureTool& measureTool() const { return measure_; }
+  const DensityTool& densityTool() const { return density_; }
 
  private:
   /// `tool`: one of the other modes' tools has the pointer.
@@ -125,6 +128,7 @@ class PlanTool {
   LatticeTool lattice_;
   MeasureTool measure_;
   PathTool path_;
+  DensityTool density_;
 };
 
 }  // namespace acentric::editor

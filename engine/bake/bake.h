@@ -28,8 +28,12 @@ class TexturePyramids;
 class RegionSkies;
 class Shader;
 
-/// The column camera by which a layout camera is baked: columns and rows from the settings; elevations from
-/// the scene's bounds: above and below them nothing that lies beyond the near band can be but the background.
+/// Of a camera: the settings' samples per degree times its density, within what settings may have.
+double samplesPerDegreeOf(const LayoutCamera& camera, const BakeSettings& settings);
+
+/// The column camera by which a layout camera is baked: columns and rows from its samples per degree;
+/// elevations from the scene's bounds: above and below them nothing that lies beyond the near band can be but
+/// the background.
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
                              const Bounds& sceneBounds, const BakeSettings& settings);
 

@@ -7,11 +7,7 @@
 #include <utility>
 
 namespace acentric {
-namespace {
-
-constexpr double kCoarsest = 0.5;  ///< samples per degree
-
-}  // namespace
+namespace {}  // namespace
 
 const char* nameOf(Quality quality) {
   return quality == Quality::preview ? "preview" : quality == Quality::draft ? "draft" : "final";
@@ -24,7 +20,7 @@ BakeSettings BakeSettings::at(Quality quality) const {
   const int part = preview ? 4 : 2;
   const auto fewer = [&](int& count, int least) { count = std::min(count, std::max(count / part, least)); };
   out.samplesPerDegree =
-      std::max(samplesPerDegree / (preview ? 8 : 2), std::min(samplesPerDegree, kCoarsest));
+      std::max(samplesPerDegree / (preview ? 8 : 2), std::min(samplesPerDegree, kLeastSamplesPerDegree));
   fewer(out.ambientRays, 4);
   fewer(out.shadowRays, 4);
   fewer(out.bounces, 1);
@@ -44,7 +40,7 @@ Status BakeSettings::check() const {
   const auto bad = [](std::string message) {
     return fail(ErrorKind::invalidArgument, std::move(message), "bake settings");
   };
-  if (!inRange(samplesPerDegree, kCoarsest, 64))
+  if (!inRange(samplesPerDegree, kLeastSamplesPerDegree, kMostSamplesPerDegree))
     return bad(fmt::format("{} samples per degree: must lie in 0.5..64", samplesPerDegree));
   if (ambientRays < 0 || ambientRays > 1024)
     return bad(fmt::format("{} ambient rays: must lie in 0..1024", ambientRays));

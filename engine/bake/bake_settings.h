@@ -24,6 +24,8 @@ enum class Quality : std::uint8_t { preview, draft, full };
 inline constexpr Quality kQualities[] = {Quality::preview, Quality::draft, Quality::full};
 const char* nameOf(Quality quality);  ///< preview, draft, final
 
+inline constexpr double kLeastSamplesPerDegree = 0.5, kMostSamplesPerDegree = 64;
+
 struct BakeSettings {
   double samplesPerDegree = 16;  ///< columns and rows per degree, 0.5..64
   int ambientRays = 32;          ///< per place that light is gathered for, 0..1024; for occlusion and bounces

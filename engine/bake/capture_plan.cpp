@@ -73,6 +73,11 @@ void addCameraParts(KeyParts& parts, const LayoutCamera& camera, const ColumnCam
 
 }  // namespace
 
+double samplesPerDegreeOf(const LayoutCamera& camera, const BakeSettings& settings) {
+  return std::clamp(settings.samplesPerDegree * camera.density, kLeastSamplesPerDegree,
+                    kMostSamplesPerDegree);
+}
+
 ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nearBand,
                              const Bounds& sceneBounds, const BakeSettings& settings) {
   // What is captured lies beyond the near band, so the scene's top and bottom are seen no steeper than across
@@ -92,8 +97,9 @@ ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nea
   columns.fovRadians = camera.fovRadians;
   columns.topElevation = top;
   columns.bottomElevation = bottom;
-  columns.columns = samplesFor(camera.fovRadians, settings.samplesPerDegree);
-  columns.rows = samplesFor(top - bottom, settings.samplesPerDegree);
+  const double perDegree = samplesPerDegreeOf(camera, settings);
+  columns.columns = samplesFor(camera.fovRadians, perDegree);
+  columns.rows = samplesFor(top - bottom, perDegree);
   return columns;
 }
 

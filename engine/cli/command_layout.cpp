@@ -79,10 +79,11 @@ Report describeLayout(const OpenProject& open) {
       "degree\n",
       area, outlineArea, countText(layout.cameras.size()), countText(centres.size()), spacing, megapixels,
       samplesPerDegree);
-  if (!spec.freeApvs.empty() || !spec.split.empty() || !spec.added.empty() || !spec.removed.empty())
-    report.text +=
-        fmt::format("single   {} cells added, {} removed, {} split, {} free APVs\n", spec.added.size(),
-                    spec.removed.size(), spec.split.size(), spec.freeApvs.size());
+  if (!spec.freeApvs.empty() || !spec.split.empty() || !spec.added.empty() || !spec.removed.empty() ||
+      !spec.density.empty())
+    report.text += fmt::format(
+        "single   {} cells added, {} removed, {} split, {} of another density, {} free APVs\n",
+        spec.added.size(), spec.removed.size(), spec.split.size(), spec.density.size(), spec.freeApvs.size());
   report.text += fmt::format("baked    {} of {} cameras\n", bakedCount, baked.size());
   report.json = {{"configuration", nameOf(spec.configuration)},
                  {"description", describe(spec.configuration)},
@@ -103,6 +104,7 @@ Report describeLayout(const OpenProject& open) {
                  {"added", spec.added.size()},
                  {"removed", spec.removed.size()},
                  {"split", spec.split.size()},
+                 {"density", spec.density.size()},
                  {"freeApvs", spec.freeApvs.size()},
                  {"baked", bakedCount}};
   return report;

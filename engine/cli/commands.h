@@ -241,6 +241,19 @@ struct SweepOptions {
 };
 Result<Report> runSweep(const SweepOptions& options, const Common& common);
 
+struct ProposeOptions {
+  std::filesystem::path project, path;
+  std::filesystem::path output;    ///< folder; empty = beside the project
+  std::vector<std::string> knobs;  ///< as a sweep's; empty = those of layouts and captures
+  double mostMegabytes = 0, mostMilliseconds = 0, leastPsnr = 0;  ///< 0: no goal
+  std::string size = "1280x720";
+  int frames = 4, repeats = 3, truthSamples = 4;
+  double budgetMinutes = 10;
+  bool again = false;  ///< forget what was measured before
+  bool apply = false;
+};
+Result<Report> runPropose(const ProposeOptions& options, const Common& common);
+
 struct PresetOptions {
   std::filesystem::path project, from;  ///< from: a sweep's folder or file; empty = beside the project
   std::string name;

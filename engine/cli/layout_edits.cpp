@@ -58,13 +58,23 @@ Status applyCells(LayoutSpec& spec, const LayoutEdits& edits) {
       edit.into.insert(*id);
       if (edit.outOf != nullptr) edit.outOf->erase(*id);
     }
+  for (const std::string& text : edits.density) {
+    const auto density = parseDensity(text);
+    if (!density) return tl::unexpected(density.error());
+    if (density->second == 1)
+      spec.density.erase(density->first);
+    else
+      spec.density[density->first] = density->second;
+  }
   return {};
 }
 
 Status applyFreeApvs(LayoutSpec& spec, const LayoutEdits& edits) {
-  for (const int number : edits.removeFree)
+  for (const int number : edits.removeFree) {
     if (spec.freeApvs.erase(number) == 0)
       return fail(ErrorKind::notFound, fmt::format("there is no free APV {}", number), "layout");
+    spec.density.erase({number, 0, kFreeSlot});
+  }
   for (const std::string& text : edits.free) {
     const auto apv = parseApv(text);
     if (!apv) return tl::unexpected(apv.error());
@@ -103,6 +113,16 @@ Result<CellId> parseCell(std::string_view text) {
   return CellId{(*n)[0], (*n)[1], (*n)[2], n->size() > 3 ? (*n)[3] : 0};
 }
 
+Result<std::pair<CellId, double>> parseDensity(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const auto id = parseCell(text.substr(0, equals));
+  if (!id) return tl::unexpected(id.error());
+  const std::string_view factor = equals == std::string_view::npos ? "" : text.substr(equals + 1);
+  const auto times = numbersFrom<double>({&factor, 1});
+  if (!times) return refuse(text, "a cell's address and a factor: i,j,slot=times, such as 0,1,0=2");
+  return std::pair(*id, times->front());
+}
+
 Result<Apv> parseApv(std::string_view text) {
   static constexpr const char* kExpected =
       "an APV x,y,dx,dy,fov,hand: centre and offset to the first camera in metres, degrees, ccw or cw, such "
@@ -136,13 +156,13 @@ Result<EditedLayout> applyEdits(const LayoutSpec& spec, const LayoutEdits& edits
     if (!origin) return tl::unexpected(origin.error());
     s.latticeOrigin = *origin;
   }
-  const std::size_t single = s.added.size() + s.removed.size() + s.split.size();
+  const std::size_t single = s.added.size() + s.removed.size() + s.split.size() + s.density.size();
   if (single > 0 && (s.configuration != spec.configuration || s.cellSize != spec.cellSize)) {
-    s.added.clear(), s.removed.clear(), s.split.clear();
+    s.forgetCells();
     edited.notes.push_back(
-        fmt::format("{} cells added, removed or split one by one are forgotten: they belong to the former "
-                    "lattice",
-                    single));
+        fmt::format("{} cells added, removed, split or made denser one by one are forgotten: they belong to "
+                    "the former lattice",
+                    single - s.density.size()));
   }
   if (Status done = applyCells(s, edits); !done) return tl::unexpected(done.error());
   if (Status done = applyFreeApvs(s, edits); !done) return tl::unexpected(done.error());

@@ -16,6 +16,7 @@ struct LayoutEdits {
   std::string origin;                    ///< "x,y"
   std::vector<std::string> add, remove;  ///< "i,j,slot" or "i,j,slot,level"
   std::vector<std::string> split, join;  ///< likewise
+  std::vector<std::string> density;      ///< "i,j,slot=times" or "i,j,slot,level=times"
   std::vector<std::string> free;         ///< "x,y,dx,dy,fov,hand"
   std::vector<int> removeFree;           ///< numbers
   std::string panoramas;                 ///< empty = as they are; "rings", "regions" or "none"
@@ -25,6 +26,8 @@ struct LayoutEdits {
 Result<glm::dvec2> parsePoint(std::string_view text);
 /// "i,j,slot" or "i,j,slot,level".
 Result<CellId> parseCell(std::string_view text);
+/// "i,j,slot=times" or "i,j,slot,level=times".
+Result<std::pair<CellId, double>> parseDensity(std::string_view text);
 /// "x,y,dx,dy,fov,hand": centre and offset in metres, degrees, ccw or cw.
 Result<Apv> parseApv(std::string_view text);
 

@@ -179,6 +179,10 @@ void addLayout(CLI::App& app, Chosen& chosen) {
   c->add_option("--remove", o.edits.remove, "Take a cell away (may be repeated)");
   c->add_option("--split", o.edits.split, "Split a cell into four (e and g; may be repeated)");
   c->add_option("--join", o.edits.join, "Undo the split of a cell (may be repeated)");
+  c->add_option("--density", o.edits.density,
+                "Samples per degree of a cell, times the project's (0.25 to 4): i,j,slot=times (may be "
+                "repeated); 1 takes it back")
+      ->type_name("CELL=TIMES");
   c->add_option("--free", o.edits.free,
                 "Place an APV beside the lattice: x,y,dx,dy,fov,ccw|cw (may be repeated); dx = dy = 0 is a "
                 "panorama");

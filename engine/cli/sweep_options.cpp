@@ -52,13 +52,55 @@ void addSweep(CLI::App& app, Chosen& chosen) {
                 "project)");
 }
 
+void addPropose(CLI::App& app, Chosen& chosen) {
+  auto [c, o] =
+      add(app, chosen, "propose",
+          "Look for a layout and settings that keep to budgets, by measuring some on a few cameras",
+          "  acentric propose kitchen.acentric.json --max-mb 60 --max-ms 16 --min-psnr 35\n"
+          "  acentric propose kitchen.acentric.json --max-mb 200 --knobs configuration,cell-size=1.5/2/3 "
+          "--budget-minutes 30 --apply",
+          runPropose);
+  c->add_option("project", o.project, "Project file; what it lacks is baked into the folder of this search")
+      ->required();
+  addStoreyOption(*c, chosen, "where the walk begins");
+  const auto goal = [c = c](const char* name, double& value, const char* help) {
+    c->add_option(name, value, help)->check(CLI::PositiveNumber);
+  };
+  goal("--max-mb", o.mostMegabytes, "Megabytes that captures and light may take on disk");
+  goal("--max-ms", o.mostMilliseconds, "Milliseconds that the median frame may take, of --size");
+  goal("--min-psnr", o.leastPsnr, "dB that the median frame is to have against the ray-traced truth");
+  c->add_option("--path", o.path, "A path of the project, or a file (default: a tour)");
+  c->add_option("--knobs", o.knobs,
+                "What may be changed beside the samples per degree, as for `acentric sweep` (default: "
+                "configuration, cell size, near band, layers, colour quality, reconstruction)")
+      ->delimiter(',');
+  c->add_option("--budget-minutes", o.budgetMinutes, "Minutes that it may take. A later call goes on")
+      ->check(CLI::Range(0.01, 1e5))
+      ->capture_default_str();
+  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  c->add_option("--frames", o.frames, "Frames along the path, evenly chosen")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  c->add_option("--repeats", o.repeats, "Times that frames are timed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+  c->add_flag("--again", o.again, "Forget what was measured into the folder before");
+  c->add_flag("--apply", o.apply, "Write the best to the project");
+  c->add_option("-o,--output", o.output,
+                "Folder for sweep.json, sweep.csv, sweep.html and captures (default: NAME.goals beside the "
+                "project)");
+}
+
 void addPreset(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "preset", "Set a project as a sweep found worth having",
                     "  acentric preset kitchen.acentric.json fast\n"
                     "  acentric preset kitchen.acentric.json balanced --from sweep --apply",
                     runPreset);
   c->add_option("project", o.project, "Project file")->required();
-  c->add_option("name", o.name, "fast, balanced or accurate")->required();
+  c->add_option("name", o.name, "fast, balanced or accurate; proposal, of `acentric propose`")->required();
   c->add_option("--from", o.from,
                 "Folder of a sweep, or its sweep.json (default: NAME.sweep beside the project)");
   c->add_flag("--apply", o.apply, "Write the changes to the project");
@@ -78,6 +120,7 @@ void addPresetOption(CLI::App& command, Chosen& chosen) {
 
 void addSweepCommands(CLI::App& app, Chosen& chosen) {
   addSweep(app, chosen);
+  addPropose(app, chosen);
   addPreset(app, chosen);
 }
 

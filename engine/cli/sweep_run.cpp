@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/stopwatch.h"
 #include "engine/cli/bake_notice.h"
@@ -10,6 +11,7 @@
 #include "engine/measure/compare.h"
 #include "engine/pipeline/bake_plan.h"
 #include "engine/pipeline/bench_numerics.h"
+#include "engine/view/view_cameras.h"
 
 namespace acentric::cli {
 namespace fs = std::filesystem;
@@ -46,6 +48,16 @@ const SweepPoint* sameBake(const Sweep& known, const std::string& key) {
   const auto found = std::ranges::find_if(
       known.points, [&](const SweepPoint& p) { return p.measured() && p.bakeKey == key; });
   return found == known.points.end() ? nullptr : &*found;
+}
+
+double pixelsOf(const OpenProject& open, const std::vector<int>& cameras) {
+  double pixels = 0;
+  for (const int camera : cameras) {
+    const ColumnCamera columns = columnCameraFor(open.layout->cameras[std::size_t(camera)], *open.layout,
+                                                 open.scene->bounds, open.project.bake);
+    pixels += double(columns.columns) * columns.rows;
+  }
+  return pixels;
 }
 
 Spread single(double value) { return {value, value, value, value, 1}; }
@@ -111,11 +123,11 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
     return prospect;
   }
   prospect.bakeKey = bakeKeyOf(*open);
-  if (original_) {
-    std::vector<ContentKey> keys = open->keys;
-    keys.push_back(open->surfaceLightKey);
-    for (const ContentKey& key : keys)
-      if (Status taken = store_->adopt(key, *original_); !taken) return tl::unexpected(taken.error());
+  if (Status taken = adopt(*open); !taken) return tl::unexpected(taken.error());
+  if (options_.viewsOnly) {
+    prospect.open = std::move(*open);
+    foretellViews(prospect);
+    return prospect;
   }
   const auto there = std::ranges::count_if(open->keys, [&](const auto& key) { return store_->has(key); });
   const bool light = store_->hasSurfaceLight(open->surfaceLightKey);
@@ -139,6 +151,50 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
   }
   prospect.open = std::move(*open);
   return prospect;
+}
+
+/// What is in the project's own store already.
+Status SweepRun::adopt(const OpenProject& open) {
+  if (!original_) return {};
+  std::vector<ContentKey> keys = open.keys;
+  keys.push_back(open.surfaceLightKey);
+  for (const ContentKey& key : keys)
+    if (Status taken = store_->adopt(key, *original_); !taken) return taken;
+  return {};
+}
+
+void SweepRun::foretellViews(Prospect& prospect) const {
+  const OpenProject& open = *prospect.open;
+  std::set<int> needed;
+  for (const PerspectiveView& view : views_)
+    for (const int camera : camerasOf(*open.layout, view, open.project.view).cameras) needed.insert(camera);
+  prospect.cameras.emplace(needed.begin(), needed.end());
+  std::vector<int> missing = *prospect.cameras;
+  std::erase_if(missing, [&](int camera) { return store_->has(open.keys[std::size_t(camera)]); });
+  prospect.missingSeconds = secondsPerPixel_ * pixelsOf(open, missing);
+}
+
+Status SweepRun::bakeViews(const Prospect& prospect, SweepPoint& point) {
+  const OpenProject& open = *prospect.open;
+  BakeRequest request;
+  request.cameras = prospect.cameras;
+  const auto report = bakeProject(open, request, *store_, runner_, common_.progress, common_.stop);
+  if (!report) return tl::unexpected(report.error());
+  std::vector<int> baked;
+  for (const BakedCamera& camera : report->captures.cameras)
+    if (!camera.reused) baked.push_back(camera.camera);
+  if (!baked.empty()) secondsPerPixel_ = report->captures.seconds / pixelsOf(open, baked);
+  std::uint64_t bytes = 0;
+  for (const int camera : *prospect.cameras) bytes += store_->bytesOf(open.keys[std::size_t(camera)]);
+  const double all = pixelsOf(open, allCamerasOf(*open.layout)), some = pixelsOf(open, *prospect.cameras);
+  share_ = some / all;
+  point.bakeKey = prospect.bakeKey;
+  point[Measure::bytes] = single(double(bytes) * all / some + double(store_->bytesOf(open.surfaceLightKey)));
+  if (secondsPerPixel_ <= 0) return {};  // all was there
+  lightSeconds_ = std::max(lightSeconds_, report->surfaceLightSeconds);
+  point[Measure::bakeSeconds] = single(secondsPerPixel_ * all + lightSeconds_);
+  point.bakeEstimated = true;
+  return {};
 }
 
 Status SweepRun::bake(const Prospect& prospect, const Sweep& known, SweepPoint& point) {
@@ -172,7 +228,7 @@ Result<SweepPoint> SweepRun::measure(const SweepSetting& setting, const Prospect
   point.skipped = prospect.whyNot;
   if (!prospect.open) return point;
   now_ = textOf(setting);
-  Status done = bake(prospect, known, point);
+  Status done = options_.viewsOnly ? bakeViews(prospect, point) : bake(prospect, known, point);
   const Stopwatch watch;
   if (done) done = measureFrames(*prospect.open, known.referenceMs, point);
   if (done) {
@@ -193,14 +249,16 @@ Result<Numerics> SweepRun::numerics() {
 }
 
 Status SweepRun::measureFrames(const OpenProject& open, double referenceMs, SweepPoint& point) {
-  if (Status loaded = measureLoading(open, point); !loaded) return loaded;
+  if (!options_.viewsOnly)
+    if (Status loaded = measureLoading(open, point); !loaded) return loaded;
   const auto maker =
       FrameMaker::create(std::span(&open, 1), nameOf(open.project.view.renderer), common_, runner_);
   if (!maker) return tl::unexpected(maker.error());
   std::vector<ColourImage> pictures;
   if (Status done = measureErrors(**maker, point, pictures); !done) return done;
   if (Status done = measureTimes(**maker, pictures, referenceMs, point); !done) return done;
-  if (Status done = measureFlicker(open, **maker, point); !done) return done;
+  if (!options_.viewsOnly)
+    if (Status done = measureFlicker(open, **maker, point); !done) return done;
   return writePictures(pictures[std::size_t(point.worstFrame)], point);
 }
 

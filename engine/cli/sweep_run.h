@@ -16,6 +16,9 @@ namespace acentric::cli {
 struct SweepRunOptions {
   std::filesystem::path folder;  ///< captures of all settings and pictures go there
   int frames = 8, repeats = 3, truthSamples = 4, crossings = 8;
+  /// Only the captures that the frames are painted from are baked, and the surfaces' light; bytes and seconds
+  /// of all are extrapolated by their pixels. Loading and flicker are not measured.
+  bool viewsOnly = false;
 };
 
 class SweepRun {
@@ -31,10 +34,11 @@ class SweepRun {
   struct Prospect {
     std::optional<OpenProject> open;  ///< none: it cannot be measured
     std::string whyNot;
-    double bakeSeconds = 0;                     ///< of all its captures and its light, as foretold
-    double missingSeconds = 0;                  ///< of what is not there yet
-    std::optional<BakeForecast> forecast = {};  ///< of what is not there yet, if anything is not
-    std::string bakeKey = {};                   ///< SweepPoint::bakeKey
+    double bakeSeconds = 0;                        ///< of all its captures and its light, as foretold
+    double missingSeconds = 0;                     ///< of what is not there yet
+    std::optional<BakeForecast> forecast = {};     ///< of what is not there yet, if anything is not
+    std::string bakeKey = {};                      ///< SweepPoint::bakeKey
+    std::optional<std::vector<int>> cameras = {};  ///< that are baked; none: all of them
   };
   /// `known`: points of the sweep so far; what is known of a bake need not be foretold again.
   Result<Prospect> foretell(const SweepSetting& setting, const Sweep& known);
@@ -49,6 +53,10 @@ class SweepRun {
   /// Careful arithmetic against less, on the frames of the project as it is, which is baked.
   Result<Numerics> numerics();
 
+  /// Of captures, by how long those took that were baked; 0: none was yet.
+  double secondsPerPixel() const { return secondsPerPixel_; }
+  /// Of all pixels of captures, those that frames are painted from, as they were measured last.
+  double share() const { return share_; }
   /// The median frame of the reference, as the last setting was measured.
   double referenceMs() const { return referenceMs_; }
 
@@ -61,6 +69,9 @@ class SweepRun {
         runner_(runner) {
     common_.walkMegabytes = double(common.walkBytes()) / 2e6;  // a setting and the reference share it
   }
+  Status adopt(const OpenProject& open);
+  void foretellViews(Prospect& prospect) const;
+  Status bakeViews(const Prospect& prospect, SweepPoint& point);
   Status bake(const Prospect& prospect, const Sweep& known, SweepPoint& point);
   Status measureFrames(const OpenProject& open, double referenceMs, SweepPoint& point);
   Status measureLoading(const OpenProject& open, SweepPoint& point) const;
@@ -82,7 +93,10 @@ class SweepRun {
   std::optional<CaptureStore> store_, original_;
   std::unique_ptr<FrameMaker> reference_;
   double referenceMs_ = 0;
-  std::string now_;  ///< the setting that is being measured, for progress
+  double lightSeconds_ = 0;  ///< that the surfaces' light took
+  double share_ = 1;
+  double secondsPerPixel_ = 0;  ///< of captures that were baked; 0: not known yet
+  std::string now_;             ///< the setting that is being measured, for progress
 };
 
 }  // namespace acentric::cli

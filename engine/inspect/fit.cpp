@@ -50,9 +50,7 @@ class Fitter {
   Fitter(const LayoutSpec& spec, const TriangleTree& tree, const FitOptions& options, TaskRunner& runner,
          const Progress& progress, std::stop_token stop)
       : base_(spec), tree_(tree), options_(options), runner_(runner), progress_(progress), stop_(stop) {
-    base_.added.clear();
-    base_.removed.clear();
-    base_.split.clear();
+    base_.forgetCells();
     symmetry_ = symmetryOf(base_);
     total_ = options.sizes;
   }
@@ -189,7 +187,8 @@ Result<FitResult> fitToBudget(const LayoutSpec& spec, const TriangleTree& tree, 
   if (spec.outline.empty())
     return fail(ErrorKind::invalidArgument, "there is no walkable outline to lay cells over: draw one first");
   auto result = Fitter(spec, tree, options, runner, progress, stop).run();
-  if (result) result->droppedEdits = spec.added.size() + spec.removed.size() + spec.split.size();
+  if (result)
+    result->droppedEdits = spec.added.size() + spec.removed.size() + spec.split.size() + spec.density.size();
   return result;
 }
 

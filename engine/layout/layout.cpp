@@ -42,6 +42,23 @@ void addRoles(const Lattice& lattice, const CellId& cell, double nearBand, Layou
     }
 }
 
+double densityOf(const LayoutSpec& spec, const Lattice& lattice, CellId id) {
+  for (;; id = lattice.parentOf(id)) {
+    if (const auto own = spec.density.find(id); own != spec.density.end()) return own->second;
+    if (id.slot == kFreeSlot || id.level <= 0 || !canSplit(spec.configuration)) return 1;
+  }
+}
+
+/// The most of what is asked for by placed regions; 1 where it serves none, as a panorama that helps out.
+double densityOf(const LayoutSpec& spec, const Lattice& lattice, const LayoutCamera& camera) {
+  if (spec.density.empty()) return 1;
+  double most = 0;
+  for (const Role& role : camera.roles)
+    if (role.region.slot == kFreeSlot || isPlaced(spec, lattice, role.region))
+      most = std::max(most, densityOf(spec, lattice, role.region));
+  return most > 0 ? most : 1;
+}
+
 /// The cameras of the placed lattice regions, in order of their ids.
 std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vector<CellId>& cells,
                                          const LayoutSpec& spec) {
@@ -63,6 +80,7 @@ std::vector<LayoutCamera> latticeCameras(const Lattice& lattice, const std::vect
                         {}};
     for (const CellId& cell : lattice.servedBy(id, spec.split))
       addRoles(lattice, cell, spec.nearBand, camera);
+    camera.density = densityOf(spec, lattice, camera);
     cameras.push_back(std::move(camera));
   }
   return cameras;
@@ -98,6 +116,7 @@ void addFreeCameras(const LayoutSpec& spec, const Lattice& lattice, std::vector<
                          wrapAngle(std::atan2(low.y, low.x)),
                          radians(apv.fovDegrees) / apv.subCameras(),
                          roles});
+      cameras.back().density = densityOf(spec, lattice, cameras.back());
     }
   }
 }
@@ -327,6 +346,11 @@ ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id) {
   }
   const std::optional<Lattice> lattice = latticeFor(spec);
   return lattice ? lattice->polygonOf(id) : ConvexPolygon{};
+}
+
+double densityOf(const LayoutSpec& spec, const CellId& id) {
+  const std::optional<Lattice> lattice = latticeFor(spec);
+  return lattice ? densityOf(spec, *lattice, id) : 1;
 }
 
 bool isPlaced(const LayoutSpec& spec, const CellId& id) {

@@ -74,6 +74,7 @@ struct LayoutCamera {
   double lowAzimuth = 0;   ///< sector [low, low + fov), half-open
   double fovRadians = 0;
   std::vector<Role> roles;  ///< of one region next to each other
+  double density = 1;       ///< samples per degree, times the project's
 };
 
 /// A sample says by one bit a role which ones need it. A camera with more roles than bits shares them out.
@@ -168,6 +169,8 @@ struct LatticeCell {
 };
 LatticeCell cellAt(const LayoutSpec& spec, const glm::dvec2& point);
 ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id);
+/// Of a region, placed or not, as LayoutSpec::density gives it; 1 where it says nothing.
+double densityOf(const LayoutSpec& spec, const CellId& id);
 /// Does buildLayout(spec) place this cell, or have this free APV?
 bool isPlaced(const LayoutSpec& spec, const CellId& id);
 /// The four regions of half the size that tile a region; only of configurations that can be split.

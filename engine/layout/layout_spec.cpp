@@ -80,6 +80,24 @@ Status checkSlope(const std::optional<GroundSlope>& slope) {
   return {};
 }
 
+Status checkDensity(const LayoutSpec& spec, const Lattice& lattice) {
+  if (spec.density.size() > std::size_t(kMaxRegions))
+    return refuse(fmt::format("{} regions have a density of their own; at most {} can", spec.density.size(),
+                              kMaxRegions));
+  std::set<CellId> cells;
+  for (const auto& [id, density] : spec.density) {
+    if (Status status = checkRange(fmt::format("the density of the region {}", describe(id)).c_str(), density,
+                                   kLeastRegionDensity, kMostRegionDensity);
+        !status)
+      return status;
+    if (id.slot != kFreeSlot)
+      cells.insert(id);
+    else if (!spec.freeApvs.contains(id.i))
+      return refuse(fmt::format("free APV {} has a density, but there is none of that number", id.i));
+  }
+  return checkCells("differently sampled", cells, spec, lattice, false);
+}
+
 Status checkFreeApvs(const LayoutSpec& spec) {
   if (spec.freeApvs.size() > std::size_t(kMaxFreeApvs))
     return refuse(fmt::format("{} free APVs, at most {} can be", spec.freeApvs.size(), kMaxFreeApvs));
@@ -142,6 +160,11 @@ Status checkOutline(const Outline& outline) {
   return {};
 }
 
+void LayoutSpec::forgetCells() {
+  added.clear(), removed.clear(), split.clear();
+  std::erase_if(density, [](const auto& each) { return each.first.slot != kFreeSlot; });
+}
+
 Status LayoutSpec::check() const {
   if (std::string_view(nameOf(configuration)) == "?") return refuse("the configuration is not one of a to g");
   for (const Status& status :
@@ -160,7 +183,8 @@ Status LayoutSpec::check() const {
                               nameOf(configuration)));
   for (const Status& status : {checkCells("added", added, *this, *lattice, true),
                                checkCells("removed", removed, *this, *lattice, false),
-                               checkCells("split", split, *this, *lattice, true), checkFreeApvs(*this)})
+                               checkCells("split", split, *this, *lattice, true), checkFreeApvs(*this),
+                               checkDensity(*this, *lattice)})
     if (!status) return status;
   for (const CellId& id : split)
     if (id.level >= kMaxLevel)
@@ -198,6 +222,8 @@ void LayoutSpec::addTo(Hasher& hasher) const {
     hasher.value(number).value(apv.centre.x).value(apv.centre.y).value(apv.offset.x).value(apv.offset.y);
     hasher.value(apv.fovDegrees).value(apv.hand);
   }
+  for (const auto& [id, factor] : density)
+    hasher.value(id.i).value(id.j).value(id.slot).value(id.level).value(factor);
   if (slope) hasher.value(slope->at.x).value(slope->at.y).value(slope->rise.x).value(slope->rise.y);
 }
 

@@ -36,6 +36,8 @@ inline constexpr int kFreeSlot = -1;
 /// Cells are split at most this often.
 inline constexpr int kMaxLevel = 6;
 inline constexpr int kMaxFreeApvs = 1000;
+/// How many times the project's samples per degree a region may have.
+inline constexpr double kLeastRegionDensity = 0.25, kMostRegionDensity = 4;
 /// Metres; a project may be drawn in any unit.
 inline constexpr double kLeastCellSize = 1e-4, kLargestCellSize = 1e5;
 
@@ -64,10 +66,16 @@ struct LayoutSpec {
   std::set<CellId> split;    ///< regions that give way to four of half the size (which may be split again)
   std::map<int, Apv>
       freeApvs;  ///< beside the lattice, by number; where polygons overlap, these are preferred
+  /// Regions whose captures have so many times the project's samples per degree, within the limits above; of
+  /// a split one, its parts too, where these are not named themselves. A camera of several regions has the
+  /// most of those that are placed.
+  std::map<CellId, double> density;
 
   double groundAt(const glm::dvec2& place) const {  ///< z, metres
     return floorHeight + (slope ? glm::dot(slope->rise, place - slope->at) : 0);
   }
+  /// Forgets what names regions of this lattice one by one: they are others in another lattice.
+  void forgetCells();
   Status check() const;  ///< finite, within the limits above, no more than kMaxRegions regions
   void addTo(Hasher& hasher) const;
   bool operator==(const LayoutSpec&) const = default;

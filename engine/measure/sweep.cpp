@@ -68,6 +68,21 @@ std::vector<std::size_t> frontOf(const Sweep& sweep) {
   return front;
 }
 
+GoalFigures figuresOf(const SweepPoint& point) {
+  constexpr double kLeast = 1e-6;
+  const auto above = [&](Measure measure) { return std::max(point[measure].median, kLeast); };
+  return {above(Measure::bytes), above(Measure::frameMs), above(Measure::psnr)};
+}
+
+const SweepPoint* proposalOf(const Sweep& sweep, const Goals& goals) {
+  const SweepPoint* best = nullptr;
+  for (const SweepPoint& point : sweep.points)
+    if (point.measured() &&
+        (best == nullptr || scoreOf(goals, figuresOf(point)) < scoreOf(goals, figuresOf(*best))))
+      best = &point;
+  return best;
+}
+
 std::vector<SweepPreset> presetsOf(const Sweep& sweep) {
   const std::vector<std::size_t> front = frontOf(sweep);
   if (front.empty()) return {};
@@ -94,7 +109,10 @@ std::vector<SweepPreset> presetsOf(const Sweep& sweep) {
   });
   const std::size_t accurate = best([&](const Objectives& p) { return std::pair(p[0], p[1]); });
   const auto settingOf = [&](std::size_t i) { return sweep.points[front[i]].setting; };
-  return {{"fast", settingOf(fast)}, {"balanced", settingOf(balanced)}, {"accurate", settingOf(accurate)}};
+  std::vector<SweepPreset> presets{
+      {"fast", settingOf(fast)}, {"balanced", settingOf(balanced)}, {"accurate", settingOf(accurate)}};
+  if (sweep.goals) presets.push_back({"proposal", proposalOf(sweep, *sweep.goals)->setting});
+  return presets;
 }
 
 }  // namespace acentric

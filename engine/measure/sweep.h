@@ -4,10 +4,12 @@
 
 #include <array>
 #include <compare>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/measure/goals.h"
 #include "engine/measure/numerics.h"
 #include "engine/measure/pareto.h"
 #include "engine/measure/statistics.h"
@@ -75,8 +77,10 @@ struct SweepPoint {
 /// Error, milliseconds of a frame, bytes: what settings are chosen by. Less is better, all above 0.
 Objectives objectivesOf(const SweepPoint& point);
 
+GoalFigures figuresOf(const SweepPoint& point);
+
 struct SweepPreset {
-  std::string name;  ///< fast, balanced, accurate
+  std::string name;  ///< fast, balanced, accurate, proposal
   SweepSetting setting;
 };
 
@@ -91,6 +95,9 @@ struct Sweep {
   std::vector<SweepPoint> points;  ///< the project as it is first
   std::string truthPictures;       ///< folder of the truth of each frame, relative
   Numerics numerics;               ///< of the project as it is; empty = not measured
+  /// What was looked for. Then only captures that the frames are painted from were baked: bytes and bake are
+  /// extrapolated from these by their pixels.
+  std::optional<Goals> goals;
 
   /// Nothing where there is none.
   const SweepPoint* find(const SweepSetting& setting) const;
@@ -100,10 +107,13 @@ struct Sweep {
 /// Indices into Sweep::points, by objectivesOf.
 std::vector<std::size_t> frontOf(const Sweep& sweep);
 
+/// Of those that were measured the one that keeps the goals best (scoreOf); null where none was.
+const SweepPoint* proposalOf(const Sweep& sweep, const Goals& goals);
+
 /// Chosen from the front: `fast` has the quickest frames of those with at most three times the least error,
 /// `balanced` is nearest of these to having the least error and the quickest frame and fewest bytes at once
 /// (each by the share of the way from its least to its largest, the last two by their logarithms), `accurate`
-/// has the least error. None where nothing was measured.
+/// has the least error; `proposal`, where there are goals, keeps these best. None where nothing was measured.
 std::vector<SweepPreset> presetsOf(const Sweep& sweep);
 
 /// Stable order of keys; ends with a line feed.

@@ -89,6 +89,7 @@ Sweep sweepFrom(const Json& json) {
   sweep.fingerprint = json.at("fingerprint");
   sweep.truthPictures = json.at("truthPictures");
   for (const Json& point : json.at("points")) sweep.points.push_back(pointFrom(point));
+  if (json.contains("goals")) sweep.goals = goalsFrom(json.at("goals").get<std::map<std::string, double>>());
   if (json.contains("numerics")) {
     auto numerics = parseNumerics(jsonText(json.at("numerics")), "numerics");
     if (numerics) sweep.numerics = std::move(*numerics);
@@ -143,6 +144,7 @@ std::string toJson(const Sweep& sweep) {
   for (const SweepPoint& point : sweep.points) json["points"].push_back(jsonOf(point));
   for (const std::size_t i : frontOf(sweep)) json["front"].push_back(jsonOf(sweep.points[i].setting));
   for (const SweepPreset& preset : presetsOf(sweep)) json["presets"][preset.name] = jsonOf(preset.setting);
+  if (sweep.goals) json["goals"] = numbersOf(*sweep.goals);
   if (!sweep.numerics.empty()) json["numerics"] = parseJson<Json>(toJson(sweep.numerics)).value_or(Json());
   return jsonText(json, 2) + "\n";
 }

@@ -117,6 +117,18 @@ Candidate finer(const Project& project) {
   return c;
 }
 
+/// The same where the eye stands alone; nothing where more cannot be.
+std::optional<Candidate> finerHere(const OpenProject& open, int region) {
+  if (region < 0) return std::nullopt;
+  const CellId cell = open.layout->regions[std::size_t(region)].id;
+  Candidate c{"", "finer captures for this cell alone", open.project};
+  LayoutSpec& spec = c.project.layout();
+  const double before = densityOf(spec, cell), now = std::min(kMostRegionDensity, 1.5 * before);
+  spec.density[cell] = now;
+  c.what = fmt::format("samples per degree of this cell times {:.3g}", now / before);
+  return c;
+}
+
 /// Cameras nearer to the eye: four cells in place of one where that can be, else smaller ones everywhere.
 Candidate nearer(const OpenProject& open, int region) {
   Candidate c{"", "cameras nearer to the eye", open.project};
@@ -182,6 +194,7 @@ std::vector<Candidate> candidatesFor(const OpenProject& open, const PictureAnswe
   std::vector<Candidate> all;
   const auto wrong = [&](ErrorSource source) { return answer.here.of(source).squares > 0; };
   if (answer.painter) {
+    if (auto here = finerHere(open, answer.region)) all.push_back(std::move(*here));
     all.push_back(finer(open.project));
     all.push_back(nearer(open, answer.region));
     if (auto band = asPolygons(open, answer)) all.push_back(std::move(*band));

@@ -7,8 +7,6 @@
 
 namespace acentric {
 
-inline constexpr double kLeastSamplesPerDegree = 0.5, kMostSamplesPerDegree = 64;
-
 /// How the captures of a representation are made.
 struct CaptureBake {
   std::size_t together = 1;  ///< so many cameras, one after the other, are baked together or not at all

@@ -68,7 +68,6 @@ class BakeSight final : public CaptureSight {
         settings_(settings),
         testEyes_(*rays_, settings_),
         skyEyes_(*rays_, forSky(settings_)),
-        rowPitch_(radians(1.0) / settings_.samplesPerDegree),
         sights_(std::make_unique<Lazy[]>(layout_->cameras.size())) {}
 
   bool keeps(int camera, std::size_t role, const glm::dvec3& point, const OpaqueHit& hit,
@@ -78,7 +77,7 @@ class BakeSight final : public CaptureSight {
     RegionSight::Hints hints = sight.hints();
     RayCounts rays;
     const MetSurface surface(glm::vec3(hit.normal), point, glm::vec3(direction));
-    return sight.sees(role, surface, kSameDepth * rowPitch_ * hit.distance, hints, rays) != Side::none;
+    return sight.sees(role, surface, kSameDepth * rowPitch(camera) * hit.distance, hints, rays) != Side::none;
   }
   bool keepsSky(int camera, std::size_t role, const glm::dvec3& direction) const override {
     const FlushDenormals flush;
@@ -88,9 +87,15 @@ class BakeSight final : public CaptureSight {
       return !std::isfinite(rays_->occluderDistance({glm::vec3(view.eye()), glm::vec3(direction)}));
     });
   }
-  double rightBehind(int) const override { return std::max(kSameDepth * rowPitch_, kSameSurface); }
+  double rightBehind(int camera) const override {
+    return std::max(kSameDepth * rowPitch(camera), kSameSurface);
+  }
 
  private:
+  double rowPitch(int camera) const {
+    return radians(1.0) / samplesPerDegreeOf(layout_->cameras[std::size_t(camera)], settings_);
+  }
+
   struct Sights {
     RegionSight toKeep, ofSky;
   };
@@ -119,7 +124,6 @@ class BakeSight final : public CaptureSight {
   std::shared_ptr<const Layout> layout_;
   BakeSettings settings_;
   mutable TestEyes testEyes_, skyEyes_;
-  double rowPitch_;
   std::unique_ptr<Lazy[]> sights_;
 };
 

@@ -114,16 +114,13 @@ void viewKnobs(std::vector<Knob>& table) {
   table.push_back(std::move(budget));
 }
 
-/// A spec whose lattice is another forgets cells that were named one by one in it.
-void forgetCells(LayoutSpec& spec) { spec.added.clear(), spec.removed.clear(), spec.split.clear(); }
-
 void layoutKnobs(std::vector<Knob>& table) {
   Knob configuration = nameKnob("configuration", "of the paper", true,
                                 [](Project & p) -> auto& { return p.layout().configuration; },
                                 parseConfiguration, {"a", "b", "c", "d", "e", "f", "g"});
   configuration.set = [set = configuration.set](Project& project, const std::string& value) {
     const Status done = set(project, value);
-    forgetCells(project.layout());
+    project.layout().forgetCells();
     return done;
   };
   table.push_back(std::move(configuration));
@@ -131,7 +128,7 @@ void layoutKnobs(std::vector<Knob>& table) {
                          [](Project & p) -> auto& { return p.layout().cellSize; }, {});
   cell.set = [set = cell.set](Project& project, const std::string& value) {
     const Status done = set(project, value);
-    forgetCells(project.layout());
+    project.layout().forgetCells();
     return done;
   };
   cell.tried = [](const Project& project) {
@@ -300,6 +297,11 @@ Result<SweepSetting> presetOf(const std::filesystem::path& sweepFile, const std:
 std::filesystem::path sweepFolderFor(const std::filesystem::path& projectPath) {
   std::filesystem::path folder = captureFolderFor(projectPath);
   return folder.replace_extension(".sweep");
+}
+
+std::filesystem::path goalsFolderFor(const std::filesystem::path& projectPath) {
+  std::filesystem::path folder = captureFolderFor(projectPath);
+  return folder.replace_extension(".goals");
 }
 
 std::filesystem::path sweepFileOf(const std::filesystem::path& projectPath,

@@ -45,6 +45,8 @@ Result<KnobRange> parseKnobRange(const std::string& text, const Project& project
 Result<SweepSetting> presetOf(const std::filesystem::path& sweepFile, const std::string& name);
 /// "gallery.acentric.json" -> "gallery.sweep" beside it.
 std::filesystem::path sweepFolderFor(const std::filesystem::path& projectPath);
+/// The same for a search that has goals: "gallery.goals".
+std::filesystem::path goalsFolderFor(const std::filesystem::path& projectPath);
 /// `from`: a sweep's folder or its file; empty = as above.
 std::filesystem::path sweepFileOf(const std::filesystem::path& projectPath,
                                   const std::filesystem::path& from);

@@ -50,21 +50,38 @@ const char* nameOf(Lighting lighting) {
 Json toJson(const glm::dvec2& point) { return Json::array({point.x, point.y}); }
 glm::dvec2 pointFrom(const Json& json) { return {json[0].get<double>(), json[1].get<double>()}; }
 
+Json toJson(const CellId& cell) {
+  Json address{cell.i, cell.j, cell.slot};
+  if (cell.level != 0) address.push_back(cell.level);
+  return address;
+}
+
+CellId cellFrom(const Json& json) {
+  return {json[0].get<int>(), json[1].get<int>(), json[2].get<int>(),
+          json.size() > 3 ? json[3].get<int>() : 0};
+}
+
 Json toJson(const std::set<CellId>& cells) {
   Json out = Json::array();
-  for (const CellId& cell : cells) {
-    Json address{cell.i, cell.j, cell.slot};
-    if (cell.level != 0) address.push_back(cell.level);
-    out.push_back(std::move(address));
-  }
+  for (const CellId& cell : cells) out.push_back(toJson(cell));
   return out;
 }
 
 std::set<CellId> cellsFrom(const Json& json) {
   std::set<CellId> out;
-  for (const Json& cell : json)
-    out.insert({cell[0].get<int>(), cell[1].get<int>(), cell[2].get<int>(),
-                cell.size() > 3 ? cell[3].get<int>() : 0});
+  for (const Json& cell : json) out.insert(cellFrom(cell));
+  return out;
+}
+
+Json toJson(const std::map<CellId, double>& density) {
+  Json out = Json::array();
+  for (const auto& [cell, factor] : density) out.push_back({{"cell", toJson(cell)}, {"times", factor}});
+  return out;
+}
+
+std::map<CellId, double> densityFrom(const Json& json) {
+  std::map<CellId, double> out;
+  for (const Json& each : json) out[cellFrom(each.at("cell"))] = each.at("times").get<double>();
   return out;
 }
 
@@ -116,6 +133,7 @@ Json toJson(const LayoutSpec& spec) {
             {"removed", toJson(spec.removed)},
             {"split", toJson(spec.split)},
             {"freeApvs", toJson(spec.freeApvs)}};
+  if (!spec.density.empty()) json["density"] = toJson(spec.density);
   if (spec.slope) json["slope"] = {{"at", toJson(spec.slope->at)}, {"rise", toJson(spec.slope->rise)}};
   return json;
 }
@@ -152,6 +170,7 @@ LayoutSpec layoutFrom(const Json& json) {
   if (json.contains("removed")) spec.removed = cellsFrom(json["removed"]);
   if (json.contains("split")) spec.split = cellsFrom(json["split"]);
   if (json.contains("freeApvs")) spec.freeApvs = apvsFrom(json["freeApvs"]);
+  if (json.contains("density")) spec.density = densityFrom(json["density"]);
   return spec;
 }
 

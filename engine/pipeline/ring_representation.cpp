@@ -94,7 +94,8 @@ LayoutSpec relaid(const LayoutSpec& spec, Configuration configuration) {
   LayoutSpec other = spec;
   other.cellSize = spec.cellSize * ringRadius(spec.configuration) / ringRadius(configuration);
   other.configuration = configuration;
-  other.added.clear(), other.removed.clear(), other.split.clear(), other.freeApvs.clear();
+  other.forgetCells();
+  other.freeApvs.clear(), other.density.clear();
   return other;
 }
 

@@ -309,6 +309,9 @@ TEST_F(CaptureKeyTest, HasPartsThatTellWhatChanged) {
   other = camera;
   other.position.x = 0.5;
   EXPECT_EQ(changed(partsFor(*scene, {}, other)), (Names{"place", "image"}));
+  other = camera;
+  other.density = 1.5;
+  EXPECT_EQ(changed(partsFor(*scene, {}, other)), Names{"image"});
   Scene brighter = *scene;
   brighter.sky.zenith.r = 2;
   brighter.parts = partsOf(brighter);

@@ -1,5 +1,6 @@
 #include "tests/editor/edit_generator.h"
 
+#include "editor/commands/density_edits.h"
 #include "editor/commands/group_edits.h"
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/outline_edits.h"
@@ -151,6 +152,8 @@ const std::vector<GeneratedCommand>& generatedCommands() {
          return copyCells(p, cells(p, r), {step(r), step(r)}).edit;
        }},
       {"splitCells", [](P p, R r) { return splitCells(p, cells(p, r)); }},
+      {"setDensity", [](P p, R r) { return setDensity(p, cells(p, r), between(r, 0.2, 4.2)); }},
+      {"stepDensity", [](P p, R r) { return stepDensity(p, cells(p, r), whole(r, -2, 2)); }},
       {"joinCells", [](P p, R r) { return joinCells(p, cells(p, r)); }},
       {"addFreeApv", [](P p, R r) { return addFreeApv(p, apv(r)); }},
       {"setFreeApv", [](P p, R r) { return setFreeApv(p, whole(r, 0, nextFreeNumber(p.layout())), apv(r)); }},

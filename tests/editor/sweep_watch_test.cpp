@@ -80,6 +80,26 @@ TEST_F(SweepWatchTest, ReadsWhatIsMeasuredAsItGrows) {
   EXPECT_NE(watch.sweep(), nullptr) << "what is measured is kept";
 }
 
+TEST_F(SweepWatchTest, LooksForWhatKeepsGoalsInAFolderOfItsOwn) {
+  Sweep found = smallSweep();
+  found.goals = Goals{2e6, 4, {}};
+  std::ofstream(folder_ / "ready.json") << toJson(found);
+  SweepWatch watch(program("mv " + (folder_ / "ready.json").string() + " " +
+                           (folder_ / "room.goals" / "sweep.json").string()),
+                   SweepWatch::Kind::goals);
+  watch.watch(project());
+  ASSERT_TRUE(watch.start({.minutes = 3, .frames = 2, .width = 320, .height = 180, .goals = *found.goals}));
+  await(watch, [&] { return watch.sweep() != nullptr && !watch.running(); });
+  std::ifstream words(folder_ / "words");
+  std::string said;
+  std::getline(words, said);
+  EXPECT_EQ(said, "propose " + project().string() +
+                      " --budget-minutes 3 --frames 2 --size 320x180 --max-mb 2 --max-ms 4");
+  ASSERT_EQ(watch.sweep()->goals, found.goals);
+  EXPECT_EQ(proposalOf(*watch.sweep(), *found.goals)->setting, found.points[1].setting);
+  EXPECT_EQ(presetsOf(*watch.sweep()).back().name, "proposal");
+}
+
 TEST_F(SweepWatchTest, TellsWhyItFailed) {
   SweepWatch watch(program("echo working >&2; echo 'room: is not baked' >&2; exit 1"));
   watch.watch(project());

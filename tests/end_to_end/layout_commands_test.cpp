@@ -70,16 +70,17 @@ TEST_F(LayoutCommandsTest, ALayoutIsTriedAndThenApplied) {
   EXPECT_NEAR(area, now["squareMetres"]["regions"].get<double>(), 1e-6);
   EXPECT_NEAR(now["squareMetres"]["outline"].get<double>(), 13 * 9, 1e-9);
 
-  const std::vector<std::string> edit{"layout",   made->file(), "--config", "e",
-                                      "--cell",   "2",          "--origin", "-0.5,0.25",
-                                      "--rotate", "10",         "--free",   "1,1,0.5,0,60,cw",
-                                      "--split",  "0,0,0",      "--remove", "1,0,0"};
+  const std::vector<std::string> edit{"layout", made->file(),      "--config",  "e",         "--cell",
+                                      "2",      "--origin",        "-0.5,0.25", "--rotate",  "10",
+                                      "--free", "1,1,0.5,0,60,cw", "--split",   "0,0,0",     "--remove",
+                                      "1,0,0",  "--density",       "0,0,0=2",   "--density", "0,0,-1=0.5"};
   const Json tried = report(edit);
   EXPECT_TRUE(tried["changed"].get<bool>());
   EXPECT_FALSE(tried["applied"].get<bool>());
   EXPECT_EQ(made->read(), asMade) << "trying writes nothing";
   EXPECT_EQ(tried["split"], 1);
   EXPECT_EQ(tried["freeApvs"], 1);
+  EXPECT_EQ(tried["density"], 2);
 
   auto applying = edit;
   applying.insert(applying.end(), {"--apply", "-o", path("layout.svg")});
@@ -87,9 +88,15 @@ TEST_F(LayoutCommandsTest, ALayoutIsTriedAndThenApplied) {
   EXPECT_TRUE(applied["applied"].get<bool>());
   EXPECT_TRUE(std::filesystem::exists(path("layout.svg")));
   const Json after = report({"layout", made->file()});
-  for (const char* same : {"configuration", "cellSize", "latticeOrigin", "regions", "cameras", "split"})
+  for (const char* same :
+       {"configuration", "cellSize", "latticeOrigin", "regions", "cameras", "split", "density", "megapixels"})
     EXPECT_EQ(after[same], tried[same]) << same;
   EXPECT_NEAR(after["rotationDegrees"].get<double>(), 10, 1e-9);
+
+  const Json denser = report({"layout", made->file(), "--density", "0,0,0=4"});
+  EXPECT_EQ(denser["cameras"], after["cameras"]);
+  EXPECT_GT(denser["megapixels"].get<double>(), after["megapixels"].get<double>());
+  EXPECT_EQ(report({"layout", made->file(), "--density", "0,0,0=1"})["density"], 1) << "taken back";
 
   const Json other = report({"layout", made->file(), "--config", "g"});
   EXPECT_EQ(other["split"], 0);
@@ -145,6 +152,8 @@ TEST_F(LayoutCommandsTest, WhatIsWrongIsSaid) {
            {{"layout", made->file(), "--config", "z"}, "there is no configuration"},
            {{"layout", made->file(), "--origin", "1"}, "x,y"},
            {{"layout", made->file(), "--remove", "1,2"}, "i,j,slot"},
+           {{"layout", made->file(), "--density", "1,2,0"}, "i,j,slot=times"},
+           {{"layout", made->file(), "--density", "0,0,0=9"}, "density"},
            {{"layout", made->file(), "--free", "1,2,3"}, "x,y,dx,dy,fov,hand"},
            {{"layout", made->file(), "--free", "1,2,1,0,50,ccw"}, "360"},
            {{"layout", made->file(), "--split", "0,0,0"}, "cannot be split"},

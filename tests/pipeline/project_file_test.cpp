@@ -33,6 +33,8 @@ Project everythingSet() {
   project.layout().split = {{1, -2, 0}, {2, -4, 0, 1}};
   project.layout().freeApvs = {{3, {{1, 2}, {0.5, -0.25}, 360.0 / 7, Hand::clockwise}},
                                {12, {{-4, 0.1}, {0, 0}, 60, Hand::counterClockwise}}};
+  project.layout().density = {
+      {{1, -2, 0}, 1.4142135623730951}, {{2, -4, 0, 1}, 0.5}, {{12, 0, kFreeSlot}, 4}};
   project.bake = {12.5, 24, 1.5, 32, 3, 0.02, 4};
   project.bake.colourQuality = 63;
   project.budget = {150000, 0.0025, true};

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include "editor/actions/menu_actions.h"
+#include "editor/commands/density_edits.h"
+
+namespace acentric::editor {
+namespace {
+
+/// The cell that the walk's eye stands in.
+std::set<CellId> cellOfEye(const ActionContext& c) {
+  const Layout& layout = *c.session.built()->layout;
+  const auto region = layout.regionAt(glm::dvec2(c.state.walker.pose().eye));
+  return region ? std::set<CellId>{layout.regions[std::size_t(*region)].id} : std::set<CellId>{};
+}
+
+/// Those that are selected, where the plan or the 3D view shows them; else the one that the eye stands in.
+std::set<CellId> cellsMeant(const ActionContext& c) {
+  if (!withBuilt(c)) return {};
+  const bool walkAlone = c.state.fullScreen || c.state.whole == WholeView::walk;
+  return walkAlone || c.state.selection.empty() ? cellOfEye(c) : c.state.selection;
+}
+
+void tell(ActionContext& c, const std::set<CellId>& cells) {
+  const Project& project = c.session.project();
+  double least = kMostRegionDensity, most = kLeastRegionDensity;
+  for (const CellId& cell : cells) {
+    const double density = densityOf(project.layout(), cell);
+    least = std::min(least, density), most = std::max(most, density);
+  }
+  const std::string times =
+      least == most ? densityText(most) : fmt::format("{} to {}", densityText(least), densityText(most));
+  c.session.messages().add(
+      MessageLevel::info,
+      fmt::format(
+          "{}: {} times the samples per degree, at most {:.3g}. Bake to see it",
+          cells.size() == 1 ? std::string("One cell") : fmt::format("{} cells", cells.size()), times,
+          std::clamp(most * project.bake.samplesPerDegree, kLeastSamplesPerDegree, kMostSamplesPerDegree)));
+}
+
+}  // namespace
+
+void addDensityActions(std::vector<Action>& table) {
+  const auto density = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,
+                                bool first, auto edit) {
+    table.push_back({id,
+                     "Edit",
+                     label,
+                     shortcut,
+                     {},
+                     help,
+                     first,
+                     [](const ActionContext& c) { return !cellsMeant(c).empty(); },
+                     [edit](ActionContext& c) {
+                       const std::set<CellId> cells = cellsMeant(c);
+                       if (c.session.apply(edit(c.session.project(), cells))) tell(c, cells);
+                     },
+                     {},
+                     "a selected cell, or that the walk's eye stands in one"});
+  };
+  density("density.more", "More samples here", {key::rightBracket, 0},
+          "Half as many samples per degree again, twice the bytes: in the selected cells, else where the "
+          "walk's eye stands",
+          true, [](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, 1); });
+  density("density.fewer", "Fewer samples here", {key::leftBracket, 0},
+          "Half the bytes: in the selected cells, else where the walk's eye stands", false,
+          [](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, -1); });
+  density("density.usual", "The project's samples here", {},
+          "In the selected cells, else where the walk's eye stands", false,
+          [](const Project& p, const std::set<CellId>& cells) { return setDensity(p, cells, 1); });
+}
+
+}  // namespace acentric::editor
