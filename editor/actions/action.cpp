@@ -78,6 +78,7 @@ void proceed(ActionContext& context, const Continuation& continuation) {
     case Continuation::Kind::close:
       context.session.close();
       context.state.selection.clear();
+      context.state.fullScreen = false;  // the welcome needs its menus
       break;
     case Continuation::Kind::open:
       context.session.open(continuation.file);

@@ -32,7 +32,7 @@ void tell(ActionContext& c, const std::set<CellId>& cells) {
   c.session.messages().add(
       MessageLevel::info,
       fmt::format(
-          "{}: {} times the samples per degree, at most {:.3g}. Bake to see it",
+          "{}: {} times the samples per degree ({:.3g} /°). Bake to see it",
           cells.size() == 1 ? std::string("One cell") : fmt::format("{} cells", cells.size()), times,
           std::clamp(most * project.bake.samplesPerDegree, kLeastSamplesPerDegree, kMostSamplesPerDegree)));
 }
