@@ -107,7 +107,8 @@ void addPlanActions(std::vector<Action>& table) {
   tool("tool.path", "Path", key::digit7, PlanMode::path,
        "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
        "press on "
-       "the selected path's line for a new pose. Del removes, Ctrl+click too.");
+       "the selected path's line for a new pose, Shift+press on free ground for one at its end. Del removes, "
+       "Ctrl+click too.");
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {
     table.push_back({id,

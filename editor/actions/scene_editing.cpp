@@ -35,11 +35,14 @@ struct NearestLevel {
 };
 
 /// The height that the path tool works on: that of the line or key pose that is drawn near the pixel, else
-/// the eyes'.
+/// that of the selected path's end, else the eyes'.
 double pathLevel(const ActionContext& c, const glm::dvec2& pixel, const SceneSight& sight) {
   const LayoutSpec& spec = c.session.project().layout();
   NearestLevel nearest{pixel, 2 * kGrabPixels * sight.scale, spec.floorHeight + spec.eyeHeight};
   const PathSituation paths = pathSituation(c);
+  if (const WalkPath* walk = paths.selection.path(c.session.project());
+      walk != nullptr && walk->storey == paths.storey && !walk->path.poses.empty())
+    nearest.level = walk->path.poses.back().eye.z;  // what is appended is as high
   for (const WalkPath& walk : paths.paths) {
     if (walk.storey != paths.storey) continue;
     const std::vector<PathPose>& poses = walk.path.poses;

@@ -131,10 +131,10 @@ void drawScenePaths(const SceneInk& ink, const PathSituation& situation, const O
 
 void drawSceneApvs(const SceneInk& ink, const LayoutSpec& spec, const std::set<CellId>& selection,
                    const std::optional<Apv>& inHand, double floor) {
-  const auto draw = [&](const Apv& apv, const ui::Colour& colour) {
+  const auto draw = [&](const Apv& apv, const ui::Colour& colour, bool filled) {
     if (!apv.traditional()) {
       const ConvexPolygon polygon = polygonOf(apv);
-      ink.fill(polygon.corners, floor, colour.withOpacity(0.12F));
+      if (filled) ink.fill(polygon.corners, floor, colour.withOpacity(0.12F));
       ink.loop(polygon.corners, floor, colour, 1.8F);
     }
     ink.line({apv.centre, floor}, {apv.centre, spec.floorHeight + spec.eyeHeight}, colour.withOpacity(0.6F),
@@ -142,9 +142,10 @@ void drawSceneApvs(const SceneInk& ink, const LayoutSpec& spec, const std::set<C
     ink.dot({apv.centre, floor}, colour, 4.5F);
   };
   for (const auto& [number, apv] : spec.freeApvs)
-    draw(apv, selection.contains({number, 0, kFreeSlot}) ? ui::Colour(palette::accent)
-                                                         : ui::Colour(palette::text));
-  if (inHand) draw(*inHand, palette::accent);
+    draw(apv,
+         selection.contains({number, 0, kFreeSlot}) ? ui::Colour(palette::accent) : ui::Colour(palette::text),
+         false);  // placed ones are filled as cells are
+  if (inHand) draw(*inHand, palette::accent, true);
 }
 
 void drawSceneOutline(const SceneInk& ink, const Outline& outline, const OutlineTool& tool,

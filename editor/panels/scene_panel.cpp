@@ -65,6 +65,7 @@ void ScenePanel::followProject(PanelContext& context) {
     texture_.clear();
     layers_.clearDistances();
     look_.close();
+    editing_ = {};
     state = {};
     asked_.reset();
   }

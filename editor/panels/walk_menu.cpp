@@ -2,6 +2,7 @@
 #include "editor/actions/path_walk.h"
 #include "editor/panels/walk_panel.h"
 #include "editor/tools/ray_math.h"
+#include "engine/bake/ray_scene.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,14 +19,24 @@ void drawItem(PanelContext& context, const char* id) {
   ui::tooltip(tooltipOf(context, action));
 }
 
+/// The place of the floor under a pixel, or under the surface that is in the way.
+std::optional<glm::dvec2> floorUnder(const OpenProject& open, const PointerRay& ray) {
+  const auto floor = onLevel(ray, footingOf(open, glm::dvec2(ray.from)).ground);
+  const Hit hit = open.rays->trace({glm::vec3(ray.from), glm::vec3(ray.way)});
+  if (!hit.found()) return floor;
+  constexpr double kSlack = 1.01;  // the floor's own surface is not in its way
+  const glm::dvec2 met(ray.from + double(hit.distance) * ray.way), from(ray.from);
+  const bool nearer = !floor || glm::distance(met, from) * kSlack < glm::distance(*floor, from);
+  return nearer ? met : *floor;
+}
+
 }  // namespace
 
 void WalkPanel::openMenu(PanelContext& context, const glm::dvec2& at) {
   const OpenProject& open = *context.session().built();
   if (context.session().shippedWalk()) return;
   const PerspectiveView view = viewAt(context, 1);
-  const double ground = footingOf(open, glm::dvec2(view.eye)).ground;
-  context.state().pointedFloor = onLevel(rayThrough(view, at * glm::dvec2(view.width, view.height)), ground);
+  context.state().pointedFloor = floorUnder(open, rayThrough(view, at * glm::dvec2(view.width, view.height)));
   ImGui::OpenPopup(kPopup);
 }
 

@@ -39,6 +39,9 @@ void addArrow(std::vector<GizmoPart>& parts, GizmoGrip grip, const Gizmo& gizmo,
   parts.push_back({grip, {stroke->from, stroke->to}});
 }
 
+/// As it is told, without the sign of a nought.
+double told(double value, double digits) { return std::round(value * digits) / digits + 0.0; }
+
 bool isInside(std::span<const glm::dvec2> corners, const glm::dvec2& at) {
   bool left = false, right = false;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -121,7 +124,7 @@ bool GizmoTool::press(const glm::dvec2& pixel, const PerspectiveView& view, cons
   grip_ = gripAt(gizmo, view, pixel, scale);
   gizmo_ = gizmo;
   pressed_ = pixel;
-  const Ray ray = rayThrough(view, pixel);
+  const PointerRay ray = rayThrough(view, pixel);
   bool held = grip_ != GizmoGrip::none;
   if (grip_ == GizmoGrip::plane) {
     const auto place = onLevel(ray, gizmo.at.z);
@@ -138,14 +141,14 @@ bool GizmoTool::press(const glm::dvec2& pixel, const PerspectiveView& view, cons
 
 std::optional<GizmoMove> GizmoTool::moveFor(const glm::dvec2& pixel, const PerspectiveView& view, bool snap,
                                             const SnapTargets& targets, double scale) const {
-  const Ray ray = rayThrough(view, pixel);
+  const PointerRay ray = rayThrough(view, pixel);
   const double pixels = pixelsPerMetre(view, gizmo_.at) / scale;
   if (grip_ == GizmoGrip::turn) {
     const auto azimuth = azimuthAbout(ray, gizmo_.at);
     if (!azimuth) return std::nullopt;
-    const double wanted = gizmo_.yawRadians + wrapAngle(*azimuth - grabbed_);
+    const double wanted = gizmo_.yawRadians + std::remainder(*azimuth - grabbed_, kTwoPi);
     const double yaw = snap ? snappedAngle(wanted, targets) : wanted;
-    return GizmoMove{glm::dvec3(0), wrapAngle(yaw - gizmo_.yawRadians)};
+    return GizmoMove{glm::dvec3(0), std::remainder(yaw - gizmo_.yawRadians, kTwoPi)};
   }
   if (grip_ == GizmoGrip::plane) {
     const auto place = onLevel(ray, gizmo_.at.z);
@@ -195,9 +198,9 @@ bool GizmoTool::cancel() {
 std::string GizmoTool::text() const {
   switch (grip_) {
     case GizmoGrip::turn:
-      return fmt::format("{:+.1f}°", degrees(move_.turnRadians));
+      return fmt::format("{:+.1f}°", told(degrees(move_.turnRadians), 10));
     case GizmoGrip::up:
-      return fmt::format("z {:+.3f} m", move_.by.z);
+      return fmt::format("z {:+.3f} m", told(move_.by.z, 1000));
     case GizmoGrip::none:
       return {};
     case GizmoGrip::x:
@@ -205,7 +208,7 @@ std::string GizmoTool::text() const {
     case GizmoGrip::plane:
       break;
   }
-  return fmt::format("x {:+.3f} m   y {:+.3f} m", move_.by.x, move_.by.y);
+  return fmt::format("x {:+.3f} m   y {:+.3f} m", told(move_.by.x, 1000), told(move_.by.y, 1000));
 }
 
 }  // namespace acentric::editor

@@ -75,6 +75,7 @@ Gizmo gizmoOf(const GizmoSubject& subject, const LayoutSpec& spec, double floor)
 
 std::optional<Edit> edited(const GizmoSubject& subject, const Project& project, const GizmoMove& move) {
   if (const auto* of = std::get_if<ApvSubject>(&subject)) {
+    if (!project.layout().freeApvs.contains(of->number)) return std::nullopt;
     Apv apv = of->apv;
     apv.centre += glm::dvec2(move.by);
     if (move.turnRadians != 0) apv.offset = rotated(apv.offset, move.turnRadians);

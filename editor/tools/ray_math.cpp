@@ -16,18 +16,18 @@ glm::dvec2 pixelOf(const PerspectiveView& view, const glm::dvec3& seen) {
 
 }  // namespace
 
-Ray rayThrough(const PerspectiveView& view, const glm::dvec2& pixel) {
+PointerRay rayThrough(const PerspectiveView& view, const glm::dvec2& pixel) {
   return {view.eye, view.rayThrough(pixel.x, pixel.y)};
 }
 
-std::optional<glm::dvec2> onLevel(const Ray& ray, double height) {
+std::optional<glm::dvec2> onLevel(const PointerRay& ray, double height) {
   if (!(std::abs(ray.way.z) >= kLeastPlaneSine)) return std::nullopt;
   const double distance = (height - ray.from.z) / ray.way.z;
   if (!(distance > 0)) return std::nullopt;
   return glm::dvec2(ray.from + distance * ray.way);
 }
 
-std::optional<double> alongLine(const Ray& ray, const glm::dvec3& origin, const glm::dvec3& axis) {
+std::optional<double> alongLine(const PointerRay& ray, const glm::dvec3& origin, const glm::dvec3& axis) {
   const double cosine = glm::dot(ray.way, axis), sine2 = 1 - cosine * cosine;
   if (!(sine2 >= kLeastLineSine * kLeastLineSine)) return std::nullopt;
   const glm::dvec3 off = origin - ray.from;
@@ -36,7 +36,7 @@ std::optional<double> alongLine(const Ray& ray, const glm::dvec3& origin, const 
   return (cosine * onRay - onAxis) / sine2;
 }
 
-std::optional<double> azimuthAbout(const Ray& ray, const glm::dvec3& centre) {
+std::optional<double> azimuthAbout(const PointerRay& ray, const glm::dvec3& centre) {
   const auto place = onLevel(ray, centre.z);
   if (!place) return std::nullopt;
   const glm::dvec2 away = *place - glm::dvec2(centre);

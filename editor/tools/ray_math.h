@@ -12,11 +12,11 @@
 
 namespace acentric::editor {
 
-struct Ray {
+struct PointerRay {
   glm::dvec3 from{0};
   glm::dvec3 way{1, 0, 0};  ///< unit
 };
-Ray rayThrough(const PerspectiveView& view, const glm::dvec2& pixel);
+PointerRay rayThrough(const PerspectiveView& view, const glm::dvec2& pixel);
 
 /// Sine of the angle to a plane below which a ray is refused: it meets a plane 1 m below it 500 m away.
 inline constexpr double kLeastPlaneSine = 0.002;
@@ -24,11 +24,11 @@ inline constexpr double kLeastPlaneSine = 0.002;
 inline constexpr double kLeastLineSine = 0.03;
 
 /// Where the ray meets the level plane of that height.
-std::optional<glm::dvec2> onLevel(const Ray& ray, double height);
+std::optional<glm::dvec2> onLevel(const PointerRay& ray, double height);
 /// Metres from `origin` along `axis` (unit) to the place of that line that is nearest to the ray.
-std::optional<double> alongLine(const Ray& ray, const glm::dvec3& origin, const glm::dvec3& axis);
+std::optional<double> alongLine(const PointerRay& ray, const glm::dvec3& origin, const glm::dvec3& axis);
 /// The azimuth of the place where the ray meets the level plane through `centre`, as seen from there.
-std::optional<double> azimuthAbout(const Ray& ray, const glm::dvec3& centre);
+std::optional<double> azimuthAbout(const PointerRay& ray, const glm::dvec3& centre);
 
 /// A line in the picture, pixels.
 struct Stroke {

@@ -164,6 +164,10 @@ TEST_F(GizmoTest, TheRingTurnsByTheAngleThatThePointerGoesRound) {
   move = drag(on(3.0), on(3.6));  // over the seam
   ASSERT_TRUE(move.has_value());
   EXPECT_NEAR(move->turnRadians, 0.6, 1e-9);
+  move = drag(on(2.9), on(2.4));
+  ASSERT_TRUE(move.has_value());
+  EXPECT_NEAR(move->turnRadians, -0.5, 1e-9);
+  EXPECT_EQ(text_, "-28.6°");
   move = drag(on(2.3), on(2.9), ui::modifier::shift);  // from 0.5 rad to 60 degrees, by steps of 15
   ASSERT_TRUE(move.has_value());
   EXPECT_NEAR(moved(gizmo_, *move).yawRadians, radians(60), 1e-9);

@@ -74,13 +74,15 @@ press Escape
 xdotool mouseup 1; sleep 0.3
 wait_state 'working 0 dirty 0 undo 1' 30
 
-# A corner of the outline: a click selects it, and it has arrows.
-# shellcheck disable=SC2046
-click_at $(still_place corner3d.0.0)
-wait_until 10 rect gizmo.x >/dev/null || fail "a corner has no arrows"
+# A corner of the outline, the farthest: a click selects it, it has arrows, and fields for its exact place.
+CORNER=$(grep -oE '^rect corner3d\.0\.[0-9]+ ' "$WORK/ui.log" | awk '{ print $2 }' | sort -u | while read -r name; do
+  rect "$name" >/dev/null && echo "$(place "$name") $name"; done | sort -k2,2n | sed -n 1p | awk '{ print $3 }')
+click "$CORNER"
+wait_until 10 rect corner.x >/dev/null || fail "no corner is selected"
+rect gizmo.x >/dev/null || fail "a corner has no arrows"
 import -window root "$WORK/corner.png"
 press Escape
-wait_until 10 is_gone gizmo.x || fail "Esc did not clear the selection"
+wait_until 10 is_gone corner.x && is_gone gizmo.x || fail "Esc did not clear the selection"
 
 # From the walk: the eye stands in a cell, which says so; the menu adds a single APV there, and selects the cell.
 press Insert
