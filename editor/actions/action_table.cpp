@@ -81,6 +81,7 @@ std::vector<Action> makeActionTable() {
   addLayoutActions(table);
   addOutlineActions(table);
   addWalkActions(table);
+  addHereActions(table);
   addQualityActions(table);
   addWalkViewActions(table);
   addTabActions(table);

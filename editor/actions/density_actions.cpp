@@ -8,6 +8,7 @@ namespace {
 
 /// The cell that the walk's eye stands in.
 std::set<CellId> cellOfEye(const ActionContext& c) {
+  if (!withBuilt(c)) return {};
   const Layout& layout = *c.session.built()->layout;
   const auto region = layout.regionAt(glm::dvec2(c.state.walker.pose().eye));
   return region ? std::set<CellId>{layout.regions[std::size_t(*region)].id} : std::set<CellId>{};
@@ -15,7 +16,6 @@ std::set<CellId> cellOfEye(const ActionContext& c) {
 
 /// Those that are selected, where the plan or the 3D view shows them; else the one that the eye stands in.
 std::set<CellId> cellsMeant(const ActionContext& c) {
-  if (!withBuilt(c)) return {};
   const bool walkAlone = c.state.fullScreen || c.state.whole == WholeView::walk;
   return walkAlone || c.state.selection.empty() ? cellOfEye(c) : c.state.selection;
 }
@@ -40,8 +40,8 @@ void tell(ActionContext& c, const std::set<CellId>& cells) {
 }  // namespace
 
 void addDensityActions(std::vector<Action>& table) {
-  const auto density = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,
-                                bool first, auto edit) {
+  const auto density = [&table](const char* id, const char* label, const Shortcut& shortcut,
+                                const char* help, bool first, auto meant, auto edit) {
     table.push_back({id,
                      "Edit",
                      label,
@@ -49,24 +49,32 @@ void addDensityActions(std::vector<Action>& table) {
                      {},
                      help,
                      first,
-                     [](const ActionContext& c) { return !cellsMeant(c).empty(); },
-                     [edit](ActionContext& c) {
-                       const std::set<CellId> cells = cellsMeant(c);
+                     [meant](const ActionContext& c) { return !meant(c).empty(); },
+                     [meant, edit](ActionContext& c) {
+                       const std::set<CellId> cells = meant(c);
                        if (c.session.apply(edit(c.session.project(), cells))) tell(c, cells);
                      },
                      {},
                      "a selected cell, or that the walk's eye stands in one"});
   };
-  density("density.more", "More samples here", {key::rightBracket, 0},
-          "Half as many samples per degree again, twice the bytes: in the selected cells, else where the "
-          "walk's eye stands",
-          true, [](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, 1); });
-  density("density.fewer", "Fewer samples here", {key::leftBracket, 0},
-          "Half the bytes: in the selected cells, else where the walk's eye stands", false,
-          [](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, -1); });
-  density("density.usual", "The project's samples here", {},
-          "In the selected cells, else where the walk's eye stands", false,
+  const auto step = [](int steps) {
+    return [steps](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, steps); };
+  };
+  density("density.more", "More samples in selected cells", {key::rightBracket, 0},
+          "1.41 times the samples per degree, twice the bytes. Where no cell is selected, in the one that the "
+          "walk's eye stands in",
+          true, cellsMeant, step(1));
+  density("density.fewer", "Fewer samples in selected cells", {key::leftBracket, 0},
+          "Half the bytes. Where no cell is selected, in the one that the walk's eye stands in", false,
+          cellsMeant, step(-1));
+  density("density.usual", "The project's samples in selected cells", {}, "", false, cellsMeant,
           [](const Project& p, const std::set<CellId>& cells) { return setDensity(p, cells, 1); });
+  density("density.moreHere", "More resolution here", {key::rightBracket, ui::modifier::shift},
+          "Twice the samples, and bytes, for the cell that the walk's eye stands in", false, cellOfEye,
+          step(1));
+  density("density.fewerHere", "Fewer bytes here", {key::leftBracket, ui::modifier::shift},
+          "Half the samples, and bytes, for the cell that the walk's eye stands in", false, cellOfEye,
+          step(-1));
 }
 
 }  // namespace acentric::editor

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/layout_edits.h"
@@ -7,9 +8,29 @@
 namespace acentric::editor {
 namespace {
 
+/// Nothing else is what the gizmo of the 3D view is at.
+bool alone3d(const ActionContext& c, PlanMode mode) {
+  const PlanMode now = c.state.planTool.mode();
+  return now == mode ||
+         (now == PlanMode::cells && c.state.centreView == View::scene3d && c.state.selection.empty());
+}
+
 bool withPose(const ActionContext& c) {
-  return c.state.planTool.mode() == PlanMode::path &&
-         c.state.walkSelection.poseIn(c.session.project()).has_value();
+  return alone3d(c, PlanMode::path) && c.state.walkSelection.poseIn(c.session.project()).has_value();
+}
+
+bool withCorner(const ActionContext& c) {
+  return alone3d(c, PlanMode::outline) && c.state.centreView == View::scene3d && !withPose(c) &&
+         placeOf(c.session.project().layout().outline, c.state.scene3d.corner);
+}
+
+void removeCorner(ActionContext& c) {
+  const OutlineCorner corner = *std::exchange(c.state.scene3d.corner, std::nullopt);
+  Outline outline = c.session.project().layout().outline;
+  auto& loop = outline.loops[corner.loop];
+  loop.erase(loop.begin() + std::ptrdiff_t(corner.corner));
+  if (loop.size() < 3) outline.loops.erase(outline.loops.begin() + std::ptrdiff_t(corner.loop));
+  c.session.apply(setOutline(c.session.project(), std::move(outline)));
 }
 
 void removePose(ActionContext& c) {
@@ -93,10 +114,12 @@ void addEditActions(std::vector<Action>& table) {
                    "",
                    true,
                    [](const ActionContext& c) {
-                     return c.session.hasProject() && (!c.state.selection.empty() || withPose(c));
+                     return c.session.hasProject() &&
+                            (!c.state.selection.empty() || withPose(c) || withCorner(c));
                    },
                    [](ActionContext& c) {
                      if (withPose(c)) return removePose(c);
+                     if (withCorner(c)) return removeCorner(c);
                      c.session.apply(removeCells(c.session.project(), c.state.selection));
                      c.state.selection.clear();
                    },

@@ -41,6 +41,8 @@ void addLayoutActions(std::vector<Action>& table);
 /// Of the walkable area.
 void addOutlineActions(std::vector<Action>& table);
 void addWalkActions(std::vector<Action>& table);
+/// What is added and selected where the eye of the walk stands: part of the Walk menu.
+void addHereActions(std::vector<Action>& table);
 /// In the File menu, after saving: the walk in browsers.
 void addPublishActions(std::vector<Action>& table);
 /// In the File menu, after closing: preferences and the window's layout.

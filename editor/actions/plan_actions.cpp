@@ -112,7 +112,8 @@ void addPlanActions(std::vector<Action>& table) {
   tool("tool.path", "Path", key::digit7, PlanMode::path,
        "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
        "press on "
-       "the selected path's line for a new pose. Del removes, Ctrl+click too.");
+       "the selected path's line for a new pose, Shift+press on free ground for one at its end. Del removes, "
+       "Ctrl+click too.");
   tool("tool.density", "Paint density", key::digit8, PlanMode::density,
        "Press or drag over cells to give them more or fewer samples per degree than the project; Ctrl takes "
        "that back.");

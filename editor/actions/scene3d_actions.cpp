@@ -18,6 +18,46 @@ std::optional<CameraPlace> selectedCamera(const ActionContext& c) {
   return std::nullopt;
 }
 
+void setPlacing(ActionContext& c, bool placing) {
+  if (c.state.planTool.mode() != PlanMode::cells) c.state.planTool.setMode(PlanMode::cells);
+  c.state.scene3d.placing = placing;
+}
+
+/// The two ways of the cells tool; other tools give way to them.
+void addPlacing(std::vector<Action>& table) {
+  table.push_back(
+      {"scene3d.select",
+       "View",
+       "Select in 3D",
+       {},
+       {},
+       "Click a cell, a single APV, a corner of the outline or a key pose to select it; its arrows move "
+       "it, its ring turns it (Shift snaps). Drag elsewhere orbits.",
+       true,
+       inScene3d,
+       [](ActionContext& c) { setPlacing(c, false); },
+       [](const ActionContext& c) {
+         return !c.state.scene3d.placing && c.state.planTool.mode() == PlanMode::cells;
+       },
+       "the 3D view"});
+  table.push_back(
+      {"scene3d.place",
+       "View",
+       "Place cells in 3D",
+       {key::y, 0},
+       {},
+       "Click a free place of the floor to add a cell, drag a placed one to move it, as on the plan",
+       false,
+       inScene3d,
+       [](ActionContext& c) {
+         setPlacing(c, !c.state.scene3d.placing || c.state.planTool.mode() != PlanMode::cells);
+       },
+       [](const ActionContext& c) {
+         return c.state.scene3d.placing && c.state.planTool.mode() == PlanMode::cells;
+       },
+       "the 3D view"});
+}
+
 void addSwitches(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.cut",
@@ -114,6 +154,7 @@ void addCameraSteps(std::vector<Action>& table) {
 }  // namespace
 
 void addScene3dActions(std::vector<Action>& table) {
+  addPlacing(table);
   addSwitches(table);
   addCameraSteps(table);
 }

@@ -18,6 +18,8 @@ std::string nameOfKey(int code) {
       return "Tab";
     case key::backspace:
       return "Backspace";
+    case key::insert:
+      return "Insert";
     case key::del:
       return "Del";
     case key::pageUp:

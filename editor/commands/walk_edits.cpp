@@ -141,6 +141,20 @@ std::pair<CameraPath, std::size_t> withPoseAt(CameraPath path, double seconds) {
   return {std::move(path), number};
 }
 
+CameraPath withPoseAfter(CameraPath path, const glm::dvec2& place, double metresPerSecond) {
+  if (path.poses.empty()) return path;
+  PathPose pose = path.poses.back();
+  const glm::dvec2 way = place - glm::dvec2(pose.eye);
+  pose.eye = glm::dvec3(place, pose.eye.z);
+  const bool timed = path.timed() || path.poses.size() == 1;
+  if (timed) pose.seconds += std::max(kLeastKeySeconds, glm::length(way) / metresPerSecond);
+  if (pose.seconds > kMostPathSeconds) return path;
+  if (way != glm::dvec2(0)) pose.yawRadians = std::atan2(way.y, way.x);
+  pose.pitchRadians = 0;
+  path.poses.push_back(pose);
+  return path;
+}
+
 CameraPath withoutPose(CameraPath path, std::size_t pose) {
   if (path.poses.size() < 2) return path;
   path.poses.erase(path.poses.begin() + std::ptrdiff_t(pose));

@@ -30,6 +30,9 @@ inline constexpr double kLeastKeySeconds = 0.001;
 CameraPath withPose(CameraPath path, std::size_t pose, PathPose changed);
 /// A key pose at that time, where the eye would be then; its number is returned too.
 std::pair<CameraPath, std::size_t> withPoseAt(CameraPath path, double seconds);
+/// A key pose at the end, as high as the last one, looking the way that one goes there at that speed. A path
+/// that would take too long stays as it is.
+CameraPath withPoseAfter(CameraPath path, const glm::dvec2& place, double metresPerSecond);
 /// One pose is left at least. What follows the first then begins at 0.
 CameraPath withoutPose(CameraPath path, std::size_t pose);
 

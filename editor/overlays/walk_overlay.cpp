@@ -13,7 +13,6 @@ namespace {
 using ui::imVec;
 namespace palette = ui::palette;
 
-constexpr ui::Colour kPathColour = ui::Colour::hex(0xc29bff);
 constexpr double kPosePixels = 4.5, kShortTickPixels = 13;
 
 /// From a place on the plan, so many pixels in an azimuth.

@@ -6,8 +6,11 @@
 #include "editor/tools/path_tool.h"
 #include "engine/pipeline/pipeline.h"
 #include "ui/canvas_view.h"
+#include "ui/colour.h"
 
 namespace acentric::editor {
+
+inline constexpr ui::Colour kPathColour = ui::Colour::hex(0xc29bff);
 
 /// Lines of the storey's paths with the way they go; of the selected one its key poses with a tick where each
 /// looks, red where one cannot walk. With a pointer (the path tool is at work), what a press there would

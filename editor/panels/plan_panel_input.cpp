@@ -1,16 +1,12 @@
 /// What the user does in the plan: events go to its tools, their intentions become edits.
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
 #include "editor/actions/path_walk.h"
-#include "editor/commands/density_edits.h"
-#include "editor/commands/layout_edits.h"
+#include "editor/actions/plan_intents.h"
 #include "editor/commands/selection.h"
 #include "editor/panels/plan_panel.h"
-#include "engine/pipeline/camera_path.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
 
@@ -27,57 +23,8 @@ std::optional<CellId> PlanPanel::hoveredCell(const PanelContext& context) const 
 }
 
 void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
-  Session& session = context.session();
-  EditorState& state = context.state();
-  const Project& project = session.project();
-  const auto placeEye = [&](const glm::dvec2& position) {
-    WalkPose pose = state.walker.pose();
-    pose.eye = glm::dvec3(clampToPlan(*session.built()->layout, position), pose.eye.z);
-    state.walker.setPose(pose);
-  };
-  if (const auto* add = std::get_if<AddCellIntent>(&intent)) {
-    if (session.apply(addCell(project, add->cell))) state.selection = {add->cell};
-  } else if (const auto* remove = std::get_if<RemoveCellIntent>(&intent)) {
-    session.apply(removeCells(project, {remove->cell}));
-    state.selection.erase(remove->cell);
-  } else if (const auto* select = std::get_if<SelectIntent>(&intent)) {
-    state.selection = select->cells;
-  } else if (const auto* box = std::get_if<MarqueeIntent>(&intent)) {
-    state.selection =
-        combined(state.selection, cellsTouching(*session.built()->layout, box->low, box->high), box->how);
-  } else if (const auto* move = std::get_if<MoveCellsIntent>(&intent)) {
-    GroupEdit moved = moveCells(project, move->cells, move->step);
-    if (moved.skipped > 0)
-      session.messages().add(MessageLevel::info,
-                             fmt::format("{} of the places {} taken: nothing was moved", moved.skipped,
-                                         moved.skipped == 1 ? "is" : "are"));
-    else if (session.apply(std::move(moved.edit)))
-      state.selection = std::move(moved.cells);
-  } else if (const auto* lattice = std::get_if<LatticeIntent>(&intent)) {
-    session.apply(setLattice(project, lattice->place, LatticeTool::labelOf(*lattice)));
-  } else if (const auto* pan = std::get_if<PanIntent>(&intent)) {
-    view_.panPixels(pan->pixels);
-  } else if (const auto* place = std::get_if<PlaceEyeIntent>(&intent)) {
-    placeEye(place->position);
-  } else if (const auto* turn = std::get_if<TurnEyeIntent>(&intent)) {
-    WalkPose pose = state.walker.pose();
-    pose.yawRadians = turn->yawRadians;
-    state.walker.setPose(pose);
-  } else if (const auto* outline = std::get_if<OutlineIntent>(&intent)) {
-    session.applyLive(setOutline(project, outline->outline), outline->finished);
-  } else if (const auto* paint = std::get_if<PaintDensityIntent>(&intent)) {
-    if (!paint->cells.empty())
-      session.apply(setDensity(project, paint->cells, paint->erase ? 1 : state.densityBrush));
-  } else if (const auto* path = std::get_if<PathIntent>(&intent)) {
-    takePathIntent(context.actions, *path);
-  } else if (const auto* apv = std::get_if<FreeApvIntent>(&intent)) {
-    const int number = apv->number.value_or(nextFreeNumber(project.layout()));
-    Edit edit = apv->number ? setFreeApv(project, number, apv->apv) : addFreeApv(project, apv->apv);
-    if (!apv->finished)
-      session.applyLive(std::move(edit), false);
-    else if (session.apply(std::move(edit)))
-      state.selection = {{number, 0, kFreeSlot}};
-  }
+  if (const auto* pan = std::get_if<PanIntent>(&intent)) return view_.panPixels(pan->pixels);
+  takePlanIntent(context.actions, intent);
 }
 
 PlanSituation PlanPanel::situation(PanelContext& context) const {
@@ -130,12 +77,16 @@ void PlanPanel::handleEvents(PanelContext& context) {
     if (event.kind == Kind::keyPress && ours) handleKey(context, event);
     PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
                          view_.worldFromScreen(event.position)};
-    if (event.kind == Kind::buttonPress && inside)
+    View& pointed = context.state().planToolView;
+    const bool capturing = tool.capturing() && pointed == View::plan;
+    if (event.kind == Kind::buttonPress && inside && !(tool.capturing() && !capturing)) {
       pointer.kind = PointerEvent::Kind::press;
-    else if (event.kind == Kind::buttonRelease && tool.capturing())
+      pointed = View::plan;
+    } else if (event.kind == Kind::buttonRelease && capturing) {
       pointer.kind = PointerEvent::Kind::release;
-    else if (event.kind != Kind::move || !tool.capturing())
+    } else if (event.kind != Kind::move || !capturing) {
       continue;
+    }
     act(context, tool.handle(pointer, situation(context)));
   }
 }

@@ -30,7 +30,8 @@ void number(PanelContext& context, const char* logName, const ui::NumberField& f
 void drawPoseSection(PanelContext& context, float labelWidth) {
   const WalkSelection& selected = context.state().walkSelection;
   const auto which = selected.poseIn(context.session().project());
-  if (!which || context.state().planTool.mode() != PlanMode::path) return;
+  const bool in3d = context.state().centreView == View::scene3d && context.state().selection.empty();
+  if (!which || (context.state().planTool.mode() != PlanMode::path && !in3d)) return;
   const WalkPath walk = *selected.path(context.session().project());
   const PathPose pose = walk.path.poses[*which];
   const std::string title =

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/actions/plan_intents.h"
 #include "editor/overlays/pick_table.h"
 #include "editor/panels/toolbar_flow.h"
 #include "editor/session/scene_view.h"
@@ -33,8 +34,18 @@ ScenePanel::ScenePanel(int threads, std::function<void()> wake)
       look_(threads, wake_) {}
 
 void ScenePanel::drawToolbar(PanelContext& context) const {
+  using enum ButtonLook;
   static constexpr ToolbarEntry kEntries[] = {
-      {"scene3d.pick", "Pick", ui::Icon::crosshairs, 0, ButtonLook::tool},
+      {"scene3d.select", "Select", ui::Icon::pointer, 0, tool},
+      {"scene3d.place", "Place cells", ui::Icon::grid, kNear, tool},
+      {"tool.eye", "Eye", ui::Icon::person, kNear, tool},
+      {"tool.outline", "Outline", ui::Icon::corners, kNear, tool},
+      {"tool.panorama", "APV", ui::Icon::bullseye, kNear, tool},
+      {"tool.lattice", "Lattice", ui::Icon::arrows, kNear, tool},
+      {"tool.measure", "Measure", ui::Icon::arrowsAcross, kNear, tool},
+      {"tool.path", "Path", ui::Icon::road, kNear, tool},
+      {"tool.density", "Density", ui::Icon::brush, kNear, tool},
+      {"scene3d.pick", "Pick", ui::Icon::crosshairs, kApart, ButtonLook::tool},
       {"scene3d.lookThrough", "Look through", ui::Icon::binoculars, kNear, ButtonLook::tool},
       {"scene3d.cut", "Cut ceiling", ui::Icon::scissors, kApart},
       {"view.cameras", "Cameras", ui::Icon::videoCamera, kNear},
@@ -55,9 +66,11 @@ void ScenePanel::followProject(PanelContext& context) {
     texture_.clear();
     layers_.clearDistances();
     look_.close();
+    editing_ = {};
     state = {};
     asked_.reset();
   }
+  if (std::exchange(storey_, session.project().storey) != session.project().storey) state.corner.reset();
   if (!tracer_ || tracer_->rays().sharedScene() != open.scene || &tracer_->rays() != open.rays.get())
     tracer_ = std::make_shared<const PreviewTracer>(open.rays);
   if (asked_ != open.layout) {
@@ -90,20 +103,26 @@ glm::dvec3 ScenePanel::holdAt(const PanelContext& context, const glm::dvec2& pix
 
 bool ScenePanel::pointing(const PanelContext& context) const {
   return area_.holds(pointer_) && !context.inputBlocked && !tool_.capturing() &&
+         !editing_.capturing(context.actions) &&
          std::ranges::none_of(panels_, [&](const Area& panel) { return panel.holds(pointer_); });
 }
 
 void ScenePanel::handleKey(PanelContext& context, int code) {
   EditorState& state = context.state();
-  if (code != ui::key::escape || state.centreView != View::scene3d) return;
+  if (state.centreView != View::scene3d) return;
+  if (state.planTool.mode() == PlanMode::outline && (code == ui::key::enter || code == ui::key::keypadEnter))
+    takePlanIntent(context.actions, state.planTool.closeOutline());
+  if (code != ui::key::escape || editing_.cancel(context.actions)) return;
   if (state.scene3d.lookThrough)
     state.scene3d.lookThrough.reset();
   else if (state.scene3d.picked)
     state.scene3d.picked.reset();
   else if (state.scene3d.picking)
     state.scene3d.picking = false;
+  else if (state.planTool.mode() == PlanMode::measure)
+    state.planTool.setMode(PlanMode::cells);
   else
-    state.selection.clear();
+    state.selection.clear(), state.scene3d.corner.reset(), state.walkSelection.pose.reset();
 }
 
 void ScenePanel::handleEvents(PanelContext& context) {
@@ -112,6 +131,7 @@ void ScenePanel::handleEvents(PanelContext& context) {
     const bool inside =
         area_.holds(event.position) && !context.inputBlocked &&
         std::ranges::none_of(panels_, [&](const Area& panel) { return panel.holds(event.position); });
+    const bool capturing = tool_.capturing() || editing_.capturing(context.actions);
     const glm::dvec2 pixel = event.position - area_.min;
     if (event.kind == Kind::scroll && inside)
       camera_.dolly(std::pow(kDollyStep, event.scroll.y), holdAt(context, pixel));
@@ -119,11 +139,12 @@ void ScenePanel::handleEvents(PanelContext& context) {
     ScenePointer pointer{ScenePointer::Kind::move, event.code, event.modifiers, pixel, event.seconds};
     if (event.kind == Kind::buttonPress && inside)
       pointer.kind = ScenePointer::Kind::press;
-    else if (event.kind == Kind::buttonRelease && tool_.capturing())
+    else if (event.kind == Kind::buttonRelease && capturing)
       pointer.kind = ScenePointer::Kind::release;
-    else if (event.kind != Kind::move || !tool_.capturing())
+    else if (event.kind != Kind::move || !capturing)
       continue;
-    act(context, tool_.handle(pointer, context.state().scene3d.picking));
+    const auto taken = tool_.capturing() ? std::nullopt : editing_.handle(context.actions, pointer, sight());
+    act(context, taken ? *taken : tool_.handle(pointer, context.state().scene3d.picking));
   }
 }
 
@@ -137,10 +158,10 @@ void ScenePanel::act(PanelContext& context, const SceneIntent& intent) {
   } else if (const auto* pan = std::get_if<PanViewIntent>(&intent)) {
     camera_.pan(pan->pixels, held_);
   } else if (const auto* select = std::get_if<SelectAtIntent>(&intent)) {
-    const auto cell = cellUnder(layout, camera_.eye(), camera_.rayThrough(select->pixel),
-                                seenAt(context, select->pixel).distance);
-    if (!select->add) state.selection.clear();
-    if (cell && !state.selection.erase(*cell)) state.selection.insert(*cell);
+    editing_.select(context.actions, *select,
+                    cellUnder(layout, camera_.eye(), camera_.rayThrough(select->pixel),
+                              seenAt(context, select->pixel).distance),
+                    sight());
   } else if (const auto* pick = std::get_if<PickAtIntent>(&intent)) {
     const PreviewSeen seen = seenAt(context, pick->pixel);
     state.scene3d.picked.reset();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "editor/actions/scene_editing.h"
 #include "editor/overlays/scene_layers.h"
 #include "editor/panels/look_through.h"
 #include "editor/session/preview_stream.h"
@@ -11,6 +12,8 @@
 #include "ui/texture.h"
 
 namespace acentric::editor {
+
+class SceneInk;
 
 class ScenePanel {
  public:
@@ -37,11 +40,17 @@ class ScenePanel {
   /// What to hold on to under a pixel: the surface, or beside the target.
   glm::dvec3 holdAt(const PanelContext& context, const glm::dvec2& pixel) const;
   bool pointing(const PanelContext& context) const;
+  SceneSight sight() const;
+  GizmoGrip litGrip(const PanelContext& context, const Gizmo& gizmo) const;
 
   void drawPicture(PanelContext& context, ImDrawList& list);
   void takePicture(PanelContext& context);
   void tellFirst(PanelContext& context);
   void drawLayers(PanelContext& context, ImDrawList& list);
+  /// Tools and gizmo, over the picture as it is shown.
+  void drawEditing(PanelContext& context, ImDrawList& list, const PerspectiveView& view);
+  void drawTool(PanelContext& context, const SceneInk& ink, const std::optional<glm::dvec2>& place);
+  void logHandles(PanelContext& context, const SceneInk& ink, const std::optional<Gizmo>& gizmo) const;
   void drawTexts(PanelContext& context, ImDrawList& list) const;
   void drawPanels(PanelContext& context);
   void logPlaces(PanelContext& context) const;
@@ -50,6 +59,7 @@ class ScenePanel {
   std::function<void()> wake_;
   OrbitCamera camera_;
   SceneTool tool_;
+  SceneEditing editing_;
   PreviewStream stream_;
   LookThrough look_;
   SceneLayers layers_;
@@ -62,6 +72,7 @@ class ScenePanel {
   glm::dvec2 pointer_{0};
   glm::dvec3 held_{0};
   int generation_ = -1;
+  int storey_ = -1;
   double openedAt_ = -1;  ///< < 0: the first picture has been told
   bool problemTold_ = false;
 };

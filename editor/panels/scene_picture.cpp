@@ -54,7 +54,8 @@ void ScenePanel::drawLayers(PanelContext& context, ImDrawList& list) {
   passing.walk = state.walker.pose();
   passing.walkFovRadians = radians(session.project().fovDegrees);
   passing.walkAspect = 9.0 / 16;
-  if (pointing(context) && !state.scene3d.picking) {
+  const bool selects = state.planTool.mode() == PlanMode::cells && !state.scene3d.picking;
+  if (pointing(context) && selects) {
     const glm::dvec2 pixel = pointer_ - area_.min;
     passing.hovered =
         cellUnder(layout, camera_.eye(), camera_.rayThrough(pixel), seenAt(context, pixel).distance);
@@ -67,6 +68,7 @@ void ScenePanel::drawLayers(PanelContext& context, ImDrawList& list) {
   const PerspectiveView view =
       stream_.shown() != nullptr ? std::get<PerspectiveView>(stream_.shown()->whole.camera) : camera_.view();
   layers_.draw(list, view, area_.min, area_.size);
+  if (!session.shippedWalk()) drawEditing(context, list, view);
   if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
     session.messages().add(MessageLevel::error,
                            "The layout cannot be drawn in 3D on this OpenGL. " + layers_.problem());

@@ -9,6 +9,7 @@
 #include "editor/commands/setting_edits.h"
 #include "editor/commands/storey_edits.h"
 #include "editor/panels/bake_section.h"
+#include "editor/panels/corner_section.h"
 #include "editor/panels/pose_section.h"
 #include "editor/panels/project_field.h"
 #include "editor/panels/settings_parts.h"
@@ -228,6 +229,7 @@ void drawSettingsPanel(PanelContext& context, ConfigurationPicker& configuration
     return;
   }
   drawPoseSection(context, kLabelWidth);
+  drawCornerSection(context, kLabelWidth);
   drawStoreys(context);
   drawLayout(context, configurations);
   drawPanorama(context);

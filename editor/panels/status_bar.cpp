@@ -49,8 +49,9 @@ const char* hintOf(PlanMode mode, bool selected) {
 
 constexpr const char* kAccuracyHint = "Point at a mark for its worst frame and its figures, click to keep it";
 constexpr const char* kSceneHint =
-    "Drag orbits, right drag pans, wheel comes nearer   ·   click selects a cell, Alt+click asks a surface, "
-    "double click centres or opens a camera";
+    "Drag orbits, right drag pans, wheel comes nearer   ·   click selects, arrows move what is selected   ·  "
+    " "
+    "Alt+click asks a surface, double click centres or opens a camera";
 
 /// The first that runs, of those that are worth waiting for; null if none.
 const Job* workOf(const Session& session) {
@@ -124,7 +125,10 @@ void drawStatusBar(PanelContext& context) {
   ImGui::SameLine(0, 2 * margin);
   // What has no room is left out: the file first, then the hint.
   const View view = context.state().centreView;
-  const char* hint = view == View::scene3d ? kSceneHint
+  const std::string& readout = context.state().scene3d.readout;
+  const bool inScene = view == View::scene3d && context.state().planTool.mode() == PlanMode::cells;
+  const char* hint = !readout.empty() ? readout.c_str()
+                     : inScene        ? kSceneHint
                      : view == View::accuracy
                          ? kAccuracyHint
                          : hintOf(context.state().planTool.mode(), !context.state().selection.empty());

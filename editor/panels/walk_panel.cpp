@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "editor/actions/path_walk.h"
 #include "editor/panels/toolbar_flow.h"
@@ -74,6 +75,7 @@ void WalkPanel::followProject(PanelContext& context) {
     problem_.clear();
     trial_ = {};
     askAt_.reset();
+    state.pointedFloor.reset();
     beginAfresh(context.actions);
   }
   // Cells may have gone from under the eye, or the eye height changed.
@@ -164,12 +166,16 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
       const bool alt = (event.modifiers & ui::modifier::alt) != 0;
       if (alt || (context.state().asking && event.code == ui::mouse::left)) pressedAt_ = event.position;
       if (alt) continue;
+      if (event.code == ui::mouse::right) menuAt_ = event.position;
       looking_ = true;
       lookFrom_ = event.position;
       context.window.capturePointer(true);
     } else if (event.kind == Kind::buttonRelease && looking_) {
       looking_ = false;
       context.window.capturePointer(false);
+      const auto at = std::exchange(menuAt_, std::nullopt);
+      if (at && event.code == ui::mouse::right && glm::distance(event.position, *at) < kClickPixels)
+        openMenu(context, (*at - ui::fromIm(low)) / (ui::fromIm(high) - ui::fromIm(low)));
     } else if (event.kind == Kind::move && looking_) {
       // The mouse turns the head: to the right looks right.
       const Preferences& preferences = context.session().preferences();
@@ -215,6 +221,7 @@ void WalkPanel::draw(PanelContext& context) {
   drawOverlays(context, low, size);
   drawAnswer(context, low, size);
   drawNotice(context, low, size);
+  drawMenu(context);
 }
 
 }  // namespace acentric::editor

@@ -41,6 +41,9 @@ class WalkPanel {
   void drawToolbar(PanelContext& context);
   void drawButtons(PanelContext& context);
   void look(PanelContext& context, const ImVec2& low, const ImVec2& high);
+  /// `at`: where in the picture, shares of its width and height.
+  void openMenu(PanelContext& context, const glm::dvec2& at);
+  void drawMenu(PanelContext& context) const;
   PerspectiveView viewAt(PanelContext& context, double scale) const;
   bool stale(const PanelContext& context, const PerspectiveView& full) const;
   void requestFrame(PanelContext& context);
@@ -103,6 +106,7 @@ class WalkPanel {
   bool looking_ = false;
   bool requested_ = false;
   glm::dvec2 lookFrom_{0};
+  std::optional<glm::dvec2> menuAt_;     ///< a right click there opens the menu, if it is one
   std::optional<glm::dvec2> pressedAt_;  ///< a click there asks, if it is one
   std::optional<glm::dvec2> askAt_;      ///< window pixels; as soon as the picture rests
   glm::dvec2 answerLow_{0}, answerHigh_{0};

@@ -106,6 +106,7 @@ struct Continuation {
 
 struct EditorState {
   PlanTool planTool;
+  View planToolView = View::plan;  ///< whose pointer it follows: the plan's or the 3D view's
   Walker walker;
   std::set<CellId> selection;
   SelectionWish selectionWish = SelectionWish::none;
@@ -141,11 +142,12 @@ struct EditorState {
   int differenceGain = 4;       ///< of kDifferenceGains
   bool showFrameTimes = false;  ///< over the walk
   bool showMinimap = false;
-  bool showImages = false;             ///< beside the minimap: those that the picture is painted from
-  bool asking = false;                 ///< a click on the walk asks what is there
-  bool takePicture = false;            ///< asked for; the walk clears it
-  bool fitPlan = true;                 ///< asked for; the plan clears it
-  std::optional<PlanFrame> framePlan;  ///< the same
+  bool showImages = false;                 ///< beside the minimap: those that the picture is painted from
+  std::optional<glm::dvec2> pointedFloor;  ///< plan; under the walk's pointer as its menu was opened
+  bool asking = false;                     ///< a click on the walk asks what is there
+  bool takePicture = false;                ///< asked for; the walk clears it
+  bool fitPlan = true;                     ///< asked for; the plan clears it
+  std::optional<PlanFrame> framePlan;      ///< the same
   /// Of the settings: asked for; they clear it. "Layout", "Layout/Advanced".
   std::string openSection;
   double wantedMegabytes = 0;  ///< that a bake is to take, as typed; 0: not yet

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "editor/commands/walk_edits.h"
+#include "editor/tools/walker.h"
 #include "ui/keys.h"
 
 namespace acentric::editor {
@@ -72,11 +73,25 @@ PathIntent PathTool::changedTo(bool finished) const {
   return {drag_->path, drag_->pose, drag_->changed, finished};
 }
 
+/// A key pose at the end of the selected path; nothing where none of the storey's is selected.
+std::optional<PathIntent> PathTool::append(const PointerEvent& event, const PathSituation& situation) {
+  const WalkSelection& selected = situation.selection;
+  const bool any = selected.kind == WalkSelection::Kind::path && selected.number < situation.paths.size() &&
+                   situation.paths[selected.number].storey == situation.storey;
+  if (!any || (event.modifiers & ui::modifier::shift) == 0) return std::nullopt;
+  const CameraPath& path = situation.paths[selected.number].path;
+  CameraPath changed = withPoseAfter(path, event.world, Walker::kMetresPerSecond);
+  if (changed == path) return std::nullopt;
+  const std::size_t last = changed.poses.size() - 1;
+  drag_ = Drag{selected.number, last, std::move(changed), glm::dvec2(0), false, true};
+  return changedTo(false);
+}
+
 std::optional<PathIntent> PathTool::press(const PointerEvent& event, const PathSituation& situation,
                                           double pixelsPerMetre) {
   const PathHit hit = hitPaths(situation, event.world, pixelsPerMetre);
-  if (hit.kind == PathHit::Kind::nothing) return std::nullopt;
   pressScreen_ = event.screen;
+  if (hit.kind == PathHit::Kind::nothing) return append(event, situation);
   const CameraPath& path = situation.paths[hit.path].path;
   const bool isSelected =
       situation.selection.kind == WalkSelection::Kind::path && situation.selection.number == hit.path;

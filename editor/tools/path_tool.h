@@ -1,7 +1,8 @@
 #pragma once
 /// Changes paths on the plan: click a key pose to select it, drag it to move it, drag the end of its tick to
-/// turn its view, press on the line of the selected path to put a key pose there, Ctrl+click takes one away;
-/// click another path to select that. Events in, changed paths out; it changes nothing itself.
+/// turn its view, press on the line of the selected path to put a key pose there, Shift+press on free
+/// ground for one at its end, Ctrl+click takes one away; click another path to select that. Events in,
+/// changed paths out; it changes nothing itself.
 
 #include <span>
 
@@ -60,6 +61,7 @@ class PathTool {
     bool moved;
   };
   PathIntent changedTo(bool finished) const;
+  std::optional<PathIntent> append(const PointerEvent& event, const PathSituation& situation);
   std::optional<Drag> drag_;
   glm::dvec2 pressScreen_{0};
 };

@@ -12,10 +12,12 @@ constexpr double kSlack = 1.01;  ///< of the distance: the floor under the latti
 
 }  // namespace
 
-double latticeHeight(const Layout& layout) {
+double latticeHeight(const LayoutSpec& spec) {
   constexpr double kLift = 0.015;
-  return layout.spec.floorHeight + kLift * layout.spec.eyeHeight;
+  return spec.floorHeight + kLift * spec.eyeHeight;
 }
+
+double latticeHeight(const Layout& layout) { return latticeHeight(layout.spec); }
 
 std::optional<CellId> cellUnder(const Layout& layout, const glm::dvec3& eye, const glm::dvec3& ray,
                                 double surfaceDistance) {

@@ -9,6 +9,7 @@
 namespace acentric::editor {
 
 /// Where the lattice is drawn: above the floor by a share of the eye height, so that rugs do not hide it.
+double latticeHeight(const LayoutSpec& spec);
 double latticeHeight(const Layout& layout);
 
 /// The placed cell of the lattice that a ray meets before `surfaceDistance` metres (infinity: nothing is in

@@ -49,7 +49,9 @@ SceneIntent SceneTool::release(const ScenePointer& event, bool picking) {
   clickedAt_ = second ? -1e9 : event.seconds;  // a third click begins anew
   clicked_ = event.pixel;
   if (second) return OpenAtIntent{event.pixel};
-  return SelectAtIntent{event.pixel, (event.modifiers & ui::modifier::shift) != 0};
+  const bool adds = (event.modifiers & ui::modifier::shift) != 0;
+  const bool toggles = (event.modifiers & ui::modifier::control) != 0;
+  return SelectAtIntent{event.pixel, toggles ? Combine::toggle : adds ? Combine::add : Combine::replace};
 }
 
 }  // namespace acentric::editor

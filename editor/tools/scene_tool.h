@@ -2,12 +2,13 @@
 /// What the pointer does in the 3D view, as a state machine: events in, intentions out. It changes nothing
 /// itself.
 ///   left drag orbits; right or middle drag pans
-///   click selects (Shift: adds to the selection); Alt+click, or a click while the pick tool is on, picks the
-///   surface
-///   double click centres on a surface or opens a camera
+///   click selects (Shift: adds to the selection, Ctrl: adds or takes off); Alt+click, or a click while the
+///   pick tool is on, picks the surface double click centres on a surface or opens a camera
 
 #include <glm/glm.hpp>
 #include <variant>
+
+#include "editor/commands/selection.h"
 
 namespace acentric::editor {
 
@@ -32,7 +33,7 @@ struct PanViewIntent {
 };
 struct SelectAtIntent {
   glm::dvec2 pixel{0};
-  bool add = false;
+  Combine how = Combine::replace;
 };
 struct PickAtIntent {
   glm::dvec2 pixel{0};

@@ -48,6 +48,26 @@ TEST_F(PathToolTest, APressSelectsAKeyPoseAndChangesNothing) {
   EXPECT_TRUE(std::holds_alternative<std::monostate>(send(PointerEvent::Kind::release, {4.05, 0.05})));
 }
 
+TEST_F(PathToolTest, APressOnFreeGroundWithShiftAppendsAKeyPose) {
+  const PathIntent intent = press({1, 3}, ui::modifier::shift);
+  ASSERT_TRUE(intent.changed);
+  EXPECT_FALSE(intent.finished);
+  const PathIntent last = std::get<PathIntent>(send(PointerEvent::Kind::release, {1, 3}));
+  ASSERT_TRUE(last.changed && last.finished);
+  ASSERT_EQ(last.changed->poses.size(), 4U);
+  const PathPose& pose = last.changed->poses.back();
+  EXPECT_EQ(pose.eye, glm::dvec3(1, 3, 1.6));
+  EXPECT_NEAR(pose.yawRadians, kPi, 1e-12) << "looks the way it went";
+  EXPECT_NEAR(pose.seconds, 5 + 3 / 1.4, 1e-12) << "at walking speed";
+  EXPECT_EQ(last.pose, 3U);
+  CameraPath untimed = paths_[0].path;
+  for (PathPose& each : untimed.poses) each.seconds = 0;
+  const Status sound = withPoseAfter(untimed, {1, 3}, 1).check();
+  EXPECT_TRUE(sound.has_value()) << "a path without times stays one";
+  selection_.kind = WalkSelection::Kind::none;
+  EXPECT_FALSE(std::get<PathIntent>(send(PointerEvent::Kind::press, {1, 3}, ui::modifier::shift)).changed);
+}
+
 TEST_F(PathToolTest, DraggingAKeyPoseMovesItAloneAndKeepsHeightAndTime) {
   const PathIntent intent = drag({4.05, 0}, {5.05, 1});
   ASSERT_TRUE(intent.changed && intent.finished);

@@ -141,11 +141,13 @@ TEST_F(SceneToolTest, OtherButtonsTakeHoldAndPan) {
 TEST_F(SceneToolTest, ClicksSelectPickOrOpen) {
   const SelectAtIntent select = std::get<SelectAtIntent>(click({10, 20}));
   EXPECT_EQ(select.pixel, glm::dvec2(10, 20));
-  EXPECT_FALSE(select.add);
+  EXPECT_EQ(select.how, Combine::replace);
   EXPECT_EQ(std::get<OpenAtIntent>(click({11, 20})).pixel, glm::dvec2(11, 20));
   EXPECT_TRUE(std::holds_alternative<SelectAtIntent>(click({11, 20})));  // a third click is a first
   now_ += 2;
-  EXPECT_TRUE(std::get<SelectAtIntent>(click({11, 20}, ui::modifier::shift)).add);
+  EXPECT_EQ(std::get<SelectAtIntent>(click({11, 20}, ui::modifier::shift)).how, Combine::add);
+  now_ += 2;
+  EXPECT_EQ(std::get<SelectAtIntent>(click({11, 20}, ui::modifier::control)).how, Combine::toggle);
   now_ += 2;
   EXPECT_EQ(std::get<PickAtIntent>(click({30, 40}, ui::modifier::alt)).pixel, glm::dvec2(30, 40));
   EXPECT_EQ(std::get<PickAtIntent>(click({30, 40}, 0, true)).pixel, glm::dvec2(30, 40));
