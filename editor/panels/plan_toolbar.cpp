@@ -78,20 +78,6 @@ void drawCoverageRow(PanelContext& context) {
   }
 }
 
-void drawDensityRow(PanelContext& context) {
-  ImGui::AlignTextToFramePadding();
-  ui::mutedText("Samples per degree, times the project's");
-  double& chosen = context.state().densityBrush;
-  for (double brush = kLeastRegionDensity;; brush = densityAfter(brush, 1)) {
-    ImGui::SameLine(0, brush == kLeastRegionDensity ? ui::scaled(10) : ui::scaled(kNear));
-    const std::string label = densityText(brush);
-    if (ui::toggleButton(label.c_str(), densityText(chosen) == label)) chosen = brush;
-    context.log.item("density.brush." + label);
-    ui::tooltip(fmt::format("{:.2g} times the bytes", brush * brush));
-    if (brush >= kMostRegionDensity) break;
-  }
-}
-
 void drawOutlineRow(PanelContext& context) {
   const Outline& outline = context.session().project().layout().outline;
   ImGui::AlignTextToFramePadding();
@@ -114,6 +100,21 @@ void drawOutlineRow(PanelContext& context) {
 
 }  // namespace
 
+void drawDensityRow(PanelContext& context) {
+  if (context.state().planTool.mode() != PlanMode::density) return;
+  ImGui::AlignTextToFramePadding();
+  ui::mutedText("Samples per degree, times the project's");
+  double& chosen = context.state().densityBrush;
+  for (double brush = kLeastRegionDensity;; brush = densityAfter(brush, 1)) {
+    ImGui::SameLine(0, brush == kLeastRegionDensity ? ui::scaled(10) : ui::scaled(kNear));
+    const std::string label = densityText(brush);
+    if (ui::toggleButton(label.c_str(), densityText(chosen) == label)) chosen = brush;
+    context.log.item("density.brush." + label);
+    ui::tooltip(fmt::format("{:.2g} times the bytes", brush * brush));
+    if (brush >= kMostRegionDensity) break;
+  }
+}
+
 void drawPlanToolbar(PanelContext& context) {
   using enum ButtonLook;
   static constexpr ToolbarEntry kTools[] = {{"tool.cells", "Cells", ui::Icon::pointer, 0, tool},
@@ -135,7 +136,7 @@ void drawPlanToolbar(PanelContext& context) {
   if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);
   if (context.state().planTool.mode() == PlanMode::outline && context.session().hasProject())
     drawOutlineRow(context);
-  if (context.state().planTool.mode() == PlanMode::density) drawDensityRow(context);
+  drawDensityRow(context);
 }
 
 }  // namespace acentric::editor

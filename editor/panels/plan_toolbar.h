@@ -6,5 +6,7 @@
 namespace acentric::editor {
 
 void drawPlanToolbar(PanelContext& context);
+/// What the tool that paints density paints, where that is in hand.
+void drawDensityRow(PanelContext& context);
 
 }  // namespace acentric::editor

@@ -8,6 +8,7 @@
 
 #include "editor/actions/plan_intents.h"
 #include "editor/overlays/pick_table.h"
+#include "editor/panels/plan_toolbar.h"
 #include "editor/panels/toolbar_flow.h"
 #include "editor/session/scene_view.h"
 #include "editor/tools/scene_hits.h"
@@ -52,6 +53,7 @@ void ScenePanel::drawToolbar(PanelContext& context) const {
       {"scene3d.frusta", "All sectors", ui::Icon::sector, kNear},
       {"view.fit", "Frame", ui::Icon::expand, kApart, ButtonLook::plain}};
   toolbar(context, kEntries);
+  drawDensityRow(context);
 }
 
 void ScenePanel::followProject(PanelContext& context) {
