@@ -50,7 +50,7 @@ const SweepPoint* sameBake(const Sweep& known, const std::string& key) {
   return found == known.points.end() ? nullptr : &*found;
 }
 
-double pixelsOf(const OpenProject& open, const std::vector<int>& cameras) {
+double pixelsOf(const OpenProject& open, std::span<const int> cameras) {
   double pixels = 0;
   for (const int camera : cameras) {
     const ColumnCamera columns = columnCameraFor(open.layout->cameras[std::size_t(camera)], *open.layout,
@@ -136,11 +136,7 @@ Result<SweepRun::Prospect> SweepRun::foretell(const SweepSetting& setting, const
   if (before && missing == 0 && light) {
     prospect.bakeSeconds = (*before)[Measure::bakeSeconds].median;
   } else {
-    BakeShare whole{&*open, bakingOrder(*open), true};
-    BakeForecastOptions foretelling;
-    foretelling.brief = false;
-    foretelling.effort = kEffort;
-    auto forecast = forecastBake(std::span(&whole, 1), foretelling, runner_, common_.progress, common_.stop);
+    auto forecast = forecastAll(*open);
     if (!forecast) return tl::unexpected(forecast.error());
     prospect.bakeSeconds = forecast->seconds();
     forecast->cameras -= int(there);
@@ -163,18 +159,42 @@ Status SweepRun::adopt(const OpenProject& open) {
   return {};
 }
 
-void SweepRun::foretellViews(Prospect& prospect) const {
-  const OpenProject& open = *prospect.open;
+std::vector<int> SweepRun::camerasOfViews(const OpenProject& open) const {
   std::set<int> needed;
   for (const PerspectiveView& view : views_)
     for (const int camera : camerasOf(*open.layout, view, open.project.view).cameras) needed.insert(camera);
-  prospect.cameras.emplace(needed.begin(), needed.end());
+  return {needed.begin(), needed.end()};
+}
+
+void SweepRun::foretellViews(Prospect& prospect) const {
+  const OpenProject& open = *prospect.open;
+  prospect.cameras = camerasOfViews(open);
   std::vector<int> missing = *prospect.cameras;
   std::erase_if(missing, [&](int camera) { return store_->has(open.keys[std::size_t(camera)]); });
   prospect.missingSeconds = secondsPerPixel_ * pixelsOf(open, missing);
 }
 
-Status SweepRun::bakeViews(const Prospect& prospect, SweepPoint& point) {
+SweepRun::ViewsShare SweepRun::shareOf(const OpenProject& open) const {
+  ViewsShare share;
+  for (const int camera : camerasOfViews(open)) {
+    share.bytes += double(store_->bytesOf(open.keys[std::size_t(camera)]));
+    share.pixels += pixelsOf(open, {&camera, 1});
+  }
+  share.allPixels = pixelsOf(open, allCamerasOf(*open.layout));
+  return share;
+}
+
+/// What frames are painted from is not like the rest: they look at more, and rather along rooms than at
+/// walls.
+Result<BakeForecast> SweepRun::forecastAll(const OpenProject& open) const {
+  BakeShare whole{&open, bakingOrder(open), true};
+  BakeForecastOptions options;
+  options.brief = false;
+  options.effort = kEffort;
+  return forecastBake(std::span(&whole, 1), options, runner_, common_.progress, common_.stop);
+}
+
+Status SweepRun::bakeViews(const Prospect& prospect, const Sweep& known, SweepPoint& point) {
   const OpenProject& open = *prospect.open;
   BakeRequest request;
   request.cameras = prospect.cameras;
@@ -183,16 +203,28 @@ Status SweepRun::bakeViews(const Prospect& prospect, SweepPoint& point) {
   std::vector<int> baked;
   for (const BakedCamera& camera : report->captures.cameras)
     if (!camera.reused) baked.push_back(camera.camera);
+  const ViewsShare share = shareOf(open);
+  share_ = share.pixels / share.allPixels;
   if (!baked.empty()) secondsPerPixel_ = report->captures.seconds / pixelsOf(open, baked);
-  std::uint64_t bytes = 0;
-  for (const int camera : *prospect.cameras) bytes += store_->bytesOf(open.keys[std::size_t(camera)]);
-  const double all = pixelsOf(open, allCamerasOf(*open.layout)), some = pixelsOf(open, *prospect.cameras);
-  share_ = some / all;
-  point.bakeKey = prospect.bakeKey;
-  point[Measure::bytes] = single(double(bytes) * all / some + double(store_->bytesOf(open.surfaceLightKey)));
-  if (secondsPerPixel_ <= 0) return {};  // all was there
   lightSeconds_ = std::max(lightSeconds_, report->surfaceLightSeconds);
-  point[Measure::bakeSeconds] = single(secondsPerPixel_ * all + lightSeconds_);
+  point.bakeKey = prospect.bakeKey;
+  const double light = double(store_->bytesOf(open.surfaceLightKey));
+  const auto all = [&](const ViewsShare& of) { return of.bytes * of.allPixels / of.pixels; };
+  if (point.setting.empty()) {
+    const auto forecast = forecastAll(open);
+    if (!forecast) return tl::unexpected(forecast.error());
+    point[Measure::bytes] = single(forecast->captureBytes + light);
+    point[Measure::bakeSeconds] = single(forecast->seconds());
+    if (secondsPerPixel_ <= 0) secondsPerPixel_ = forecast->captureSeconds / share.allPixels;
+    lightSeconds_ = forecast->lightSeconds;
+  } else {
+    // As far as the project as it is was from what its own few captures say.
+    const OpenProject& base = walk_.storeys.front();
+    const double told = known.find({})->values[std::size_t(Measure::bytes)].median -
+                        double(store_->bytesOf(base.surfaceLightKey));
+    point[Measure::bytes] = single(all(share) * told / all(shareOf(base)) + light);
+    point[Measure::bakeSeconds] = single(secondsPerPixel_ * share.allPixels + lightSeconds_);
+  }
   point.bakeEstimated = true;
   return {};
 }
@@ -228,7 +260,7 @@ Result<SweepPoint> SweepRun::measure(const SweepSetting& setting, const Prospect
   point.skipped = prospect.whyNot;
   if (!prospect.open) return point;
   now_ = textOf(setting);
-  Status done = options_.viewsOnly ? bakeViews(prospect, point) : bake(prospect, known, point);
+  Status done = options_.viewsOnly ? bakeViews(prospect, known, point) : bake(prospect, known, point);
   const Stopwatch watch;
   if (done) done = measureFrames(*prospect.open, known.referenceMs, point);
   if (done) {

@@ -16,8 +16,9 @@ namespace acentric::cli {
 struct SweepRunOptions {
   std::filesystem::path folder;  ///< captures of all settings and pictures go there
   int frames = 8, repeats = 3, truthSamples = 4, crossings = 8;
-  /// Only the captures that the frames are painted from are baked, and the surfaces' light; bytes and seconds
-  /// of all are extrapolated by their pixels. Loading and flicker are not measured.
+  /// Only the captures that the frames are painted from are baked, and the surfaces' light. Bytes and seconds
+  /// of the project as it is are predicted; those of other settings follow from it as their few captures
+  /// compare, by pixels. Loading and flicker are not measured.
   bool viewsOnly = false;
 };
 
@@ -71,7 +72,15 @@ class SweepRun {
   }
   Status adopt(const OpenProject& open);
   void foretellViews(Prospect& prospect) const;
-  Status bakeViews(const Prospect& prospect, SweepPoint& point);
+  /// Captures that the frames are painted from.
+  struct ViewsShare {
+    double bytes = 0, pixels = 0;
+    double allPixels = 0;  ///< of all captures
+  };
+  ViewsShare shareOf(const OpenProject& open) const;
+  std::vector<int> camerasOfViews(const OpenProject& open) const;
+  Result<BakeForecast> forecastAll(const OpenProject& open) const;
+  Status bakeViews(const Prospect& prospect, const Sweep& known, SweepPoint& point);
   Status bake(const Prospect& prospect, const Sweep& known, SweepPoint& point);
   Status measureFrames(const OpenProject& open, double referenceMs, SweepPoint& point);
   Status measureLoading(const OpenProject& open, SweepPoint& point) const;
