@@ -174,7 +174,8 @@ std::optional<SceneIntent> SceneEditing::press(ActionContext& c, const ScenePoin
   const bool looks = (event.modifiers & ui::modifier::alt) != 0 || c.state.scene3d.picking;
   if (event.button != ui::mouse::left || looks) return std::nullopt;
   const auto found = subject(c);
-  if (found) {
+  const bool takesAway = (event.modifiers & ui::modifier::control) != 0;  // the tool's
+  if (found && !takesAway) {
     const Gizmo shown = gizmoOf(*found, c.session.project().layout(), floorOf(c));
     if (gizmoTool_.press(event.pixel, sight.view, shown, sight.scale)) {
       takeHold(c, *found, shown);

@@ -215,6 +215,15 @@ TEST_F(SceneEditingTest, TheOutlineGetsACornerOnASideAndItsCornersAreDragged) {
   EXPECT_EQ(steps(), 2U);
   run("edit.remove");
   EXPECT_EQ(spec().outline.loops[0].size(), 4U);
+  EXPECT_EQ(steps(), 3U);
+  // The middle of the handles is the corner itself; with Ctrl it is the tool's.
+  click(onFloor({1, 1}));
+  ASSERT_TRUE(drag(onFloor({1, 1}), onFloor({1.2, 0.9})));
+  EXPECT_LT(glm::distance(spec().outline.loops[0][2], glm::dvec2(1.2, 0.9)), 1e-9);
+  EXPECT_EQ(steps(), 4U);
+  click(onFloor({1.2, 0.9}), ui::modifier::control);
+  EXPECT_EQ(spec().outline.loops[0].size(), 3U);
+  EXPECT_EQ(steps(), 5U);
   EXPECT_FALSE(editing_.gizmo(context()).has_value());
 }
 
