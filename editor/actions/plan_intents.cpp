@@ -9,6 +9,7 @@
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/selection.h"
 #include "engine/pipeline/camera_path.h"
+#include "ui/keys.h"
 
 namespace acentric::editor {
 namespace {
@@ -36,6 +37,16 @@ void takeFreeApv(ActionContext& c, const FreeApvIntent& apv) {
 }
 
 }  // namespace
+
+bool takeOver(ActionContext& c, View view, int button) {
+  if (c.state.planTool.capturing() && c.state.planToolView != view) {
+    if (button != ui::mouse::left) return false;
+    c.state.planTool.cancel();
+    c.session.cancelLive();
+  }
+  c.state.planToolView = view;
+  return true;
+}
 
 void moveSelected(ActionContext& c, const std::set<CellId>& cells, const LatticeStep& step) {
   GroupEdit moved = moveCells(c.session.project(), cells, step);

@@ -103,12 +103,12 @@ SnapTargets SceneEditing::targets(const ActionContext& c, double pixelsPerMetre)
   return targets;
 }
 
-PlanSituation SceneEditing::situation(const ActionContext& c, const glm::dvec2& place,
+PlanSituation SceneEditing::situation(const ActionContext& c, const glm::dvec3& place,
                                       const SceneSight& sight) {
   // The lattice's handles stay where they are while the pointer moves: of one size for the whole view.
   const bool lattice = c.state.planTool.mode() == PlanMode::lattice;
   const glm::dvec2 focus(sight.focus);
-  const glm::dvec3 at(lattice ? focus : place, lattice ? floorOf(c) : level_);
+  const glm::dvec3 at = lattice ? glm::dvec3(focus, floorOf(c)) : place;
   const double scale = std::max(pixelsPerMetre(sight.view, at) / sight.scale, 1e-6);
   const double reach = 0.3 * glm::distance(sight.focus, sight.view.eye);
   // A press near the eye drags it only where cells are placed.
@@ -124,9 +124,11 @@ PlanSituation SceneEditing::situation(const ActionContext& c, const glm::dvec2& 
           pathSituation(c)};
 }
 
-std::optional<glm::dvec2> SceneEditing::placeUnder(const ActionContext& c, const glm::dvec2& pixel,
+std::optional<glm::dvec3> SceneEditing::placeUnder(const ActionContext& c, const glm::dvec2& pixel,
                                                    const SceneSight& sight) const {
-  return onLevel(rayThrough(sight.view, pixel), levelUnder(c, pixel, sight));
+  const double level = capturing(c) ? level_ : levelUnder(c, pixel, sight);
+  const auto place = onLevel(rayThrough(sight.view, pixel), level);
+  return place ? std::optional(glm::dvec3(*place, level)) : std::nullopt;
 }
 
 bool SceneEditing::capturing(const ActionContext& c) const {
@@ -170,9 +172,10 @@ std::optional<SceneIntent> SceneEditing::handle(ActionContext& c, const ScenePoi
 std::optional<SceneIntent> SceneEditing::press(ActionContext& c, const ScenePointer& event,
                                                const SceneSight& sight) {
   const bool looks = (event.modifiers & ui::modifier::alt) != 0 || c.state.scene3d.picking;
-  if (event.button != ui::mouse::left || looks || c.state.planTool.capturing()) return std::nullopt;
+  if (event.button != ui::mouse::left || looks) return std::nullopt;
   const auto found = subject(c);
-  if (found) {
+  const bool takesAway = (event.modifiers & ui::modifier::control) != 0;  // the tool's
+  if (found && !takesAway) {
     const Gizmo shown = gizmoOf(*found, c.session.project().layout(), floorOf(c));
     if (gizmoTool_.press(event.pixel, sight.view, shown, sight.scale)) {
       takeHold(c, *found, shown);
@@ -184,12 +187,12 @@ std::optional<SceneIntent> SceneEditing::press(ActionContext& c, const ScenePoin
   const auto place = onLevel(rayThrough(sight.view, event.pixel), level_);
   if (!place) return std::nullopt;
   if (c.state.planTool.mode() == PlanMode::outline) {
-    const PlanSituation now = situation(c, *place, sight);
+    const PlanSituation now = situation(c, {*place, level_}, sight);
     c.state.scene3d.corner = c.state.planTool.outlineTool().corners().empty()
                                  ? cornerPressed(*now.spec, *place, now.pixelsPerMetre, event.modifiers)
                                  : std::nullopt;
   }
-  c.state.planToolView = View::scene3d;
+  takeOver(c, View::scene3d, event.button);
   return tell(c, PointerEvent::Kind::press, event, sight);
 }
 
@@ -201,7 +204,7 @@ std::optional<SceneIntent> SceneEditing::tell(ActionContext& c, PointerEvent::Ki
   const bool selects = kind == PointerEvent::Kind::release && tool.mode() == PlanMode::cells &&
                        !c.state.scene3d.placing && !tool.marquee() && !tool.cellDrag();
   const PlanIntent intent = tool.handle({kind, event.button, event.modifiers, event.pixel, lastPlace_},
-                                        situation(c, lastPlace_, sight));
+                                        situation(c, {lastPlace_, level_}, sight));
   if (const auto* pan = std::get_if<PanIntent>(&intent)) return SceneIntent{OrbitIntent{pan->pixels}};
   if (selects) {
     const bool toggles = (event.modifiers & ui::modifier::control) != 0;

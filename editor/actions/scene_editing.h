@@ -39,11 +39,11 @@ class SceneEditing {
     LatticeStep step;
   };
   const CellsOnTheirWay* cellsOnTheirWay() const { return cells_ ? &*cells_ : nullptr; }
-  /// The plan place under a pixel, as the tool in hand would take it.
-  std::optional<glm::dvec2> placeUnder(const ActionContext& c, const glm::dvec2& pixel,
+  /// The place under a pixel, at the height that the tool in hand works on there.
+  std::optional<glm::dvec3> placeUnder(const ActionContext& c, const glm::dvec2& pixel,
                                        const SceneSight& sight) const;
   /// What a tool in hand knows of the plan around a place.
-  PlanSituation situation(const ActionContext& c, const glm::dvec2& place, const SceneSight& sight);
+  PlanSituation situation(const ActionContext& c, const glm::dvec3& place, const SceneSight& sight);
   /// Of what is being dragged, in words; else empty.
   std::string text(const ActionContext& c) const;
 

@@ -87,7 +87,7 @@ void drawGizmo(const SceneInk& ink, const Gizmo& gizmo, GizmoGrip lit) {
     ink.list().AddCircleFilled(at, ui::scaled(5),
                                (lit == GizmoGrip::turn ? ui::Colour::hex(0xffffff) : kRing).packed());
   }
-  ink.dot(gizmo.at, ui::Colour::hex(0xffffff), 3);
+  ink.dot(gizmo.at, lit == GizmoGrip::plane ? kRing : ui::Colour::hex(0xffffff), 4);
 }
 
 void drawLandings(const SceneInk& ink, const LayoutSpec& spec, const CellGroup& group,

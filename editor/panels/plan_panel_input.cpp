@@ -77,11 +77,10 @@ void PlanPanel::handleEvents(PanelContext& context) {
     if (event.kind == Kind::keyPress && ours) handleKey(context, event);
     PointerEvent pointer{PointerEvent::Kind::move, event.code, event.modifiers, event.position,
                          view_.worldFromScreen(event.position)};
-    View& pointed = context.state().planToolView;
-    const bool capturing = tool.capturing() && pointed == View::plan;
-    if (event.kind == Kind::buttonPress && inside && !(tool.capturing() && !capturing)) {
+    const bool capturing = tool.capturing() && context.state().planToolView == View::plan;
+    if (event.kind == Kind::buttonPress && inside) {
+      if (!takeOver(context.actions, View::plan, event.code)) continue;
       pointer.kind = PointerEvent::Kind::press;
-      pointed = View::plan;
     } else if (event.kind == Kind::buttonRelease && capturing) {
       pointer.kind = PointerEvent::Kind::release;
     } else if (event.kind != Kind::move || !capturing) {

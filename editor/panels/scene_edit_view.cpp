@@ -23,13 +23,14 @@ GizmoGrip ScenePanel::litGrip(const PanelContext& context, const Gizmo& gizmo) c
 }
 
 void ScenePanel::drawTool(PanelContext& context, const SceneInk& ink,
-                          const std::optional<glm::dvec2>& place) {
+                          const std::optional<glm::dvec3>& under) {
   const EditorState& state = context.state();
   const Session& session = context.session();
   const LayoutSpec& spec = session.project().layout();
   const PlanTool& tool = state.planTool;
   const double floor = latticeHeight(spec);
-  const PlanSituation now = editing_.situation(context.actions, place.value_or(glm::dvec2(0)), sight());
+  const PlanSituation now = editing_.situation(context.actions, under.value_or(camera_.target()), sight());
+  const auto place = under ? std::optional(glm::dvec2(*under)) : std::nullopt;
   switch (tool.mode()) {
     case PlanMode::cells: {
       if (const auto box = tool.marquee()) drawSceneMarquee(ink, *box, floor);
@@ -79,22 +80,22 @@ void ScenePanel::drawEditing(PanelContext& context, ImDrawList& list, const Pers
   const SceneInk ink(list, view, area_.min);
   const double floor = latticeHeight(spec);
   const bool follows = editing_.capturing(context.actions);
-  std::optional<glm::dvec2> place;
+  std::optional<glm::dvec3> under;
   if (pointing(context) || follows)
-    place = editing_.placeUnder(context.actions, pointer_ - area_.min, sight());
+    under = editing_.placeUnder(context.actions, pointer_ - area_.min, sight());
   const auto& laid = session.built()->layout->spec.outline;
   if (state.planTool.mode() != PlanMode::outline && spec.outline != laid)
     for (const auto& loop : spec.outline.loops) ink.loop(loop, floor, ui::palette::accent, 2);
   if (state.showPaths) {
     const PathSituation paths = pathSituation(context.actions);
-    const bool points = place && state.planTool.mode() == PlanMode::path && !follows;
-    drawScenePaths(
-        ink, paths, *session.built(),
-        points ? hitPaths(paths, *place, editing_.situation(context.actions, *place, sight()).pixelsPerMetre)
-               : PathHit{});
+    const bool points = under && state.planTool.mode() == PlanMode::path && !follows;
+    drawScenePaths(ink, paths, *session.built(),
+                   points ? hitPaths(paths, glm::dvec2(*under),
+                                     editing_.situation(context.actions, *under, sight()).pixelsPerMetre)
+                          : PathHit{});
   }
   drawSceneApvs(ink, spec, state.selection, state.planTool.panoramaTool().inHand(), floor);
-  drawTool(context, ink, place);
+  drawTool(context, ink, under);
   if (const auto* cells = editing_.cellsOnTheirWay(); cells != nullptr && cells->step != LatticeStep{})
     drawLandings(ink, spec, cells->group, cells->step, floor);
   const auto gizmo = editing_.gizmo(context.actions);

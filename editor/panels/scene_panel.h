@@ -49,7 +49,7 @@ class ScenePanel {
   void drawLayers(PanelContext& context, ImDrawList& list);
   /// Tools and gizmo, over the picture as it is shown.
   void drawEditing(PanelContext& context, ImDrawList& list, const PerspectiveView& view);
-  void drawTool(PanelContext& context, const SceneInk& ink, const std::optional<glm::dvec2>& place);
+  void drawTool(PanelContext& context, const SceneInk& ink, const std::optional<glm::dvec3>& under);
   void logHandles(PanelContext& context, const SceneInk& ink, const std::optional<Gizmo>& gizmo) const;
   void drawTexts(PanelContext& context, ImDrawList& list) const;
   void drawPanels(PanelContext& context);

@@ -15,8 +15,9 @@ namespace acentric::editor {
 namespace {
 
 // Pixels of an interface of 100 %.
-constexpr double kArrow = 84, kArrowFrom = 9;
+constexpr double kArrow = 84, kArrowFrom = 12;
 constexpr double kSquareFrom = 20, kSquareTo = 38;
+constexpr double kMiddle = 10;  ///< around the place itself: as the square
 constexpr double kRing = 58;
 constexpr double kReach = 7;  ///< from a line, how near a press takes hold of it
 constexpr int kRingSteps = 64;
@@ -90,9 +91,14 @@ std::vector<GizmoPart> partsOf(const Gizmo& gizmo, const PerspectiveView& view, 
 }
 
 GizmoGrip gripAt(const Gizmo& gizmo, const PerspectiveView& view, const glm::dvec2& pixel, double scale) {
+  const std::vector<GizmoPart> parts = partsOf(gizmo, view, scale);
+  const bool slides =
+      std::ranges::any_of(parts, [](const GizmoPart& part) { return part.grip == GizmoGrip::plane; });
+  if (slides && glm::distance(project(view, gizmo.at).pixel, pixel) <= kMiddle * scale)
+    return GizmoGrip::plane;
   GizmoGrip found = GizmoGrip::none;
   double nearest = kReach * scale;
-  for (const GizmoPart& part : partsOf(gizmo, view, scale))
+  for (const GizmoPart& part : parts)
     if (const double distance = distanceTo(part, pixel); distance < nearest)
       nearest = distance, found = part.grip;
   return found;

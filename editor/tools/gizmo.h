@@ -1,8 +1,8 @@
 #pragma once
 /// Handles over what is selected in the 3D view, of the same size on the screen at any distance: two arrows
-/// along the floor and a square for both, an upright arrow for what has a height of its own, a ring for what
-/// can be turned about the vertical. With Shift they snap as the plan's handles do. Pixels are of the
-/// picture; `scale`: of the interface. Events in, moves out; nothing here changes the project.
+/// along the floor, a square and the middle for both, an upright arrow for what has a height of its own, a
+/// ring for what can be turned about the vertical. With Shift they snap as the plan's handles do. Pixels are
+/// of the picture; `scale`: of the interface. Events in, moves out; nothing here changes the project.
 
 #include <optional>
 #include <string>

@@ -4,6 +4,7 @@
 #include "editor/actions/scene_editing.h"
 
 #include "editor/actions/action_table.h"
+#include "editor/actions/plan_intents.h"
 #include "editor/commands/walk_edits.h"
 #include "editor/tools/orbit_camera.h"
 #include "editor/tools/scene_hits.h"
@@ -214,6 +215,15 @@ TEST_F(SceneEditingTest, TheOutlineGetsACornerOnASideAndItsCornersAreDragged) {
   EXPECT_EQ(steps(), 2U);
   run("edit.remove");
   EXPECT_EQ(spec().outline.loops[0].size(), 4U);
+  EXPECT_EQ(steps(), 3U);
+  // The middle of the handles is the corner itself; with Ctrl it is the tool's.
+  click(onFloor({1, 1}));
+  ASSERT_TRUE(drag(onFloor({1, 1}), onFloor({1.2, 0.9})));
+  EXPECT_LT(glm::distance(spec().outline.loops[0][2], glm::dvec2(1.2, 0.9)), 1e-9);
+  EXPECT_EQ(steps(), 4U);
+  click(onFloor({1.2, 0.9}), ui::modifier::control);
+  EXPECT_EQ(spec().outline.loops[0].size(), 3U);
+  EXPECT_EQ(steps(), 5U);
   EXPECT_FALSE(editing_.gizmo(context()).has_value());
 }
 
@@ -240,6 +250,23 @@ TEST_F(SceneEditingTest, KeyPosesAreLiftedTurnedAndDraggedAtTheirOwnHeight) {
   ASSERT_TRUE(drag(pixelOf(pose().eye), pixelOf(to)));
   EXPECT_LT(glm::distance(pose().eye, to), 1e-9);
   EXPECT_EQ(steps(), 2U);
+}
+
+TEST_F(SceneEditingTest, ThePlansToolFollowsOnePointerAtATime) {
+  ActionContext c = context();
+  state_.planTool.setMode(PlanMode::panorama);
+  ASSERT_TRUE(takeOver(c, View::plan, ui::mouse::left));
+  const PlanSituation plan = editing_.situation(c, {0, 0, 0}, sight_);
+  state_.planTool.handle({PointerEvent::Kind::press, ui::mouse::left, 0, {0, 0}, {5, 5}}, plan);
+  ASSERT_TRUE(state_.planTool.capturing());
+  EXPECT_FALSE(editing_.capturing(c)) << "what began on the plan";
+  EXPECT_FALSE(send(Kind::move, onFloor({0, 0})));
+  EXPECT_FALSE(takeOver(c, View::scene3d, ui::mouse::right));
+  // Its release was lost, as where the plan is no longer shown: a press takes over.
+  EXPECT_TRUE(click(onFloor({0.5, 0.5})));
+  ASSERT_EQ(spec().freeApvs.size(), 1U);
+  EXPECT_LT(glm::distance(spec().freeApvs.begin()->second.centre, glm::dvec2(0.5)), 1e-9);
+  EXPECT_FALSE(state_.planTool.capturing());
 }
 
 TEST_F(SceneEditingTest, TheWalkAddsAndSelectsWhereItsEyeStands) {
