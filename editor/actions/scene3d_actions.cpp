@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -22,49 +23,51 @@ void addSwitches(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.cut",
        "View",
-       "Cut the ceiling away",
+       trLater("Cut the ceiling away"),
        {key::u, 0},
        {},
-       "Takes away all that is above the eyes, as on the plan",
+       trLater("Takes away all that is above the eyes, as on the plan"),
        true,
        inScene3d,
        [](ActionContext& c) {
          c.state.scene3d.cutCeiling = !c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling);
        },
        [](const ActionContext& c) { return c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling); },
-       "the 3D view"});
+       trLater("the 3D view")});
   table.push_back({"scene3d.frusta",
                    "View",
-                   "Show sectors of all cameras",
+                   trLater("Show sectors of all cameras"),
                    {},
                    {},
-                   "Of every camera, not of the selected cells' alone",
+                   trLater("Of every camera, not of the selected cells' alone"),
                    false,
                    inScene3d,
                    [](ActionContext& c) { c.state.scene3d.allFrusta = !c.state.scene3d.allFrusta; },
                    [](const ActionContext& c) { return c.state.scene3d.allFrusta; },
-                   "the 3D view"});
-  table.push_back({"scene3d.pick",
-                   "View",
-                   "Pick surfaces",
-                   {key::i, 0},
-                   {},
-                   "Click a surface to ask which cameras sample it, and how finely; Alt+click does too",
-                   true,
-                   inScene3d,
-                   [](ActionContext& c) { c.state.scene3d.picking = !c.state.scene3d.picking; },
-                   [](const ActionContext& c) { return c.state.scene3d.picking; },
-                   "the 3D view"});
+                   trLater("the 3D view")});
+  table.push_back(
+      {"scene3d.pick",
+       "View",
+       trLater("Pick surfaces"),
+       {key::i, 0},
+       {},
+       trLater("Click a surface to ask which cameras sample it, and how finely; Alt+click does too"),
+       true,
+       inScene3d,
+       [](ActionContext& c) { c.state.scene3d.picking = !c.state.scene3d.picking; },
+       [](const ActionContext& c) { return c.state.scene3d.picking; },
+       trLater("the 3D view")});
 }
 
 void addCameraSteps(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.lookThrough",
        "View",
-       "Look through a camera",
+       trLater("Look through a camera"),
        {key::o, 0},
        {},
-       "The picture that a camera of the selected cell will take; double click on a camera for its own",
+       trLater(
+           "The picture that a camera of the selected cell will take; double click on a camera for its own"),
        false,
        [](const ActionContext& c) {
          return inScene3d(c) && (c.state.scene3d.lookThrough || selectedCamera(c));
@@ -74,7 +77,7 @@ void addCameraSteps(std::vector<Action>& table) {
          place = place ? std::nullopt : selectedCamera(c);
        },
        [](const ActionContext& c) { return c.state.scene3d.lookThrough.has_value(); },
-       "the 3D view and a selected cell"});
+       trLater("the 3D view and a selected cell")});
   const auto step = [&table](const char* id, const char* label, int code, int steps) {
     table.push_back({id,
                      "View",
@@ -89,17 +92,17 @@ void addCameraSteps(std::vector<Action>& table) {
                            stepped(*c.session.built()->layout, *c.state.scene3d.lookThrough, steps);
                      },
                      {},
-                     "a camera that is looked through"});
+                     trLater("a camera that is looked through")});
   };
-  step("scene3d.previousCamera", "Previous camera of the ring", key::comma, -1);
-  step("scene3d.nextCamera", "Next camera of the ring", key::period, 1);
+  step("scene3d.previousCamera", trLater("Previous camera of the ring"), key::comma, -1);
+  step("scene3d.nextCamera", trLater("Next camera of the ring"), key::period, 1);
   table.push_back(
       {"scene3d.otherHand",
        "View",
-       "Camera of the other hand",
+       trLater("Camera of the other hand"),
        {key::slash, 0},
        {},
-       "Of the ring that turns the other way, the camera that looks most nearly the same way",
+       trLater("Of the ring that turns the other way, the camera that looks most nearly the same way"),
        false,
        [](const ActionContext& c) {
          return lookingThrough(c) && otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
@@ -108,7 +111,7 @@ void addCameraSteps(std::vector<Action>& table) {
          c.state.scene3d.lookThrough = otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
        },
        {},
-       "a camera that is looked through, of a cell with both hands"});
+       trLater("a camera that is looked through, of a cell with both hands")});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "engine/image/image.h"
 #include "ui/image_view.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,10 +19,12 @@ namespace palette = ui::palette;
 
 constexpr float kButtonGap = 4, kApart = 14, kCard = 290;
 constexpr std::array<std::pair<const char*, const char*>, 3> kPresets{
-    {{"preset.fast", "Fast"}, {"preset.balanced", "Balanced"}, {"preset.accurate", "Accurate"}}};
+    {{"preset.fast", trLater("Fast")},
+     {"preset.balanced", trLater("Balanced")},
+     {"preset.accurate", trLater("Accurate")}}};
 
 std::string labelOf(const MeasureInfo& info) {
-  return info.unit[0] == '\0' ? info.label : fmt::format("{}, {}", info.label, info.unit);
+  return info.unit[0] == '\0' ? tr(info.label) : fmt::format("{}, {}", tr(info.label), info.unit);
 }
 
 std::string textOf(const MeasureInfo& info, double value) {
@@ -55,24 +58,26 @@ void drawToolbar(PanelContext& context) {
   AccuracyState& state = context.state().accuracy;
   const SweepWatch& watch = context.session().sweeping();
   if (watch.running())
-    actionButton(context, "sweep.stop", ButtonLook::plain, {}, watch.stopping() ? "Stopping" : "Stop");
+    actionButton(context, "sweep.stop", ButtonLook::plain, {},
+                 watch.stopping() ? tr("Stopping") : tr("Stop"));
   else
-    actionButton(context, "sweep.start", ButtonLook::primary, {}, watch.sweep() ? "Go on" : "Measure");
+    actionButton(context, "sweep.start", ButtonLook::primary, {},
+                 watch.sweep() ? tr("Go on") : tr("Measure"));
   ImGui::SameLine(0, ui::scaled(kButtonGap));
-  actionButton(context, "sweep.again", ButtonLook::plain, {}, "Anew");
+  actionButton(context, "sweep.again", ButtonLook::plain, {}, tr("Anew"));
   ImGui::SameLine(0, ui::scaled(kApart));
-  drawNumber(context, "sweep.minutes", "%d minutes",
-             "How long it may take. What does not fit is left for another time.", 1, 24 * 60,
+  drawNumber(context, "sweep.minutes", tr("%d minutes"),
+             tr("How long it may take. What does not fit is left for another time."), 1, 24 * 60,
              state.request.minutes);
   ImGui::SameLine(0, ui::scaled(kButtonGap));
-  drawNumber(context, "sweep.frames", "%d frames",
-             "Of the walk, evenly chosen, that settings are compared in.", 1, 1000, state.request.frames);
+  drawNumber(context, "sweep.frames", tr("%d frames"),
+             tr("Of the walk, evenly chosen, that settings are compared in."), 1, 1000, state.request.frames);
   ImGui::SameLine(0, ui::scaled(kApart));
   if (ImGui::GetContentRegionAvail().x < ui::scaled(310)) ImGui::NewLine();
   ImGui::AlignTextToFramePadding();
   chooseMeasure(context, "accuracy.error", true, state.error);
   ImGui::SameLine(0, ui::scaled(6));
-  ui::mutedText("against");
+  ui::mutedText(tr("against"));
   ImGui::SameLine(0, ui::scaled(6));
   chooseMeasure(context, "accuracy.cost", false, state.cost);
 }
@@ -83,20 +88,20 @@ void drawState(const SweepWatch& watch) {
   std::string text;
   if (sweep) {
     const auto measured = std::ranges::count_if(sweep->points, &SweepPoint::measured);
-    text = fmt::format(
-        "{} settings measured, {} left out; {} frames of {}×{} along {}, against {} ray{} a pixel; {}, {} "
-        "threads",
-        measured, std::ssize(sweep->points) - measured, sweep->frames, sweep->width, sweep->height,
-        sweep->path, sweep->truthSamples, sweep->truthSamples == 1 ? "" : "s", sweep->processor,
-        sweep->threads);
+    text =
+        trf("{} settings measured, {} left out; {} frames of {}×{} along {}, against {} rays a pixel; {}, {} "
+            "threads",
+            measured, std::ssize(sweep->points) - measured, sweep->frames, sweep->width, sweep->height,
+            sweep->path, sweep->truthSamples, sweep->processor, sweep->threads);
   }
-  if (watch.running()) text = (watch.stopping() ? "Ending. " : "Measuring in the background. ") + text;
+  if (watch.running())
+    text = fmt::format("{} {}", watch.stopping() ? tr("Ending.") : tr("Measuring in the background."), text);
   ui::wrappedText(palette::muted, text);
   if (!sweep) return;
   std::string leftOut;
   for (const SweepPoint& point : sweep->points)
     if (!point.measured()) leftOut += fmt::format("{}: {}\n", textOf(point.setting), point.skipped);
-  if (!leftOut.empty()) ui::tooltip("Left out:\n" + leftOut);
+  if (!leftOut.empty()) ui::tooltip(trf("Left out:\n{}", leftOut));
 }
 
 void drawEmpty(PanelContext& context) {
@@ -116,16 +121,17 @@ void drawEmpty(PanelContext& context) {
   const ui::Fonts& fonts = context.window.fonts();
   const bool running = context.session().sweeping().running();
   line(fonts.title, palette::text,
-       running ? "Measuring the project as it is" : "What does accuracy cost here?");
+       running ? tr("Measuring the project as it is") : tr("What does accuracy cost here?"));
   line(fonts.regular, palette::muted,
-       running
-           ? "The first mark appears when its captures are there and its frames are compared."
-           : "Measure tries settings of the bake and of the walk one by one, then together: the same frames, "
-             "against ray-traced truth, in the background. Marks show error against time; three presets come "
-             "out of it.");
+       running ? tr("The first mark appears when its captures are there and its frames are compared.")
+               : tr("Measure tries settings of the bake and of the walk one by one, then together: the same "
+                    "frames, "
+                    "against ray-traced truth, in the background. Marks show error against time; three "
+                    "presets come "
+                    "out of it."));
   if (!running && context.session().hasProject() &&
       (context.session().untitled() || context.session().dirty()))
-    line(fonts.regular, palette::warning, "Save the project first: it is measured as it is in its file.");
+    line(fonts.regular, palette::warning, tr("Save the project first: it is measured as it is in its file."));
 }
 
 PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
@@ -138,7 +144,7 @@ PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
   const auto name = [&mark](const std::string& word) { mark.name += (mark.name.empty() ? "" : ", ") + word; };
   for (const SweepPreset& preset : presets)
     if (preset.setting == point.setting) name(preset.name);
-  if (point.setting.empty()) mark.base = true, name("as it is");
+  if (point.setting.empty()) mark.base = true, name(tr("as it is"));
   mark.selected = state.selected == point.setting;
   return mark;
 }
@@ -164,11 +170,11 @@ void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const Im
   for (const std::size_t i : paretoFront(objectives)) marks[i].front = true;  // of the two that are shown
   if (marks.empty()) {
     ImGui::SetCursorScreenPos(low);
-    return ui::mutedText("Nothing that was measured has both.");
+    return ui::mutedText(tr("Nothing that was measured has both."));
   }
   const PlotAxis across{labelOf(cost), true};
-  const PlotAxis up{labelOf(error) + (error.moreIsBetter ? "  (more is better)" : "  (less is better)"),
-                    false};
+  const PlotAxis up{
+      labelOf(error) + (error.moreIsBetter ? tr("  (more is better)") : tr("  (less is better)")), false};
   const AccuracyPlot plot = drawAccuracyPlot(low, high, across, up, marks);
   if (context.log.on())
     for (std::size_t i = 0; i < plot.places.size(); ++i) {
@@ -203,18 +209,18 @@ void AccuracyPanel::drawPicture(PanelContext& context, const SweepPoint& point) 
     ui::drawImage(picture_.imguiId(),
                   ui::fitImage({at.x, at.y}, {width, height}, double(picture_.width()) / picture_.height()),
                   false);
-  if (ui::toggleButton("Difference", difference)) context.state().accuracy.difference = !difference;
+  if (ui::toggleButton(tr("Difference"), difference)) context.state().accuracy.difference = !difference;
   context.log.item("accuracy.difference");
-  ui::tooltip("From the truth, amplified, instead of the frame");
+  ui::tooltip(tr("From the truth, amplified, instead of the frame"));
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ui::mutedText(fmt::format("worst frame: {} of {}", point.worstFrame + 1, pictureOf_->frames));
+  ui::mutedText(trf("worst frame: {} of {}", point.worstFrame + 1, pictureOf_->frames));
 }
 
 void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const SweepPoint& point) {
   ImGui::PushFont(context.window.fonts().bold);
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(point.setting.empty() ? "The project as it was measured" : "Changed");
+  ImGui::TextUnformatted(point.setting.empty() ? tr("The project as it was measured") : tr("Changed"));
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
   for (const KnobChoice& choice : point.setting) ui::keyValue(choice.knob.c_str(), choice.value, 170);
@@ -225,24 +231,24 @@ void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const S
     if (value.count == 0) continue;
     std::string text = textOf(info, value.median);
     if (value.max > value.min && !info.error)
-      text += fmt::format("  ({:.{}f} to {:.{}f})", value.min * info.shown, info.digits,
-                          value.max * info.shown, info.digits);
-    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += "  foretold";
-    ui::keyValue(info.label, text, 100);
+      text += trf("  ({:.{}f} to {:.{}f})", value.min * info.shown, info.digits, value.max * info.shown,
+                  info.digits);
+    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += tr("  foretold");
+    ui::keyValue(tr(info.label), text, 100);
     const Spread& before = base[info.measure];
     if (info.error)
-      ui::tooltip(fmt::format("Median of {}; worst {}", value.count,
-                              textOf(info, info.moreIsBetter ? value.min : value.max)));
+      ui::tooltip(trf("Median of {}; worst {}", value.count,
+                      textOf(info, info.moreIsBetter ? value.min : value.max)));
     if (!point.setting.empty() && before.count > 0 && before.median != 0 && !info.error) {
       ImGui::SameLine();
       ui::mutedText(fmt::format("×{:.2f}", value.median / before.median));
     }
   }
   const bool apply =
-      ui::button("Apply to the project", {ImGui::GetContentRegionAvail().x, 0}, !point.setting.empty());
+      ui::button(tr("Apply to the project"), {ImGui::GetContentRegionAvail().x, 0}, !point.setting.empty());
   context.log.item("accuracy.apply");
-  ui::tooltip("Sets the project so; undo takes it back. What bakes has to be baked again.");
-  if (apply) applySetting(context.actions, point.setting, "Use " + textOf(point.setting));
+  ui::tooltip(tr("Sets the project so; undo takes it back. What bakes has to be baked again."));
+  if (apply) applySetting(context.actions, point.setting, trf("Use {}", textOf(point.setting)));
 }
 
 void AccuracyPanel::draw(PanelContext& context) {
@@ -264,10 +270,10 @@ void AccuracyPanel::draw(PanelContext& context) {
       drawPlot(context, *sweep, at, {at.x + room.x - card - ui::scaled(8), at.y + room.y - foot});
       ImGui::SetCursorScreenPos({at.x, at.y + room.y - foot + ImGui::GetStyle().ItemSpacing.y});
       ImGui::AlignTextToFramePadding();
-      ui::mutedText("Presets");
+      ui::mutedText(tr("Presets"));
       for (const auto& [id, label] : kPresets) {
         ImGui::SameLine(0, ui::scaled(6));
-        actionButton(context, id, ButtonLook::plain, {}, label);
+        actionButton(context, id, ButtonLook::plain, {}, tr(label));
       }
       ImGui::SetCursorScreenPos({at.x + room.x - card, at.y});
       if (ImGui::BeginChild("##accuracyPoint", {card, room.y}) && shown && shown->measured())

@@ -12,6 +12,7 @@
 #include "engine/pipeline/camera_path.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -47,9 +48,9 @@ void PlanPanel::act(PanelContext& context, const PlanIntent& intent) {
   } else if (const auto* move = std::get_if<MoveCellsIntent>(&intent)) {
     GroupEdit moved = moveCells(project, move->cells, move->step);
     if (moved.skipped > 0)
-      session.messages().add(MessageLevel::info,
-                             fmt::format("{} of the places {} taken: nothing was moved", moved.skipped,
-                                         moved.skipped == 1 ? "is" : "are"));
+      session.messages().add(MessageLevel::info, trfMany("{} of the places is taken: nothing was moved",
+                                                         "{} of the places are taken: nothing was moved",
+                                                         moved.skipped, moved.skipped));
     else if (session.apply(std::move(moved.edit)))
       state.selection = std::move(moved.cells);
   } else if (const auto* lattice = std::get_if<LatticeIntent>(&intent)) {
@@ -148,8 +149,8 @@ void PlanPanel::fulfilWish(PanelContext& context) {
                         : overBudget(*inspection->layout, inspection->budgets, most);
   if (state.selection.empty())
     context.session().messages().add(MessageLevel::good, wish == SelectionWish::withWarnings
-                                                             ? "No cell has a warning"
-                                                             : "No cell is over the budget");
+                                                             ? tr("No cell has a warning")
+                                                             : tr("No cell is over the budget"));
 }
 
 }  // namespace acentric::editor

@@ -12,6 +12,7 @@
 #include "editor/tools/scene_hits.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -34,12 +35,12 @@ ScenePanel::ScenePanel(int threads, std::function<void()> wake)
 
 void ScenePanel::drawToolbar(PanelContext& context) const {
   static constexpr ToolbarEntry kEntries[] = {
-      {"scene3d.pick", "Pick", ui::Icon::crosshairs, 0, ButtonLook::tool},
-      {"scene3d.lookThrough", "Look through", ui::Icon::binoculars, kNear, ButtonLook::tool},
-      {"scene3d.cut", "Cut ceiling", ui::Icon::scissors, kApart},
-      {"view.cameras", "Cameras", ui::Icon::videoCamera, kNear},
-      {"scene3d.frusta", "All sectors", ui::Icon::sector, kNear},
-      {"view.fit", "Frame", ui::Icon::expand, kApart, ButtonLook::plain}};
+      {"scene3d.pick", trLater("Pick"), ui::Icon::crosshairs, 0, ButtonLook::tool},
+      {"scene3d.lookThrough", trLater("Look through"), ui::Icon::binoculars, kNear, ButtonLook::tool},
+      {"scene3d.cut", trLater("Cut ceiling"), ui::Icon::scissors, kApart},
+      {"view.cameras", trLater("Cameras"), ui::Icon::videoCamera, kNear},
+      {"scene3d.frusta", trLater("All sectors"), ui::Icon::sector, kNear},
+      {"view.fit", trLater("Frame"), ui::Icon::expand, kApart, ButtonLook::plain}};
   toolbar(context, kEntries);
 }
 

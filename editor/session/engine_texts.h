@@ -1,0 +1,51 @@
+#pragma once
+/// Short texts that the engine, which has no catalogue, makes and the editor shows through tr().
+
+#include <array>
+
+#include "ui/translate.h"
+
+namespace acentric::editor {
+
+inline constexpr std::array kEngineTexts = {
+    // labelOf(Effect)
+    trLater("Textures"), trLater("Vertex colours"), trLater("Alpha test"), trLater("Alpha blend"),
+    trLater("Emission"), trLater("Directional lights"), trLater("Point lights"), trLater("Spot lights"),
+    trLater("Glowing surfaces as lights"), trLater("Sky light"), trLater("Hard shadows"),
+    trLater("Soft shadows"), trLater("Ambient occlusion"), trLater("Diffuse interreflection"),
+    trLater("Mirror reflection"), trLater("Transmission"), trLater("Normal maps"), trLater("Unlit materials"),
+    // wordsFor(ErrorSource)
+    trLater("holes, filled or not"), trLater("silhouettes"), trLater("border of local polygons"),
+    trLater("metals, mirrors, glass"), trLater("local polygons"), trLater("sky, background"),
+    trLater("captured surfaces"),
+    // describe(Configuration)
+    trLater("45° cameras, octagons and squares (4.8.8)"),
+    trLater("60° cameras, hexagons and triangles (3.6.3.6)"), trLater("60° cameras, hexagons (6.6.6)"),
+    trLater("90° cameras, squares in a checkerboard"),
+    trLater("90° cameras, squares (a full panorama at each corner)"),
+    trLater("120° cameras, triangles and hexagons (3.6.3.6)"),
+    trLater("120° cameras, triangles (a full panorama at each corner)"),
+    // MeasureInfo::label
+    trLater("depth error"), trLater("holes"), trLater("flicker"), trLater("bake"), trLater("on disk"),
+    trLater("load"), trLater("frame"), trLater("frame p99"),
+    // nameOf(BakePreset), and differencesFrom
+    trLater("draft"), trLater("balanced"), trLater("fine"), trLater("samples per degree"),
+    trLater("ambient rays"), trLater("shadow rays"), trLater("bounces"), trLater("colour quality"),
+    trLater("surface texel"), trLater("most layers"), trLater("pruning"), trLater("pruning loss"),
+    trLater("test eyes"), trLater("distance shift"),
+    // nameOf(SourceRole), and sourceName where it names no camera
+    trLater("cover"), trLater("other hand"), trLater("panorama"), trLater("hole"), trLater("filled hole"),
+    trLater("local geometry"), trLater("background"),
+    // Stages of jobs
+    trLater("asking the picture"), trLater("asking what needs light"), trLater("checking meshes"),
+    trLater("checking the placement"), trLater("checking what is baked"), trLater("comparing holes"),
+    trLater("counting triangles per region"), trLater("estimating the exposure"),
+    trLater("finding local geometry"), trLater("finding the storeys"), trLater("finding the walkable area"),
+    trLater("laying cells on stairs"), trLater("loading captures"), trLater("looking from test eyes"),
+    trLater("looking in the cache"), trLater("placing the cells"), trLater("preparing rays"),
+    trLater("probing cameras"), trLater("probing light on surfaces"), trLater("reading textures"),
+    trLater("reading what is baked"), trLater("simplifying regions above the budget"),
+    trLater("taking the scene over"), trLater("tracing the truth"), trLater("writing regions"),
+    trLater("writing the page")};
+
+}  // namespace acentric::editor
