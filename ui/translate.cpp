@@ -25,6 +25,7 @@ constexpr std::size_t kLargestCatalogue = std::size_t(16) << 20;
 
 struct Catalogue {
   std::string code;
+  fs::path file;
   std::string texts;
   std::locale owner;  ///< of `messages`
   const Messages* messages = nullptr;
@@ -76,7 +77,8 @@ std::vector<char> readCatalogue(const fs::path& file) {
 }
 
 /// Null: it is damaged.
-std::unique_ptr<const Catalogue> makeCatalogue(const std::string& code, std::vector<char> file) {
+std::unique_ptr<const Catalogue> makeCatalogue(const std::string& code, const fs::path& path) {
+  std::vector<char> file = readCatalogue(path);
   const auto texts = textsOf(file);
   if (!texts) return nullptr;
   std::memset(file.data() + 20, 0, 4);  // the hash table, which need not be there, is not relied on
@@ -89,6 +91,7 @@ std::unique_ptr<const Catalogue> makeCatalogue(const std::string& code, std::vec
   try {
     auto catalogue = std::make_unique<Catalogue>();
     catalogue->code = code;
+    catalogue->file = path;
     catalogue->texts = *texts;
     Messages* const messages = boost::locale::gnu_gettext::create_messages_facet<char>(info);
     catalogue->owner = std::locale(std::locale::classic(), messages);
@@ -175,18 +178,18 @@ fs::path catalogueFolder() {
 tl::expected<void, std::string> setLanguage(const std::string& code, const fs::path& folder) {
   current = nullptr;
   if (code == "en") return {};
+  const fs::path file = folder / code / "LC_MESSAGES" / "acentric.mo";
   for (const auto& catalogue : known())
-    if (catalogue->code == code) {
+    if (catalogue->file == file) {
       current = catalogue.get();
       return {};
     }
-  const fs::path file = folder / code / "LC_MESSAGES" / "acentric.mo";
-  std::vector<char> bytes = readCatalogue(file);
-  if (!isLanguage(code) || bytes.empty())
+  std::error_code error;
+  if (!isLanguage(code) || !fs::is_regular_file(file, error))
     return tl::unexpected(
         fmt::format("There are no texts for the language \"{}\": {} is missing; install the program anew",
                     code, file.string()));
-  auto catalogue = makeCatalogue(code, std::move(bytes));
+  auto catalogue = makeCatalogue(code, file);
   if (!catalogue)
     return tl::unexpected(
         fmt::format("{}: the catalogue of texts is damaged; install the program anew", file.string()));

@@ -12,9 +12,15 @@ namespace {
 
 char folded(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
+/// Capitals are small, umlauts and other letters of Latin-1 too: in UTF-8 they are C3 and 80 to 9E.
 std::string folded(std::string_view text) {
   std::string result(text);
-  std::ranges::transform(result, result.begin(), [](char c) { return folded(c); });
+  bool latin = false;
+  for (char& c : result) {
+    const auto byte = static_cast<unsigned char>(c);
+    c = latin && byte >= 0x80 && byte <= 0x9e && byte != 0x97 ? char(byte + 0x20) : folded(c);
+    latin = byte == 0xc3;
+  }
   return result;
 }
 
@@ -29,8 +35,9 @@ std::vector<std::string> wordsOf(std::string_view query) {
     if (c == ' ')
       words.emplace_back();
     else
-      words.back() += folded(c);
+      words.back() += c;
   std::erase(words, "");
+  for (std::string& word : words) word = folded(word);
   return words;
 }
 

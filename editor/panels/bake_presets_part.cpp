@@ -24,6 +24,14 @@ std::string differencesText(const BakeSettings& bake, BakePreset preset) {
 
 /// Of the columns, unscaled.
 constexpr float kName = 76, kTime = 96, kSize = 150, kAccuracy = 204;
+
+/// By which words of the language need more room than kName, pixels.
+float moreForNames() {
+  float widest = 0;
+  for (const char* label : {"Draft", "Balanced", "Fine"})
+    widest = std::max(widest, ImGui::CalcTextSize(tr(label)).x);
+  return std::max(0.0F, widest + 2 * ImGui::GetStyle().FramePadding.x - ui::scaled(kName));
+}
 constexpr double kMegabyte = 1e6, kMostMegabytes = 1e7;
 
 struct Row {
@@ -72,7 +80,7 @@ bool drawAccuracyOf(const Session& session, const Row& row, const BakeCost* cost
 void drawBakeOf(PanelContext& context, const Row& row, const BakeForecast& forecast) {
   if (forecast.nothing()) return ui::mutedText(tr("nothing to bake"));
   ImGui::TextUnformatted(shortDuration(forecast.seconds()).c_str());
-  ImGui::SameLine(ui::scaled(kSize));
+  ImGui::SameLine(ui::scaled(kSize) + moreForNames());
   ImGui::TextUnformatted(ui::formatBytes(std::uint64_t(forecast.bytes())).c_str());
   context.log.item(row.id() + ".cost");
   ui::tooltip(
@@ -86,7 +94,8 @@ void drawBakeOf(PanelContext& context, const Row& row, const BakeForecast& forec
 bool drawRow(PanelContext& context, const Row& row) {
   const Session& session = context.session();
   if (row.preset) {
-    actionButton(context, row.id().c_str(), ButtonLook::toggle, {ui::scaled(kName), 0}, row.label);
+    actionButton(context, row.id().c_str(), ButtonLook::toggle, {ui::scaled(kName) + moreForNames(), 0},
+                 row.label);
   } else {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label);
@@ -95,7 +104,7 @@ bool drawRow(PanelContext& context, const Row& row) {
                     differencesText(row.bake, nearest)));
     context.log.item(row.id());
   }
-  ImGui::SameLine(ui::scaled(kTime));
+  ImGui::SameLine(ui::scaled(kTime) + moreForNames());
   const BakeCost* cost = session.bakeCosts().of(row.bake);
   if (cost != nullptr) {
     drawBakeOf(context, row, cost->forecast);
@@ -106,8 +115,8 @@ bool drawRow(PanelContext& context, const Row& row) {
            "opened, "
            "after changes when these are pointed at"));
   }
-  ImGui::SameLine(
-      std::max(ui::scaled(kAccuracy), ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
+  ImGui::SameLine(std::max(ui::scaled(kAccuracy) + moreForNames(),
+                           ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
   return drawAccuracyOf(session, row, cost);
 }
 
@@ -135,7 +144,7 @@ void drawSize(PanelContext& context) {
   Session& session = context.session();
   ImGui::AlignTextToFramePadding();
   ui::mutedText(tr("Fit a size"));
-  ImGui::SameLine(ui::scaled(kTime));
+  ImGui::SameLine(ui::scaled(kTime) + moreForNames());
   ImGui::SetNextItemWidth(ui::scaled(100));
   const bool entered =
       ImGui::InputDouble("##megabytes", &megabytes, 0, 0, megabytes > 0 ? "%.6g MB" : "MB",

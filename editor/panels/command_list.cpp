@@ -96,8 +96,14 @@ void CommandList::drawCommands(PanelContext& context) {
     if (ImGui::IsItemHovered() && ImGui::GetIO().MouseDelta.y != 0) selected_ = row;
     const std::string menu = tr(menuOf(action));
     ImGui::SameLine(ImGui::GetWindowWidth() * 0.46F);
+    const std::string key = describe(action.shortcut);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - ui::scaled(12);
+    ImGui::PushClipRect(at, {end - ImGui::CalcTextSize(key.c_str()).x, at.y + ImGui::GetTextLineHeight()},
+                        true);
     ui::mutedText(why.empty() ? menu : menu + "   (" + why + ")");
-    rightText(ui::palette::accent, describe(action.shortcut));
+    ImGui::PopClipRect();
+    rightText(ui::palette::accent, key);
   }
   if (found.empty()) ui::mutedText(tr("No command has these letters."));
   ImGui::EndChild();
@@ -121,9 +127,9 @@ void CommandList::drawKeys(PanelContext& context) {
   if (const int moved = std::exchange(steps_, 0); moved != 0)
     ImGui::SetScrollY(ImGui::GetScrollY() + float(moved) * step);
   if (ImGui::BeginTable("##keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    ImGui::TableSetupColumn(tr("Keys"), 0, 0.34F);
-    ImGui::TableSetupColumn(tr("What they do"), 0, 0.54F);
-    ImGui::TableSetupColumn(tr("Where"), 0, 0.12F);
+    ImGui::TableSetupColumn(tr("Keys"), 0, 0.33F);
+    ImGui::TableSetupColumn(tr("What they do"), 0, 0.51F);
+    ImGui::TableSetupColumn(tr("Where"), 0, 0.16F);
     ImGui::TableHeadersRow();
     for (const KeyHelp& line : found) {
       ImGui::TableNextRow();

@@ -118,7 +118,7 @@ bool ConfigurationPicker::drawChoice(PanelContext& context, Configuration config
   list.AddText(bold, bold->FontSize, {x, at.y + ui::scaled(1)}, palette::text.packed(),
                nameOf(configuration));
   list.AddText(small, small->FontSize, {x + ui::scaled(18), at.y + ui::scaled(3)}, palette::muted.packed(),
-               describe(configuration));
+               tr(describe(configuration)));
   list.AddText(small, small->FontSize, {x, at.y + ui::scaled(21)}, palette::text.packed(),
                adviceOn(configuration), nullptr, room);
   list.AddText(small, small->FontSize, {x, at.y + ui::scaled(54)}, palette::muted.packed(),
@@ -160,7 +160,7 @@ void ConfigurationPicker::draw(PanelContext& context, float labelWidth) {
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar(2);
-  ui::wrappedText(palette::faint, describe(session.project().layout().configuration));
+  ui::wrappedText(palette::faint, tr(describe(session.project().layout().configuration)));
 }
 
 }  // namespace acentric::editor

@@ -1,4 +1,5 @@
 #include "editor/panels/document_dialogs.h"
+#include "editor/panels/bake_panel.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +64,8 @@ void drawFound(const Session& session, const std::string& name) {
   ui::wrappedText(ui::palette::muted, trf("{}. All of this can be changed later.", text));
   std::string plan = trf("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
   if (const BakeEstimate* estimate = session.estimate())
-    plan += trf(": about {} to bake with {} threads, {} on disk", ui::formatDuration(estimate->seconds.value),
-                session.bakeThreads(), ui::formatBytes(std::uint64_t(estimate->bytes.value)));
+    plan += trf(": about {} to bake with {}, {} on disk", ui::formatDuration(estimate->seconds.value),
+                threadsText(session.bakeThreads()), ui::formatBytes(std::uint64_t(estimate->bytes.value)));
   else if (session.estimating().running())
     plan += tr(": what baking them takes is being estimated…");
   ui::wrappedText(ui::palette::muted, plan);

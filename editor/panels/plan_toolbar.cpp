@@ -38,7 +38,10 @@ void drawOverlayMenu(PanelContext& context) {
        {"view.coverage", PlanOverlay::coverage},
        {"overlay.none", PlanOverlay::none}}};
   EditorState& state = context.state();
-  const float comboWidth = ui::scaled(176);
+  float comboWidth = ui::scaled(176);
+  for (const auto& [id, overlay] : kOverlays)
+    comboWidth = std::max(comboWidth, ImGui::CalcTextSize(trf("Overlay: {}", tr(nameOf(overlay))).c_str()).x +
+                                          ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().FramePadding.x);
   flow(comboWidth, kApart);
   ImGui::SetNextItemWidth(comboWidth);
   const std::string shown = trf("Overlay: {}", tr(nameOf(state.overlay)));

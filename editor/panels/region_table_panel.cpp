@@ -150,7 +150,9 @@ void RegionTablePanel::drawRows(PanelContext& context, float height) {
     ImGuiTableColumnFlags flags =
         ImGuiTableColumnFlags_PreferSortDescending | ImGuiTableColumnFlags_WidthFixed;
     if (kColumns[c].second == RegionColumn::triangles) flags |= ImGuiTableColumnFlags_DefaultSort;
-    ImGui::TableSetupColumn(tr(kColumns[c].first), flags, kWidths[c], ImGuiID(c));
+    const char* const label = tr(kColumns[c].first);
+    const float width = std::max(kWidths[c], ImGui::CalcTextSize(label, nullptr, true).x + 2);
+    ImGui::TableSetupColumn(label, flags, width, ImGuiID(c));
   }
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
