@@ -112,9 +112,25 @@ const char* find(const char* context, const char* english) {
 /// "de_AT.UTF-8@euro" -> "de"
 std::string_view codeOf(std::string_view locale) { return locale.substr(0, locale.find_first_of("_.@")); }
 
+/// The conversions of a pattern of printf after each other: "%d of %.1f %%" -> "%d%.1f%%"
+std::string conversionsOf(std::string_view pattern) {
+  std::string conversions;
+  for (std::size_t at = pattern.find('%'); at < pattern.size(); at = pattern.find('%', at)) {
+    const std::size_t end =
+        std::min(pattern.find_first_not_of("0123456789.lz+-# *", at + 1), pattern.size() - 1);
+    conversions += pattern.substr(at, end + 1 - at);
+    at = end + 1;
+  }
+  return conversions;
+}
+
 }  // namespace
 
 const char* tr(const char* english) { return find(nullptr, english); }
+const char* trPrintf(const char* english) {
+  const char* const text = tr(english);
+  return conversionsOf(text) == conversionsOf(english) ? text : english;
+}
 std::string tr(const std::string& english) { return find(nullptr, english.c_str()); }
 const char* trIn(const char* context, const char* english) { return find(context, english); }
 

@@ -20,6 +20,8 @@ const char* tr(const char* english);
 std::string tr(const std::string& english);
 /// The same for an English word that means two things: `context` tells translators which.
 const char* trIn(const char* context, const char* english);
+/// A text that is used as a pattern of printf: in English where the translated one takes other values.
+const char* trPrintf(const char* english);
 /// Marks a text of a table, which is translated by tr() where it is shown.
 constexpr const char* trLater(const char* english) { return english; }
 constexpr const char* trLaterIn(const char*, const char* english) { return english; }

@@ -66,11 +66,11 @@ void drawToolbar(PanelContext& context) {
   ImGui::SameLine(0, ui::scaled(kButtonGap));
   actionButton(context, "sweep.again", ButtonLook::plain, {}, tr("Anew"));
   ImGui::SameLine(0, ui::scaled(kApart));
-  drawNumber(context, "sweep.minutes", tr("%d minutes"),
+  drawNumber(context, "sweep.minutes", trPrintf("%d minutes"),
              tr("How long it may take. What does not fit is left for another time."), 1, 24 * 60,
              state.request.minutes);
   ImGui::SameLine(0, ui::scaled(kButtonGap));
-  drawNumber(context, "sweep.frames", tr("%d frames"),
+  drawNumber(context, "sweep.frames", trPrintf("%d frames"),
              tr("Of the walk, evenly chosen, that settings are compared in."), 1, 1000, state.request.frames);
   ImGui::SameLine(0, ui::scaled(kApart));
   if (ImGui::GetContentRegionAvail().x < ui::scaled(310)) ImGui::NewLine();

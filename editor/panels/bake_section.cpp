@@ -86,7 +86,7 @@ void drawAdvancedBake(PanelContext& context) {
   }
   bakeNumber(
       context, "distanceShift",
-      {tr("Distance shift"), tr("%.3f samples"), 0.005, 0, kLargestDistanceShift,
+      {tr("Distance shift"), trPrintf("%.3f samples"), 0.005, 0, kLargestDistanceShift,
        tr("How far pictures may shift because distances are rounded: more gives smaller files. 0 to 16.")},
       &BakeSettings::distanceShift, tr("distance shift"));
   bakeNumber(context, "surfaceTexel",

@@ -18,7 +18,7 @@ void drawEffect(PanelContext& context, Effect effect, const EffectState& effectS
     const bool asCalledFor = on == effectState.calledFor;
     context.session().apply(setEffect(project, effect, asCalledFor ? std::nullopt : std::optional(on)));
   }
-  ui::tooltip(effectState.reason);
+  ui::tooltip(tr(effectState.reason));
   if (const EffectCosts* costs = context.session().effectCosts(); costs && effectState.on) {
     ImGui::SameLine();
     ImGui::TextDisabled("%.0f %%", 100 * costs->of(effect));
@@ -72,11 +72,11 @@ void drawEffects(PanelContext& context) {
     }
     drawEffect(context, Effect(i), state);
     ImGui::Indent(ui::scaled(24));
-    ui::wrappedText(ui::palette::faint, state.reason);
+    ui::wrappedText(ui::palette::faint, tr(state.reason));
     ImGui::Unindent(ui::scaled(24));
   }
   if (notCalledFor == 0) return;
-  if (ImGui::TreeNode("##others", tr("%d not called for by this scene"), notCalledFor)) {
+  if (ImGui::TreeNode("##others", trPrintf("%d not called for by this scene"), notCalledFor)) {
     for (int i = 0; i < kEffectCount; ++i) {
       const EffectState& state = built->plan[Effect(i)];
       if (!state.calledFor && !state.overridden) drawEffect(context, Effect(i), state);

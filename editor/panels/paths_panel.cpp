@@ -1,6 +1,7 @@
 #include "editor/panels/paths_panel.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <array>
 #include <cmath>
@@ -147,7 +148,8 @@ void drawTransport(PanelContext& context, const WalkPath& path) {
   }
   float seconds = float(replay.at());
   ImGui::SetNextItemWidth(-1);
-  const std::string format = trf("%.1f of {:.1f} s", path.path.seconds());
+  std::string format = trf("{} of {:.1f} s", "%.1f", path.path.seconds());
+  if (std::ranges::count(format, '%') != 1) format = "%.1f s";  // a damaged catalogue
   const bool moved = ImGui::SliderFloat("##time", &seconds, 0, float(path.path.seconds()), format.c_str(),
                                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput);
   context.log.item("path.time");

@@ -35,7 +35,7 @@ void bakeMemoryField(PanelContext& context, float labelWidth) {
 void walkMemoryField(PanelContext& context, float labelWidth) {
   int& megabytes = context.session().preferences().walkMegabytes;
   const ui::FieldEdit edit = ui::numberField(
-      {tr("Memory"), megabytes == 0 ? tr("half of the machine's") : "%.0f MB", 32, 0, 1'000'000,
+      {tr("Memory"), megabytes == 0 ? trPrintf("half of the machine's") : "%.0f MB", 32, 0, 1'000'000,
        tr("For captures of the walk; what has no room is shown coarsely until the eye comes near. 0: "
           "half of the machine's. Remembered for all projects.")},
       megabytes, labelWidth);
@@ -44,8 +44,8 @@ void walkMemoryField(PanelContext& context, float labelWidth) {
 }
 
 void walkSpeedField(PanelContext& context, float labelWidth) {
-  saveIf(context, ui::numberField({tr("Walking speed"), tr("%.1f m/s"), 0.02, Walker::kLeastMetresPerSecond,
-                                   Walker::kMostMetresPerSecond,
+  saveIf(context, ui::numberField({tr("Walking speed"), trPrintf("%.1f m/s"), 0.02,
+                                   Walker::kLeastMetresPerSecond, Walker::kMostMetresPerSecond,
                                    tr("Shift walks three times as fast. Remembered for all projects.")},
                                   context.session().preferences().walkMetresPerSecond, labelWidth));
 }

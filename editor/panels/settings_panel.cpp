@@ -152,7 +152,7 @@ void drawBudget(PanelContext& context) {
   TriangleBudget budget = project.budget;
   int most = budget.trianglesPerRegion;
   const ui::FieldEdit limited =
-      ui::numberField({tr("Per region"), most == 0 ? tr("no limit") : "%.0f", 200, 0, 2e9,
+      ui::numberField({tr("Per region"), most == 0 ? trPrintf("no limit") : "%.0f", 200, 0, 2e9,
                        tr("Triangles of local geometry that a region may have. 0: no limit.")},
                       most, kLabelWidth);
   context.log.item("settings.budget.most");
@@ -199,7 +199,7 @@ void drawImport(PanelContext& context) {
   ui::mutedText(tr("Metres per unit"));
   ImGui::SameLine(ui::scaled(kLabelWidth));
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputDouble("##metresPerUnit", &metres, 0, 0, metres == 0 ? tr("by the file") : "%.6g",
+  if (ImGui::InputDouble("##metresPerUnit", &metres, 0, 0, metres == 0 ? trPrintf("by the file") : "%.6g",
                          ImGuiInputTextFlags_EnterReturnsTrue)) {
     import.metresPerUnit = metres;
     context.session().apply(setImport(project, import, tr("metres per unit")));

@@ -120,6 +120,21 @@ TEST_F(Translate, APatternThatDoesNotFitIsShownInEnglish) {
   EXPECT_EQ(trfMany("{} cell", "{} cells", 2, "two"), "two cells");
 }
 
+TEST_F(Translate, APatternOfPrintfKeepsItsConversions) {
+  ASSERT_TRUE(setLanguage("de", folderWith(compiled({{"", kHeader},
+                                                     {"%d frames", "%d Bilder"},
+                                                     {"%d minutes", "%s Minuten"},
+                                                     {"%.1f m", "%n%.1f m"},
+                                                     {"no limit", "100 %"},
+                                                     {"%.0f %%", "%.0f%%"}})))
+                  .has_value());
+  EXPECT_STREQ(trPrintf("%d frames"), "%d Bilder");
+  EXPECT_STREQ(trPrintf("%d minutes"), "%d minutes");
+  EXPECT_STREQ(trPrintf("%.1f m"), "%.1f m");
+  EXPECT_STREQ(trPrintf("no limit"), "no limit");
+  EXPECT_STREQ(trPrintf("%.0f %%"), "%.0f%%");
+}
+
 TEST_F(Translate, AMissingCatalogueIsToldWithTheWayOut) {
   const auto set = setLanguage("de", root_ / "nowhere");
   ASSERT_FALSE(set.has_value());
