@@ -58,7 +58,8 @@ std::string systemLanguage();
 
 /// Where the catalogues of this program lie: share/locale beside the folder of the program.
 std::filesystem::path catalogueFolder();
-/// From now on texts are in this language. The error is one line for a person; texts are in English then.
+/// From now on texts are in this language; to be called by the main thread. The error is one line for a
+/// person; texts are in English then.
 tl::expected<void, std::string> setLanguage(const std::string& code,
                                             const std::filesystem::path& folder = catalogueFolder());
 /// The code of the one in force.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "ui/translate.h"
@@ -68,7 +69,7 @@ void row(PanelContext& context, const ScenePick& pick, std::size_t n) {
   const Layout& layout = *pick.of->layout;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string name = sourceName(layout, sourceOfCamera(camera.camera));
+  const std::string name = engineText(sourceName(layout, sourceOfCamera(camera.camera)));
   const ui::Colour ink = !camera.held    ? ui::palette::faint
                          : camera.hidden ? ui::palette::warning
                                          : ui::palette::text;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "ui/text_format.h"
@@ -144,7 +145,7 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
   ImGui::PopStyleVar(2);
   bool close = false;
   if (const PictureQuestion question = *asked.question(); asked.answer()) {
-    boldLine(context, sourceName(*question.open->layout, asked.answer()->source).c_str());
+    boldLine(context, engineText(sourceName(*question.open->layout, asked.answer()->source)).c_str());
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ui::scaled(64));
     close = ui::button(tr("Close"), {ui::scaled(64), 0});
     context.log.item("answer.close");

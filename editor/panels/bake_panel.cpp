@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 
 #include "editor/panels/bake_cameras.h"
 #include "editor/panels/preference_fields.h"
 #include "editor/panels/toolbar_flow.h"
+#include "editor/session/engine_texts.h"
 #include "ui/text_format.h"
 #include "ui/translate.h"
 
@@ -217,14 +217,6 @@ void drawHead(PanelContext& context) {
   drawLegend();
 }
 
-/// The engine's own words where they are known.
-std::string stageText(const std::string& stage) {
-  int camera = 0, number = 0, cameras = 0;
-  if (std::sscanf(stage.c_str(), "baking camera %d (%d of %d)", &camera, &number, &cameras) == 3)
-    return trf("baking camera {} ({} of {})", camera, number, cameras);
-  return tr(stage);
-}
-
 }  // namespace
 
 std::string threadsText(int threads) {
@@ -233,7 +225,7 @@ std::string threadsText(int threads) {
 
 std::string progressText(const Job& job) {
   const ProgressState& progress = job.progress();
-  std::string text = progress.stage.empty() ? job.label() : stageText(progress.stage);
+  std::string text = progress.stage.empty() ? job.label() : engineText(progress.stage);
   // Some stages count for themselves.
   if (progress.total > 1 && progress.stage.find(" of ") == std::string::npos)
     text += trf(", {:.0f} of {:.0f}", progress.done, progress.total);

@@ -5,6 +5,7 @@
 #include "editor/commands/setting_edits.h"
 #include "editor/panels/project_field.h"
 #include "editor/panels/settings_panel.h"
+#include "editor/session/engine_texts.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -18,7 +19,7 @@ void drawEffect(PanelContext& context, Effect effect, const EffectState& effectS
     const bool asCalledFor = on == effectState.calledFor;
     context.session().apply(setEffect(project, effect, asCalledFor ? std::nullopt : std::optional(on)));
   }
-  ui::tooltip(tr(effectState.reason));
+  ui::tooltip(engineText(effectState.reason));
   if (const EffectCosts* costs = context.session().effectCosts(); costs && effectState.on) {
     ImGui::SameLine();
     ImGui::TextDisabled("%.0f %%", 100 * costs->of(effect));
@@ -72,7 +73,7 @@ void drawEffects(PanelContext& context) {
     }
     drawEffect(context, Effect(i), state);
     ImGui::Indent(ui::scaled(24));
-    ui::wrappedText(ui::palette::faint, tr(state.reason));
+    ui::wrappedText(ui::palette::faint, engineText(state.reason));
     ImGui::Unindent(ui::scaled(24));
   }
   if (notCalledFor == 0) return;

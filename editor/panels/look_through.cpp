@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/bake/bake.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
@@ -47,7 +48,7 @@ void LookThrough::drawText(PanelContext& context, const ColumnCamera& columns, i
   const OpenProject& open = *context.session().built();
   const LayoutCamera& of = open.layout->cameras[std::size_t(camera)];
   ImGui::PushFont(context.window.fonts().bold);
-  ImGui::TextUnformatted(sourceName(*open.layout, sourceOfCamera(camera)).c_str());
+  ImGui::TextUnformatted(engineText(sourceName(*open.layout, sourceOfCamera(camera))).c_str());
   ImGui::PopFont();
   const float right = ImGui::GetWindowContentRegionMax().x;
   ImGui::SameLine(right - 22);

@@ -15,6 +15,7 @@
 #include "editor/overlays/walk_overlay.h"
 #include "editor/panels/array_panel.h"
 #include "editor/panels/plan_toolbar.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/scene_view.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
@@ -259,7 +260,7 @@ void PlanPanel::tellHovered(PanelContext& context, ImDrawList& list,
     const PlacementFinding* finding =
         drawFindings(list, view_, inspection->placement, pointing ? pointer_ : glm::dvec2(-1e9));
     if (finding == nullptr) return;
-    std::string text = finding->reason;
+    std::string text = engineText(finding->reason);
     if (finding->push)
       text += trf("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).", glm::length(*finding->push),
                   finding->place.x + finding->push->x, finding->place.y + finding->push->y);

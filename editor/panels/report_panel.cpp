@@ -1,5 +1,6 @@
 #include "editor/panels/report_panel.h"
 
+#include "editor/session/engine_texts.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -9,7 +10,7 @@ void lines(const char* heading, const std::vector<std::string>& entries, const u
   for (const std::string& entry : entries) {
     ui::badge(colour, heading);
     ImGui::SameLine(ui::scaled(92));
-    ui::wrappedText(ui::palette::text, entry);
+    ui::wrappedText(ui::palette::text, engineText(entry));
   }
 }
 

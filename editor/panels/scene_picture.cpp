@@ -3,6 +3,7 @@
 
 #include "editor/overlays/pick_table.h"
 #include "editor/panels/scene_panel.h"
+#include "editor/session/engine_texts.h"
 #include "editor/tools/scene_hits.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
@@ -93,7 +94,8 @@ void ScenePanel::drawTexts(PanelContext& context, ImDrawList& list) const {
   if (const auto camera = context.state().showCameras
                               ? cameraUnder(layout, camera_.view(), pixel, seen.distance)
                               : std::nullopt)
-    ui::tooltip(trf("{}\nDouble click to look through it", sourceName(layout, sourceOfCamera(*camera))));
+    ui::tooltip(
+        trf("{}\nDouble click to look through it", engineText(sourceName(layout, sourceOfCamera(*camera)))));
   if (!seen.found()) return;
   const glm::dvec3 at = camera_.eye() + double(seen.distance) * camera_.rayThrough(pixel);
   const std::string text = fmt::format("x {:.2f} m   y {:.2f} m   z {:.2f} m", at.x, at.y, at.z);

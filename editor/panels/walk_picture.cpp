@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "editor/panels/walk_panel.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/screenshot.h"
 #include "editor/session/sending_text.h"
 #include "engine/geometry/conventions.h"
@@ -177,7 +178,7 @@ void WalkPanel::nameSource(const glm::dvec2& pointer) const {
   const Layout& layout = *shown_.loaded->walk.layout;
   const SourceRole role = SourceRoles(layout, shown_.view).of(here);
   const std::string text =
-      sourceName(layout, here) + (role == SourceRole::otherHand ? tr(" (other hand)") : "");
+      engineText(sourceName(layout, here)) + (role == SourceRole::otherHand ? tr(" (other hand)") : "");
   ui::tooltip(text);
 }
 

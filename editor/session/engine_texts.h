@@ -1,7 +1,8 @@
 #pragma once
-/// Short texts that the engine, which has no catalogue, makes and the editor shows through tr().
+/// Texts that the engine, which has no catalogue, makes and the editor shows in other languages.
 
 #include <array>
+#include <string>
 
 #include "ui/translate.h"
 
@@ -62,5 +63,74 @@ inline constexpr std::array kEngineTexts = {
     trLater("reading what is baked"), trLater("simplifying regions above the budget"),
     trLater("taking the scene over"), trLater("tracing the truth"), trLater("writing regions"),
     trLater("writing the page")};
+
+/// The same with values, each of which stands for any text. More of it before less of it.
+inline constexpr std::array kEnginePatterns = {
+    // Names of cameras, stages, reasons of placements and effects, and what import found and guessed
+    trLater("camera {}, looks to {}°"),
+    trLater("panorama {}, looks to {}°"),
+    trLater("free APV {}, looks to {}°"),
+    trLater("it is inside a solid: {} of {} directions meet the back of a surface first, and {} cross an odd "
+            "number of surfaces"),
+    trLater("a surface is {} m away straight above it; {} m are asked for"),
+    trLater("a surface is {} m away straight below it; {} m are asked for"),
+    trLater("a surface is {} m away towards {} degrees; {} m are asked for"),
+    trLater("a surface is {} m away towards {} degrees and up; {} m are asked for"),
+    trLater("a surface is {} m away towards {} degrees and down; {} m are asked for"),
+    trLater("nothing is below it"),
+    trLater("what is below it lies {} m above the walk plane"),
+    trLater("the floor below it lies {} m below the walk plane"),
+    trLater("none of {} places in it has a floor within {} m of the walk plane, {} m of head room and {} m "
+            "to the sides"),
+    trLater("{} triangles in {} mesh"),
+    trLater("{} triangles in {} meshes"),
+    trLater("{} material"),
+    trLater("{} materials"),
+    trLater("{} texture"),
+    trLater("{} textures"),
+    trLater("{} light"),
+    trLater("{} lights"),
+    trLater("{} x {} x {} m (x, y, z up)"),
+    trLater("materials: two-sided (the format does not say)"),
+    trLater("unit: metres (the file states none)"),
+    trLater("up axis: Y (the file states none)"),
+    trLater("no lights: a sun and sky were added"),
+    trLater("no lights: only what emits or is unlit can be seen"),
+    trLater("no sky: one was added in proportion to the directional light"),
+    trLater("normals: {} mesh without any are shaded flat"),
+    trLater("normals: {} meshes without any are shaded flat"),
+    trLater("{} material with textures: {}"),
+    trLater("{} materials with textures: {}"),
+    trLater("{} material with an alpha mask: {}"),
+    trLater("{} materials with an alpha mask: {}"),
+    trLater("{} material with alpha blending: {}"),
+    trLater("{} materials with alpha blending: {}"),
+    trLater("{} material that emit light: {}"),
+    trLater("{} materials that emit light: {}"),
+    trLater("{} material that are smooth metal: {}"),
+    trLater("{} materials that are smooth metal: {}"),
+    trLater("{} material that let light through: {}"),
+    trLater("{} materials that let light through: {}"),
+    trLater("{} material with normal maps: {}"),
+    trLater("{} materials with normal maps: {}"),
+    trLater("{} material without lighting: {}"),
+    trLater("{} materials without lighting: {}"),
+    trLater("{} material bright and large enough to light others: {}"),
+    trLater("{} materials bright and large enough to light others: {}"),
+    trLater("{} mesh with vertex colours: {}"),
+    trLater("{} meshes with vertex colours: {}"),
+    trLater("{} directional light: {}"),
+    trLater("{} directional lights: {}"),
+    trLater("{} point light: {}"),
+    trLater("{} point lights: {}"),
+    trLater("{} spot light: {}"),
+    trLater("{} spot lights: {}"),
+    trLater("{} light with a size: {}"),
+    trLater("{} lights with a size: {}"),
+    trLater("baking camera {} ({} of {})")};
+
+/// What the engine says in the language in force, if it is in these lists, or is such texts with ", " between
+/// them.
+std::string engineText(const std::string& english);
 
 }  // namespace acentric::editor

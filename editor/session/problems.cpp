@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "editor/session/engine_texts.h"
 #include "engine/base/contract.h"
 #include "ui/translate.h"
 
@@ -57,12 +58,12 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
       const int of = finding.region >= 0        ? finding.region
                      : !finding.cameras.empty() ? regionOf[std::size_t(finding.cameras.front())]
                                                 : -1;
-      Problem problem{finding.severity, finding.reason,
+      Problem problem{finding.severity, engineText(finding.reason),
                       placeAt(finding.place, layout.spec.cellSize, PlanLook::checks)};
       const Region* region = of >= 0 ? &layout.regions[std::size_t(of)] : nullptr;
       if (region != nullptr) {
         problem.place.cells = {region->id};
-        problem.text = nameOf(*region) + ": " + finding.reason;
+        problem.text = nameOf(*region) + ": " + engineText(finding.reason);
       }
       if (finding.push) {
         const bool free = region != nullptr && region->id.slot == kFreeSlot;

@@ -198,6 +198,7 @@ void Session::answerOutside(std::optional<Collect> how) {
 
 ProblemFacts Session::problemFacts() const {
   ProblemFacts facts;
+  facts.language = language();
   if (shipped_) return facts;  // of which nothing can be mended here
   facts.built = built_;
   if (!built_) return facts;
