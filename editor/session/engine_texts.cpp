@@ -9,8 +9,8 @@
 namespace acentric::editor {
 namespace {
 
-/// What stands for each "{}" of the pattern: as little as possible, and something. Nothing: it is another
-/// text.
+/// What stands for each "{}" of the pattern: as little as possible, but something, and a list (", ") only at
+/// the end. Nothing: it is another text.
 std::optional<std::vector<std::string>> valuesIn(std::string_view text, std::string_view pattern) {
   std::vector<std::string> values;
   while (true) {
