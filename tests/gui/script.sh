@@ -9,9 +9,6 @@ need_tools
 rm -rf "$WORK"
 mkdir -p "$WORK/config/acentric" "$WORK/cache" "$WORK/state"
 export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache XDG_STATE_HOME=$WORK/state
-# In English, whatever the caller speaks.
-unset LANGUAGE LC_MESSAGES LANG
-export LC_ALL=C.UTF-8
 trap stop_all EXIT
 
 # make_room [OPTIONS of `acentric new`]: a small project of a closed room, 6 x 5 x 3 m, faces inwards, as $PROJECT.
